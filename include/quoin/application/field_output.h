@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_application_field_output_h
+#define quoin_application_field_output_h
+
+#include <quoin/base/state.h>
+#include <quoin/dynamics/model.h>
+#include <quoin/output/block_output.h>
+#include <quoin/output/joint_output.h>
+
+namespace quoin
+{
+  /** Blocks of this rank as they go to ParaView. */
+  BlockFields
+  block_fields(const Model &model, const State &state);
+
+  /** Joints of this rank, with tractions brought to the time of @p state. */
+  JointFields
+  joint_fields(const Model &model, const State &state);
+} // namespace quoin
+
+#endif

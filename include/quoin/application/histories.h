@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_application_histories_h
+#define quoin_application_histories_h
+
+#include <quoin/application/history_parameters.h>
+#include <quoin/base/state.h>
+#include <quoin/dynamics/explicit_solver.h>
+#include <quoin/dynamics/model.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * Samples the quantities of histories.csv at the time of a step: before it
+   * what the step overwrites, after it what it computes. Point quantities are
+   * those of the nearest node, cell or joint point.
+   */
+  class Histories
+  {
+  public:
+    /** Throws an InputError about loads and curves that do not exist. */
+    Histories(const std::vector<HistoryParameters> &parameters,
+              const Model                          &model,
+              const ExplicitSolver                 &solver);
+
+    /** "time [s]" and "name [unit]" of each column. */
+    std::vector<std::string>
+    column_names() const;
+
+    void
+    before_step(const State &state);
+
+    /** The row of the time before the step; collective. */
+    std::vector<double>
+    after_step(const State &state);
+
+  private:
+    struct Probe
+    {
+      HistoryParameters parameters;
+      unsigned int      entity = 0; /**< node, cell or joint point */
+      bool              here   = false;
+      const Platen     *platen = nullptr;
+    };
+
+    void
+    locate(Probe &probe) const;
+    double
+    point_value(const Probe &probe, const State &state) const;
+
+    std::vector<Probe>    probes;
+    const Model          &model;
+    const ExplicitSolver &solver;
+    MPI_Comm              communicator;
+    std::vector<double>   row;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_application_parameters_h
+#define quoin_application_parameters_h
+
+#include <quoin/application/history_parameters.h>
+#include <quoin/dynamics/model.h>
+#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/mesh/block_splitter.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** All that a parameter file says. */
+  struct Parameters
+  {
+    std::string file;             /**< the parameter file */
+    std::string title;
+    std::string output_directory; /**< relative to the working directory */
+
+    std::string  mesh_file; /**< relative to the working directory */
+    SplitOptions split;
+
+    ModelParameters              model;
+    std::vector<LoadParameters>  loads; /**< initial stresses included */
+    std::vector<StageParameters> stages;
+
+    double share_of_critical_step = 0.8;
+    double time_step              = 0.; /**< [s]; 0: automatic */
+
+    std::vector<HistoryParameters> histories;
+    double                         history_interval    = 0.; /**< [s] */
+    double                         field_interval      = 0.; /**< [s] */
+    double                         checkpoint_interval = 60.; /**< [s] */
+    bool                           measure_bandwidth   = false;
+
+    /** All values, as text that can be run again. */
+    std::string effective;
+  };
+
+  /**
+   * Reads the parameter file @p file, with @p overrides of the form
+   * "Section/Name=value" applied. Throws an InputError that names file,
+   * section, value and cure.
+   */
+  Parameters
+  read_parameters(const std::string              &file,
+                  const std::vector<std::string> &overrides);
+
+  /** Every parameter there is, with defaults and meaning, as a prm file. */
+  std::string
+  describe_parameters();
+} // namespace quoin
+
+#endif

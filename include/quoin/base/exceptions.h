@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_base_exceptions_h
+#define quoin_base_exceptions_h
+
+#include <stdexcept>
+#include <string>
+
+namespace quoin
+{
+  /**
+   * Wrong input. The message names the file, section, value and cure; the
+   * program prints it and ends with exit status 1 before anything is
+   * computed.
+   */
+  class InputError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+
+  /**
+   * A run that cannot go on (instability, full disk). The message says where,
+   * when and what to try; the program ends with exit status 2 and keeps the
+   * last checkpoint and all output.
+   */
+  class RunError : public std::runtime_error
+  {
+  public:
+    using std::runtime_error::runtime_error;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_base_state_h
+#define quoin_base_state_h
+
+#include <cstddef>
+#include <cstdint>
+#include <new>
+#include <vector>
+
+namespace quoin
+{
+  /** Allocator for arrays that vector loads may touch: 64-byte aligned. */
+  template <typename T>
+  struct CacheAlignedAllocator
+  {
+    using value_type = T;
+    CacheAlignedAllocator() = default;
+    template <typename U>
+    CacheAlignedAllocator(const CacheAlignedAllocator<U> &)
+    {}
+    T *
+    allocate(const std::size_t n)
+    {
+      return static_cast<T *>(
+        ::operator new(n * sizeof(T), std::align_val_t(64)));
+    }
+    void
+    deallocate(T *p, std::size_t)
+    {
+      ::operator delete(p, std::align_val_t(64));
+    }
+    template <typename U>
+    bool
+    operator==(const CacheAlignedAllocator<U> &) const
+    {
+      return true;
+    }
+    template <typename U>
+    bool
+    operator!=(const CacheAlignedAllocator<U> &) const
+    {
+      return false;
+    }
+  };
+
+  template <typename T>
+  using AlignedArray = std::vector<T, CacheAlignedAllocator<T>>;
+
+  /**
+   * One node of a block: reference position X and displacement u [m]; the
+   * current position is X + u. Kept together in 32 bytes, because the block
+   * kernel loads both of every node it enters.
+   */
+  struct alignas(32) NodeRecord
+  {
+    double X[2];
+    double u[2];
+  };
+
+  /** A pair of components per node: velocity [m/s] or force [N]. */
+  struct alignas(16) NodeVector
+  {
+    double v[2];
+  };
+
+  /** What a joint point has been through; the order is written to output. */
+  enum class JointState : std::uint8_t
+  {
+    intact   = 0, /**< never failed */
+    slipping = 1, /**< at the shear limit now */
+    slipped  = 2, /**< failed earlier, closed and sticking now */
+    open     = 3  /**< failed in tension or open now */
+  };
+
+  /**
+   * Histories of the joint points, structure of arrays, one entry per point.
+   * Tension and opening are positive; slip is positive when the upper side
+   * moves along the edge direction of the lower one.
+   */
+  struct JointHistory
+  {
+    AlignedArray<double>     normal_traction; /**< [Pa] */
+    AlignedArray<double>     shear_traction;  /**< [Pa] */
+    AlignedArray<double>     plastic_slip;    /**< inelastic slip [m] */
+    AlignedArray<double>     plastic_opening; /**< dilation, offsets [m] */
+    AlignedArray<JointState> state;
+
+    void
+    resize(const std::size_t n)
+    {
+      normal_traction.resize(n, 0.);
+      shear_traction.resize(n, 0.);
+      plastic_slip.resize(n, 0.);
+      plastic_opening.resize(n, 0.);
+      state.resize(n, JointState::intact);
+    }
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &normal_traction &shear_traction &plastic_slip &plastic_opening
+        &state;
+    }
+  };
+
+  /**
+   * Work and energy accumulated since the start of the run [J]. Each work is
+   * the exact trapezoidal one of the central difference scheme, so that with
+   * elastic forces the balance closes to rounding.
+   */
+  struct EnergyAccounts
+  {
+    double external  = 0.; /**< done by loads and prescribed motion */
+    double friction  = 0.; /**< dissipated in slip and dilation of joints */
+    double fracture  = 0.; /**< lost when joints break in tension */
+    double damping   = 0.; /**< taken by local, adaptive, Rayleigh damping */
+    double viscous   = 0.; /**< left through viscous boundaries */
+
+    EnergyAccounts &
+    operator+=(const EnergyAccounts &other)
+    {
+      external += other.external;
+      friction += other.friction;
+      fracture += other.fracture;
+      damping += other.damping;
+      viscous += other.viscous;
+      return *this;
+    }
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &external &friction &fracture &damping &viscous;
+    }
+  };
+
+  /** A rigid platen: freedoms x [m], y [m], rotation [rad, anticlockwise]. */
+  struct PlatenState
+  {
+    bool                active = false;
+    double              centre[2]{}; /**< where it was when it took hold [m] */
+    double              displacement[3]{}; /**< since then */
+    double              stage_start[3]{};  /**< displacement at that time */
+    double              velocity[3]{};     /**< at time - dt/2 */
+    std::vector<double> arms; /**< x, y of each node, from centre, then [m] */
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &centre &displacement &stage_start &velocity &arms;
+    }
+  };
+
+  /**
+   * All that changes in time. Everything else is constant once prepared, so a
+   * checkpoint is this and the parameters.
+   *
+   * Nodes are numbered block by block, the nodes a rank owns first and the
+   * joint partners it mirrors after them.
+   */
+  struct State
+  {
+    double        time        = 0.; /**< [s] */
+    std::uint64_t step        = 0;  /**< since the start of the run */
+    unsigned int  stage       = 0;
+    double        stage_start = 0.; /**< [s] */
+    std::uint64_t stage_step  = 0;  /**< steps done in this stage */
+
+    AlignedArray<NodeRecord> nodes;
+    AlignedArray<NodeVector> velocity; /**< at time - dt/2 */
+    JointHistory             joints;
+    std::vector<PlatenState> platens; /**< in the order of the loads */
+    double                   adaptive_damping = 0.; /**< [1/s] */
+    double                   previous_time_step = 0.; /**< [s] */
+
+    /** Complete at time, and what the step under way adds for time + dt/2. */
+    EnergyAccounts energy, pending;
+
+    template <typename Archive>
+    void
+    serialize(Archive &archive, const unsigned int)
+    {
+      archive &time &step &stage &stage_start &stage_step &nodes &velocity
+        &joints &platens &adaptive_damping &previous_time_step &energy
+          &pending;
+    }
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_contact_matched_joints_h
+#define quoin_contact_matched_joints_h
+
+#include <quoin/base/node_exchange.h>
+#include <quoin/base/state.h>
+#include <quoin/joints/joint_parameters.h>
+#include <quoin/mesh/block_mesh.h>
+
+#include <array>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * The zero-thickness joints between coincident edges of two blocks, or of
+   * the two lips of a crack.
+   *
+   * Each joint face is a segment with a contact point at either end: the
+   * vertex of one side against the vertex of the other, with half the
+   * segment's length as tributary length (nodal quadrature, which keeps stiff
+   * joints free of traction oscillations). The local frame turns with the
+   * segment: normal n from the lower to the upper side, tangent s = (n_y,
+   * -n_x), both from the mean of the two current edges. Opening and slip are
+   * the components of the upper vertex's displacement relative to the lower
+   * one. Point k of segment i has history entry 2 i + k.
+   *
+   * A segment between blocks of two ranks is computed by both, from the same
+   * numbers; each then counts half of its energy.
+   */
+  class MatchedJoints
+  {
+  public:
+    /**
+     * Takes the joint faces of @p mesh that touch nodes of this rank.
+     * Throws an InputError about a joint face that belongs to no set, or a
+     * curve named by two sets.
+     */
+    void
+    prepare(const BlockMesh<2>                    &mesh,
+            const NodeExchange                    &exchange,
+            const std::vector<JointSetParameters> &sets,
+            double                                 thickness);
+
+    unsigned int
+    n_segments() const
+    {
+      return segments.size();
+    }
+    unsigned int
+    n_points() const
+    {
+      return 2 * segments.size();
+    }
+
+    /** Sets the tractions that balance an initial stress at rest. */
+    void
+    initialise(const std::vector<std::array<double, 3>> &face_stress,
+               const State                              &state,
+               JointHistory                             &history) const;
+
+    /**
+     * Brings the histories to the positions in @p nodes, adds the joint
+     * forces to @p force and books the dissipation.
+     */
+    void
+    add_forces(const NodeRecord *nodes,
+               JointHistory     &history,
+               EnergyAccounts   &energy,
+               NodeVector       *force) const;
+
+    /**
+     * Adds the stiffness-proportional damping forces of points that neither
+     * slip nor are open: beta kn, beta ks times the rates [Pa].
+     */
+    void
+    add_viscous_forces(const NodeRecord   *nodes,
+                       const JointHistory &history,
+                       const NodeVector   *velocity,
+                       double              beta,
+                       NodeVector         *force) const;
+
+    /** Recoverable energy [J] of this rank's share of the joints. */
+    double
+    stored_energy(const NodeRecord *nodes, const JointHistory &history) const;
+
+    /**
+     * Adds to the 2x2 matrices @p stiffness (xx, yy, xy per local node) the
+     * springs' share of a bound of the highest frequency: with node masses
+     * m_a, m_b a spring k adds m_a k (1/m_a + 1/m_b) to node a.
+     */
+    void
+    add_stiffness_bound(const NodeRecord                   *nodes,
+                        const std::vector<double>          &mass,
+                        std::vector<std::array<double, 3>> &stiffness) const;
+
+    struct Segment
+    {
+      std::array<unsigned int, 2> lower, upper; /**< local nodes */
+      double                      area; /**< of each point [m^2] */
+      float        share; /**< of the energy that this rank counts */
+      unsigned int set;
+      unsigned int face; /**< into BlockMesh::joint_faces */
+    };
+
+    const Segment &
+    segment(const unsigned int i) const
+    {
+      return segments[i];
+    }
+
+    /** Opening and slip [m] of both points of segment @p i. */
+    std::array<std::array<double, 2>, 2>
+    gaps(const NodeRecord *nodes, unsigned int i) const;
+
+    const CoulombLaw &
+    law(const unsigned int set) const
+    {
+      return laws[set];
+    }
+
+  private:
+    struct Frame
+    {
+      double normal[2];
+      double tangent[2];
+    };
+    static Frame
+    frame(const Segment &segment, const NodeRecord *nodes);
+    static std::array<double, 2>
+    gap(const Segment    &segment,
+        const Frame      &frame,
+        const NodeRecord *nodes,
+        unsigned int      k);
+
+    std::vector<Segment>    segments; /**< sorted by set */
+    std::vector<CoulombLaw> laws;
+    std::vector<unsigned int> set_begin; /**< first segment of each set */
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joints_coulomb_law_h
+#define quoin_joints_coulomb_law_h
+
+#include <quoin/base/state.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quoin
+{
+  /**
+   * Strength of a joint: cohesion [Pa], friction coefficient tan(phi) and
+   * tensile strength [Pa].
+   */
+  struct JointStrength
+  {
+    double cohesion = std::numeric_limits<double>::infinity();
+    double friction = 0.;
+    double tension  = std::numeric_limits<double>::infinity();
+  };
+
+  /** One joint point: what the law reads and overwrites. */
+  struct JointPoint
+  {
+    double     normal_traction; /**< sigma [Pa], tension positive */
+    double     shear_traction;  /**< tau [Pa] */
+    double     plastic_slip;    /**< [m] */
+    double     plastic_opening; /**< [m] */
+    JointState state;
+  };
+
+  /** Energy per area that an update dissipated [J/m^2]. */
+  struct JointDissipation
+  {
+    double friction = 0.;
+    double fracture = 0.;
+  };
+
+  /**
+   * The brittle Coulomb law with tension cut-off and dilation
+   * (@cite ZhugeHunt2003, Eqs. 5-9).
+   *
+   * sigma = kn (u_n - w), tau = ks (u_s - p) with opening u_n, slip u_s,
+   * plastic opening w and plastic slip p. An intact joint breaks when sigma
+   * exceeds the tensile strength or |tau| exceeds c - sigma tan(phi); from
+   * then on its strength is the residual one (by UDEC's rule zero cohesion
+   * and tension unless given). While it slips, dw = +-tan(psi) |dp|, positive
+   * when slip grows away from the origin and negative on the way back, as
+   * long as |u_s| is below the critical shear displacement. An open joint
+   * transfers no shear; it takes up shear afresh from where it closes.
+   *
+   * The elastic joint is this law with infinite strength, and the no-tension
+   * joint (@cite JinWangZhang2001, Eq. 1) this law with zero tension and
+   * residual strength equal to the peak; of their equation we drop the
+   * cohesive shear of an open joint.
+   */
+  struct CoulombLaw
+  {
+    double        normal_stiffness = 0.; /**< kn [Pa/m] */
+    double        shear_stiffness  = 0.; /**< ks [Pa/m] */
+    JointStrength peak;
+    JointStrength residual;
+    double        dilation = 0.; /**< tan(psi) */
+    double critical_shear_displacement =
+      std::numeric_limits<double>::infinity(); /**< u_cs [m] */
+
+    /**
+     * Brings @p point to the given @p opening and @p slip [m] and returns
+     * what that dissipated, by the trapezoidal rule of the explicit scheme.
+     */
+    JointDissipation
+    update(JointPoint &point, const double opening, const double slip) const;
+
+    /** Recoverable energy per area [J/m^2] of @p point at @p opening [m]. */
+    double
+    stored_energy(const JointPoint &point, const double opening) const
+    {
+      const double normal =
+        point.state == JointState::open ?
+          normal_energy(normal_stiffness * (opening - point.plastic_opening)) :
+          0.5 * point.normal_traction * point.normal_traction /
+            normal_stiffness;
+      return normal + 0.5 * point.shear_traction * point.shear_traction /
+                        shear_stiffness;
+    }
+
+  private:
+    /** Of a failed joint, whose traction is cut off at the residual one. */
+    double
+    normal_energy(const double sigma_trial) const
+    {
+      const double cut = std::min(sigma_trial, residual.tension);
+      return cut * (sigma_trial - 0.5 * cut) / normal_stiffness;
+    }
+  };
+
+
+
+  inline JointDissipation
+  CoulombLaw::update(JointPoint  &point,
+                     const double opening,
+                     const double slip) const
+  {
+    const double kn = normal_stiffness, ks = shear_stiffness;
+    const double sigma_old = point.normal_traction;
+    const double tau_old   = point.shear_traction;
+
+    const bool           intact   = point.state == JointState::intact;
+    const JointStrength &strength = intact ? peak : residual;
+
+    const double sigma_trial = kn * (opening - point.plastic_opening);
+    const double tau_trial   = ks * (slip - point.plastic_slip);
+
+    JointDissipation dissipation;
+
+    if (sigma_trial <= strength.tension &&
+        std::abs(tau_trial) <=
+          std::max(0., strength.cohesion - sigma_trial * strength.friction))
+      {
+        point.normal_traction = sigma_trial;
+        point.shear_traction  = tau_trial;
+        if (!intact)
+          point.state = JointState::slipped;
+        return dissipation;
+      }
+
+    // From here on the joint has failed, now or earlier.
+    if (sigma_trial > residual.tension)
+      {
+        const double sigma = std::min(sigma_trial, residual.tension);
+        // Work less the change of stored energy. A joint that opens without
+        // having been intact dissipates nothing here: what the finite step
+        // makes of the kink in its law is left to the energy residual.
+        if (intact)
+          dissipation.fracture =
+            0.5 * (sigma_old + sigma) * (sigma_trial - sigma_old) / kn +
+            0.5 * sigma_old * sigma_old / kn - normal_energy(sigma_trial);
+        const double shear_loss =
+          0.5 * tau_old * (slip - point.plastic_slip);
+        (intact ? dissipation.fracture : dissipation.friction) += shear_loss;
+
+        point.normal_traction = sigma;
+        point.shear_traction  = 0.;
+        point.plastic_slip    = slip;
+        point.state           = JointState::open;
+        return dissipation;
+      }
+
+    // Slip: implicit in sigma, because dilation presses the joint together.
+    const double direction = tau_trial < 0. ? -1. : 1.;
+    const double psi =
+      std::abs(slip) < critical_shear_displacement ?
+        (direction * slip >= 0. ? dilation : -dilation) :
+        0.;
+    const double excess = std::abs(tau_trial) - residual.cohesion +
+                          sigma_trial * residual.friction;
+    const double stiffness = ks + kn * psi * residual.friction;
+    double       dp = std::max(0., excess) / (stiffness > 0.1 * ks ? stiffness : ks);
+    // Friction cannot turn the shear traction round.
+    dp = std::min(dp, std::abs(tau_trial) / ks);
+
+    const double sigma = sigma_trial - kn * psi * dp;
+    const double tau   = tau_trial - direction * ks * dp;
+    dissipation.friction =
+      0.5 * ((tau_old + tau) * direction + (sigma_old + sigma) * psi) * dp;
+
+    point.normal_traction = sigma;
+    point.shear_traction  = tau;
+    point.plastic_slip += direction * dp;
+    point.plastic_opening += psi * dp;
+    point.state = JointState::slipping;
+    return dissipation;
+  }
+} // namespace quoin
+
+#endif

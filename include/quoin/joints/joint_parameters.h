@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joints_joint_parameters_h
+#define quoin_joints_joint_parameters_h
+
+#include <quoin/base/parameter_section.h>
+#include <quoin/joints/coulomb_law.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** A set of joints that share a law: one subsection of 'Joints'. */
+  struct JointSetParameters
+  {
+    std::string              name;
+    std::vector<std::string> curves; /**< physical curves of the mesh */
+    CoulombLaw               law;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    static JointSetParameters
+    read(const ParameterSection &section, const std::string &name);
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_load_parameters_h
+#define quoin_loads_load_parameters_h
+
+#include <quoin/base/parameter_section.h>
+#include <quoin/loads/time_function.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  enum class LoadType
+  {
+    prescribed_motion,
+    traction,
+    viscous_boundary,
+    platen,
+    gravity,
+    initial_stress
+  };
+
+  /** What a time function of a load stands for. */
+  enum class LoadQuantity
+  {
+    free,
+    force, /**< traction [Pa], acceleration [m/s^2], force [N], moment */
+    velocity,
+    displacement /**< since the stage began */
+  };
+
+  struct LoadComponent
+  {
+    LoadQuantity quantity = LoadQuantity::free;
+    TimeFunction value;
+  };
+
+  /** One load: a subsection of 'Loads'. */
+  struct LoadParameters
+  {
+    std::string              name;
+    LoadType                 type = LoadType::traction;
+    std::vector<std::string> boundaries; /**< physical curves */
+    std::vector<std::string> groups;     /**< physical surfaces */
+
+    /**
+     * Horizontal, vertical and, for platens, rotation; for a viscous boundary
+     * the incident normal and shear velocity.
+     */
+    std::array<LoadComponent, 3> components;
+
+    std::array<double, 3> stress{};          /**< xx, yy, xy at y = 0 [Pa] */
+    std::array<double, 3> stress_gradient{}; /**< per metre of y [Pa/m] */
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    static LoadParameters
+    read(const ParameterSection &section, const std::string &name);
+  };
+} // namespace quoin
+
+#endif

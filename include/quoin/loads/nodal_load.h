@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_nodal_load_h
+#define quoin_loads_nodal_load_h
+
+#include <quoin/base/node_exchange.h>
+#include <quoin/base/state.h>
+#include <quoin/loads/load_parameters.h>
+#include <quoin/mesh/block_mesh.h>
+
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * A traction or gravity: forces a_x(t) w_i, a_y(t) w_i on nodes i with
+   * fixed weights w_i, the tributary area [m^2] or the mass [kg]. Tractions
+   * act on the reference area and keep their direction.
+   */
+  class NodalLoad
+  {
+  public:
+    /** @p mass is that of the local nodes, unscaled [kg]. */
+    NodalLoad(const LoadParameters      &parameters,
+              const BlockMesh<2>        &mesh,
+              const NodeExchange        &exchange,
+              const std::vector<double> &mass,
+              double                     thickness);
+
+    void
+    add_forces(const TimePoint &time, NodeVector *force) const;
+
+    /** Rate of work [W] on nodes that move with @p velocity. */
+    double
+    power(const TimePoint &time, const NodeVector *velocity) const;
+
+    const std::string &
+    name() const
+    {
+      return load_name;
+    }
+
+  private:
+    std::array<double, 2>
+    amplitude(const TimePoint &time) const;
+
+    std::string                  load_name;
+    std::array<LoadComponent, 3> components;
+    std::vector<unsigned int>    nodes;
+    std::vector<double>          weights;
+  };
+
+  /**
+   * Boundary faces of the curves @p names, as indices into
+   * mesh.boundary_faces. Throws an InputError naming @p load if a curve does
+   * not exist or has no outer edge.
+   */
+  std::vector<unsigned int>
+  faces_of_curves(const BlockMesh<2>             &mesh,
+                  const std::vector<std::string> &names,
+                  const std::string              &load);
+
+  /** Groups named @p names; throws an InputError naming @p load. */
+  std::vector<unsigned int>
+  groups_of_names(const BlockMesh<2>             &mesh,
+                  const std::vector<std::string> &names,
+                  const std::string              &load);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_node_constraint_h
+#define quoin_loads_node_constraint_h
+
+#include <quoin/base/state.h>
+#include <quoin/loads/time_function.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * A node whose motion is not its own: what it had at the start of the step,
+   * that is the force at t before local and mass damping, the velocity at
+   * t - dt/2 and the displacement at t.
+   */
+  struct CapturedNode
+  {
+    unsigned int node;
+    double       mass;
+    NodeVector   force;
+    NodeVector   velocity;
+    NodeVector   displacement;
+    NodeVector   viscous; /**< stiffness-proportional part of the force */
+    bool         free[2]; /**< components that no constraint moves */
+  };
+
+  /** The step under way, from t to t + dt. */
+  struct StepContext
+  {
+    TimePoint begin, middle, end;
+    double    dt;             /**< from t to t + dt [s] */
+    double    dt_before;      /**< of the step before; 0 at the first [s] */
+    double    dt_velocity;    /**< from middle to middle [s] */
+    double    local_damping;  /**< Cundall's factor; 0: none */
+    double    mass_damping;   /**< alpha [1/s] */
+  };
+
+  /**
+   * Moves nodes in another way than by their own force. The solver advances
+   * all nodes as if free; then correct() overwrites velocity and displacement
+   * of the constrained ones, and account() books the work that this took.
+   */
+  class NodeConstraint
+  {
+  public:
+    virtual ~NodeConstraint() = default;
+
+    /** Local nodes that this rank owns, ascending. */
+    const std::vector<unsigned int> &
+    nodes() const
+    {
+      return node_list;
+    }
+
+    const std::string &
+    name() const
+    {
+      return load_name;
+    }
+
+    /** Position of each of nodes() in the solver's list of captured nodes. */
+    void
+    bind(std::vector<unsigned int> positions)
+    {
+      captured_positions = std::move(positions);
+    }
+
+    /** Called when a stage begins in which it does not act. */
+    void
+    rest()
+    {
+      last_resultant = {};
+    }
+
+    /** Called when a stage begins; @p continues: it acted in the last one. */
+    virtual void
+    begin_stage(State &, const bool /*continues*/)
+    {}
+
+    virtual void
+    correct(const StepContext               &step,
+            const std::vector<CapturedNode> &captured,
+            State                           &state) = 0;
+
+    virtual void
+    account(const StepContext               &step,
+            const std::vector<CapturedNode> &captured,
+            State                           &state) = 0;
+
+    /**
+     * Force x, y [N] and moment about the origin or, for a platen, its centre
+     * [N m] on the nodes at the start of the last step; summed over ranks by
+     * the caller unless is_global().
+     */
+    std::array<double, 3>
+    resultant() const
+    {
+      return last_resultant;
+    }
+
+    /** Whether it moves both components of its nodes, prescribed or not. */
+    virtual bool
+    moves_all() const
+    {
+      return true;
+    }
+
+    virtual bool
+    is_global() const
+    {
+      return false;
+    }
+
+    /** Unbalanced force [N] of freedoms that the constraint itself moves. */
+    virtual double
+    unbalanced() const
+    {
+      return 0.;
+    }
+
+    /** Which freedoms (x, y and, of platens, rotation) it prescribes. */
+    virtual std::array<bool, 3>
+    holds() const = 0;
+
+  protected:
+    std::string               load_name;
+    std::vector<unsigned int> node_list;
+    std::vector<unsigned int> captured_positions;
+    std::array<double, 3>     last_resultant{};
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_prescribed_motion_h
+#define quoin_loads_prescribed_motion_h
+
+#include <quoin/base/node_exchange.h>
+#include <quoin/loads/load_parameters.h>
+#include <quoin/loads/node_constraint.h>
+#include <quoin/mesh/block_mesh.h>
+
+namespace quoin
+{
+  /** Velocity or displacement of a boundary as a function of time. */
+  class PrescribedMotion : public NodeConstraint
+  {
+  public:
+    PrescribedMotion(const LoadParameters &parameters,
+                     const BlockMesh<2>   &mesh,
+                     const NodeExchange   &exchange);
+
+    void
+    correct(const StepContext               &step,
+            const std::vector<CapturedNode> &captured,
+            State                           &state) override;
+    void
+    account(const StepContext               &step,
+            const std::vector<CapturedNode> &captured,
+            State                           &state) override;
+    std::array<bool, 3>
+    holds() const override;
+    bool
+    moves_all() const override
+    {
+      return false;
+    }
+
+  private:
+    std::array<LoadComponent, 3> components;
+  };
+
+  /** Local owned nodes on the faces @p faces of the outer boundary. */
+  std::vector<unsigned int>
+  nodes_of_faces(const BlockMesh<2>              &mesh,
+                 const NodeExchange              &exchange,
+                 const std::vector<unsigned int> &faces);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_time_function_h
+#define quoin_loads_time_function_h
+
+#include <functional>
+#include <string>
+
+namespace quoin
+{
+  /** Time since the stage began and since the run began [s]. */
+  struct TimePoint
+  {
+    double stage;
+    double total;
+  };
+
+  /**
+   * A value that depends on time alone: an expression of t (time in the
+   * stage) and T (total time), with pi and the functions of muParser and the
+   * step function heaviside(x); or "table FILE", a CSV file of times [s] in
+   * the stage and values, linear in between and constant beyond its ends.
+   */
+  class TimeFunction
+  {
+  public:
+    TimeFunction() = default;
+
+    /**
+     * Reads @p text. Files are sought in @p folder. Throws an InputError that
+     * says what is wrong, without naming section or parameter.
+     */
+    TimeFunction(const std::string &text, const std::string &folder);
+
+    double
+    operator()(const TimePoint &time) const
+    {
+      return evaluate(time);
+    }
+
+  private:
+    std::function<double(const TimePoint &)> evaluate =
+      [](const TimePoint &) { return 0.; };
+  };
+} // namespace quoin
+
+#endif

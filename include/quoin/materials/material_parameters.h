@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_materials_material_parameters_h
+#define quoin_materials_material_parameters_h
+
+#include <quoin/base/parameter_section.h>
+#include <quoin/materials/linear_elastic.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** One material: a subsection of 'Materials'. */
+  struct MaterialParameters
+  {
+    std::string              name;
+    std::vector<std::string> groups; /**< physical surfaces of the mesh */
+    LinearElastic            elastic{};
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    static MaterialParameters
+    read(const ParameterSection &section, const std::string &name);
+  };
+} // namespace quoin
+
+#endif

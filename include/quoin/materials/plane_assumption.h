@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_materials_plane_assumption_h
+#define quoin_materials_plane_assumption_h
+
+namespace quoin
+{
+  /** What is taken to vanish out of the plane. */
+  enum class PlaneAssumption
+  {
+    plane_strain, /**< no strain out of the plane: long bodies */
+    plane_stress  /**< no stress out of the plane: thin bodies */
+  };
+} // namespace quoin
+
+#endif

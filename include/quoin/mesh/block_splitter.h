@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_mesh_block_splitter_h
+#define quoin_mesh_block_splitter_h
+
+#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/mesh_data.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace quoin
+{
+  /** Where the joints are. */
+  struct SplitOptions
+  {
+    /** Physical curves whose edges are joints. */
+    std::vector<std::string> joints_along;
+
+    /** Pairs of physical surfaces whose common edges are joints. */
+    std::vector<std::pair<std::string, std::string>> joints_between;
+
+    /** Common edges of any two different physical surfaces are joints. */
+    bool between_all = false;
+
+    /** What to do with a joint that ends inside a block. */
+    enum JointEnds
+    {
+      keep,  /**< a crack whose two lips belong to the same block */
+      refuse /**< an InputError */
+    };
+    JointEnds joint_ends = keep;
+
+    /**
+     * Edges of blocks that are apart in the mesh coincide if their ends do
+     * within this share of the shortest edge of the mesh.
+     */
+    double coincidence_tolerance = 1e-3;
+  };
+
+  /**
+   * Cut a mesh into blocks along its joints.
+   *
+   * 1. Edges are joints if they lie on one of the given curves or between two
+   *    of the given surfaces.
+   * 2. The corners of the cells are united across every edge that is not a
+   *    joint; the classes are the new vertices, and cells connected by such
+   *    edges are a block. Crossings of any number of joints need no case of
+   *    their own.
+   * 3. Outer edges of opposite direction that coincide are joint faces too:
+   *    blocks that are apart in the mesh already.
+   * 4. Blocks, cells and vertices are numbered as BlockMesh describes; within
+   *    a block, cells follow a space-filling curve and boundary vertices the
+   *    boundary. Joint and boundary faces are in the order of their first
+   *    vertex.
+   *
+   * Blocks are numbered by their first triangle in the mesh, then permuted
+   * with @p block_order if that is given: new block i is old block
+   * (*block_order)[i].
+   *
+   * A joint face is named after the curve on it. Where two different curves lie
+   * on the two edges of blocks that were apart, one that is in joints_along
+   * comes first, then the one on the lower side.
+   *
+   * Throws InputError: unknown names; joints along curves that are not edges of
+   * the mesh or that lie on its outer boundary; two curves on one edge;
+   * triangles or blocks that overlap; refused joint ends.
+   */
+  void split_into_blocks(const MeshData &data, const SplitOptions &options,
+                         BlockMesh<2> &mesh,
+                         const std::vector<unsigned int> *block_order
+                         = nullptr);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_mesh_gmsh_reader_h
+#define quoin_mesh_gmsh_reader_h
+
+#include <quoin/mesh/mesh_data.h>
+
+#include <mpi.h>
+
+#include <string>
+
+namespace quoin
+{
+  /**
+   * Read a gmsh mesh (.msh 2.2 or 4.1, ascii or binary) or mesh a gmsh geometry
+   * (.geo) in the x-y plane. Every triangle must belong to exactly one named
+   * physical surface; line elements of named physical curves are kept, others
+   * dropped. Nodes are kept as they are: coincident ones are not merged, so
+   * blocks that are apart in the file stay apart.
+   *
+   * The user's own gmsh configuration is not read, so that a geometry gives
+   * the same mesh everywhere.
+   *
+   * Throws InputError with the file, the entity and the cure: no such file, an
+   * error of gmsh, no triangles, quadrangles or curved elements, a surface in
+   * no, several or unnamed physical groups, a curve in several, nodes off the
+   * plane z = 0, triangles without area.
+   */
+  MeshData read_gmsh(const std::string &filename);
+
+  /**
+   * The same on all ranks: the first one reads and sends to the others. An
+   * InputError is thrown on all of them.
+   */
+  MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_mesh_mesh_report_h
+#define quoin_mesh_mesh_report_h
+
+#include <quoin/mesh/block_mesh.h>
+
+#include <map>
+#include <string>
+
+namespace quoin
+{
+  /** Sizes and quality of a mesh of blocks. */
+  struct MeshReport
+  {
+    unsigned int n_blocks      = 0;
+    unsigned int n_cells       = 0;
+    unsigned int n_vertices    = 0;
+    unsigned int n_joint_faces = 0;
+
+    /** By curve name; "" stands for joints without one [m]. */
+    std::map<std::string, double> joint_length;
+    double total_joint_length = 0.; /**< [m] */
+
+    double shortest_edge  = 0.; /**< [m] */
+    double longest_edge   = 0.; /**< [m] */
+    double smallest_angle = 0.; /**< of any cell [degree] */
+
+    unsigned int n_joint_ends = 0; /**< ends inside a block */
+    /** Joint faces with both ends unsplit: they can never open or slip. */
+    unsigned int n_tied_joint_faces = 0;
+    unsigned int n_reoriented_cells = 0; /**< clockwise in the file */
+
+    /**
+     * Length along which outer edges lie on each other without coinciding:
+     * non-matching meshes on the two sides of a contact, which no joint face
+     * joins [m].
+     */
+    double unmatched_length = 0.;
+    dealii::Point<2> unmatched_position; /**< where the first of them is [m] */
+
+    dealii::Point<2> lower_left;  /**< of the bounding box [m] */
+    dealii::Point<2> upper_right; /**< of the bounding box [m] */
+
+    /** Lines of text without a final newline. */
+    std::string to_text() const;
+  };
+
+  MeshReport make_mesh_report(const BlockMesh<2> &mesh);
+} // namespace quoin
+
+#endif

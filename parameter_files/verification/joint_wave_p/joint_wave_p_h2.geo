@@ -1,0 +1,3 @@
+// The same column with a mesh size of 2 m.
+h = 2;
+Include "joint_wave_p.geo";

@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/dynamics/block_forces.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "strip_kernel.h"
+
+namespace quoin
+{
+  namespace
+  {
+    /** A run starts with two nodes per lane and then takes steps by three. */
+    std::size_t padded_steps(const std::size_t n)
+    {
+      return 2 + 3 * ((std::max<std::size_t>(n, 3) - 2 + 2) / 3);
+    }
+
+    std::array<double, 4> displacement_gradient(const Triangle &triangle,
+                                                const NodeRecord &a,
+                                                const NodeRecord &b,
+                                                const NodeRecord &c)
+    {
+      return triangle.gradient(a.u, b.u, c.u);
+    }
+  } // namespace
+
+  void BlockForces::prepare(const BlockForcesData &new_data,
+                            const BlockForcesOptions &options)
+  {
+    data    = new_data;
+    n_lanes = options.n_lanes == 0 ? native_lanes : options.n_lanes;
+
+    statistics = StripStatistics();
+    runs.clear();
+    offsets.clear();
+    masks.clear();
+    lane_stress.clear();
+    make_tiles(options.tile_bytes);
+    for (Tile &tile : tiles)
+      make_runs(tile, options.max_run_cells);
+  }
+
+  void BlockForces::make_tiles(const std::size_t tile_bytes)
+  {
+    // Node record, velocity, force, inverse mass.
+    constexpr std::size_t node_bytes
+        = sizeof(NodeRecord) + 2 * sizeof(NodeVector) + sizeof(double);
+
+    const auto &first_node = data.block_first_node;
+    const auto &first_cell = data.block_first_cell;
+    tiles.clear();
+    for (std::size_t begin = 0; begin + 1 < first_node.size();)
+    {
+      std::size_t end = begin + 1;
+      while (end + 1 < first_node.size()
+             && (first_node[end + 1] - first_node[begin]) * node_bytes
+                    <= tile_bytes)
+        ++end;
+      tiles.push_back({ { first_node[begin], first_node[end] },
+                        { first_cell[begin], first_cell[end] },
+                        0,
+                        0,
+                        0 });
+      begin = end;
+    }
+    for (const Tile &tile : tiles)
+      if (tile.nodes.end - tile.nodes.begin
+          > std::numeric_limits<std::uint32_t>::max() / sizeof(NodeVector))
+        throw InputError(
+            "A block has " + std::to_string(tile.nodes.end - tile.nodes.begin)
+            + " nodes, more than 268 million: refine the mesh less "
+              "or cut the block.");
+  }
+
+  void BlockForces::make_runs(Tile &tile, const std::size_t max_run_cells)
+  {
+    tile.begin_run = runs.size();
+    std::vector<std::vector<unsigned int>> members(data.stiffness.size());
+    const auto finish = [&](const unsigned int s)
+    {
+      if (!members[s].empty())
+        append_run(make_strips(data.cells, members[s], &statistics), tile,
+                   data.stiffness[s]);
+      members[s].clear();
+    };
+    for (std::size_t cell = tile.cells.begin; cell < tile.cells.end; ++cell)
+    {
+      const unsigned int s
+          = data.cell_stiffness.empty() ? 0 : data.cell_stiffness[cell];
+      members[s].push_back(cell);
+      if (members[s].size() >= max_run_cells)
+        finish(s);
+    }
+    for (unsigned int s = 0; s < members.size(); ++s)
+      finish(s);
+    tile.end_run = runs.size();
+    tile.n_steps = 0;
+    for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
+      tile.n_steps += runs[r].n_steps;
+  }
+
+  void BlockForces::append_run(const std::vector<StripEntry> &strips,
+                               const Tile &tile,
+                               const PlaneStiffness &stiffness)
+  {
+    // Each lane takes an equal piece of the sequence, wherever that cuts a
+    // strip, after the two nodes before the piece: all lanes end together.
+    const std::size_t end   = strips.size();
+    const std::size_t piece = (end + n_lanes - 1) / n_lanes;
+    const std::size_t n     = padded_steps(piece + 2);
+    const std::size_t first = masks.size();
+    runs.push_back({ first, n, stiffness.bulk() * data.thickness,
+                     stiffness.c33 * data.thickness });
+
+    // The kernel begins two steps more than it ends.
+    const std::size_t n_rows = n + 2;
+    offsets.resize((first + n_rows) * n_lanes);
+    masks.resize(first + n_rows, 0);
+    if (!data.initial_stress.empty())
+      lane_stress.resize(3 * (first + n_rows) * n_lanes, 0.);
+
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+    {
+      const std::size_t lane_begin = std::min(lane * piece, end);
+      const std::size_t lane_end   = std::min(lane_begin + piece, end);
+      for (std::size_t step = 0; step < n_rows; ++step)
+      {
+        // Before and after its piece a lane repeats what is there.
+        const std::size_t k = std::min(
+            std::max<std::size_t>(lane_begin + step, 2) - 2, end - 1);
+        const bool in_piece
+            = step >= 2 && lane_begin + step - 2 < lane_end;
+        const std::size_t row = first + step;
+        offsets[row * n_lanes + lane]
+            = (strips[k].node - tile.nodes.begin) * sizeof(NodeVector);
+        if (!in_piece || strips[k].cell == StripEntry::no_cell)
+          continue;
+        masks[row] |= 1u << lane;
+        if (!data.initial_stress.empty())
+        {
+          const PlaneTensor &s = data.initial_stress[strips[k].cell];
+          double *to           = &lane_stress[3 * row * n_lanes + lane];
+          const double half    = 0.5 * data.thickness;
+          to[0]                = half * 0.5 * (s[0] + s[1]);
+          to[n_lanes]          = half * 0.5 * (s[0] - s[1]);
+          to[2 * n_lanes]      = half * s[2];
+        }
+      }
+    }
+  }
+
+  double BlockForces::lane_fill() const
+  {
+    return masks.empty() ? 0.
+                         : static_cast<double>(statistics.n_cells)
+                               / (masks.size() * n_lanes);
+  }
+
+  template <int lanes>
+  void BlockForces::add_forces_in_lanes(const Tile &tile,
+                                        const NodeRecord *nodes,
+                                        NodeVector *force) const
+  {
+    const Tile &next = (&tile == &tiles.back() ? tiles.front() : *(&tile + 1));
+    Prefetcher prefetcher(nodes, force, next.nodes.begin, next.nodes.end,
+                          tile.n_steps / 3);
+    for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
+    {
+      const Run &run = runs[r];
+      StripSequence sequence{ &offsets[run.first_step * lanes],
+                              &masks[run.first_step], run.n_steps };
+      ElasticRates moduli{ run.bulk, run.shear };
+      NodeRecord const *tile_records = nodes + tile.nodes.begin;
+      NodeVector *tile_force         = force + tile.nodes.begin;
+      if (lane_stress.empty())
+        elastic_strips<lanes, false>(sequence, moduli, nullptr, tile_records,
+                                     tile_force, prefetcher);
+      else
+        elastic_strips<lanes, true>(sequence, moduli,
+                                    &lane_stress[3 * run.first_step * lanes],
+                                    tile_records, tile_force, prefetcher);
+    }
+  }
+
+  template <int lanes>
+  void BlockForces::add_viscous_forces_in_lanes(const Tile &tile,
+                                                const NodeRecord *nodes,
+                                                const NodeVector *velocity,
+                                                const double beta,
+                                                NodeVector *force) const
+  {
+    for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
+    {
+      const Run &run = runs[r];
+      viscous_strips<lanes>(
+          { &offsets[run.first_step * lanes], &masks[run.first_step],
+            run.n_steps },
+          { beta * run.bulk, beta * run.shear }, nodes + tile.nodes.begin,
+          velocity + tile.nodes.begin, force + tile.nodes.begin);
+    }
+  }
+
+  void BlockForces::add_forces(const unsigned int tile, const NodeRecord *nodes,
+                               NodeVector *force) const
+  {
+    if (n_lanes == 8)
+      add_forces_in_lanes<8>(tiles[tile], nodes, force);
+    else
+      add_forces_in_lanes<4>(tiles[tile], nodes, force);
+  }
+
+  void BlockForces::add_viscous_forces(const unsigned int tile,
+                                       const NodeRecord *nodes,
+                                       const NodeVector *velocity,
+                                       const double beta,
+                                       NodeVector *force) const
+  {
+    if (n_lanes == 8)
+      add_viscous_forces_in_lanes<8>(tiles[tile], nodes, velocity, beta, force);
+    else
+      add_viscous_forces_in_lanes<4>(tiles[tile], nodes, velocity, beta, force);
+  }
+
+  void BlockForces::add_forces_by_cell(const unsigned int tile,
+                                       const NodeRecord *nodes,
+                                       NodeVector *force) const
+  {
+    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
+         ++k)
+    {
+      const auto [a, b, c] = data.cells[k];
+      const Triangle triangle(nodes[a], nodes[b], nodes[c]);
+      const CorotatedStrain strain(
+          displacement_gradient(triangle, nodes[a], nodes[b], nodes[c]));
+      add_nodal_forces(triangle, data.thickness,
+                       piola_stress(strain,
+                                    elastic_stress(cell_stiffness(k), strain.e),
+                                    initial_stress(k)),
+                       force[a], force[b], force[c]);
+    }
+  }
+
+  void BlockForces::add_viscous_forces_by_cell(const unsigned int tile,
+                                               const NodeRecord *nodes,
+                                               const NodeVector *velocity,
+                                               const double beta,
+                                               NodeVector *force) const
+  {
+    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
+         ++k)
+    {
+      const auto [a, b, c] = data.cells[k];
+      const Triangle triangle(nodes[a], nodes[b], nodes[c]);
+      const CorotatedStrain strain(
+          displacement_gradient(triangle, nodes[a], nodes[b], nodes[c]));
+      const auto L
+          = triangle.gradient(velocity[a].v, velocity[b].v, velocity[c].v);
+      // sym(R^T L)
+      const double cs = strain.c, sn = strain.s;
+      const PlaneTensor rate{ beta * (cs * L[0] + sn * L[2]),
+                              beta * (cs * L[3] - sn * L[1]),
+                              0.5 * beta
+                                  * (cs * (L[1] + L[2]) + sn * (L[3] - L[0])) };
+      add_nodal_forces(triangle, data.thickness,
+                       piola_stress(strain,
+                                    elastic_stress(cell_stiffness(k), rate),
+                                    { 0., 0., 0. }),
+                       force[a], force[b], force[c]);
+    }
+  }
+
+  double BlockForces::strain_energy(const NodeRecord *nodes,
+                                    const unsigned int begin_tile,
+                                    const unsigned int end_tile) const
+  {
+    double energy = 0.;
+    for (unsigned int tile = begin_tile; tile < end_tile; ++tile)
+      for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
+           ++k)
+      {
+        const auto [a, b, c] = data.cells[k];
+        const Triangle triangle(nodes[a], nodes[b], nodes[c]);
+        const auto e
+            = CorotatedStrain(
+                  displacement_gradient(triangle, nodes[a], nodes[b], nodes[c]))
+                  .e;
+        const auto s  = elastic_stress(cell_stiffness(k), e);
+        const auto s0 = initial_stress(k);
+        energy += data.thickness * triangle.area()
+                  * ((0.5 * s[0] + s0[0]) * e[0] + (0.5 * s[1] + s0[1]) * e[1]
+                     + 2. * (0.5 * s[2] + s0[2]) * e[2]);
+      }
+    return energy;
+  }
+
+  std::array<double, 4> BlockForces::cell_stress(const NodeRecord *nodes,
+                                            const std::size_t cell,
+                                            PlaneTensor *strain_out) const
+  {
+    const auto [a, b, c] = data.cells[cell];
+    const Triangle triangle(nodes[a], nodes[b], nodes[c]);
+    const CorotatedStrain strain(
+        displacement_gradient(triangle, nodes[a], nodes[b], nodes[c]));
+    auto s        = elastic_stress(cell_stiffness(cell), strain.e);
+    const auto s0 = initial_stress(cell);
+    for (unsigned int i = 0; i < 3; ++i)
+      s[i] += s0[i];
+    if (strain_out)
+      *strain_out = strain.to_global(strain.e);
+    const double zz = cell_stiffness(cell).zz_over_sum * (s[0] + s[1]);
+    const auto g    = strain.to_global(s);
+    return { g[0], g[1], g[2], zz };
+  }
+
+  void BlockForces::stresses(const NodeRecord *nodes,
+                             std::vector<std::array<double, 4>> &stress_out,
+                             std::vector<PlaneTensor> &strain_out) const
+  {
+    stress_out.resize(data.cells.size());
+    strain_out.resize(data.cells.size());
+    for (std::size_t k = 0; k < data.cells.size(); ++k)
+      stress_out[k] = cell_stress(nodes, k, &strain_out[k]);
+  }
+} // namespace quoin

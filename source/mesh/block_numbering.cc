@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/mesh/block_numbering.h>
+
+#include <deal.II/base/exceptions.h>
+#include <deal.II/base/utilities.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/sparsity_pattern.h>
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+namespace quoin
+{
+  namespace
+  {
+    constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
+
+    std::vector<unsigned int>
+    inverse_permutation(const std::vector<unsigned int> &order)
+    {
+      std::vector<unsigned int> result(order.size());
+      for (unsigned int i = 0; i < order.size(); ++i)
+        result[order[i]] = i;
+      return result;
+    }
+
+    template <typename T>
+    std::vector<T> permuted(const std::vector<T> &old,
+                            const std::vector<unsigned int> &order)
+    {
+      std::vector<T> result;
+      result.reserve(order.size());
+      for (const unsigned int i : order)
+        result.push_back(old[i]);
+      return result;
+    }
+
+    /** New cell i is old cell cell_order[i], and so for vertices. */
+    void permute(BlockMesh<2> &mesh,
+                 const std::vector<unsigned int> &cell_order,
+                 const std::vector<unsigned int> &vertex_order)
+    {
+      const std::vector<unsigned int> new_cell
+          = inverse_permutation(cell_order);
+      const std::vector<unsigned int> new_vertex
+          = inverse_permutation(vertex_order);
+
+      mesh.vertices   = permuted(mesh.vertices, vertex_order);
+      mesh.cells      = permuted(mesh.cells, cell_order);
+      mesh.cell_group = permuted(mesh.cell_group, cell_order);
+      for (auto &cell : mesh.cells)
+        for (unsigned int &v : cell)
+          v = new_vertex[v];
+      for (BlockFace &face : mesh.boundary_faces)
+      {
+        face.cell = new_cell[face.cell];
+        for (unsigned int &v : face.vertices)
+          v = new_vertex[v];
+      }
+      for (JointFace &face : mesh.joint_faces)
+        for (unsigned int k = 0; k < 2; ++k)
+        {
+          face.cells[k] = new_cell[face.cells[k]];
+          face.lower[k] = new_vertex[face.lower[k]];
+          face.upper[k] = new_vertex[face.upper[k]];
+        }
+
+      // No two faces start at the same vertex, see next_on_boundary().
+      std::sort(mesh.boundary_faces.begin(), mesh.boundary_faces.end(),
+                [](const BlockFace &a, const BlockFace &b)
+                { return a.vertices[0] < b.vertices[0]; });
+      std::sort(mesh.joint_faces.begin(), mesh.joint_faces.end(),
+                [](const JointFace &a, const JointFace &b)
+                { return a.lower[0] < b.lower[0]; });
+    }
+
+    /** Cells by block, within a block along a Hilbert curve. */
+    std::vector<unsigned int>
+    order_cells(const BlockMesh<2> &mesh,
+                const std::vector<unsigned int> &block_of_cell)
+    {
+      constexpr int bits = 31;
+      std::vector<dealii::Point<2>> centres(mesh.n_cells());
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        centres[c]
+            = (mesh.vertices[mesh.cells[c][0]] + mesh.vertices[mesh.cells[c][1]]
+               + mesh.vertices[mesh.cells[c][2]])
+              / 3.;
+      const auto places
+          = dealii::Utilities::inverse_Hilbert_space_filling_curve(centres,
+                                                                   bits);
+
+      struct Entry
+      {
+        unsigned int block;
+        unsigned int cell;
+        std::uint64_t place;
+      };
+      std::vector<Entry> entries(mesh.n_cells());
+      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+        entries[c] = { block_of_cell[c], c,
+                       dealii::Utilities::pack_integers<2>(places[c], bits) };
+      std::sort(entries.begin(), entries.end(),
+                [](const Entry &a, const Entry &b)
+                {
+                  return std::tie(a.block, a.place, a.cell)
+                         < std::tie(b.block, b.place, b.cell);
+                });
+      std::vector<unsigned int> order(mesh.n_cells());
+      for (unsigned int i = 0; i < order.size(); ++i)
+        order[i] = entries[i].cell;
+      return order;
+    }
+
+    /**
+     * For a vertex on a boundary or joint face the next one counter-clockwise
+     * around its block, none for others. It is unique, because a vertex is one
+     * fan of cells that hang together by shared edges: at most one face leaves
+     * it and one arrives.
+     */
+    std::vector<unsigned int> next_on_boundary(const BlockMesh<2> &mesh)
+    {
+      std::vector<unsigned int> next(mesh.n_vertices(), none);
+      for (const BlockFace &face : mesh.boundary_faces)
+        next[face.vertices[0]] = face.vertices[1];
+      for (const JointFace &face : mesh.joint_faces)
+      {
+        next[face.lower[0]] = face.lower[1];
+        next[face.upper[1]] = face.upper[0];
+      }
+      return next;
+    }
+  } // namespace
+
+  void number_blocks(BlockMesh<2> &mesh,
+                     const std::vector<unsigned int> &block_of_cell,
+                     const unsigned int n_blocks)
+  {
+    const std::vector<unsigned int> cell_order
+        = order_cells(mesh, block_of_cell);
+    const std::vector<unsigned int> next = next_on_boundary(mesh);
+
+    mesh.block_first_cell.assign(n_blocks + 1, 0);
+    for (const unsigned int b : block_of_cell)
+      ++mesh.block_first_cell[b + 1];
+    std::partial_sum(mesh.block_first_cell.begin(), mesh.block_first_cell.end(),
+                     mesh.block_first_cell.begin());
+
+    mesh.block_first_vertex.assign(1, 0);
+    std::vector<unsigned int> vertex_order;
+    vertex_order.reserve(mesh.n_vertices());
+    std::vector<bool> numbered(mesh.n_vertices(), false);
+    const auto number = [&](const unsigned int v)
+    {
+      vertex_order.push_back(v);
+      numbered[v] = true;
+    };
+    for (unsigned int b = 0; b < n_blocks; ++b)
+    {
+      const auto for_each_vertex = [&](const auto &function)
+      {
+        for (unsigned int i = mesh.block_first_cell[b];
+             i < mesh.block_first_cell[b + 1]; ++i)
+          for (const unsigned int v : mesh.cells[cell_order[i]])
+            function(v);
+      };
+      for_each_vertex(
+          [&](const unsigned int first)
+          {
+            if (next[first] != none)
+              for (unsigned int v = first; !numbered[v]; v = next[v])
+                number(v);
+          });
+      for_each_vertex(
+          [&](const unsigned int v)
+          {
+            if (!numbered[v])
+              number(v);
+          });
+      mesh.block_first_vertex.push_back(vertex_order.size());
+    }
+    permute(mesh, cell_order, vertex_order);
+  }
+
+  void renumber_blocks(BlockMesh<2> &mesh,
+                       const std::vector<unsigned int> &new_order)
+  {
+    const unsigned int n_blocks = mesh.n_blocks();
+    std::vector<bool> met(n_blocks, false);
+    AssertThrow(new_order.size() == n_blocks,
+                dealii::ExcDimensionMismatch(new_order.size(), n_blocks));
+    for (const unsigned int b : new_order)
+    {
+      AssertThrow(b < n_blocks && !met[b],
+                  dealii::ExcMessage("The order is no permutation."));
+      met[b] = true;
+    }
+
+    const auto blockwise = [&](std::vector<unsigned int> &first)
+    {
+      std::vector<unsigned int> order, new_first(1, 0);
+      order.reserve(first.back());
+      for (const unsigned int b : new_order)
+      {
+        for (unsigned int i = first[b]; i < first[b + 1]; ++i)
+          order.push_back(i);
+        new_first.push_back(order.size());
+      }
+      first = new_first;
+      return order;
+    };
+    const std::vector<unsigned int> cell_order
+        = blockwise(mesh.block_first_cell);
+    const std::vector<unsigned int> vertex_order
+        = blockwise(mesh.block_first_vertex);
+    permute(mesh, cell_order, vertex_order);
+    if (mesh.triangulation.n_levels() > 0)
+      build_triangulation(mesh);
+  }
+
+  namespace
+  {
+    /** Largest block first, each to the part with the fewest cells so far. */
+    std::vector<unsigned int>
+    deal_out_blocks(const std::vector<unsigned int> &n_cells_of_block,
+                    const unsigned int n_parts)
+    {
+      std::vector<unsigned int> order(n_cells_of_block.size());
+      std::iota(order.begin(), order.end(), 0);
+      std::stable_sort(order.begin(), order.end(),
+                       [&](const unsigned int a, const unsigned int b)
+                       { return n_cells_of_block[a] > n_cells_of_block[b]; });
+      std::vector<unsigned int> part(order.size()), load(n_parts, 0);
+      for (const unsigned int b : order)
+      {
+        part[b] = std::min_element(load.begin(), load.end()) - load.begin();
+        load[part[b]] += n_cells_of_block[b];
+      }
+      return part;
+    }
+
+    unsigned int largest_load(const std::vector<unsigned int> &part,
+                              const std::vector<unsigned int> &n_cells_of_block,
+                              const unsigned int n_parts)
+    {
+      std::vector<unsigned int> load(n_parts, 0);
+      for (unsigned int b = 0; b < part.size(); ++b)
+        load[part[b]] += n_cells_of_block[b];
+      return *std::max_element(load.begin(), load.end());
+    }
+  } // namespace
+
+  std::vector<unsigned int> partition_blocks(const BlockMesh<2> &mesh,
+                                             const unsigned int n_parts)
+  {
+    const unsigned int n_blocks = mesh.n_blocks();
+    std::vector<unsigned int> part(n_blocks, 0);
+    if (n_parts <= 1)
+      return part;
+    if (n_parts >= n_blocks)
+    {
+      std::iota(part.begin(), part.end(), 0);
+      return part;
+    }
+
+    std::vector<unsigned int> n_cells(n_blocks);
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      n_cells[b] = mesh.block_first_cell[b + 1] - mesh.block_first_cell[b];
+    const std::vector<unsigned int> by_size = deal_out_blocks(n_cells, n_parts);
+
+#ifdef DEAL_II_WITH_METIS
+    dealii::DynamicSparsityPattern graph(n_blocks, n_blocks);
+    for (const JointFace &face : mesh.joint_faces)
+    {
+      const unsigned int lower = mesh.block_of_cell(face.cells[0]);
+      const unsigned int upper = mesh.block_of_cell(face.cells[1]);
+      graph.add(lower, upper);
+      graph.add(upper, lower);
+    }
+    for (unsigned int b = 0; b < n_blocks; ++b)
+      graph.add(b, b);
+    dealii::SparsityPattern pattern;
+    pattern.copy_from(graph);
+    dealii::SparsityTools::partition(pattern, n_cells, n_parts, part);
+    if (largest_load(part, n_cells, n_parts)
+        <= 1.1 * largest_load(by_size, n_cells, n_parts))
+      return part;
+#endif
+    return by_size;
+  }
+
+  std::vector<unsigned int>
+  order_by_part(const std::vector<unsigned int> &part_of_block)
+  {
+    std::vector<unsigned int> order(part_of_block.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const unsigned int a, const unsigned int b)
+                     { return part_of_block[a] < part_of_block[b]; });
+    return order;
+  }
+} // namespace quoin

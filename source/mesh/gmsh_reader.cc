@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/mesh/gmsh_reader.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <boost/serialization/utility.hpp>
+
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+namespace quoin
+{
+  namespace
+  {
+    constexpr int gmsh_line     = 1;
+    constexpr int gmsh_triangle = 2;
+    constexpr double plane_tolerance
+        = 1e-9; // of the mesh's size: what binary and text files round to
+
+    /** The gmsh library, silent, for as long as this object lives. */
+    class GmshSession
+    {
+    public:
+      GmshSession()
+      {
+        gmsh::initialize(0, nullptr, /* readConfigFiles = */ false);
+        gmsh::option::setNumber("General.Terminal", 0);
+        gmsh::logger::start();
+      }
+      ~GmshSession()
+      {
+        // The log outlives finalize(), and with it the errors of this file.
+        gmsh::logger::stop();
+        gmsh::finalize();
+      }
+      GmshSession(const GmshSession &)            = delete;
+      GmshSession &operator=(const GmshSession &) = delete;
+
+      /** All errors logged so far, in one line; empty if there are none. */
+      static std::string errors()
+      {
+        std::vector<std::string> log;
+        gmsh::logger::get(log);
+        std::string result;
+        for (const std::string &line : log)
+          if (line.rfind("Error", 0) == 0)
+          {
+            const std::size_t begin = line.find_first_not_of(": ", 5);
+            if (begin != std::string::npos)
+              result += (result.empty() ? "" : "; ") + line.substr(begin);
+          }
+        return result;
+      }
+    };
+
+    /** Starts every message with the file. */
+    class Reader
+    {
+    public:
+      explicit Reader(const std::string &filename) : filename(filename)
+      {
+        mesh.source = filename;
+      }
+
+      MeshData read();
+
+    private:
+      [[noreturn]] void fail(const std::string &what) const
+      {
+        throw InputError("Mesh '" + filename + "': " + what);
+      }
+
+      void check_file() const;
+      void open_and_mesh() const;
+      std::vector<int> physical_groups(const int dim, const int entity) const;
+      std::string physical_name(const int dim, const int group) const;
+      void read_triangles();
+      void read_lines();
+      void read_vertices();
+
+      const std::string filename;
+      MeshData mesh;
+
+      /** Node tags of gmsh, until read_vertices() turns them to indices. */
+      std::vector<std::array<std::size_t, 3>> triangle_tags;
+      std::vector<std::array<std::size_t, 2>> line_tags;
+    };
+
+    void Reader::check_file() const
+    {
+      namespace fs = std::filesystem;
+      std::error_code ignored;
+      if (!fs::exists(filename, ignored))
+        fail("there is no such file. Check Mesh/File, which is relative to "
+             "the parameter file.");
+      if (fs::is_directory(filename, ignored)
+          || !std::ifstream(filename).good())
+        fail("this cannot be read as a file. Check Mesh/File and the file's "
+             "permissions.");
+      const std::string extension = fs::path(filename).extension();
+      if (extension != ".geo" && extension != ".msh")
+        fail("the name ends in '" + extension
+             + "'. Give a gmsh geometry (.geo) or mesh (.msh).");
+      if (fs::file_size(filename, ignored) == 0)
+        fail("the file is empty. Save it again from gmsh.");
+    }
+
+    void Reader::open_and_mesh() const
+    {
+      std::string thrown;
+      try
+      {
+        gmsh::open(filename);
+        if (GmshSession::errors().empty())
+        {
+          std::vector<std::size_t> nodes;
+          std::vector<int> types;
+          std::vector<std::vector<std::size_t>> elements, element_nodes;
+          gmsh::model::mesh::getElements(types, elements, element_nodes, 2);
+          if (types.empty())
+            gmsh::model::mesh::generate(2);
+        }
+      }
+      catch (const std::exception &exception)
+      {
+        thrown = exception.what();
+      }
+      catch (const std::string &message)
+      {
+        thrown = message;
+      }
+      catch (...)
+      {
+        thrown = "unknown error";
+      }
+      const std::string logged = GmshSession::errors();
+      if (!logged.empty() || !thrown.empty())
+        fail("gmsh could not make a mesh of it: "
+             + (logged.empty() ? thrown : logged)
+             + ". Open the file in gmsh and mend it there.");
+    }
+
+    std::vector<int> Reader::physical_groups(const int dim,
+                                             const int entity) const
+    {
+      // A minus sign only says that the group sees the entity reversed.
+      std::vector<int> groups;
+      gmsh::model::getPhysicalGroupsForEntity(dim, entity, groups);
+      for (int &group : groups)
+        group = std::abs(group);
+      std::sort(groups.begin(), groups.end());
+      groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+      return groups;
+    }
+
+    std::string Reader::physical_name(const int dim, const int group) const
+    {
+      std::string name;
+      gmsh::model::getPhysicalName(dim, group, name);
+      if (name.empty())
+      {
+        const std::string kind = (dim == 1 ? "Curve" : "Surface");
+        fail("physical " + std::string(dim == 1 ? "curve " : "surface ")
+             + std::to_string(group) + " has no name. Give it one: Physical "
+             + kind
+             + "(\"name\") = {...}; in the geometry, or a line in "
+               "$PhysicalNames.");
+      }
+      return name;
+    }
+
+    /** The index of @p name in @p names, where it is added if it is new. */
+    unsigned int index_of(const std::string &name,
+                          std::vector<std::string> &names)
+    {
+      const unsigned int place
+          = std::find(names.begin(), names.end(), name) - names.begin();
+      if (place == names.size())
+        names.push_back(name);
+      return place;
+    }
+
+    std::string list(const std::vector<int> &numbers)
+    {
+      constexpr std::size_t most = 10;
+      std::string result;
+      for (std::size_t i = 0; i < std::min(numbers.size(), most); ++i)
+        result += (i > 0 ? ", " : "") + std::to_string(numbers[i]);
+      if (numbers.size() > most)
+        result += " and " + std::to_string(numbers.size() - most) + " others";
+      return result;
+    }
+
+    void Reader::read_triangles()
+    {
+      gmsh::vectorpair surfaces;
+      gmsh::model::getEntities(surfaces, 2);
+      std::vector<int> without_group;
+      for (const auto &[dim, surface] : surfaces)
+      {
+        std::vector<int> types;
+        std::vector<std::vector<std::size_t>> elements, nodes;
+        gmsh::model::mesh::getElements(types, elements, nodes, dim, surface);
+        if (types.empty())
+          continue;
+        const std::string where = "surface " + std::to_string(surface);
+
+        const std::vector<int> groups = physical_groups(dim, surface);
+        if (groups.empty())
+        {
+          without_group.push_back(surface);
+          continue;
+        }
+        if (groups.size() > 1)
+          fail(where + " is in several physical surfaces (" + list(groups)
+               + "). Put each surface in exactly one.");
+        const unsigned int group
+            = index_of(physical_name(dim, groups[0]), mesh.group_names);
+
+        for (std::size_t t = 0; t < types.size(); ++t)
+        {
+          if (types[t] != gmsh_triangle)
+          {
+            std::string name;
+            int element_dim, order, n_nodes, n_primary;
+            std::vector<double> coordinates;
+            gmsh::model::mesh::getElementProperties(types[t], name, element_dim,
+                                                    order, n_nodes, coordinates,
+                                                    n_primary);
+            fail(where + " has elements of the kind '" + name
+                 + "'. Only three-node triangles can be used: remove "
+                   "Recombine, and keep Mesh.ElementOrder = 1.");
+          }
+          for (std::size_t i = 0; i < nodes[t].size(); i += 3)
+            triangle_tags.push_back(
+                { { nodes[t][i], nodes[t][i + 1], nodes[t][i + 2] } });
+        }
+        mesh.triangle_group.resize(triangle_tags.size(), group);
+      }
+      if (!without_group.empty())
+        fail("no physical group holds the surface"
+             + std::string(without_group.size() > 1 ? "s " : " ")
+             + list(without_group)
+             + ". Name every surface: Physical Surface(\"rock\") = {...};");
+      if (triangle_tags.empty())
+        fail("there are no triangles in it. Save the mesh in two dimensions "
+             "(gmsh -2) with its physical surfaces.");
+    }
+
+    void Reader::read_lines()
+    {
+      gmsh::vectorpair curves;
+      gmsh::model::getEntities(curves, 1);
+      for (const auto &[dim, curve] : curves)
+      {
+        const std::vector<int> groups = physical_groups(dim, curve);
+        if (groups.empty())
+          continue;
+        if (groups.size() > 1)
+          fail("curve " + std::to_string(curve)
+               + " is in several physical curves (" + list(groups)
+               + "). Put each curve in one at most.");
+        const unsigned int name
+            = index_of(physical_name(dim, groups[0]), mesh.line_names);
+
+        std::vector<int> types;
+        std::vector<std::vector<std::size_t>> elements, nodes;
+        gmsh::model::mesh::getElements(types, elements, nodes, dim, curve);
+        for (std::size_t t = 0; t < types.size(); ++t)
+        {
+          if (types[t] != gmsh_line)
+            fail("curve " + std::to_string(curve)
+                 + " has curved elements. Keep Mesh.ElementOrder = 1.");
+          for (std::size_t i = 0; i < nodes[t].size(); i += 2)
+            line_tags.push_back({ { nodes[t][i], nodes[t][i + 1] } });
+        }
+        mesh.line_name.resize(line_tags.size(), name);
+      }
+    }
+
+    /** Keep the nodes in use, in the order of the file. */
+    void Reader::read_vertices()
+    {
+      std::vector<std::size_t> tags;
+      std::vector<double> coordinates, parameters;
+      gmsh::model::mesh::getNodes(tags, coordinates, parameters);
+
+      // Tags may have gaps of any size, but hardly ever do.
+      std::vector<std::size_t> order(tags.size());
+      for (std::size_t i = 0; i < order.size(); ++i)
+        order[i] = i;
+      if (!std::is_sorted(tags.begin(), tags.end()))
+        std::sort(order.begin(), order.end(),
+                  [&](const std::size_t a, const std::size_t b)
+                  { return tags[a] < tags[b]; });
+      const bool contiguous
+          = !tags.empty()
+            && tags[order.back()] - tags[order.front()] + 1 == tags.size();
+      const auto node_of_tag = [&](const std::size_t tag)
+      {
+        if (contiguous && tag >= tags[order.front()]
+            && tag <= tags[order.back()])
+          return order[tag - tags[order.front()]];
+        const auto place
+            = std::lower_bound(order.begin(), order.end(), tag,
+                               [&](const std::size_t a, const std::size_t value)
+                               { return tags[a] < value; });
+        if (place == order.end() || tags[*place] != tag)
+          fail("an element refers to node " + std::to_string(tag)
+               + ", which the file does not define. Save it again from gmsh.");
+        return *place;
+      };
+
+      // 1. Tags of elements to node numbers, and mark those in use.
+      std::vector<unsigned int> vertex(tags.size(), 0);
+      const auto mark = [&](auto &element_tags)
+      {
+        for (auto &element : element_tags)
+          for (std::size_t &tag : element)
+          {
+            tag         = node_of_tag(tag);
+            vertex[tag] = 1;
+          }
+      };
+      mark(triangle_tags);
+      mark(line_tags);
+
+      // 2. Number the nodes in use and copy their coordinates.
+      const double size = [&]()
+      {
+        double largest = 0.;
+        for (const double x : coordinates)
+          largest = std::max(largest, std::abs(x));
+        return largest;
+      }();
+      for (std::size_t i = 0; i < tags.size(); ++i)
+        if (vertex[i] == 1)
+        {
+          const double *x = &coordinates[3 * i];
+          if (std::abs(x[2]) > plane_tolerance * size)
+          {
+            std::ostringstream message;
+            message << "node " << tags[i] << " at (" << x[0] << ", " << x[1]
+                    << ", " << x[2]
+                    << ") is off the plane z = 0. Draw the geometry in the "
+                       "x-y plane.";
+            fail(message.str());
+          }
+          vertex[i] = mesh.vertices.size();
+          mesh.vertices.emplace_back(x[0], x[1]);
+        }
+
+      // 3. Elements.
+      mesh.triangles.reserve(triangle_tags.size());
+      for (const auto &t : triangle_tags)
+        mesh.triangles.push_back(
+            { { vertex[t[0]], vertex[t[1]], vertex[t[2]] } });
+      mesh.lines.reserve(line_tags.size());
+      for (const auto &l : line_tags)
+        mesh.lines.push_back({ { vertex[l[0]], vertex[l[1]] } });
+    }
+
+    MeshData Reader::read()
+    {
+      check_file();
+      const GmshSession session;
+      open_and_mesh();
+      read_triangles();
+      read_lines();
+      read_vertices();
+      orient_triangles(mesh);
+      return std::move(mesh);
+    }
+  } // namespace
+
+  MeshData read_gmsh(const std::string &filename)
+  {
+    return Reader(filename).read();
+  }
+
+  MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator)
+  {
+    // The others must hear of an error, too, or they wait forever.
+    std::pair<MeshData, std::string> mesh_and_error;
+    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      try
+      {
+        mesh_and_error.first = read_gmsh(filename);
+      }
+      catch (const InputError &error)
+      {
+        mesh_and_error.second = error.what();
+      }
+    mesh_and_error
+        = dealii::Utilities::MPI::broadcast(communicator, mesh_and_error);
+    if (!mesh_and_error.second.empty())
+      throw InputError(mesh_and_error.second);
+    return std::move(mesh_and_error.first);
+  }
+} // namespace quoin

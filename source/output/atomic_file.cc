@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/output/atomic_file.h>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+namespace quoin
+{
+  namespace
+  {
+    constexpr std::size_t buffer_size = 1 << 18;
+
+    std::string cure_for(const int error_number)
+    {
+      switch (error_number)
+      {
+      case ENOSPC:
+      case EDQUOT:
+      case EFBIG:
+        return "Free some space or choose another output directory, then "
+               "go on with --resume.";
+      case EACCES:
+      case EPERM:
+      case EROFS:
+        return "Choose an output directory that may be written.";
+      case ENOENT:
+      case ENOTDIR:
+      case EISDIR:
+      case EEXIST:
+        return "Choose an output directory whose path leads through "
+               "directories only and is not in use for something else.";
+      default:
+        return "Check the disk and the output directory.";
+      }
+    }
+
+    using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
+
+    // Eight tables, so that eight bytes are taken at a time: a checkpoint is
+    // hundreds of megabytes, and a bytewise CRC would cost more than writing.
+    CrcTables make_crc_tables()
+    {
+      CrcTables tables{};
+      for (std::uint32_t i = 0; i < 256; ++i)
+      {
+        std::uint32_t c = i;
+        for (int k = 0; k < 8; ++k)
+          c = (c & 1U) ? (c >> 1U) ^ 0xEDB88320U : c >> 1U;
+        tables[0][i] = c;
+      }
+      for (unsigned int t = 1; t < 8; ++t)
+        for (unsigned int i = 0; i < 256; ++i)
+          tables[t][i]
+              = (tables[t - 1][i] >> 8U) ^ tables[0][tables[t - 1][i] & 0xFFU];
+      return tables;
+    }
+  } // namespace
+
+  std::uint32_t crc32(const std::uint32_t so_far, const char *data,
+                      std::size_t n)
+  {
+    static const CrcTables tables = make_crc_tables();
+
+    std::uint32_t c = ~so_far;
+    for (; n >= 8; n -= 8, data += 8)
+    {
+      std::uint64_t word;
+      std::memcpy(&word, data, 8);
+      word ^= c;
+      c = 0;
+      for (unsigned int b = 0; b < 8; ++b)
+        c ^= tables[7 - b][(word >> (8 * b)) & 0xFFU];
+    }
+    for (; n > 0; --n, ++data)
+      c = tables[0][(c ^ static_cast<unsigned char>(*data)) & 0xFFU]
+          ^ (c >> 8U);
+    return ~c;
+  }
+
+  std::string write_failure(const std::string &path, const int error_number)
+  {
+    return "The file '" + path + "' could not be written: "
+           + (error_number != 0 ? std::strerror(error_number)
+                                : "the stream failed")
+           + ". " + cure_for(error_number);
+  }
+
+  void make_directory(const std::string &path)
+  {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (!error && !std::filesystem::is_directory(path, error) && !error)
+      error = std::make_error_code(std::errc::not_a_directory);
+    if (error)
+      throw RunError("The directory '" + path + "' could not be made: "
+                     + error.message() + ". " + cure_for(error.value()));
+  }
+
+  void sync_directory(const std::string &path)
+  {
+    // A file system that cannot do this is no reason to stop: the rename is
+    // still atomic for every crash but that of the machine.
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY);
+    if (descriptor >= 0)
+    {
+      ::fsync(descriptor);
+      ::close(descriptor);
+    }
+  }
+
+  FileBuffer::FileBuffer(const std::string &path, const bool append)
+    : buffer(buffer_size)
+  {
+    descriptor = ::open(
+        path.c_str(),
+        O_WRONLY | O_CREAT | O_CLOEXEC | (append ? O_APPEND : O_TRUNC), 0666);
+    if (descriptor < 0)
+      first_error = errno;
+    setp(buffer.data(), buffer.data() + buffer.size());
+  }
+
+  FileBuffer::~FileBuffer()
+  {
+    close(false);
+  }
+
+  bool FileBuffer::write_all(const char *data, std::size_t n)
+  {
+    while (n > 0 && first_error == 0)
+    {
+      const ssize_t done = ::write(descriptor, data, n);
+      if (done < 0)
+      {
+        if (errno != EINTR)
+          first_error = errno;
+        continue;
+      }
+      crc = crc32(crc, data, done);
+      n_written += done;
+      data += done;
+      n -= done;
+    }
+    return first_error == 0;
+  }
+
+  bool FileBuffer::drain()
+  {
+    const bool ok = write_all(pbase(), pptr() - pbase());
+    setp(buffer.data(), buffer.data() + buffer.size());
+    return ok;
+  }
+
+  FileBuffer::int_type FileBuffer::overflow(const int_type c)
+  {
+    if (!drain())
+      return traits_type::eof();
+    if (!traits_type::eq_int_type(c, traits_type::eof()))
+      sputc(traits_type::to_char_type(c));
+    return traits_type::not_eof(c);
+  }
+
+  std::streamsize FileBuffer::xsputn(const char *data, const std::streamsize n)
+  {
+    if (n > epptr() - pptr())
+    {
+      if (!drain())
+        return 0;
+      // What does not fit goes past the buffer.
+      if (n >= static_cast<std::streamsize>(buffer.size()))
+        return write_all(data, n) ? n : 0;
+    }
+    std::memcpy(pptr(), data, n);
+    pbump(static_cast<int>(n));
+    return n;
+  }
+
+  int FileBuffer::sync()
+  {
+    return drain() ? 0 : -1;
+  }
+
+  bool FileBuffer::sync_to_disk()
+  {
+    drain();
+    // Pipes and devices such as /dev/null cannot be synchronised (EINVAL).
+    if (first_error == 0 && ::fsync(descriptor) != 0 && errno != EINVAL)
+      first_error = errno;
+    return first_error == 0;
+  }
+
+  bool FileBuffer::close(const bool to_disk)
+  {
+    if (descriptor >= 0)
+    {
+      if (to_disk)
+        sync_to_disk();
+      else
+        drain();
+      if (::close(descriptor) != 0 && first_error == 0)
+        first_error = errno;
+      descriptor = -1;
+    }
+    return first_error == 0;
+  }
+
+  AtomicFile::AtomicFile(const std::string &path)
+    : path(path), buffer(std::make_unique<FileBuffer>(path + ".tmp")),
+      out(buffer.get())
+  {
+    if (buffer->error() != 0)
+      throw RunError(write_failure(path, buffer->error()));
+  }
+
+  AtomicFile::~AtomicFile()
+  {
+    if (!committed)
+    {
+      buffer->close(false);
+      std::remove((path + ".tmp").c_str());
+    }
+  }
+
+  void AtomicFile::commit(const bool to_disk)
+  {
+    const bool stream_is_good = out.good();
+    if (!buffer->close(to_disk) || !stream_is_good)
+      throw RunError(write_failure(path, buffer->error()));
+    if (std::rename((path + ".tmp").c_str(), path.c_str()) != 0)
+      throw RunError(write_failure(path, errno));
+    committed = true;
+  }
+} // namespace quoin

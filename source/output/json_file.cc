@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/output/atomic_file.h>
+#include <quoin/output/json_file.h>
+
+#include <nlohmann/json.hpp>
+
+namespace quoin
+{
+  void write_json(const std::string &path, const nlohmann::json &object)
+  {
+    // File names need not be valid UTF-8; they are no reason to stop here.
+    const std::string text
+        = object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
+    AtomicFile file(path);
+    file.stream() << text << "\n";
+    file.commit();
+  }
+} // namespace quoin

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/output/atomic_file.h>
+#include <quoin/output/collective.h>
+#include <quoin/output/vtu_series.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace quoin
+{
+  VtuSeries::VtuSeries(const std::string &output_directory,
+                       const std::string &name, const MPI_Comm communicator)
+    : directory(output_directory), name(name), communicator(communicator),
+      list(output_directory + "/" + name + ".pvd")
+  {
+    int mpi_rank, mpi_size;
+    MPI_Comm_rank(communicator, &mpi_rank);
+    MPI_Comm_size(communicator, &mpi_size);
+    rank    = mpi_rank;
+    n_ranks = mpi_size;
+  }
+
+  void VtuSeries::start()
+  {
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (rank == 0)
+                            {
+                              make_directory(directory + "/fields");
+                              list.write();
+                            }
+                          });
+  }
+
+  void VtuSeries::write_grid(VtuGrid grid)
+  {
+    const double time = grid.time;
+    all_or_none<RunError>(
+        communicator, [&]()
+        { write_vtu(directory + "/" + file_name(rank), std::move(grid)); });
+    // Only now, so that the list never names a file that is not there.
+    for (unsigned int part = 0; part < n_ranks; ++part)
+      list.add(time, file_name(part), part);
+    ++index;
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (rank == 0)
+                              list.write();
+                          });
+  }
+
+  std::string VtuSeries::file_name(const unsigned int part) const
+  {
+    char number[16];
+    std::snprintf(number, sizeof(number), "%04u", index);
+    return "fields/" + name + "_" + number + "_" + std::to_string(part)
+           + ".vtu";
+  }
+} // namespace quoin

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""What the case tests share: running quoin, reading its tables, results."""
+import argparse
+import json
+import os
+import subprocess
+import sys
+import time
+
+import numpy as np
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(
+    os.path.abspath(__file__))))
+VERIFICATION = os.path.join(ROOT, "parameter_files", "verification")
+
+MPI_ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_mpi_yield_when_idle": "1",
+}
+
+
+class Failure(Exception):
+    """A test that did not pass; the text is the line a person reads."""
+
+
+def arguments(description):
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--quoin", required=True, help="the executable")
+    parser.add_argument("--results", help="folder for the one-line results "
+                        "(default: verification_results beside quoin)")
+    return parser
+
+
+def results_folder(options):
+    folder = options.results or os.path.join(
+        os.path.dirname(os.path.abspath(options.quoin)),
+        "verification_results")
+    os.makedirs(folder, exist_ok=True)
+    return folder
+
+
+def write_result(folder, name, **values):
+    with open(os.path.join(folder, name + ".json"), "w") as stream:
+        json.dump(dict(case=name, **values), stream)
+        stream.write("\n")
+
+
+def command(quoin, prm, output, sets=(), ranks=1, extra=()):
+    words = [os.path.abspath(quoin), prm, "--output", output, "--quiet"]
+    for value in sets:
+        words += ["--set", value]
+    words += list(extra)
+    if ranks > 1:
+        words = ["mpirun", "--oversubscribe", "-np", str(ranks)] + words
+    return words
+
+
+def environment():
+    return dict(os.environ, **MPI_ENVIRONMENT)
+
+
+def run(quoin, prm, output, sets=(), ranks=1, extra=()):
+    """Runs a case; returns the seconds it took."""
+    start = time.monotonic()
+    done = subprocess.run(command(quoin, prm, output, sets, ranks, extra),
+                          env=environment(), stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True)
+    seconds = time.monotonic() - start
+    if done.returncode != 0:
+        tail = "\n".join(done.stdout.strip().splitlines()[-15:])
+        raise Failure("%s ended with exit status %d:\n%s"
+                      % (os.path.relpath(prm, ROOT), done.returncode, tail))
+    return seconds
+
+
+def read_table(path):
+    """A CSV file as {name: values}, the unit left off, and {name: unit}."""
+    if not os.path.exists(path):
+        raise Failure("%s does not exist" % path)
+    with open(path) as stream:
+        header = stream.readline().strip().split(",")
+    data = np.loadtxt(path, delimiter=",", skiprows=1, ndmin=2)
+    if data.size == 0:
+        raise Failure("%s has no rows" % path)
+    columns, units = {}, {}
+    for label, values in zip(header, data.T):
+        name, _, unit = label.partition(" [")
+        columns[name] = values
+        units[name] = unit.rstrip("]")
+    return columns, units
+
+
+def cubic(t, x, y):
+    """Interpolation by the cubic through the four nearest points."""
+    i = np.clip(np.searchsorted(x, t) - 2, 0, len(x) - 4)
+    value = np.zeros_like(t, dtype=float)
+    for j in range(4):
+        weight = np.ones_like(value)
+        for k in range(4):
+            if k != j:
+                weight *= (t - x[i + k]) / (x[i + j] - x[i + k])
+        value += weight * y[i + j]
+    return value
+
+
+def strictly_increasing(table, time_name="time"):
+    """The rows without repeated times (the last row of a repeated time)."""
+    t = table[time_name]
+    keep = np.append(np.diff(t) > 0, True)
+    return {name: values[keep] for name, values in table.items()}
+
+
+def main(body):
+    """Runs body() and turns a Failure into exit status 1 and its line."""
+    try:
+        body()
+    except Failure as failure:
+        print("FAILED: %s" % failure)
+        sys.exit(1)

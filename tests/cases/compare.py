@@ -1,0 +1,146 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Runs a case of cases.json and compares its histories with the reference.
+
+Every column of the reference but the time is compared with the column of the
+same name of histories.csv, interpolated at the reference's times. The error is
+the largest difference relative to the column's peak (its "scale" if given). A
+case may add a check of checks.py, which returns a further error.
+"""
+import json
+import os
+import sys
+import tempfile
+
+import numpy as np
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import checks  # noqa: E402
+import common  # noqa: E402
+from common import Failure  # noqa: E402
+
+
+def load_cases():
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                           "cases.json")) as stream:
+        return json.load(stream)
+
+
+def compare_columns(case, histories, units, reference, reference_units):
+    """{column: (max error, rms error)}, relative to the column's scale."""
+    histories = common.strictly_increasing(histories)
+    t = reference["time"]
+    keep = np.ones(len(t), dtype=bool)
+    for start, end in case.get("skip", []):
+        keep &= (t < start) | (t > end)
+    last = histories["time"][-1]
+    if not case.get("final"):
+        if t[-1] > last + 1e-3 * t[-1]:
+            # the reference may end later, but not by much
+            if t[-1] > last * 1.25:
+                raise Failure("the run ended at %g s, the reference at %g s"
+                              % (last, t[-1]))
+        keep &= t <= last
+    columns = case.get("columns") or [n for n in reference if n != "time"]
+    errors = {}
+    for name in columns:
+        if name not in histories:
+            raise Failure("histories.csv has no column '%s' but: %s"
+                          % (name, ", ".join(histories)))
+        if units[name] != reference_units[name]:
+            raise Failure("column '%s' is in [%s], expected [%s]"
+                          % (name, units[name], reference_units[name]))
+        exact = reference[name]
+        if case.get("final"):
+            value, wanted = histories[name][-1:], exact[-1:]
+        else:
+            wanted = exact[keep]
+            interpolate = common.cubic if case.get("smooth") else np.interp
+            value = interpolate(t[keep], histories["time"], histories[name])
+        scale = case.get("scale", {}).get(name) or np.max(np.abs(exact)) or 1.0
+        if not np.all(np.isfinite(value)):
+            raise Failure("column '%s' is not finite" % name)
+        difference = (value - wanted) / scale
+        errors[name] = (float(np.max(np.abs(difference))),
+                        float(np.sqrt(np.mean(difference**2))))
+    return errors
+
+
+def run_case(case, options):
+    name = case["name"]
+    folder = os.path.join(common.VERIFICATION, case["folder"])
+    with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
+        output = options.keep or scratch
+        seconds = common.run(options.quoin, os.path.join(folder, "case.prm"),
+                             output, case.get("set", []))
+        histories, units = common.read_table(
+            os.path.join(output, "histories.csv"))
+        errors = {}
+        if "reference" in case:
+            reference, reference_units = common.read_table(
+                os.path.join(folder, case["reference"]))
+            errors.update(compare_columns(case, histories, units, reference,
+                                          reference_units))
+        extra = {}
+        if "check" in case:
+            extra = getattr(checks, case["check"])(case, folder, output,
+                                                   histories)
+    tolerance = case["tolerance"]
+    failed = []
+    worst = 0.0
+    for column, (largest, rms) in errors.items():
+        bound = case.get("tolerances", {}).get(column, tolerance)
+        worst = max(worst, largest / bound * tolerance)
+        print("  %-14s max %.3e  rms %.3e  tolerance %.1e"
+              % (column, largest, rms, bound))
+        if largest > bound:
+            failed.append("%s %.3e > %.1e" % (column, largest, bound))
+    for label, (error, bound) in extra.items():
+        worst = max(worst, error / bound * tolerance)
+        print("  %-30s %.3e  tolerance %.1e" % (label, error, bound))
+        if not error <= bound:
+            failed.append("%s %.3e > %.1e" % (label, error, bound))
+    common.write_result(
+        common.results_folder(options), name, title=case["title"],
+        reference=case["source"], error=worst, tolerance=tolerance,
+        seconds=round(seconds, 2), passed=not failed,
+        errors={**{k: v[0] for k, v in errors.items()},
+                **{k: v[0] for k, v in extra.items()}})
+    if failed:
+        raise Failure("%s: %s" % (name, "; ".join(failed)))
+    print("passed: %s: error %.2e, tolerance %.1e, %.1f s"
+          % (name, worst, tolerance, seconds))
+
+
+def main():
+    parser = common.arguments(__doc__.splitlines()[0])
+    parser.add_argument("cases", nargs="*", help="names; none: all of them")
+    parser.add_argument("--keep", help="output folder to keep")
+    parser.add_argument("--list", action="store_true", help="names only")
+    options = parser.parse_args()
+    cases = load_cases()
+    if options.list:
+        print("\n".join(case["name"] for case in cases))
+        return
+    known = {case["name"]: case for case in cases}
+    for name in options.cases:
+        if name not in known:
+            raise Failure("no case '%s'; there are: %s"
+                          % (name, ", ".join(known)))
+    failures = []
+    for name in options.cases or known:
+        print(name)
+        try:
+            run_case(known[name], options)
+        except Failure as failure:
+            print("FAILED: %s" % failure)
+            failures.append(name)
+    if failures:
+        raise Failure("%d of %d cases: %s"
+                      % (len(failures), len(options.cases or known),
+                         ", ".join(failures)))
+
+
+if __name__ == "__main__":
+    common.main(main)

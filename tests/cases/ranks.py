@@ -1,0 +1,83 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""The same answer on 1, 2 and 4 ranks to 1e-10, and bitwise on a repeat.
+
+The five blocks of the patch test, loaded suddenly and undamped.
+"""
+import os
+import sys
+import tempfile
+import time
+
+import numpy as np
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import common  # noqa: E402
+from common import Failure  # noqa: E402
+
+SETS = ["Stages/load/End=time", "Stages/load/Duration=5e-3",
+        "Stages/load/Damping=none", "Histories/Interval=1e-5"]
+TOLERANCE = 1e-10
+
+
+def tables(folder):
+    histories, _ = common.read_table(os.path.join(folder, "histories.csv"))
+    energies, _ = common.read_table(os.path.join(folder, "energies.csv"))
+    # the residual is a difference: rounding of the others
+    energies.pop("residual", None)
+    energies.pop("time")
+    histories.update(("energy " + k, v) for k, v in energies.items())
+    return histories
+
+
+def body():
+    options = common.arguments(__doc__.splitlines()[0]).parse_args()
+    prm = os.path.join(common.VERIFICATION, "patch_test", "case.prm")
+    worst, different = 0.0, []
+    start = time.monotonic()
+    with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
+        def run(name, ranks):
+            output = os.path.join(scratch, name)
+            common.run(options.quoin, prm, output, SETS, ranks)
+            return output
+
+        one = tables(run("1", 1))
+        peak = max(np.max(np.abs(v)) for k, v in one.items()
+                   if k.startswith("energy "))
+        for ranks in (2, 4):
+            output = run(str(ranks), ranks)
+            many = tables(output)
+            for name, values in one.items():
+                other = many.get(name)
+                if other is None or other.shape != values.shape:
+                    raise Failure("%d ranks: column '%s' differs in length"
+                                  % (ranks, name))
+                scale = peak if name.startswith("energy ") \
+                    else np.max(np.abs(values)) or 1.0
+                error = float(np.max(np.abs(other - values)) / scale)
+                worst = max(worst, error)
+                if not error <= TOLERANCE:
+                    different.append("'%s' by %.1e on %d ranks"
+                                     % (name, error, ranks))
+            print("  up to %d ranks: largest difference %.2e"
+                  % (ranks, worst))
+        again = run("2 again", 2)
+        for name in ("histories.csv", "energies.csv"):
+            with open(os.path.join(scratch, "2", name), "rb") as first, \
+                    open(os.path.join(again, name), "rb") as second:
+                if first.read() != second.read():
+                    raise Failure("2 ranks twice: %s is not bitwise the same"
+                                  % name)
+    common.write_result(
+        common.results_folder(options), "ranks",
+        title="1, 2 and 4 ranks", reference="1 rank", error=worst,
+        tolerance=TOLERANCE, seconds=round(time.monotonic() - start, 2),
+        passed=not different)
+    if different:
+        raise Failure("columns differ: " + ", ".join(different))
+    print("passed: ranks: 1, 2 and 4 agree to %.2e" % worst)
+
+
+if __name__ == "__main__":
+    common.main(body)

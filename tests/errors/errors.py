@@ -1,0 +1,281 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""What quoin says and does when something is wrong.
+
+errors.json lists wrong inputs: exit status 1, a message with the words under
+"says", and nothing written. The functions below are the failures of a run.
+"""
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
+                   OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                   OMPI_MCA_rmaps_base_oversubscribe="1",
+                   OMPI_MCA_mpi_yield_when_idle="1")
+
+
+class Failure(Exception):
+    pass
+
+
+class Skip(Exception):
+    pass
+
+
+def run(words, **more):
+    """Exit status and everything printed."""
+    done = subprocess.run(words, env=ENVIRONMENT, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, text=True, timeout=120,
+                          **more)
+    return done.returncode, done.stdout
+
+
+def prepare(folder, edit=None):
+    """Copies the base case; returns the parameter file."""
+    for name in ("base.geo", "crack.geo"):
+        shutil.copy(os.path.join(HERE, name), folder)
+    with open(os.path.join(HERE, "base.prm")) as stream:
+        text = stream.read()
+    if edit:
+        if edit[0] not in text:
+            raise Failure("the base case has no '%s' to replace" % edit[0])
+        text = text.replace(edit[0], edit[1], 1)
+    path = os.path.join(folder, "case.prm")
+    with open(path, "w") as stream:
+        stream.write(text)
+    return path
+
+
+def expect(status, printed, wanted_status, words):
+    if status != wanted_status:
+        raise Failure("exit status %d, not %d; it printed:\n%s"
+                      % (status, wanted_status, printed.strip()[-1500:]))
+    missing = [word for word in words
+               if word.lower() not in printed.lower()]
+    if missing:
+        raise Failure("the message lacks %s; it is:\n%s"
+                      % (", ".join("'%s'" % word for word in missing),
+                         printed.strip()[-1500:]))
+    for alien in ("terminate called", "Aborted", "Segmentation",
+                  "Additional information", "An error occurred in line",
+                  "Signal:"):
+        if alien in printed:
+            raise Failure("the message is a crash report:\n%s"
+                          % printed.strip()[-1500:])
+
+
+def settings(case):
+    words = []
+    for value in case.get("set", []):
+        words += ["--set", value]
+    return words
+
+
+def wrong_input(quoin, case, folder):
+    prm = prepare(folder, case.get("edit"))
+    if "prm" in case:
+        prm = os.path.join(folder, case["prm"])
+    before = set(os.listdir(folder))
+    output = os.path.join(folder, "output")
+    status, printed = run([quoin, prm, "--output", output] + settings(case))
+    expect(status, printed, 1, case["says"])
+    if os.path.exists(os.path.join(output, "histories.csv")):
+        raise Failure("histories.csv was written all the same")
+    stray = set(os.listdir(folder)) - before - {"output"}
+    if stray:
+        raise Failure("it left behind %s" % ", ".join(sorted(stray)))
+    return printed
+
+
+# -- failures of another kind -------------------------------------------------
+
+def base_case_runs(quoin, folder):
+    """The base case itself is right, or the others would prove nothing."""
+    prm = prepare(folder)
+    status, printed = run([quoin, prm, "--quiet"])
+    expect(status, printed, 0, [])
+    if not os.path.exists(os.path.join(folder, "output", "histories.csv")):
+        raise Failure("no output/histories.csv beside the parameter file")
+
+
+def check_writes_nothing(quoin, folder):
+    """--check reads and builds everything and writes nothing."""
+    prm = prepare(folder)
+    before = set(os.listdir(folder))
+    status, printed = run([quoin, prm, "--check"])
+    expect(status, printed, 0, [])
+    stray = set(os.listdir(folder)) - before
+    if stray:
+        raise Failure("--check left behind %s" % ", ".join(sorted(stray)))
+
+
+def no_arguments(quoin, folder):
+    """No parameter file at all: how to call it."""
+    status, printed = run([quoin])
+    if status == 0:
+        raise Failure("exit status 0 without a parameter file")
+    expect(status, printed, 1, [".prm"])
+
+
+def unknown_option(quoin, folder):
+    """An unknown option is named."""
+    status, printed = run([quoin, prepare(folder), "--frobnicate"])
+    expect(status, printed, 1, ["--frobnicate"])
+
+
+def output_below_a_file(quoin, folder):
+    """An output directory that cannot be made."""
+    prm = prepare(folder)
+    blocked = os.path.join(folder, "file")
+    open(blocked, "w").close()
+    output = os.path.join(blocked, "output")
+    status, printed = run([quoin, prm, "--output", output])
+    expect(status, printed, 1, [output])
+
+
+def full_disk(quoin, folder):
+    """A disk that fills up: the file is named, the run ends with 2."""
+    if os.geteuid() != 0 or not shutil.which("unshare"):
+        raise Skip("needs root and unshare")
+    tiny = os.path.join(folder, "tiny")
+    os.mkdir(tiny)
+    mount = "mount -t tmpfs -o size=256k tmpfs '%s'" % tiny
+    if run(["unshare", "-m", "sh", "-c", mount])[0] != 0:
+        raise Skip("no mount namespace here")
+    prm = prepare(folder)
+    script = "%s && exec '%s' '%s' --output '%s/output' " \
+        "--set 'Stages/first/Duration=2' --set 'Histories/Interval=0'" % (
+            mount, quoin, prm, tiny)
+    status, printed = run(["unshare", "-m", "sh", "-c", script])
+    expect(status, printed, 2, [tiny + "/output", "space"])
+
+
+def fail_and_resume(quoin, folder, end):
+    prm = prepare(folder)
+    output = os.path.join(folder, "output")
+    words = [quoin, prm, "--output", output, "--set",
+             "Loads/push/Vertical=if(T > 1.5e-3, sqrt(1.5e-3 - T), -1e5)",
+             "--set", "Stages/second/Duration=%g" % end]
+    status, printed = run(words)
+    expect(status, printed, 2, ["time"])
+    if "block" not in printed.lower() and "push" not in printed.lower():
+        raise Failure("neither the block nor the load is named:\n%s"
+                      % printed[-1500:])
+    if not os.path.exists(os.path.join(output, "histories.csv")):
+        raise Failure("the histories are gone")
+    # what was kept is the end of the first stage: it fails in the same way
+    status, again = run(words + ["--resume"])
+    expect(status, again, 2, ["time"])
+
+
+def no_number(quoin, folder):
+    """A load that is no number: block or load, time, intact checkpoint."""
+    fail_and_resume(quoin, folder, 0.1)
+
+
+def no_number_at_the_end(quoin, folder):
+    """The same a few steps before the end of a stage."""
+    fail_and_resume(quoin, folder, 1e-3)
+
+
+def runaway(quoin, folder):
+    """A block that accelerates without bound ends the run with its name."""
+    prm = prepare(folder)
+    status, printed = run([
+        quoin, prm, "--output", os.path.join(folder, "output"),
+        "--set", "Loads/push/Vertical=-1e5*exp(1e6*t)"])
+    expect(status, printed, 2, ["block", "time"])
+
+
+def other_ranks(quoin, folder):
+    """A checkpoint of one rank resumed with two."""
+    if not shutil.which("mpirun"):
+        raise Skip("no mpirun")
+    prm = prepare(folder)
+    output = os.path.join(folder, "output")
+    status, printed = run([quoin, prm, "--output", output])
+    expect(status, printed, 0, [])
+    status, printed = run([
+        "mpirun", "--oversubscribe", "-np", "2", quoin, prm, "--output",
+        output, "--resume"])
+    expect(status, printed, 1, ["1 MPI rank", "2", "same number"])
+
+
+def other_parameters(quoin, folder):
+    """A checkpoint of other parameters."""
+    prm = prepare(folder)
+    output = os.path.join(folder, "output")
+    status, printed = run([quoin, prm, "--output", output])
+    expect(status, printed, 0, [])
+    status, printed = run([quoin, prm, "--output", output, "--resume",
+                           "--set", "Joints/bed/Friction angle=20"])
+    expect(status, printed, 1, ["parameters", "without --resume"])
+
+
+def nothing_to_resume(quoin, folder):
+    """--resume without a checkpoint."""
+    prm = prepare(folder)
+    status, printed = run([quoin, prm, "--resume", "--output",
+                           os.path.join(folder, "output")])
+    expect(status, printed, 1, ["checkpoint", "--resume"])
+
+
+FUNCTIONS = [base_case_runs, check_writes_nothing, no_arguments,
+             unknown_option, output_below_a_file, full_disk, no_number,
+             no_number_at_the_end, runaway, other_ranks, other_parameters,
+             nothing_to_resume]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quoin", required=True, help="the executable")
+    parser.add_argument("--only", help="those whose name contains this")
+    parser.add_argument("--show", action="store_true",
+                        help="print the messages")
+    parser.add_argument("--list", action="store_true", help="names only")
+    options = parser.parse_args()
+    quoin = os.path.abspath(options.quoin)
+
+    with open(os.path.join(HERE, "errors.json")) as stream:
+        tests = [(case["name"], lambda folder, case=case:
+                  wrong_input(quoin, case, folder))
+                 for case in json.load(stream)]
+    tests += [(function.__name__.replace("_", " "),
+               lambda folder, function=function: function(quoin, folder))
+              for function in FUNCTIONS]
+    if options.only:
+        tests = [test for test in tests if options.only in test[0]]
+    if options.list:
+        print("\n".join(name for name, _ in tests))
+        return
+
+    passed = failed = skipped = 0
+    for name, test in tests:
+        with tempfile.TemporaryDirectory(prefix="quoin_") as folder:
+            try:
+                printed = test(folder)
+                passed += 1
+                if options.show:
+                    print("ok: %s\n%s" % (name, printed or ""))
+            except Skip as why:
+                skipped += 1
+                print("skipped: %s: %s" % (name, why))
+            except subprocess.TimeoutExpired:
+                failed += 1
+                print("FAILED: %s: still running after 120 s" % name)
+            except Failure as failure:
+                failed += 1
+                print("FAILED: %s: %s" % (name, failure))
+    print("%d passed, %d failed, %d skipped" % (passed, failed, skipped))
+    sys.exit(1 if failed or not passed else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "test_meshes.h"
+
+#include <quoin/mesh/block_numbering.h>
+#include <quoin/mesh/block_splitter.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <map>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  /** n x n blocks of 2 x 2 squares, with a named bottom. */
+  MeshData tiles(const unsigned int n)
+  {
+    MeshData data;
+    add_grid(data, 2 * n, 2 * n, "rock");
+    for (unsigned int i = 1; i < n; ++i)
+    {
+      add_curve(data, "joint", 2. * i, 0, 2. * i, 2. * n);
+      add_curve(data, "joint", 0, 2. * i, 2. * n, 2. * i);
+    }
+    add_curve(data, "bottom", 0, 0, 2. * n, 0);
+    return data;
+  }
+
+  void split(const MeshData &data, BlockMesh<2> &mesh)
+  {
+    SplitOptions options;
+    options.joints_along = { "joint" };
+    split_into_blocks(data, options, mesh);
+  }
+
+  dealii::Point<2> corner(const BlockMesh<2> &mesh, const unsigned int block)
+  {
+    dealii::Point<2> p = mesh.vertices[mesh.block_first_vertex[block]];
+    for (unsigned int v = mesh.block_first_vertex[block];
+         v < mesh.block_first_vertex[block + 1]; ++v)
+      for (unsigned int d = 0; d < 2; ++d)
+        p[d] = std::min(p[d], mesh.vertices[v][d]);
+    return p;
+  }
+} // namespace
+
+TEST(BlockNumbering, FollowsTheBoundaryOfEachBlock)
+{
+  BlockMesh<2> mesh;
+  split(tiles(3), mesh);
+  expect_consistent(mesh, 36.);
+  ASSERT_EQ(mesh.n_blocks(), 9U);
+  for (unsigned int b = 0; b < 9; ++b)
+  {
+    const unsigned int first = mesh.block_first_vertex[b];
+    EXPECT_EQ(mesh.block_first_vertex[b + 1] - first, 9U);
+    for (unsigned int k = 0; k < 8; ++k)
+      EXPECT_NEAR(
+          mesh.vertices[first + k].distance(mesh.vertices[first + (k + 1) % 8]),
+          1., 1e-12);
+  }
+}
+
+TEST(BlockNumbering, PermutesBlocks)
+{
+  BlockMesh<2> mesh, permuted;
+  split(tiles(2), mesh);
+  const std::vector<unsigned int> order = { 2, 0, 3, 1 };
+  SplitOptions options;
+  options.joints_along = { "joint" };
+  split_into_blocks(tiles(2), options, permuted, &order);
+  expect_consistent(permuted, 16.);
+  for (unsigned int b = 0; b < 4; ++b)
+    EXPECT_EQ(corner(permuted, b), corner(mesh, order[b]));
+
+  build_triangulation(mesh);
+  renumber_blocks(mesh, order);
+  EXPECT_EQ(mesh.cells, permuted.cells);
+  EXPECT_EQ(mesh.triangulation.get_vertices(), mesh.vertices);
+  EXPECT_ANY_THROW(renumber_blocks(mesh, { 0, 1, 2 }));
+  EXPECT_ANY_THROW(renumber_blocks(mesh, { 0, 1, 2, 2 }));
+}
+
+TEST(BlockNumbering, PartitionsWholeBlocks)
+{
+  BlockMesh<2> mesh;
+  split(tiles(8), mesh);
+  const auto part = partition_blocks(mesh, 4);
+  std::vector<unsigned int> load(4, 0);
+  ASSERT_EQ(part.size(), 64U);
+  for (const unsigned int p : part)
+    ++load.at(p);
+  for (const unsigned int l : load)
+    EXPECT_NEAR(l, 16, 2);
+
+  const auto order = order_by_part(part);
+  renumber_blocks(mesh, order);
+  expect_consistent(mesh, 256.);
+  for (unsigned int b = 1; b < 64; ++b)
+  {
+    EXPECT_LE(part[order[b - 1]], part[order[b]]);
+    if (part[order[b - 1]] == part[order[b]])
+    {
+      EXPECT_LT(order[b - 1], order[b]);
+    }
+  }
+}
+
+TEST(BlockNumbering, PartitionsWithFewBlocks)
+{
+  BlockMesh<2> mesh;
+  split(tiles(2), mesh);
+  EXPECT_EQ(partition_blocks(mesh, 1), std::vector<unsigned int>(4, 0));
+  const std::vector<unsigned int> one_each = { 0, 1, 2, 3 };
+  EXPECT_EQ(partition_blocks(mesh, 4), one_each);
+  EXPECT_EQ(partition_blocks(mesh, 9), one_each);
+
+  // A large block and small ones: no part may be empty.
+  MeshData data;
+  add_grid(data, 10, 10, "rock");
+  for (unsigned int i = 0; i < 4; ++i)
+    add_grid(data, 1, 1, "rock", 20. + 2 * i, 0.);
+  split_into_blocks(data, {}, mesh);
+  ASSERT_EQ(mesh.n_blocks(), 5U);
+  std::vector<unsigned int> load(3, 0);
+  for (const unsigned int p : partition_blocks(mesh, 3))
+    ++load.at(p);
+  std::sort(load.begin(), load.end());
+  EXPECT_EQ(load, (std::vector<unsigned int>{ 1, 2, 2 }));
+}
+
+TEST(BlockMesh, BuildsATriangulationWithTheSameNumbers)
+{
+  MeshData data = tiles(3);
+  add_curve(data, "crack", 1, 4, 1, 6);
+  SplitOptions options;
+  options.joints_along = { "joint", "crack" };
+  BlockMesh<2> mesh;
+  split_into_blocks(data, options, mesh);
+  build_triangulation(mesh);
+
+  EXPECT_EQ(mesh.triangulation.get_vertices(), mesh.vertices);
+  ASSERT_EQ(mesh.triangulation.n_active_cells(), mesh.n_cells());
+  std::map<unsigned int, unsigned int> n_faces;
+  for (const auto &cell : mesh.triangulation.active_cell_iterators())
+  {
+    const unsigned int c = cell->active_cell_index();
+    EXPECT_EQ(cell->material_id(), mesh.cell_group[c]);
+    for (unsigned int k = 0; k < 3; ++k)
+    {
+      EXPECT_EQ(cell->vertex_index(k), mesh.cells[c][k]);
+      if (cell->face(k)->at_boundary())
+        ++n_faces[cell->face(k)->boundary_id()];
+    }
+  }
+  EXPECT_EQ(n_faces[index_of("bottom", data.line_names)], 6U);
+  EXPECT_EQ(n_faces[index_of("joint", data.line_names)], 48U);
+  EXPECT_EQ(n_faces[index_of("crack", data.line_names)], 4U);
+  EXPECT_EQ(n_faces[0], 18U);
+}
+
+TEST(BlockMesh, BuildsATriangulationWithACrackOfOneEdge)
+{
+  MeshData data;
+  add_grid(data, 3, 3, "rock");
+  add_curve(data, "crack", 1, 1, 2, 1);
+  SplitOptions options;
+  options.joints_along = { "crack" };
+  BlockMesh<2> mesh;
+  split_into_blocks(data, options, mesh);
+  ASSERT_EQ(mesh.joint_faces.size(), 1U);
+  EXPECT_EQ(mesh.joint_faces[0].lower, mesh.joint_faces[0].upper);
+  build_triangulation(mesh);
+  EXPECT_EQ(mesh.triangulation.n_active_cells(), 18U);
+}
+
+TEST(MeshData, SurvivesSerialization)
+{
+  const MeshData data = tiles(2);
+  const MeshData copy = dealii::Utilities::unpack<MeshData>(
+      dealii::Utilities::pack(data, false), false);
+  EXPECT_EQ(copy.vertices, data.vertices);
+  EXPECT_EQ(copy.triangles, data.triangles);
+  EXPECT_EQ(copy.triangle_group, data.triangle_group);
+  EXPECT_EQ(copy.lines, data.lines);
+  EXPECT_EQ(copy.line_name, data.line_name);
+  EXPECT_EQ(copy.group_names, data.group_names);
+  EXPECT_EQ(copy.line_names, data.line_names);
+  EXPECT_EQ(copy.source, data.source);
+}
+
+TEST(MeshData, TurnsClockwiseTrianglesAndRefusesFlatOnes)
+{
+  MeshData data;
+  add_grid(data, 1, 1, "rock");
+  std::swap(data.triangles[1][0], data.triangles[1][1]);
+  orient_triangles(data);
+  EXPECT_EQ(data.n_reoriented, 1U);
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  expect_consistent(mesh, 1.);
+  EXPECT_EQ(mesh.n_reoriented_cells, 1U);
+
+  data.vertices[2] = dealii::Point<2>(2., 2.);
+  expect_input_error([&] { orient_triangles(data); },
+                     { "has no area", "(0, 0)", "(2, 2)" });
+}

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "test_meshes.h"
+
+#include <quoin/mesh/block_splitter.h>
+#include <quoin/mesh/gmsh_reader.h>
+#include <quoin/mesh/mesh_report.h>
+
+#include <gmsh.h>
+
+#include <fstream>
+#include <map>
+#include <set>
+#include <utility>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  std::string write(const std::string &name, const std::string &text)
+  {
+    const std::string path = ::testing::TempDir() + "/quoin_" + name;
+    std::ofstream(path) << text;
+    return path;
+  }
+
+  /** Two unit squares with a joint between them. */
+  const std::string two_squares
+      = "Point(1) = {0, 0, 0, 0.5}; Point(2) = {1, 0, 0, 0.5};\n"
+        "Point(3) = {2, 0, 0, 0.5}; Point(4) = {0, 1, 0, 0.5};\n"
+        "Point(5) = {1, 1, 0, 0.5}; Point(6) = {2, 1, 0, 0.5};\n"
+        "Line(1) = {1, 2}; Line(2) = {2, 5}; Line(3) = {5, 4};\n"
+        "Line(4) = {4, 1}; Line(5) = {2, 3}; Line(6) = {3, 6};\n"
+        "Line(7) = {6, 5};\n"
+        "Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};\n"
+        "Curve Loop(2) = {5, 6, 7, -2}; Plane Surface(2) = {2};\n";
+  const std::string names
+      = "Physical Surface(\"left\") = {1}; Physical Surface(\"right\") = {2};\n"
+        "Physical Curve(\"joint\") = {2}; Physical Curve(\"base\") = {1, 5};\n";
+
+  /** The same, two triangles each, as text of format 2.2. */
+  std::string msh2(const std::string &nodes, const std::string &elements)
+  {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+           "$PhysicalNames\n3\n1 7 \"joint\"\n2 1 \"left\"\n2 2 \"right\"\n"
+           "$EndPhysicalNames\n$Nodes\n"
+           + nodes + "$EndNodes\n$Elements\n" + elements + "$EndElements\n";
+  }
+  const std::string nodes    = "6\n1 0 0 0\n2 1 0 0\n3 2 0 0\n"
+                               "4 0 1 0\n5 1 1 0\n60 2 1 0\n";
+  const std::string elements = "5\n1 1 2 7 1 2 5\n2 2 2 1 1 1 2 5\n"
+                               "3 2 2 1 1 1 5 4\n4 2 2 2 2 2 3 60\n"
+                               "5 2 2 2 2 2 60 5\n";
+
+  void expect_two_squares(const MeshData &data)
+  {
+    EXPECT_EQ(data.group_names, (std::vector<std::string>{ "left", "right" }));
+    SplitOptions options;
+    options.joints_along = { "joint" };
+    BlockMesh<2> mesh;
+    split_into_blocks(data, options, mesh);
+    expect_consistent(mesh, 2.);
+    EXPECT_EQ(mesh.n_blocks(), 2U);
+    EXPECT_DOUBLE_EQ(make_mesh_report(mesh).joint_length.at("joint"), 1.);
+    for (const JointFace &face : mesh.joint_faces)
+      EXPECT_EQ(face.groups, (std::array<unsigned int, 2>{ { 0, 1 } }));
+  }
+
+  void expect_refused(const std::string &path,
+                      const std::vector<std::string> &parts)
+  {
+    std::vector<std::string> all = { path };
+    all.insert(all.end(), parts.begin(), parts.end());
+    expect_input_error([&] { read_gmsh(path); }, all);
+  }
+} // namespace
+
+TEST(GmshReader, MeshesAGeometry)
+{
+  const std::string path = write("two.geo", two_squares + names);
+  const MeshData data    = read_gmsh(path);
+  EXPECT_EQ(data.line_names, (std::vector<std::string>{ "", "base", "joint" }));
+  EXPECT_EQ(data.source, path);
+  EXPECT_EQ(data.n_reoriented, 0U);
+  expect_two_squares(data);
+  expect_two_squares(read_gmsh(path, MPI_COMM_WORLD));
+}
+
+TEST(GmshReader, ReadsFormat22)
+{
+  const MeshData data = read_gmsh(write("two22.msh", msh2(nodes, elements)));
+  EXPECT_EQ(data.vertices.size(), 6U);
+  EXPECT_EQ(data.triangles.size(), 4U);
+  EXPECT_EQ(data.lines.size(), 1U);
+  expect_two_squares(data);
+}
+
+TEST(GmshReader, ReadsAllFormatsThatGmshWrites)
+{
+  const std::string geo   = write("formats.geo", two_squares + names);
+  const std::string files = ::testing::TempDir() + "/quoin_format_";
+  gmsh::initialize();
+  gmsh::option::setNumber("General.Terminal", 0);
+  gmsh::open(geo);
+  gmsh::model::mesh::generate(2);
+  for (const double version : { 2.2, 4.1 })
+    for (const int binary : { 0, 1 })
+    {
+      gmsh::option::setNumber("Mesh.MshFileVersion", version);
+      gmsh::option::setNumber("Mesh.Binary", binary);
+      gmsh::write(files + std::to_string(binary)
+                  + (version < 3. ? "22.msh" : "41.msh"));
+    }
+  gmsh::finalize();
+
+  const MeshData expected = read_gmsh(geo);
+  for (const char *end : { "022.msh", "122.msh", "041.msh", "141.msh" })
+  {
+    SCOPED_TRACE(end);
+    const MeshData data = read_gmsh(files + end);
+    expect_two_squares(data);
+    EXPECT_EQ(data.triangles.size(), expected.triangles.size());
+    EXPECT_EQ(data.vertices.size(), expected.vertices.size());
+    EXPECT_EQ(data.lines.size(), expected.lines.size());
+  }
+}
+
+TEST(GmshReader, KeepsCoincidentNodesApart)
+{
+  const MeshData data = read_gmsh(
+      write("apart.msh",
+            msh2("8\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n"
+                 "12 1 0 0\n15 1 1 0\n",
+                 "5\n1 1 2 7 1 12 15\n2 2 2 1 1 1 2 5\n3 2 2 1 1 1 5 4\n"
+                 "4 2 2 2 2 12 3 6\n5 2 2 2 2 12 6 15\n")));
+  EXPECT_EQ(data.vertices.size(), 8U);
+  expect_two_squares(data);
+}
+
+TEST(GmshReader, TurnsClockwiseSurfaces)
+{
+  std::string geometry = two_squares;
+  geometry.replace(geometry.find("{1, 2, 3, 4}"), 12, "{-4, -3, -2, -1}");
+  const MeshData data = read_gmsh(write("clockwise.geo", geometry + names));
+  EXPECT_GT(data.n_reoriented, 0U);
+  expect_two_squares(data);
+}
+
+TEST(GmshReader, RefusesFilesItCannotRead)
+{
+  expect_refused("nowhere/wall.geo", { "no such file", "Mesh/File" });
+  expect_refused(::testing::TempDir(), { "cannot be read" });
+  expect_refused(write("mesh.txt", "x"), { "'.txt'", ".geo", ".msh" });
+  expect_refused(write("empty.msh", ""), { "empty" });
+  expect_refused(write("garbage.msh", "$MeshFormat\nnonsense\n"), { "gmsh" });
+  expect_refused(write("syntax.geo", "Point(1) = {0, 0;\nLine(1 = 2\n"),
+                 { "gmsh could not", "syntax error", "line 1" });
+  expect_refused(write("words.msh", "no mesh at all\n"), { "Mesh '" });
+  expect_input_error([] { read_gmsh("nowhere/wall.geo", MPI_COMM_WORLD); },
+                     { "no such file" });
+}
+
+TEST(GmshReader, RefusesMeshesWithoutTriangles)
+{
+  expect_refused(write("points.geo",
+                       "Point(1) = {0, 0, 0, 1}; Point(2) = {1, 0, 0, 1};\n"
+                       "Line(1) = {1, 2}; Physical Curve(\"a\") = {1};\n"),
+                 { "no triangles", "gmsh -2" });
+  expect_refused(write("lines.msh", msh2(nodes, "1\n1 1 2 7 1 2 5\n")),
+                 { "no triangles" });
+}
+
+TEST(GmshReader, WantsEverySurfaceNamed)
+{
+  expect_refused(write("none.geo", two_squares),
+                 { "no physical group holds the surfaces 1, 2" });
+  expect_refused(
+      write("some.geo", two_squares + "Physical Surface(\"a\") = {1};\n"),
+      { "no physical group holds the surface 2" });
+  expect_refused(
+      write("unnamed.geo", two_squares + "Physical Surface(4) = {1, 2};\n"),
+      { "physical surface 4 has no name", "Physical Surface(" });
+  expect_refused(
+      write("several.geo", two_squares
+                               + "Physical Surface(\"a\") = {1, 2};\n"
+                                 "Physical Surface(\"b\") = {2};\n"),
+      { "surface 2 is in several physical surfaces (1, 2)" });
+  expect_refused(write("zero.msh", msh2(nodes, "1\n2 2 2 0 1 1 2 5\n")),
+                 { "no physical group" });
+}
+
+TEST(GmshReader, WantsCurvesInOneGroup)
+{
+  expect_refused(
+      write("curves.geo",
+            two_squares + names + "Physical Curve(\"other\") = {2};\n"),
+      { "curve 2 is in several physical curves" });
+  expect_refused(write("curve.geo", two_squares
+                                        + "Physical Surface(\"a\") = {1, 2};\n"
+                                          "Physical Curve(9) = {2};\n"),
+                 { "physical curve 9 has no name" });
+}
+
+TEST(GmshReader, WantsPlaneStraightTriangles)
+{
+  expect_refused(
+      write("quads.geo", two_squares + names + "Recombine Surface{1};\n"),
+      { "surface 1", "Quad", "Recombine" });
+  expect_refused(
+      write("order.geo", "Mesh.ElementOrder = 2;\n" + two_squares + names),
+      { "surface 1", "Triangle 6", "ElementOrder" });
+  std::string raised = nodes;
+  raised.replace(raised.find("60 2 1 0"), 8, "60 2 1 .1");
+  expect_refused(write("raised.msh", msh2(raised, elements)),
+                 { "node 60 at (2, 1, 0.1) is off the plane" });
+  std::string flat = nodes;
+  flat.replace(flat.find("60 2 1 0"), 8, "60 3 0 0");
+  expect_refused(write("flat.msh", msh2(flat, elements)),
+                 { "has no area", "(3, 0)" });
+}
+
+TEST(GmshReader, RefusesUndefinedNodes)
+{
+  std::string wrong = elements;
+  wrong.replace(wrong.find("2 3 60"), 6, "2 3 61");
+  expect_refused(write("undefined.msh", msh2(nodes, wrong)), { "61" });
+}
+
+TEST(MasonryWall, HasTheBlocksAndJointsOfTheTests)
+{
+  const MeshData data
+      = read_gmsh(QUOIN_SOURCE_DIR "/meshes/tue_solid_wall.geo");
+  SplitOptions options;
+  options.joints_along = { "bed", "beam_joint", "head", "crack" };
+  options.joint_ends   = SplitOptions::refuse;
+  BlockMesh<2> mesh;
+  split_into_blocks(data, options, mesh);
+
+  expect_consistent(mesh, 0.99 * (1. + 2 * 0.0625));
+  EXPECT_EQ(mesh.n_blocks(), 16U * 9U + 2U);
+  const MeshReport report = make_mesh_report(mesh);
+  EXPECT_NEAR(report.joint_length.at("bed"), 15 * 0.99, 1e-9);
+  EXPECT_NEAR(report.joint_length.at("beam_joint"), 2 * 0.99, 1e-9);
+  EXPECT_NEAR(report.joint_length.at("head"), 64 * 0.0625, 1e-9);
+  EXPECT_NEAR(report.joint_length.at("crack"), 64 * 0.0625, 1e-9);
+
+  // Odd courses have their first head joint after a unit, even ones after half
+  // a unit; the other columns of half units are cracks.
+  std::map<std::string, std::set<std::pair<long, long>>> places;
+  for (const JointFace &face : mesh.joint_faces)
+    for (const unsigned int v : face.lower)
+    {
+      const auto &p = mesh.vertices[v];
+      if (std::abs(p[1] / 0.0625 - std::lround(p[1] / 0.0625)) < 1e-6)
+        places[mesh.line_names[face.name]].insert(
+            { std::lround(p[0] / 0.11), std::lround(p[1] / 0.0625) });
+    }
+  EXPECT_EQ(places["head"].size(), 128U);
+  EXPECT_EQ(places["head"].count({ 2, 0 }), 1U);
+  EXPECT_EQ(places["head"].count({ 2, 1 }), 1U);
+  EXPECT_EQ(places["head"].count({ 1, 0 }), 0U);
+  EXPECT_EQ(places["head"].count({ 1, 2 }), 1U);
+  EXPECT_EQ(places["crack"].count({ 1, 0 }), 1U);
+
+  // Two triangles in each corner of a half unit.
+  std::vector<unsigned int> n_cells(mesh.n_vertices(), 0);
+  for (const auto &cell : mesh.cells)
+    for (const unsigned int v : cell)
+      ++n_cells[v];
+  for (const unsigned int n : n_cells)
+    EXPECT_GE(n, 2U);
+}

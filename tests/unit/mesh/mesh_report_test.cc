@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "test_meshes.h"
+
+#include <quoin/mesh/block_splitter.h>
+#include <quoin/mesh/mesh_report.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+TEST(MeshReport, CountsAndMeasures)
+{
+  MeshData data;
+  add_grid(data, 4, 2, "rock", -1.);
+  add_curve(data, "bed", -1, 1, 3, 1);
+  add_curve(data, "crack", 1, 1, 1, 2);
+  SplitOptions options;
+  options.joints_along = { "bed", "crack" };
+  BlockMesh<2> mesh;
+  split_into_blocks(data, options, mesh);
+  const MeshReport report = make_mesh_report(mesh);
+
+  EXPECT_EQ(report.n_blocks, 3U);
+  EXPECT_EQ(report.n_cells, 16U);
+  EXPECT_EQ(report.n_vertices, 22U);
+  EXPECT_EQ(report.n_joint_faces, 5U);
+  EXPECT_DOUBLE_EQ(report.joint_length.at("bed"), 4.);
+  EXPECT_DOUBLE_EQ(report.joint_length.at("crack"), 1.);
+  EXPECT_DOUBLE_EQ(report.total_joint_length, 5.);
+  EXPECT_DOUBLE_EQ(report.shortest_edge, 1.);
+  EXPECT_DOUBLE_EQ(report.longest_edge, std::sqrt(2.));
+  EXPECT_NEAR(report.smallest_angle, 45., 1e-9);
+  EXPECT_EQ(report.lower_left, dealii::Point<2>(-1., 0.));
+  EXPECT_EQ(report.upper_right, dealii::Point<2>(3., 2.));
+  EXPECT_EQ(report.n_joint_ends, 0U);
+  EXPECT_EQ(report.unmatched_length, 0.);
+
+  const std::string text = report.to_text();
+  EXPECT_NE(text.find("3 blocks, 16 triangles"), std::string::npos) << text;
+  EXPECT_NE(text.find("bed 4 m, crack 1 m"), std::string::npos) << text;
+  EXPECT_EQ(text.find("without matching"), std::string::npos) << text;
+}
+
+TEST(MeshReport, CountsJointEnds)
+{
+  MeshData data;
+  add_grid(data, 4, 4, "rock");
+  add_curve(data, "crack", 0, 1, 2, 1);
+  add_curve(data, "short", 1, 3, 2, 3);
+  SplitOptions options;
+  options.joints_along = { "crack", "short" };
+  BlockMesh<2> mesh;
+  split_into_blocks(data, options, mesh);
+  const MeshReport report = make_mesh_report(mesh);
+  EXPECT_EQ(report.n_joint_ends, 3U);
+  EXPECT_EQ(report.n_tied_joint_faces, 1U);
+  EXPECT_NE(report.to_text().find("cannot open"), std::string::npos);
+}
+
+TEST(MeshReport, FindsEdgesThatTouchWithoutMatching)
+{
+  // A T: two blocks of half the element size hang on the right of another.
+  MeshData data;
+  add_grid(data, 1, 1, "left");
+  add_grid(data, 2, 1, "right", 1., 0., 0.5);
+  add_grid(data, 2, 1, "right", 1., 0.5, 0.5);
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  EXPECT_EQ(mesh.n_blocks(), 3U);
+  EXPECT_EQ(mesh.joint_faces.size(), 2U); // between those on the right
+  const MeshReport report = make_mesh_report(mesh);
+  EXPECT_NEAR(report.unmatched_length, 1., 1e-12);
+  EXPECT_NEAR(report.unmatched_position[0], 1., 1e-12);
+  EXPECT_NE(report.to_text().find("along 1 m without matching"),
+            std::string::npos)
+      << report.to_text();
+}
+
+TEST(MeshReport, DoesNotMistakeCornersForContacts)
+{
+  MeshData data;
+  add_grid(data, 2, 2, "a");
+  add_grid(data, 2, 2, "b", 2., 2.);   // meets it in a point
+  add_grid(data, 2, 2, "c", 2., -2.1); // passes it
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  EXPECT_EQ(make_mesh_report(mesh).unmatched_length, 0.);
+}

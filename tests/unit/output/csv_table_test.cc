@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "temporary_directory.h"
+
+#include <quoin/base/exceptions.h>
+#include <quoin/output/csv_table.h>
+
+#include <cstdlib>
+#include <limits>
+
+using namespace quoin;
+
+namespace
+{
+  const std::vector<std::string> columns = { "time [s]", "ux [m]" };
+}
+
+TEST(CsvTable, NumbersReadBackExactly)
+{
+  for (const double value :
+       { 0., 1., 0.1, 1. / 3., -1e-300, 6.02214076e23, 5e-324 })
+    EXPECT_EQ(std::strtod(shortest_text(value).c_str(), nullptr), value);
+  EXPECT_EQ(shortest_text(0.1), "0.1");
+  EXPECT_EQ(shortest_text(std::numeric_limits<double>::quiet_NaN()), "nan");
+}
+
+TEST(CsvTable, HeaderAndRows)
+{
+  const TemporaryDirectory directory;
+  CsvTable table(directory / "h.csv", columns);
+  table.start();
+  table.add_row({ 0., 0.1 });
+  table.add_row({ 1e-3, -2.5 });
+  table.flush();
+  const std::string expected = "time [s],ux [m]\n0,0.1\n0.001,-2.5\n";
+  EXPECT_EQ(contents(directory / "h.csv"), expected);
+  EXPECT_EQ(table.size(), expected.size());
+  EXPECT_THROW(table.add_row({ 1. }), std::logic_error);
+}
+
+TEST(CsvTable, AResumedRunForgetsWhatCameAfterTheCheckpoint)
+{
+  const TemporaryDirectory directory;
+  const std::string path = directory / "h.csv";
+  std::uint64_t size     = 0;
+  {
+    CsvTable table(path, columns);
+    table.start();
+    table.add_row({ 0., 1. });
+    table.sync();
+    size = table.size();
+    table.add_row({ 1., 2. });
+    table.add_row({ 2., 3. });
+  }
+  EXPECT_GT(std::filesystem::file_size(path), size);
+
+  CsvTable table(path, columns);
+  table.resume(size);
+  EXPECT_EQ(table.size(), size);
+  table.add_row({ 1., 7. });
+  table.flush();
+  EXPECT_EQ(contents(path), "time [s],ux [m]\n0,1\n1,7\n");
+  EXPECT_EQ(table.size(), std::filesystem::file_size(path));
+}
+
+TEST(CsvTable, ATableThatDoesNotBelongToTheRunIsRefused)
+{
+  const TemporaryDirectory directory;
+  const std::string path = directory / "h.csv";
+  CsvTable table(path, columns);
+  EXPECT_NE(
+      message_of<InputError>([&]() { table.resume(1); }).find("cannot be read"),
+      std::string::npos);
+  table.start();
+  EXPECT_NE(
+      message_of<InputError>([&]() { table.resume(10000); }).find("is shorter"),
+      std::string::npos);
+  CsvTable other(path, { "time [s]", "uy [m]" });
+  EXPECT_NE(message_of<InputError>([&]() { other.resume(5); })
+                .find("has other columns"),
+            std::string::npos);
+}
+
+TEST(CsvTable, UnwritableDirectory)
+{
+  const TemporaryDirectory directory;
+  std::ofstream(directory / "file") << "not a directory";
+  CsvTable table(directory / "file/h.csv", columns);
+  EXPECT_THROW(table.start(), RunError);
+}
+
+TEST(CsvTable, FullDisk)
+{
+  const TemporaryDirectory directory;
+  std::filesystem::create_symlink("/dev/full", directory / "h.csv");
+  CsvTable table(directory / "h.csv", columns);
+  const std::string message = message_of<RunError>([&]() { table.start(); });
+  EXPECT_NE(message.find("h.csv"), std::string::npos) << message;
+  EXPECT_NE(message.find("Free some space"), std::string::npos) << message;
+}
