@@ -18,64 +18,56 @@ namespace quoin
   {
     struct Arguments
     {
-      std::string              file;
+      std::string file;
       std::vector<std::string> overrides;
-      std::string              output;
-      bool                     print_parameters = false;
-      RunOptions               run;
+      std::string output;
+      bool print_parameters = false;
+      RunOptions run;
     };
 
     /** Exit status, or -1 to go on. */
-    int
-    parse(Arguments &arguments, int argc, char **argv)
+    int parse(Arguments &arguments, int argc, char **argv)
     {
       CLI::App app("quoin: deformable blocks on joints, by explicit "
                    "distinct elements");
       app.add_option("CASE.prm", arguments.file, "The parameter file");
-      app
-        .add_option("--set",
-                    arguments.overrides,
-                    "\"Section/Name=value\": overrides the parameter file; "
-                    "may be repeated")
-        ->allow_extra_args(false);
-      app.add_option("--output",
-                     arguments.output,
+      app.add_option("--set", arguments.overrides,
+                     "\"Section/Name=value\": overrides the parameter file; "
+                     "may be repeated")
+          ->allow_extra_args(false);
+      app.add_option("--output", arguments.output,
                      "Output directory, instead of that of the file");
-      app.add_flag("--resume",
-                   arguments.run.resume,
+      app.add_flag("--resume", arguments.run.resume,
                    "Go on from the last checkpoint in the output directory");
-      app.add_flag("--check",
-                   arguments.run.check,
+      app.add_flag("--check", arguments.run.check,
                    "Read everything, report sizes and steps, do not run");
-      app.add_flag("--print-parameters",
-                   arguments.print_parameters,
+      app.add_flag("--print-parameters", arguments.print_parameters,
                    "Print all parameters with defaults and meaning");
       app.add_flag("--quiet", arguments.run.quiet, "Nothing on the screen");
       app.set_version_flag("--version", std::string(QUOIN_VERSION));
       try
-        {
-          app.parse(argc, argv);
-        }
+      {
+        app.parse(argc, argv);
+      }
       catch (const CLI::ParseError &error)
-        {
-          return app.exit(error) == 0 ? 0 : 1;
-        }
+      {
+        return app.exit(error) == 0 ? 0 : 1;
+      }
       if (arguments.print_parameters)
-        {
-          std::cout << describe_parameters();
-          return 0;
-        }
+      {
+        std::cout << describe_parameters();
+        return 0;
+      }
       if (arguments.file.empty())
-        {
-          std::cerr << "Error: no parameter file given. Use: quoin CASE.prm\n";
-          return 1;
-        }
+      {
+        std::cerr << "Error: no parameter file given. Use: quoin CASE.prm\n";
+        return 1;
+      }
       return -1;
     }
   } // namespace
 
-  int
-  run_command_line(int argc, char **argv)
+  int run_command_line(int argc, char **argv)
   {
     Arguments arguments;
     const int parsed = parse(arguments, argc, argv);
@@ -83,43 +75,44 @@ namespace quoin
       return parsed;
 
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    const bool first =
-      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    const auto report = [first](const std::string &what, const int status) {
+    const bool first
+        = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    const auto report = [first](const std::string &what, const int status)
+    {
       if (first)
         std::cerr << "Error: " << what << std::endl;
       return status;
     };
     try
-      {
-        Parameters parameters =
-          read_parameters(arguments.file, arguments.overrides);
-        if (!arguments.output.empty())
-          parameters.output_directory = arguments.output;
-        Simulation(parameters, arguments.run, MPI_COMM_WORLD).run();
-        return 0;
-      }
+    {
+      Parameters parameters
+          = read_parameters(arguments.file, arguments.overrides);
+      if (!arguments.output.empty())
+        parameters.output_directory = arguments.output;
+      Simulation(parameters, arguments.run, MPI_COMM_WORLD).run();
+      return 0;
+    }
     catch (const InputError &error)
-      {
-        return report(error.what(), 1);
-      }
+    {
+      return report(error.what(), 1);
+    }
     catch (const RunError &error)
-      {
-        return report(error.what(), 2);
-      }
+    {
+      return report(error.what(), 2);
+    }
     catch (const std::bad_alloc &)
-      {
-        return report("not enough memory for this mesh. Coarsen it or use "
-                      "more machines.",
-                      2);
-      }
+    {
+      return report("not enough memory for this mesh. Coarsen it or use "
+                    "more machines.",
+                    2);
+    }
     catch (const std::exception &error)
-      {
-        std::cerr << "Error: " << error.what() << std::endl;
-        // Other ranks may be waiting for this one.
-        if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-          MPI_Abort(MPI_COMM_WORLD, 2);
-        return 2;
-      }
+    {
+      std::cerr << "Error: " << error.what() << std::endl;
+      // Other ranks may be waiting for this one.
+      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+        MPI_Abort(MPI_COMM_WORLD, 2);
+      return 2;
+    }
   }
 } // namespace quoin

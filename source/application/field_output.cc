@@ -5,74 +5,70 @@
 
 namespace quoin
 {
-  BlockFields
-  block_fields(const Model &model, const State &state)
+  BlockFields block_fields(const Model &model, const State &state)
   {
-    BlockFields        fields;
+    BlockFields fields;
     const unsigned int n_nodes = model.exchange().n_owned();
     for (unsigned int i = 0; i < n_nodes; ++i)
-      {
-        const NodeRecord &node = state.nodes[i];
-        fields.position.push_back({{node.X[0], node.X[1]}});
-        fields.displacement.push_back({{node.u[0], node.u[1]}});
-        fields.velocity.push_back(
-          {{state.velocity[i].v[0], state.velocity[i].v[1]}});
-      }
+    {
+      const NodeRecord &node = state.nodes[i];
+      fields.position.push_back({ { node.X[0], node.X[1] } });
+      fields.displacement.push_back({ { node.u[0], node.u[1] } });
+      fields.velocity.push_back(
+          { { state.velocity[i].v[0], state.velocity[i].v[1] } });
+    }
     for (const auto &cell : model.cells())
-      fields.cells.push_back({{static_cast<std::int32_t>(cell[0]),
-                               static_cast<std::int32_t>(cell[1]),
-                               static_cast<std::int32_t>(cell[2])}});
+      fields.cells.push_back({ { static_cast<std::int32_t>(cell[0]),
+                                 static_cast<std::int32_t>(cell[1]),
+                                 static_cast<std::int32_t>(cell[2]) } });
     model.blocks().stresses(state.nodes.data(), fields.stress, fields.strain);
     for (unsigned int b = 0; b < model.n_blocks(); ++b)
+    {
+      const unsigned int block = model.first_block() + b;
+      for (unsigned int c = model.mesh().block_first_cell[block];
+           c < model.mesh().block_first_cell[block + 1]; ++c)
       {
-        const unsigned int block = model.first_block() + b;
-        for (unsigned int c = model.mesh().block_first_cell[block];
-             c < model.mesh().block_first_cell[block + 1];
-             ++c)
-          {
-            fields.block.push_back(block);
-            fields.material.push_back(model.material_of_cell(c));
-          }
+        fields.block.push_back(block);
+        fields.material.push_back(model.material_of_cell(c));
       }
+    }
     return fields;
   }
 
-  JointFields
-  joint_fields(const Model &model, const State &state)
+  JointFields joint_fields(const Model &model, const State &state)
   {
     // The histories are those of the step before; a trial on a copy brings
     // them to the present positions.
-    State                    now = state;
-    AlignedArray<NodeVector> force(now.nodes.size(), NodeVector{{0., 0.}});
-    model.exchange().update_ghosts(now.nodes.data());
-    model.joints().add_forces(
-      now.nodes.data(), now.joints, now.energy, force.data());
+    State now = state;
+    AlignedArray<NodeVector> force(now.nodes.size(), NodeVector{ { 0., 0. } });
+    model.joints().add_forces(now.nodes.data(), now.joints, now.energy,
+                              force.data());
 
     JointFields fields;
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    {
+      const auto &segment = model.joints().segment(i);
+      // A joint between two ranks is written by that of its lower side.
+      if (segment.lower[0] >= model.exchange().n_owned())
+        continue;
+      const auto gaps = model.joints().gaps(now.nodes.data(), i);
+      fields.joint_set.push_back(segment.set);
+      for (unsigned int k = 0; k < 2; ++k)
       {
-        const auto &segment = model.joints().segment(i);
-        // A joint between two ranks is written by that of its lower side.
-        if (segment.lower[0] >= model.exchange().n_owned())
-          continue;
-        const auto gaps = model.joints().gaps(now.nodes.data(), i);
-        fields.joint_set.push_back(segment.set);
-        for (unsigned int k = 0; k < 2; ++k)
-          {
-            const NodeRecord  &a = now.nodes[segment.lower[k]];
-            const NodeRecord  &b = now.nodes[segment.upper[k]];
-            const unsigned int p = 2 * i + k;
-            fields.position.push_back(
-              {{0.5 * (a.X[0] + b.X[0]), 0.5 * (a.X[1] + b.X[1])}});
-            fields.displacement.push_back(
-              {{0.5 * (a.u[0] + b.u[0]), 0.5 * (a.u[1] + b.u[1])}});
-            fields.opening.push_back(gaps[k][0]);
-            fields.slip.push_back(gaps[k][1]);
-            fields.normal_traction.push_back(now.joints.normal_traction[p]);
-            fields.shear_traction.push_back(now.joints.shear_traction[p]);
-            fields.state.push_back(now.joints.state[p]);
-          }
+        const NodeRecord &a  = now.nodes[segment.lower[k]];
+        const NodeRecord &b  = now.nodes[segment.upper[k]];
+        const unsigned int p = 2 * i + k;
+        fields.position.push_back(
+            { { 0.5 * (a.X[0] + b.X[0]), 0.5 * (a.X[1] + b.X[1]) } });
+        fields.displacement.push_back(
+            { { 0.5 * (a.u[0] + b.u[0]), 0.5 * (a.u[1] + b.u[1]) } });
+        fields.opening.push_back(gaps[k][0]);
+        fields.slip.push_back(gaps[k][1]);
+        fields.normal_traction.push_back(now.joints.normal_traction[p]);
+        fields.shear_traction.push_back(now.joints.shear_traction[p]);
+        fields.state.push_back(now.joints.state[p]);
       }
+    }
     return fields;
   }
 } // namespace quoin

@@ -14,221 +14,213 @@
 namespace quoin
 {
   Histories::Histories(const std::vector<HistoryParameters> &parameters,
-                       const Model                          &model,
-                       const ExplicitSolver                 &solver)
-    : model(model)
-    , solver(solver)
-    , communicator(model.exchange().communicator())
+                       const Model &model, const ExplicitSolver &solver)
+    : model(model), solver(solver),
+      communicator(model.exchange().communicator())
   {
     for (const HistoryParameters &history : parameters)
-      {
-        Probe probe;
-        probe.parameters = history;
-        locate(probe);
-        probes.push_back(probe);
-      }
+    {
+      Probe probe;
+      probe.parameters = history;
+      locate(probe);
+      probes.push_back(probe);
+    }
     row.resize(1 + probes.size());
   }
 
-  std::vector<std::string>
-  Histories::column_names() const
+  std::vector<std::string> Histories::column_names() const
   {
-    std::vector<std::string> names = {"time [s]"};
+    std::vector<std::string> names = { "time [s]" };
     for (const Probe &probe : probes)
-      names.push_back(probe.parameters.name + " [" + probe.parameters.unit +
-                      "]");
+      names.push_back(probe.parameters.name + " [" + probe.parameters.unit
+                      + "]");
     return names;
   }
 
-  void
-  Histories::locate(Probe &probe) const
+  void Histories::locate(Probe &probe) const
   {
     const HistoryParameters &wanted = probe.parameters;
     const std::string section = "section 'Histories/" + wanted.name + "': ";
     const dealii::Point<2> point(wanted.point[0], wanted.point[1]);
-    double       best     = std::numeric_limits<double>::max();
-    const auto   consider = [&](const dealii::Point<2> &p,
-                              const unsigned int      entity) {
+    double best = std::numeric_limits<double>::max();
+    const auto consider
+        = [&](const dealii::Point<2> &p, const unsigned int entity)
+    {
       const double distance = p.distance_square(point);
       if (distance < best)
-        {
-          best         = distance;
-          probe.entity = entity;
-        }
+      {
+        best         = distance;
+        probe.entity = entity;
+      }
     };
     const auto &mesh = model.mesh();
 
     switch (wanted.quantity)
+    {
+    case HistoryQuantity::displacement:
+    case HistoryQuantity::velocity:
+      for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+        consider(mesh.vertices[model.exchange().global(i)], i);
+      break;
+    case HistoryQuantity::stress:
+      for (unsigned int c = 0; c < model.n_cells(); ++c)
       {
-        case HistoryQuantity::displacement:
-        case HistoryQuantity::velocity:
-          for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
-            consider(mesh.vertices[model.exchange().global(i)], i);
-          break;
-        case HistoryQuantity::stress:
-          for (unsigned int c = 0; c < model.n_cells(); ++c)
-            {
-              const auto &cell = mesh.cells[model.first_cell() + c];
-              consider(dealii::Point<2>((mesh.vertices[cell[0]] +
-                                         mesh.vertices[cell[1]] +
-                                         mesh.vertices[cell[2]]) /
-                                        3.),
-                       c);
-            }
-          break;
-        case HistoryQuantity::joint:
-          for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
-            {
-              const auto &segment = model.joints().segment(i);
-              const auto &face    = mesh.joint_faces[segment.face];
-              if (!wanted.curve.empty() &&
-                  mesh.line_names[face.name] != wanted.curve)
-                continue;
-              for (unsigned int k = 0; k < 2; ++k)
-                consider(mesh.vertices[face.lower[k]], 2 * i + k);
-            }
-          break;
-        case HistoryQuantity::reaction:
-        case HistoryQuantity::platen_displacement:
-        case HistoryQuantity::platen_force:
-          {
-            const auto &constraints = solver.constraints();
-            const auto  found =
-              std::find_if(constraints.begin(),
-                           constraints.end(),
-                           [&](const auto &constraint) {
-                             return constraint->name() == wanted.load;
-                           });
-            if (found == constraints.end())
-              throw InputError(section + "'Load = " + wanted.load +
-                               "' is no prescribed motion, platen or "
-                               "viscous boundary of section 'Loads'.");
-            probe.platen = dynamic_cast<const Platen *>(found->get());
-            if (wanted.quantity != HistoryQuantity::reaction && !probe.platen)
-              throw InputError(section + "'Load = " + wanted.load +
-                               "' is no platen. Use 'reaction' for other "
-                               "loads.");
-            return;
-          }
-        case HistoryQuantity::unbalanced_ratio:
-        case HistoryQuantity::kinetic_share:
-          return;
+        const auto &cell = mesh.cells[model.first_cell() + c];
+        consider(
+            dealii::Point<2>((mesh.vertices[cell[0]] + mesh.vertices[cell[1]]
+                              + mesh.vertices[cell[2]])
+                             / 3.),
+            c);
       }
+      break;
+    case HistoryQuantity::joint:
+      for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+      {
+        const auto &segment = model.joints().segment(i);
+        const auto &face    = mesh.joint_faces[segment.face];
+        if (!wanted.curve.empty() && mesh.line_names[face.name] != wanted.curve)
+          continue;
+        for (unsigned int k = 0; k < 2; ++k)
+          consider(mesh.vertices[face.lower[k]], 2 * i + k);
+      }
+      break;
+    case HistoryQuantity::reaction:
+    case HistoryQuantity::platen_displacement:
+    case HistoryQuantity::platen_force:
+    {
+      const auto &constraints = solver.constraints();
+      const auto found
+          = std::find_if(constraints.begin(), constraints.end(),
+                         [&](const auto &constraint)
+                         { return constraint->name() == wanted.load; });
+      if (found == constraints.end())
+      {
+        std::string known;
+        for (const auto &constraint : constraints)
+          known += (known.empty() ? "" : ", ") + constraint->name();
+        throw InputError(section + "'Load = " + wanted.load
+                         + "' is no prescribed motion, platen or "
+                           "viscous boundary. These are: "
+                         + known + ".");
+      }
+      probe.platen = dynamic_cast<const Platen *>(found->get());
+      if (wanted.quantity != HistoryQuantity::reaction && !probe.platen)
+        throw InputError(section + "'Load = " + wanted.load
+                         + "' is no platen. Use 'reaction' for other "
+                           "loads.");
+      return;
+    }
+    case HistoryQuantity::unbalanced_ratio:
+    case HistoryQuantity::kinetic_share:
+      return;
+    }
 
     // The nearest of all ranks, the first of them if there is a tie.
     const double nearest = dealii::Utilities::MPI::min(best, communicator);
     if (nearest == std::numeric_limits<double>::max())
-      throw InputError(section + "there is no " +
-                       (wanted.curve.empty() ? std::string("such point") :
-                                               "joint on a curve '" +
-                                                 wanted.curve + "'") +
-                       " in the model. Correct 'Curve' or 'Quantity'.");
-    const unsigned int rank =
-      dealii::Utilities::MPI::this_mpi_process(communicator);
-    probe.here = rank == dealii::Utilities::MPI::min(
-                           best == nearest ? rank : 1U << 30, communicator);
+      throw InputError(section + "there is no "
+                       + (wanted.curve.empty()
+                              ? std::string("such point")
+                              : "joint on a curve '" + wanted.curve + "'")
+                       + " in the model. Correct 'Curve' or 'Quantity'.");
+    const unsigned int rank
+        = dealii::Utilities::MPI::this_mpi_process(communicator);
+    probe.here = rank
+                 == dealii::Utilities::MPI::min(
+                     best == nearest ? rank : 1U << 30, communicator);
   }
 
-  double
-  Histories::point_value(const Probe &probe, const State &state) const
+  double Histories::point_value(const Probe &probe, const State &state) const
   {
     const HistoryParameters &wanted = probe.parameters;
     switch (wanted.quantity)
-      {
-        case HistoryQuantity::displacement:
-          return state.nodes[probe.entity].u[wanted.component];
-        case HistoryQuantity::velocity:
-          return state.velocity[probe.entity].v[wanted.component];
-        case HistoryQuantity::stress:
-          {
-            const auto stress =
-              model.blocks().cell_stress(state.nodes.data(), probe.entity);
-            if (wanted.component < 4)
-              return stress[wanted.component];
-            const PrincipalStress principal =
-              principal_stress(stress[0], stress[1], stress[2]);
-            return wanted.component == 4 ? principal.s1 : principal.s2;
-          }
-        case HistoryQuantity::joint:
-          {
-            const unsigned int p = probe.entity;
-            if (wanted.component < 2)
-              return model.joints().gaps(state.nodes.data(),
-                                         p / 2)[p % 2][wanted.component];
-            if (wanted.component == 2)
-              return state.joints.normal_traction[p];
-            if (wanted.component == 3)
-              return state.joints.shear_traction[p];
-            return static_cast<double>(state.joints.state[p]);
-          }
-        default:
-          return 0.;
-      }
+    {
+    case HistoryQuantity::displacement:
+      return state.nodes[probe.entity].u[wanted.component];
+    case HistoryQuantity::velocity:
+      return state.velocity[probe.entity].v[wanted.component];
+    case HistoryQuantity::stress:
+    {
+      const auto stress
+          = model.blocks().cell_stress(state.nodes.data(), probe.entity);
+      if (wanted.component < 4)
+        return stress[wanted.component];
+      const PrincipalStress principal
+          = principal_stress(stress[0], stress[1], stress[2]);
+      return wanted.component == 4 ? principal.s1 : principal.s2;
+    }
+    case HistoryQuantity::joint:
+    {
+      const unsigned int p = probe.entity;
+      if (wanted.component < 2)
+        return model.joints().gaps(state.nodes.data(),
+                                   p / 2)[p % 2][wanted.component];
+      if (wanted.component == 2)
+        return state.joints.normal_traction[p];
+      if (wanted.component == 3)
+        return state.joints.shear_traction[p];
+      return static_cast<double>(state.joints.state[p]);
+    }
+    default:
+      return 0.;
+    }
   }
 
-  void
-  Histories::before_step(const State &state)
+  void Histories::before_step(const State &state)
   {
     std::fill(row.begin(), row.end(), 0.);
     row[0] = state.time;
     for (unsigned int i = 0; i < probes.size(); ++i)
+    {
+      const Probe &probe = probes[i];
+      if (probe.here)
+        row[1 + i] = point_value(probe, state);
+      else if (probe.platen
+               && probe.parameters.quantity
+                      == HistoryQuantity::platen_displacement)
       {
-        const Probe &probe = probes[i];
-        if (probe.here)
-          row[1 + i] = point_value(probe, state);
-        else if (probe.platen && probe.parameters.quantity ==
-                                   HistoryQuantity::platen_displacement)
-          {
-            const unsigned int d = probe.parameters.component;
-            row[1 + i] =
-              state.platens[probe.platen->index()].displacement[d] *
-              (d == 2 ? 180. / dealii::numbers::PI : 1.);
-          }
+        const unsigned int d = probe.parameters.component;
+        row[1 + i] = state.platens[probe.platen->index()].displacement[d]
+                     * (d == 2 ? 180. / dealii::numbers::PI : 1.);
       }
+    }
   }
 
-  std::vector<double>
-  Histories::after_step(const State &state)
+  std::vector<double> Histories::after_step(const State &state)
   {
     for (unsigned int i = 0; i < probes.size(); ++i)
-      {
-        const Probe &probe = probes[i];
-        // The velocity at the full step is the mean of the half steps'; the
-        // step has brought the joint tractions to its time.
-        if (probe.here &&
-            probe.parameters.quantity == HistoryQuantity::velocity)
-          row[1 + i] = 0.5 * (row[1 + i] + point_value(probe, state));
-        if (probe.here &&
-            probe.parameters.quantity == HistoryQuantity::joint &&
-            probe.parameters.component >= 2)
-          row[1 + i] = point_value(probe, state);
-      }
-    const double        time   = row[0];
+    {
+      const Probe &probe = probes[i];
+      // The velocity at the full step is the mean of the half steps'; the
+      // step has brought the joint tractions to its time.
+      if (probe.here && probe.parameters.quantity == HistoryQuantity::velocity)
+        row[1 + i] = 0.5 * (row[1 + i] + point_value(probe, state));
+      if (probe.here && probe.parameters.quantity == HistoryQuantity::joint
+          && probe.parameters.component >= 2)
+        row[1 + i] = point_value(probe, state);
+    }
+    const double time          = row[0];
     std::vector<double> result = row;
     // Platen displacements are known to all ranks, points to one.
     for (unsigned int i = 0; i < probes.size(); ++i)
-      if (probes[i].platen &&
-          dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+      if (probes[i].platen
+          && dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
         result[1 + i] = 0.;
-    MPI_Allreduce(MPI_IN_PLACE,
-                  result.data(),
-                  result.size(),
-                  MPI_DOUBLE,
-                  MPI_SUM,
-                  communicator);
+    MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPI_DOUBLE,
+                  MPI_SUM, communicator);
     result[0] = time;
     for (unsigned int i = 0; i < probes.size(); ++i)
-      {
-        const HistoryParameters &wanted = probes[i].parameters;
-        if (wanted.quantity == HistoryQuantity::reaction ||
-            wanted.quantity == HistoryQuantity::platen_force)
-          result[1 + i] = solver.resultant(wanted.load)[wanted.component];
-        else if (wanted.quantity == HistoryQuantity::unbalanced_ratio)
-          result[1 + i] = solver.unbalanced_ratio();
-        else if (wanted.quantity == HistoryQuantity::kinetic_share)
-          result[1 + i] = solver.energies().kinetic /
-                          std::max(solver.energies().throughput(), 1e-300);
-      }
+    {
+      const HistoryParameters &wanted = probes[i].parameters;
+      if (wanted.quantity == HistoryQuantity::reaction
+          || wanted.quantity == HistoryQuantity::platen_force)
+        result[1 + i] = solver.resultant(wanted.load)[wanted.component];
+      else if (wanted.quantity == HistoryQuantity::unbalanced_ratio)
+        result[1 + i] = solver.unbalanced_ratio();
+      else if (wanted.quantity == HistoryQuantity::kinetic_share)
+        result[1 + i] = solver.energies().kinetic
+                        / std::max(solver.energies().throughput(), 1e-300);
+    }
     return result;
   }
 } // namespace quoin

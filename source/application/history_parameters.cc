@@ -12,46 +12,45 @@ namespace quoin
     struct Kind
     {
       HistoryQuantity quantity;
-      unsigned int    component;
-      const char     *unit;
+      unsigned int component;
+      const char *unit;
     };
 
-    const std::map<std::string, Kind> &
-    kinds()
+    const std::map<std::string, Kind> &kinds()
     {
       using Q = HistoryQuantity;
-      static const std::map<std::string, Kind> table = {
-        {"displacement x", {Q::displacement, 0, "m"}},
-        {"displacement y", {Q::displacement, 1, "m"}},
-        {"velocity x", {Q::velocity, 0, "m/s"}},
-        {"velocity y", {Q::velocity, 1, "m/s"}},
-        {"stress xx", {Q::stress, 0, "Pa"}},
-        {"stress yy", {Q::stress, 1, "Pa"}},
-        {"stress xy", {Q::stress, 2, "Pa"}},
-        {"stress zz", {Q::stress, 3, "Pa"}},
-        {"stress 1", {Q::stress, 4, "Pa"}},
-        {"stress 2", {Q::stress, 5, "Pa"}},
-        {"joint opening", {Q::joint, 0, "m"}},
-        {"joint slip", {Q::joint, 1, "m"}},
-        {"joint normal traction", {Q::joint, 2, "Pa"}},
-        {"joint shear traction", {Q::joint, 3, "Pa"}},
-        {"joint state", {Q::joint, 4, "-"}},
-        {"reaction x", {Q::reaction, 0, "N"}},
-        {"reaction y", {Q::reaction, 1, "N"}},
-        {"reaction moment", {Q::reaction, 2, "N m"}},
-        {"platen displacement x", {Q::platen_displacement, 0, "m"}},
-        {"platen displacement y", {Q::platen_displacement, 1, "m"}},
-        {"platen displacement rotation", {Q::platen_displacement, 2, "deg"}},
-        {"platen force x", {Q::platen_force, 0, "N"}},
-        {"platen force y", {Q::platen_force, 1, "N"}},
-        {"platen force moment", {Q::platen_force, 2, "N m"}},
-        {"unbalanced ratio", {Q::unbalanced_ratio, 0, "-"}},
-        {"kinetic energy share", {Q::kinetic_share, 0, "-"}}};
+      static const std::map<std::string, Kind> table
+          = { { "displacement x", { Q::displacement, 0, "m" } },
+              { "displacement y", { Q::displacement, 1, "m" } },
+              { "velocity x", { Q::velocity, 0, "m/s" } },
+              { "velocity y", { Q::velocity, 1, "m/s" } },
+              { "stress xx", { Q::stress, 0, "Pa" } },
+              { "stress yy", { Q::stress, 1, "Pa" } },
+              { "stress xy", { Q::stress, 2, "Pa" } },
+              { "stress zz", { Q::stress, 3, "Pa" } },
+              { "stress 1", { Q::stress, 4, "Pa" } },
+              { "stress 2", { Q::stress, 5, "Pa" } },
+              { "joint opening", { Q::joint, 0, "m" } },
+              { "joint slip", { Q::joint, 1, "m" } },
+              { "joint normal traction", { Q::joint, 2, "Pa" } },
+              { "joint shear traction", { Q::joint, 3, "Pa" } },
+              { "joint state", { Q::joint, 4, "-" } },
+              { "reaction x", { Q::reaction, 0, "N" } },
+              { "reaction y", { Q::reaction, 1, "N" } },
+              { "reaction moment", { Q::reaction, 2, "N m" } },
+              { "platen displacement x", { Q::platen_displacement, 0, "m" } },
+              { "platen displacement y", { Q::platen_displacement, 1, "m" } },
+              { "platen displacement rotation",
+                { Q::platen_displacement, 2, "deg" } },
+              { "platen force x", { Q::platen_force, 0, "N" } },
+              { "platen force y", { Q::platen_force, 1, "N" } },
+              { "platen force moment", { Q::platen_force, 2, "N m" } },
+              { "unbalanced ratio", { Q::unbalanced_ratio, 0, "-" } },
+              { "kinetic energy share", { Q::kinetic_share, 0, "-" } } };
       return table;
     }
 
-    std::string
-    kind_names(const std::string &separator)
+    std::string kind_names(const std::string &separator)
     {
       std::string names;
       for (const auto &[name, kind] : kinds())
@@ -60,38 +59,29 @@ namespace quoin
     }
   } // namespace
 
-  void
-  HistoryParameters::declare(dealii::ParameterHandler &prm)
+  void HistoryParameters::declare(dealii::ParameterHandler &prm)
   {
     using dealii::Patterns::Anything;
-    prm.declare_entry("Quantity",
-                      "displacement x",
+    prm.declare_entry("Quantity", "displacement x",
                       dealii::Patterns::Selection(kind_names("|")),
                       "What the column holds, in SI units; 'stress 1' and "
                       "'stress 2' are the larger and the smaller principal "
                       "stress; 'kinetic energy share' is kinetic energy by "
                       "all energy that went through the model.");
-    prm.declare_entry("Point",
-                      "0, 0",
-                      Anything(),
+    prm.declare_entry("Point", "0, 0", Anything(),
                       "x, y of the point whose nearest node, cell or joint "
                       "point is recorded [m]");
-    prm.declare_entry("Load",
-                      "",
-                      Anything(),
+    prm.declare_entry("Load", "", Anything(),
                       "Load whose reaction or platen is recorded.");
-    prm.declare_entry("Curve",
-                      "",
-                      Anything(),
+    prm.declare_entry("Curve", "", Anything(),
                       "Joint quantities: physical curve on which to look for "
                       "the nearest joint point; empty: all.");
   }
 
-  HistoryParameters
-  HistoryParameters::read(const ParameterSection &section,
-                          const std::string      &name)
+  HistoryParameters HistoryParameters::read(const ParameterSection &section,
+                                            const std::string &name)
   {
-    const Kind       &kind = kinds().at(section.text("Quantity"));
+    const Kind &kind = kinds().at(section.text("Quantity"));
     HistoryParameters history;
     history.name      = name;
     history.quantity  = kind.quantity;
@@ -100,10 +90,10 @@ namespace quoin
     history.point     = section.numbers<2>("Point");
     history.load      = section.text("Load");
     history.curve     = section.text("Curve");
-    const bool of_load =
-      kind.quantity == HistoryQuantity::reaction ||
-      kind.quantity == HistoryQuantity::platen_displacement ||
-      kind.quantity == HistoryQuantity::platen_force;
+    const bool of_load
+        = kind.quantity == HistoryQuantity::reaction
+          || kind.quantity == HistoryQuantity::platen_displacement
+          || kind.quantity == HistoryQuantity::platen_force;
     if (of_load && history.load.empty())
       section.fail("Load", "must name the load to be recorded.");
     return history;

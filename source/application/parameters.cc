@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -24,237 +25,256 @@ namespace quoin
     /** The sections whose subsections the user names. */
     struct NamedSection
     {
-      std::string                             name;
+      std::string name;
       std::function<void(ParameterHandler &)> declare_one;
     };
 
-    const std::vector<NamedSection> &
-    named_sections()
+    const std::vector<NamedSection> &named_sections()
     {
-      static const std::vector<NamedSection> sections = {
-        {"Materials", MaterialParameters::declare},
-        {"Joints", JointSetParameters::declare},
-        {"Loads", LoadParameters::declare},
-        {"Stages", StageParameters::declare},
-        {"Histories", HistoryParameters::declare}};
+      static const std::vector<NamedSection> sections
+          = { { "Materials", MaterialParameters::declare },
+              { "Joints", JointSetParameters::declare },
+              { "Loads", LoadParameters::declare },
+              { "Stages", StageParameters::declare },
+              { "Histories", HistoryParameters::declare } };
       return sections;
     }
 
-    void
-    declare_names(ParameterHandler &prm)
+    void declare_names(ParameterHandler &prm)
     {
       for (const NamedSection &section : named_sections())
-        {
-          prm.enter_subsection(section.name);
-          prm.declare_entry("Names",
-                            "",
-                            Anything(),
-                            "Comma-separated names; each is a subsection.");
-          prm.leave_subsection();
-        }
+      {
+        prm.enter_subsection(section.name);
+        prm.declare_entry("Names", "", Anything(),
+                          "Comma-separated names; each is a subsection.");
+        prm.leave_subsection();
+      }
     }
 
-    void
-    declare_fixed(ParameterHandler &prm)
+    void declare_fixed(ParameterHandler &prm)
     {
       prm.declare_entry("Title", "", Anything(), "For figures and logs.");
-      prm.declare_entry("Plane assumption",
-                        "plane strain",
+      prm.declare_entry("Plane assumption", "plane strain",
                         Selection("plane strain|plane stress"),
                         "Of all blocks.");
-      prm.declare_entry("Thickness",
-                        "1",
-                        Double(),
-                        "Out of the plane [m]");
-      prm.declare_entry("Output directory",
-                        "output",
-                        Anything(),
+      prm.declare_entry("Thickness", "1", Double(), "Out of the plane [m]");
+      prm.declare_entry("Output directory", "output", Anything(),
                         "Relative to the folder of this file.");
 
       prm.enter_subsection("Mesh");
-      prm.declare_entry("File",
-                        "",
-                        Anything(),
+      prm.declare_entry("File", "", Anything(),
                         "gmsh geometry (.geo) or mesh (.msh), relative to "
                         "the folder of this file; coordinates in [m].");
-      prm.declare_entry("Joints along",
-                        "",
-                        Anything(),
+      prm.declare_entry("Joints along", "", Anything(),
                         "Physical curves along which the mesh is split into "
                         "blocks.");
-      prm.declare_entry("Joints between",
-                        "",
-                        Anything(),
+      prm.declare_entry("Joints between", "", Anything(),
                         "Pairs a:b of physical surfaces between which it is "
                         "split, or 'all'.");
-      prm.declare_entry("Joint ends inside blocks",
-                        "keep",
+      prm.declare_entry("Joint ends inside blocks", "keep",
                         Selection("keep|refuse"),
                         "Joints that end inside a block: keep them as "
                         "cracks, or stop.");
       prm.leave_subsection();
 
       prm.enter_subsection("Time stepping");
-      prm.declare_entry("Share of critical time step",
-                        "0.8",
-                        Double(),
+      prm.declare_entry("Share of critical time step", "0.8", Double(),
                         "Of the bound that is computed from blocks, joints "
                         "and damping [-]");
-      prm.declare_entry("Time step",
-                        "0",
-                        Double(),
+      prm.declare_entry("Time step", "0", Double(),
                         "0: as the share says; else this one, which must be "
                         "below the critical one [s]");
       prm.leave_subsection();
 
       prm.enter_subsection("Histories");
-      prm.declare_entry("Interval",
-                        "0",
-                        Double(),
+      prm.declare_entry("Interval", "0", Double(),
                         "Between rows of histories.csv and energies.csv; 0: "
                         "every step [s]");
       prm.leave_subsection();
 
       prm.enter_subsection("Output");
-      prm.declare_entry("Field interval",
-                        "0",
-                        Double(),
+      prm.declare_entry("Field interval", "0", Double(),
                         "Between VTU files; 0: at the end of stages only "
                         "[s]");
-      prm.declare_entry("Checkpoint interval",
-                        "60",
-                        Double(),
+      prm.declare_entry("Checkpoint interval", "60", Double(),
                         "Between checkpoints, in wall-clock time; 0: at the "
                         "end of stages only [s]");
-      prm.declare_entry("Measure bandwidth",
-                        "no",
+      prm.declare_entry("Measure bandwidth", "no",
                         Selection("yes|no|true|false"),
                         "Measure the memory bandwidth after the run and "
                         "write which share of it the run used.");
       prm.leave_subsection();
     }
 
-    void
-    parse(ParameterHandler  &prm,
-          const std::string &file,
-          const std::string &text,
-          const bool         skip_undefined)
+    /** "section 'A/B'" of line @p number of @p text. */
+    std::string section_of_line(const std::string &text,
+                                const unsigned int number)
     {
-      try
-        {
-          // 'include' resolves against the folder of the file.
-          const auto here   = std::filesystem::current_path();
-          const auto folder = std::filesystem::path(file).parent_path();
-          struct Return
-          {
-            std::filesystem::path to;
-            ~Return()
-            {
-              std::filesystem::current_path(to);
-            }
-          } back{here};
-          if (!folder.empty())
-            std::filesystem::current_path(folder);
-          std::istringstream stream(text);
-          prm.parse_input(stream, file, "", skip_undefined);
-        }
-      catch (const dealii::ExceptionBase &error)
-        {
-          std::ostringstream reason;
-          error.print_info(reason);
-          std::string message = reason.str();
-          // The library's text is laid out over several lines.
-          std::replace(message.begin(), message.end(), '\n', ' ');
-          std::string single;
-          std::unique_copy(message.begin(),
-                           message.end(),
-                           std::back_inserter(single),
-                           [](char a, char b) { return a == ' ' && b == ' '; });
-          throw InputError(file + ": " + single +
-                           "Correct the line, or see the names and values "
-                           "that exist with --print-parameters.");
-        }
+      std::istringstream stream(text);
+      std::vector<std::string> path;
+      std::string line;
+      for (unsigned int n = 1; n <= number && std::getline(stream, line); ++n)
+      {
+        std::istringstream words(line);
+        std::string first, name;
+        words >> first;
+        std::getline(words >> std::ws, name);
+        name = dealii::Utilities::trim(name.substr(0, name.find('#')));
+        if (first == "subsection")
+          path.push_back(name);
+        else if (first == "end" && !path.empty())
+          path.pop_back();
+      }
+      std::string joined;
+      for (const auto &name : path)
+        joined += (joined.empty() ? "" : "/") + name;
+      return "section '" + (joined.empty() ? "/" : joined) + "'";
     }
 
-    std::string
-    with_overrides(const std::string              &file,
-                   const std::vector<std::string> &overrides)
+    /** The reason of a library's error in one line, and where it is. */
+    std::string describe(const dealii::ExceptionBase &error,
+                         const std::string &source, const std::string &text)
+    {
+      std::ostringstream reason;
+      error.print_info(reason);
+      std::string message
+          = std::regex_replace(reason.str(), std::regex("\\s+"), " ");
+      std::smatch match;
+      std::string where = source;
+      if (std::regex_search(message, match, std::regex("[Ll]ine <?(\\d+)>?")))
+      {
+        const unsigned int line = std::stoul(match[1]);
+        where += (source.rfind("--set", 0) == 0
+                      ? std::string()
+                      : ", line " + std::to_string(line))
+                 + ", " + section_of_line(text, line);
+        message = std::regex_replace(
+            message,
+            std::regex("^ *[Ll]ine <?\\d+>? of (input )?file <[^>]*>: *"), "");
+      }
+      return where + ": " + message
+             + " Correct it; --print-parameters shows what exists.";
+    }
+
+    /** @p source: the file, or the option, that @p text is from. */
+    void parse(ParameterHandler &prm, const std::string &file,
+               const std::string &source, const std::string &text,
+               const bool skip_undefined)
+    {
+      // 'include' resolves against the folder of the file.
+      const auto here   = std::filesystem::current_path();
+      const auto folder = std::filesystem::path(file).parent_path();
+      struct Return
+      {
+        std::filesystem::path to;
+        ~Return()
+        {
+          std::filesystem::current_path(to);
+        }
+      } back{ here };
+      if (!folder.empty())
+        std::filesystem::current_path(folder);
+      try
+      {
+        std::istringstream stream(text);
+        prm.parse_input(stream, source, "", skip_undefined);
+      }
+      catch (const dealii::ExceptionBase &error)
+      {
+        throw InputError(describe(error, source, text));
+      }
+    }
+
+    std::string read_text(const std::string &file)
     {
       std::ifstream stream(file);
       if (!stream || std::filesystem::is_directory(file))
-        throw InputError("the parameter file '" + file +
-                         "' cannot be read. Check the path.");
+        throw InputError("the parameter file '" + file
+                         + "' cannot be read. Check the path.");
       std::ostringstream text;
-      text << stream.rdbuf() << "\n";
-      for (const std::string &override_text : overrides)
-        {
-          const auto equals = override_text.find('=');
-          if (equals == std::string::npos)
-            throw InputError("--set '" + override_text +
-                             "': give it as \"Section/Name=value\".");
-          auto path =
-            dealii::Utilities::split_string_list(override_text.substr(0,
-                                                                      equals),
-                                                 '/');
-          const std::string name = path.back();
-          path.pop_back();
-          for (const auto &section : path)
-            text << "subsection " << section << "\n";
-          text << "set " << name << " = " << override_text.substr(equals + 1)
-               << "\n";
-          for (unsigned int i = 0; i < path.size(); ++i)
-            text << "end\n";
-        }
+      text << stream.rdbuf();
       return text.str();
     }
 
+    /** What "Section/Name=value" would be in a parameter file. */
+    std::string override_text(const std::string &option)
+    {
+      const auto equals = option.find('=');
+      if (equals == std::string::npos || equals == 0)
+        throw InputError("--set '" + option
+                         + "': give it as \"Section/Name=value\".");
+      auto path
+          = dealii::Utilities::split_string_list(option.substr(0, equals), '/');
+      const std::string name = path.back();
+      path.pop_back();
+      std::string text;
+      for (const auto &section : path)
+        text += "subsection " + section + "\n";
+      text += "set " + name + " = " + option.substr(equals + 1) + "\n";
+      for (unsigned int i = 0; i < path.size(); ++i)
+        text += "end\n";
+      return text;
+    }
+
+    /** The file first, then what the command line overrides. */
+    void parse_all(ParameterHandler &prm, const std::string &file,
+                   const std::vector<std::string> &overrides,
+                   const bool skip_undefined)
+    {
+      parse(prm, file, file, read_text(file), skip_undefined);
+      for (const std::string &option : overrides)
+        parse(prm, file, "--set \"" + option + "\"", override_text(option),
+              skip_undefined);
+    }
+
     template <typename T>
-    std::vector<T>
-    read_named(const ParameterSection &top, const std::string &section_name)
+    std::vector<T> read_named(const ParameterSection &top,
+                              const std::string &section_name)
     {
       const ParameterSection section(top, section_name);
-      std::vector<T>         result;
+      std::vector<T> result;
       for (const std::string &name : section.list("Names"))
         result.push_back(T::read(ParameterSection(section, name), name));
       return result;
     }
 
-    void
-    read_mesh(const ParameterSection &top, Parameters &parameters)
+    void read_mesh(const ParameterSection &top, Parameters &parameters)
     {
       const ParameterSection section(top, "Mesh");
-      const std::string      name = section.text("File");
+      const std::string name = section.text("File");
       if (name.empty())
         section.fail("File", "must name a .geo or .msh file.");
-      parameters.mesh_file =
-        name.front() == '/' ? name : section.folder() + name;
+      parameters.mesh_file
+          = name.front() == '/' ? name : section.folder() + name;
       if (!std::filesystem::exists(parameters.mesh_file))
         section.fail("File",
-                     "does not exist: there is no file '" +
-                       parameters.mesh_file +
-                       "'. Give the path from the folder of the parameter "
-                       "file.");
+                     "does not exist: there is no file '" + parameters.mesh_file
+                         + "'. Give the path from the folder of the parameter "
+                           "file.");
+      const auto extension
+          = std::filesystem::path(parameters.mesh_file).extension();
+      if (extension != ".geo" && extension != ".msh")
+        section.fail("File", "must end in .geo or .msh.");
       parameters.split.joints_along = section.list("Joints along");
       for (const std::string &pair : section.list("Joints between"))
+      {
+        if (pair == "all")
         {
-          if (pair == "all")
-            {
-              parameters.split.between_all = true;
-              continue;
-            }
-          const auto names = dealii::Utilities::split_string_list(pair, ':');
-          if (names.size() != 2)
-            section.fail("Joints between",
-                         "must be 'all' or pairs such as rock:concrete.");
-          parameters.split.joints_between.emplace_back(names[0], names[1]);
+          parameters.split.between_all = true;
+          continue;
         }
+        const auto names = dealii::Utilities::split_string_list(pair, ':');
+        if (names.size() != 2)
+          section.fail("Joints between",
+                       "must be 'all' or pairs such as rock:concrete.");
+        parameters.split.joints_between.emplace_back(names[0], names[1]);
+      }
       parameters.split.joint_ends = section.choice<SplitOptions::JointEnds>(
-        "Joint ends inside blocks",
-        {{"keep", SplitOptions::keep}, {"refuse", SplitOptions::refuse}});
+          "Joint ends inside blocks", { { "keep", SplitOptions::keep },
+                                        { "refuse", SplitOptions::refuse } });
     }
 
-    void
-    read_stages(const ParameterSection &top, Parameters &parameters)
+    void read_stages(const ParameterSection &top, Parameters &parameters)
     {
       parameters.stages = read_named<StageParameters>(top, "Stages");
       const ParameterSection section(top, "Stages");
@@ -262,35 +282,34 @@ namespace quoin
         section.fail("Names", "must list at least one stage.");
       double end = 0.; // of the stage before; NaN: known only as it runs
       for (const StageParameters &stage : parameters.stages)
+      {
+        const ParameterSection subsection(section, stage.name);
+        if (stage.start_time >= 0.)
         {
-          const ParameterSection subsection(section, stage.name);
-          if (stage.start_time >= 0.)
-            {
-              std::ostringstream why;
-              if (std::isnan(end))
-                subsection.fail("Start time",
-                                "cannot be kept, because the stage before "
-                                "ends when it has settled. Use 'previous "
-                                "end'.");
-              why << "but the stage before ends at " << end << " s: stages "
-                  << (stage.start_time < end ? "overlap" : "leave a gap")
-                  << ". Use 'previous end' or change the durations.";
-              if (std::abs(stage.start_time - end) > 1e-9 * (1. + end))
-                subsection.fail("Start time", why.str());
-            }
-          end = stage.end == StageEnd::time ?
-                  end + stage.duration :
-                  std::numeric_limits<double>::quiet_NaN();
+          std::ostringstream why;
+          if (std::isnan(end))
+            subsection.fail("Start time",
+                            "cannot be kept, because the stage before "
+                            "ends when it has settled. Use 'previous "
+                            "end'.");
+          why << "but the stage before ends at " << end << " s: stages "
+              << (stage.start_time < end ? "overlap" : "leave a gap")
+              << ". Use 'previous end' or change the durations.";
+          if (std::abs(stage.start_time - end) > 1e-9 * (1. + end))
+            subsection.fail("Start time", why.str());
         }
+        end = stage.end == StageEnd::time
+                  ? end + stage.duration
+                  : std::numeric_limits<double>::quiet_NaN();
+      }
     }
 
-    void
-    read_output(const ParameterSection &top, Parameters &parameters)
+    void read_output(const ParameterSection &top, Parameters &parameters)
     {
       {
         const ParameterSection section(top, "Time stepping");
-        parameters.share_of_critical_step =
-          section.within("Share of critical time step", 1e-6, 1.);
+        parameters.share_of_critical_step
+            = section.within("Share of critical time step", 1e-6, 1.);
         parameters.time_step = section.nonnegative("Time step");
       }
       {
@@ -299,92 +318,96 @@ namespace quoin
       }
       const ParameterSection section(top, "Output");
       parameters.field_interval = section.nonnegative("Field interval");
-      parameters.checkpoint_interval =
-        section.nonnegative("Checkpoint interval");
+      parameters.checkpoint_interval
+          = section.nonnegative("Checkpoint interval");
       parameters.measure_bandwidth = section.flag("Measure bandwidth");
     }
 
-    void
-    check_loads(const Parameters &parameters)
+    std::string join(const std::set<std::string> &names)
+    {
+      std::string text;
+      for (const auto &name : names)
+        text += (text.empty() ? "" : ", ") + name;
+      return text.empty() ? "none" : text;
+    }
+
+    void check_loads(const Parameters &parameters)
     {
       std::set<std::string> names, used;
       for (const LoadParameters &load : parameters.loads)
         names.insert(load.name);
       for (const StageParameters &stage : parameters.stages)
         for (const std::string &load : stage.loads)
-          {
-            if (names.count(load) == 0)
-              throw InputError(
-                parameters.file + ", section 'Stages/" + stage.name +
-                "': 'Loads' names '" + load +
-                "', which is not among the 'Names' of section 'Loads'.");
-            used.insert(load);
-          }
+        {
+          if (names.count(load) == 0)
+            throw InputError(parameters.file + ", section 'Stages/" + stage.name
+                             + "': 'Loads' names '" + load
+                             + "', which is no load. Loads are: " + join(names)
+                             + ".");
+          used.insert(load);
+        }
       for (const LoadParameters &load : parameters.loads)
-        if (load.type != LoadType::initial_stress &&
-            used.count(load.name) == 0)
-          throw InputError(parameters.file + ", section 'Loads/" + load.name +
-                           "': no stage uses this load. Name it in the "
-                           "'Loads' of a stage or remove it.");
+        if (load.type != LoadType::initial_stress && used.count(load.name) == 0)
+          throw InputError(parameters.file + ", section 'Loads/" + load.name
+                           + "': no stage uses this load. Name it in the "
+                             "'Loads' of a stage or remove it.");
     }
   } // namespace
 
-  Parameters
-  read_parameters(const std::string              &file,
-                  const std::vector<std::string> &overrides)
+  Parameters read_parameters(const std::string &file,
+                             const std::vector<std::string> &overrides)
   {
-    const std::string text = with_overrides(file, overrides);
-
     ParameterHandler names;
     declare_names(names);
-    parse(names, file, text, true);
+    parse_all(names, file, overrides, true);
 
     ParameterHandler prm;
     declare_fixed(prm);
     declare_names(prm);
     for (const NamedSection &section : named_sections())
+    {
+      names.enter_subsection(section.name);
+      const auto listed
+          = dealii::Utilities::split_string_list(names.get("Names"), ',');
+      names.leave_subsection();
+      prm.enter_subsection(section.name);
+      std::set<std::string> seen;
+      for (const std::string &name : listed)
       {
-        names.enter_subsection(section.name);
-        const auto listed =
-          dealii::Utilities::split_string_list(names.get("Names"), ',');
-        names.leave_subsection();
-        prm.enter_subsection(section.name);
-        std::set<std::string> seen;
-        for (const std::string &name : listed)
-          {
-            if (name.empty())
-              continue;
-            if (!seen.insert(name).second)
-              throw InputError(file + ", section '" + section.name +
-                               "': 'Names' lists '" + name +
-                               "' twice. Names must differ.");
-            prm.enter_subsection(name);
-            section.declare_one(prm);
-            prm.leave_subsection();
-          }
+        if (name.empty())
+          continue;
+        if (!seen.insert(name).second)
+          throw InputError(file + ", section '" + section.name
+                           + "': 'Names' lists '" + name
+                           + "' twice. Names must differ.");
+        prm.enter_subsection(name);
+        section.declare_one(prm);
         prm.leave_subsection();
       }
-    parse(prm, file, text, false);
+      prm.leave_subsection();
+    }
+    parse_all(prm, file, overrides, false);
 
     Parameters parameters;
     parameters.file = file;
     const ParameterSection top(prm, file);
-    parameters.title = top.text("Title");
-    const std::string output = top.text("Output directory");
-    parameters.output_directory =
-      !output.empty() && output.front() == '/' ? output :
-                                                 top.folder() + output;
-    parameters.model.thickness = top.positive("Thickness");
-    parameters.model.plane     = top.choice<PlaneAssumption>(
-      "Plane assumption",
-      {{"plane strain", PlaneAssumption::plane_strain},
-           {"plane stress", PlaneAssumption::plane_stress}});
+    parameters.title            = top.text("Title");
+    const std::string output    = top.text("Output directory");
+    parameters.output_directory = !output.empty() && output.front() == '/'
+                                      ? output
+                                      : top.folder() + output;
+    parameters.model.thickness  = top.positive("Thickness");
+    parameters.model.plane      = top.choice<PlaneAssumption>(
+        "Plane assumption",
+        { { "plane strain", PlaneAssumption::plane_strain },
+               { "plane stress", PlaneAssumption::plane_stress } });
     read_mesh(top, parameters);
-    parameters.model.materials =
-      read_named<MaterialParameters>(top, "Materials");
+    parameters.model.materials
+        = read_named<MaterialParameters>(top, "Materials");
     if (parameters.model.materials.empty())
-      throw InputError(file + ", section 'Materials': 'Names' must list at "
-                              "least one material.");
+      throw InputError(file
+                       + ", section 'Materials': 'Names' must list at "
+                         "least one material.");
     parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
     parameters.loads        = read_named<LoadParameters>(top, "Loads");
     for (const LoadParameters &load : parameters.loads)
@@ -401,24 +424,22 @@ namespace quoin
     return parameters;
   }
 
-  std::string
-  describe_parameters()
+  std::string describe_parameters()
   {
     ParameterHandler prm;
     declare_fixed(prm);
     declare_names(prm);
     for (const NamedSection &section : named_sections())
-      {
-        prm.enter_subsection(section.name);
-        prm.enter_subsection("NAME");
-        section.declare_one(prm);
-        prm.leave_subsection();
-        prm.leave_subsection();
-      }
+    {
+      prm.enter_subsection(section.name);
+      prm.enter_subsection("NAME");
+      section.declare_one(prm);
+      prm.leave_subsection();
+      prm.leave_subsection();
+    }
     std::ostringstream text;
-    prm.print_parameters(text,
-                         ParameterHandler::PRM |
-                           ParameterHandler::KeepDeclarationOrder);
+    prm.print_parameters(text, ParameterHandler::PRM
+                                   | ParameterHandler::KeepDeclarationOrder);
     return text.str();
   }
 } // namespace quoin

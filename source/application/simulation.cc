@@ -38,14 +38,12 @@ namespace quoin
      */
     constexpr double local_damping_share = 0.5;
 
-    double
-    seconds_since(const Clock::time_point start)
+    double seconds_since(const Clock::time_point start)
     {
       return std::chrono::duration<double>(Clock::now() - start).count();
     }
 
-    std::string
-    number(const double value)
+    std::string number(const double value)
     {
       std::ostringstream text;
       text.precision(4);
@@ -55,28 +53,23 @@ namespace quoin
   } // namespace
 
   Simulation::Simulation(const Parameters &parameters,
-                         const RunOptions &options,
-                         const MPI_Comm    communicator)
-    : parameters(parameters)
-    , options(options)
-    , communicator(communicator)
-    , is_first_rank(
-        dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-    , output(parameters.output_directory)
-    , log(is_first_rank, options.quiet)
-    , progress(log)
-    , history_control(parameters.history_interval)
-    , field_control(
-        parameters.field_interval > 0. ? parameters.field_interval : -1.)
-    , record{{},
-             0,
-             0,
-             BlockOutput(parameters.output_directory, communicator),
-             JointOutput(parameters.output_directory, communicator)}
-  {}
+                         const RunOptions &options, const MPI_Comm communicator)
+    : parameters(parameters), options(options), communicator(communicator),
+      is_first_rank(dealii::Utilities::MPI::this_mpi_process(communicator)
+                    == 0),
+      output(parameters.output_directory), log(is_first_rank, options.quiet),
+      progress(log), history_control(parameters.history_interval),
+      field_control(parameters.field_interval > 0. ? parameters.field_interval
+                                                   : -1.),
+      record{ {},
+              0,
+              0,
+              BlockOutput(parameters.output_directory, communicator),
+              JointOutput(parameters.output_directory, communicator) }
+  {
+  }
 
-  void
-  Simulation::run()
+  void Simulation::run()
   {
     make_model();
     report_model();
@@ -84,217 +77,199 @@ namespace quoin
       return;
     open_outputs();
     last_checkpoint = Clock::now();
-    for (unsigned int i = record.state.stage; i < parameters.stages.size();
-         ++i)
+    for (unsigned int i = record.state.stage; i < parameters.stages.size(); ++i)
       run_stage(i);
     write_summary(true);
   }
 
-  void
-  Simulation::make_model()
+  void Simulation::make_model()
   {
     split_into_blocks(read_gmsh(parameters.mesh_file, communicator),
-                      parameters.split,
-                      mesh);
+                      parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 
     // Whole blocks to ranks: blocks share no nodes, only joints cross ranks.
     auto rank_of_block = partition_blocks(
-      mesh, dealii::Utilities::MPI::n_mpi_processes(communicator));
+        mesh, dealii::Utilities::MPI::n_mpi_processes(communicator));
     renumber_blocks(mesh, order_by_part(rank_of_block));
     std::sort(rank_of_block.begin(), rank_of_block.end());
 
     try
-      {
-        model = std::make_unique<Model>(mesh,
-                                        rank_of_block,
-                                        parameters.model,
-                                        communicator);
-        solver =
-          std::make_unique<ExplicitSolver>(*model, parameters.loads);
-        histories = std::make_unique<Histories>(parameters.histories,
-                                                *model,
-                                                *solver);
-      }
+    {
+      model  = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
+                                      communicator);
+      solver = std::make_unique<ExplicitSolver>(*model, parameters.loads);
+      histories
+          = std::make_unique<Histories>(parameters.histories, *model, *solver);
+    }
     catch (const InputError &error)
-      {
-        throw InputError(parameters.file + ", " + error.what());
-      }
+    {
+      throw InputError(parameters.file + ", " + error.what());
+    }
     record.state = model->initial_state();
   }
 
-  void
-  Simulation::report_model()
+  void Simulation::report_model()
   {
-    log.message(parameters.title.empty() ? parameters.file :
-                                           parameters.title);
+    log.message(parameters.title.empty() ? parameters.file : parameters.title);
     log.message(mesh_report.to_text());
 
     // Each stage's step is found without starting it.
     State state = record.state;
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+    {
+      const StageParameters &stage = parameters.stages[i];
+      try
       {
-        const StageParameters &stage = parameters.stages[i];
-        try
-          {
-            solver->begin_stage(stage,
-                                i == 0 ? nullptr : &parameters.stages[i - 1],
-                                state);
-          }
-        catch (const InputError &error)
-          {
-            throw InputError(parameters.file + ", " + error.what());
-          }
-        choose_time_step(stage);
-        log.message(
-          "stage " + stage.name + ": time step " +
-          number(solver->get_time_step()) + " s, " +
-          number(100. * solver->get_time_step() /
-                 solver->critical_time_step()) +
-          " % of the critical " + number(solver->critical_time_step()) +
-          " s" +
-          (stage.end == StageEnd::time ?
-             ", " + std::to_string(steps_of_stage) + " steps" :
-             "") +
-          (solver->added_mass_share() > 0. ?
-             ", mass scaling adds " +
-               number(100. * solver->added_mass_share()) + " % of mass" :
-             ""));
+        solver->begin_stage(stage, i == 0 ? nullptr : &parameters.stages[i - 1],
+                            state);
       }
+      catch (const InputError &error)
+      {
+        throw InputError(parameters.file + ", " + error.what());
+      }
+      choose_time_step(stage);
+      log.message("stage " + stage.name + ": time step "
+                  + number(solver->get_time_step()) + " s, "
+                  + number(100. * solver->get_time_step()
+                           / solver->critical_time_step())
+                  + " % of the critical " + number(solver->critical_time_step())
+                  + " s"
+                  + (stage.end == StageEnd::time
+                         ? ", " + std::to_string(steps_of_stage) + " steps"
+                         : "")
+                  + (solver->added_mass_share() > 0.
+                         ? ", mass scaling adds "
+                               + number(100. * solver->added_mass_share())
+                               + " % of mass"
+                         : ""));
+    }
   }
 
-  void
-  Simulation::open_outputs()
+  void Simulation::open_outputs()
   {
-    all_or_none<RunError>(communicator, [&]() {
-      std::error_code error;
-      if (is_first_rank)
+    all_or_none<InputError>(
+        communicator,
+        [&]()
         {
-          std::filesystem::create_directories(output, error);
-          if (!std::filesystem::is_directory(output))
-            throw RunError("the output directory '" + output +
-                           "' cannot be made: " + error.message() +
-                           ". Choose another with 'Output directory' or "
-                           "--output.");
-        }
-    });
+          std::error_code error;
+          if (is_first_rank)
+          {
+            std::filesystem::create_directories(output, error);
+            if (!std::filesystem::is_directory(output))
+              throw InputError("the output directory '" + output
+                               + "' cannot be made: " + error.message()
+                               + ". Choose another with 'Output directory' or "
+                                 "--output.");
+          }
+        });
     history_table = std::make_unique<CsvTable>(output + "/histories.csv",
                                                histories->column_names());
     energy_table  = std::make_unique<CsvTable>(
-      output + "/energies.csv",
-      std::vector<std::string>{"time [s]",
-                                "kinetic [J]",
-                                "strain [J]",
-                                "joint [J]",
-                                "friction [J]",
-                                "fracture [J]",
-                                "damping [J]",
-                                "viscous [J]",
-                                "external [J]",
-                                "residual [J]"});
+        output + "/energies.csv",
+        std::vector<std::string>{ "time [s]", "kinetic [J]", "strain [J]",
+                                   "joint [J]", "friction [J]", "fracture [J]",
+                                   "damping [J]", "viscous [J]", "external [J]",
+                                   "residual [J]" });
     if (options.resume)
-      {
-        const CheckpointInfo info =
-          load_checkpoint(output,
-                          communicator,
-                          QUOIN_VERSION,
-                          fingerprint(parameters.effective),
-                          record);
-        log.open(output + "/log.txt", true);
-        log.message("resumed at time " + number(info.time) + " s, step " +
-                    std::to_string(info.step));
-      }
+    {
+      const CheckpointInfo info
+          = load_checkpoint(output, communicator, QUOIN_VERSION,
+                            fingerprint(parameters.effective), record);
+      log.open(output + "/log.txt", true);
+      log.message("resumed at time " + number(info.time) + " s, step "
+                  + std::to_string(info.step));
+    }
     else
       log.open(output + "/log.txt", false);
 
-    all_or_none<RunError>(communicator, [&]() {
-      if (!is_first_rank)
-        return;
-      if (options.resume)
+    all_or_none<RunError>(
+        communicator,
+        [&]()
         {
-          history_table->resume(record.histories_bytes);
-          energy_table->resume(record.energies_bytes);
-        }
-      else
-        {
-          std::filesystem::remove_all(output + "/checkpoint");
-          history_table->start();
-          energy_table->start();
-        }
-      std::ofstream used(output + "/used_parameters.prm");
-      used << parameters.effective;
-      used.close();
-      if (!used)
-        throw RunError("'" + output +
-                       "/used_parameters.prm' cannot be written. Is the "
-                       "disk full?");
-    });
+          if (!is_first_rank)
+            return;
+          if (options.resume)
+          {
+            history_table->resume(record.histories_bytes);
+            energy_table->resume(record.energies_bytes);
+          }
+          else
+          {
+            std::filesystem::remove_all(output + "/checkpoint");
+            history_table->start();
+            energy_table->start();
+          }
+          std::ofstream used(output + "/used_parameters.prm");
+          used << parameters.effective;
+          used.close();
+          if (!used)
+            throw RunError("'" + output
+                           + "/used_parameters.prm' cannot be written. Is the "
+                             "disk full?");
+        });
     record.block_output.start();
     record.joint_output.start();
   }
 
-  void
-  Simulation::choose_time_step(const StageParameters &stage)
+  void Simulation::choose_time_step(const StageParameters &stage)
   {
     const double critical = solver->critical_time_step();
-    double       dt       = parameters.time_step;
+    double dt             = parameters.time_step;
     if (dt > critical)
-      throw InputError(
-        parameters.file + ", section 'Time stepping': 'Time step = " +
-        number(dt) + "' is above the critical time step " +
-        number(critical) + " s of stage '" + stage.name +
-        "'. Give a smaller one, or 0 for an automatic one.");
+      throw InputError(parameters.file
+                       + ", section 'Time stepping': 'Time step = " + number(dt)
+                       + "' is above the critical time step " + number(critical)
+                       + " s of stage '" + stage.name
+                       + "'. Give a smaller one, or 0 for an automatic one.");
     if (dt == 0.)
-      dt = critical * (stage.damping == DampingType::local ?
-                         std::min(parameters.share_of_critical_step,
-                                  local_damping_share) :
-                         parameters.share_of_critical_step);
+      dt = critical
+           * (stage.damping == DampingType::local
+                  ? std::min(parameters.share_of_critical_step,
+                             local_damping_share)
+                  : parameters.share_of_critical_step);
     steps_of_stage = 0;
     if (stage.end == StageEnd::time)
-      {
-        // The stage ends at a step, not near one.
-        steps_of_stage = std::ceil(stage.duration / dt * (1. - 1e-12));
-        dt             = stage.duration / steps_of_stage;
-      }
+    {
+      // The stage ends at a step, not near one.
+      steps_of_stage = std::ceil(stage.duration / dt * (1. - 1e-12));
+      dt             = stage.duration / steps_of_stage;
+    }
     solver->set_time_step(dt);
   }
 
-  void
-  Simulation::run_stage(const unsigned int index)
+  void Simulation::run_stage(const unsigned int index)
   {
     const StageParameters &stage = parameters.stages[index];
-    State                 &state = record.state;
+    State &state                 = record.state;
     if (record.stage_begun)
       solver->resume_stage(stage, state);
     else
-      {
-        solver->begin_stage(stage,
-                            index == 0 ? nullptr :
-                                         &parameters.stages[index - 1],
-                            state);
-        record.stage_begun = true;
-      }
+    {
+      solver->begin_stage(
+          stage, index == 0 ? nullptr : &parameters.stages[index - 1], state);
+      record.stage_begun = true;
+    }
     choose_time_step(stage);
 
     progress.start(progress_figures(stage));
-    bool over = stage.end == StageEnd::time &&
-                state.stage_step >= steps_of_stage;
+    bool over
+        = stage.end == StageEnd::time && state.stage_step >= steps_of_stage;
     while (!over)
-      {
-        const auto start   = Clock::now();
-        const bool balance = state.stage_step % balance_interval == 0;
-        take_step(stage, balance);
-        over = stage_is_over(stage, balance);
-        const double seconds = seconds_since(start);
-        record.wall_time += seconds;
-        seconds_done += seconds;
-        ++steps_done;
-        if (progress.due())
-          progress.update(progress_figures(stage));
-        checkpoint_if_due();
-      }
+    {
+      const auto start     = Clock::now();
+      over                 = take_step(stage);
+      const double seconds = seconds_since(start);
+      record.wall_time += seconds;
+      seconds_done += seconds;
+      ++steps_done;
+      if (progress.due())
+        progress.update(progress_figures(stage));
+      checkpoint_if_due();
+    }
     progress.finish(progress_figures(stage));
 
+    solver->check_finite(state);
     record.stage_begun = false;
     state.stage        = index + 1;
     write_fields();
@@ -302,126 +277,127 @@ namespace quoin
     save_checkpoint();
   }
 
-  void
-  Simulation::take_step(const StageParameters &stage, const bool balance)
+  bool Simulation::take_step(const StageParameters &stage)
   {
-    State       &state = record.state;
+    State &state       = record.state;
     const double dt    = solver->get_time_step();
+    const bool balance = state.stage_step % balance_interval == 0;
     if (field_control.is_due(state.time, dt))
       write_fields();
 
-    const bool row_is_due = history_control.is_due(state.time, dt);
-    if (row_is_due)
-      histories->before_step(state);
+    // A stage's last step has a row of its own; a static stage may find only
+    // afterwards that this was it.
+    const bool row_is_due  = history_control.is_due(state.time, dt);
+    const bool may_be_last = stage.end == StageEnd::time
+                                 ? state.stage_step + 1 == steps_of_stage
+                                 : balance;
     ExplicitSolver::Requests requests;
-    requests.energies = row_is_due;
+    requests.energies = row_is_due || may_be_last;
     requests.balance  = balance;
+    if (requests.energies)
+      histories->before_step(state);
     try
-      {
-        solver->step(state, requests);
-      }
+    {
+      solver->step(state, requests);
+    }
     catch (const RunError &error)
-      {
-        throw RunError("stage '" + stage.name + "': " + error.what());
-      }
-    if (!row_is_due)
-      return;
-    const auto row = histories->after_step(state);
-    write_energies();
-    if (is_first_rank)
-      history_table->add_row(row);
+    {
+      throw RunError("stage '" + stage.name + "': " + error.what());
+    }
+    const bool over = stage_is_over(stage, balance);
+    if (row_is_due || over)
+    {
+      const auto row = histories->after_step(state);
+      write_energies();
+      if (is_first_rank)
+        history_table->add_row(row);
+    }
+    return over;
   }
 
-  bool
-  Simulation::stage_is_over(const StageParameters &stage,
-                            const bool             balance) const
+  bool Simulation::stage_is_over(const StageParameters &stage,
+                                 const bool balance) const
   {
     if (stage.end == StageEnd::time)
       return record.state.stage_step >= steps_of_stage;
-    if (balance && record.state.stage_step > balance_interval &&
-        solver->unbalanced_ratio() <= stage.static_ratio)
+    if (balance && record.state.stage_step > balance_interval
+        && solver->unbalanced_ratio() <= stage.static_ratio)
       return true;
     if (record.state.stage_step >= stage.maximum_steps)
-      throw RunError("stage '" + stage.name + "' has not settled within " +
-                     std::to_string(stage.maximum_steps) +
-                     " steps: the unbalanced ratio is " +
-                     number(solver->unbalanced_ratio()) + " instead of " +
-                     number(stage.static_ratio) +
-                     ". The model may have no equilibrium under these "
-                     "loads; otherwise raise 'Maximum steps' or damp more.");
+      throw RunError("stage '" + stage.name + "' has not settled within "
+                     + std::to_string(stage.maximum_steps)
+                     + " steps: the unbalanced ratio is "
+                     + number(solver->unbalanced_ratio()) + " instead of "
+                     + number(stage.static_ratio)
+                     + ". The model may have no equilibrium under these "
+                       "loads; otherwise raise 'Maximum steps' or damp more.");
     return false;
   }
 
-  double
-  Simulation::energy_residual() const
+  double Simulation::energy_residual() const
   {
     const Energies &energies = solver->energies();
-    const double    scale    = energies.throughput();
+    const double scale       = energies.throughput();
     return scale > 0. ? energies.residual() / scale : 0.;
   }
 
-  void
-  Simulation::write_energies()
+  void Simulation::write_energies()
   {
-    const Energies       &energies = solver->energies();
+    const Energies &energies       = solver->energies();
     const EnergyAccounts &accounts = energies.accounts;
-    record.largest_residual =
-      std::max(record.largest_residual, std::abs(energies.residual()));
+    record.largest_residual
+        = std::max(record.largest_residual, std::abs(energies.residual()));
     if (is_first_rank)
-      energy_table->add_row(
-        {record.state.time - solver->get_time_step(),
-         energies.kinetic,
-         energies.strain,
-         energies.joint,
-         accounts.friction,
-         accounts.fracture,
-         accounts.damping,
-         accounts.viscous,
-         accounts.external,
-         energies.residual()});
+      energy_table->add_row({ record.state.time - solver->get_time_step(),
+                              energies.kinetic, energies.strain, energies.joint,
+                              accounts.friction, accounts.fracture,
+                              accounts.damping, accounts.viscous,
+                              accounts.external, energies.residual() });
   }
 
-  void
-  Simulation::write_fields()
+  void Simulation::write_fields()
   {
     const State &state = record.state;
     record.block_output.write(state.time, block_fields(*model, state));
     record.joint_output.write(state.time, joint_fields(*model, state));
-    all_or_none<RunError>(communicator, [&]() {
-      if (is_first_rank)
-        {
-          history_table->flush();
-          energy_table->flush();
-        }
-    });
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (is_first_rank)
+                            {
+                              history_table->flush();
+                              energy_table->flush();
+                            }
+                          });
   }
 
-  void
-  Simulation::checkpoint_if_due()
+  void Simulation::checkpoint_if_due()
   {
-    if (parameters.checkpoint_interval == 0. ||
-        record.state.stage_step % clock_interval != 0)
+    if (parameters.checkpoint_interval == 0.
+        || record.state.stage_step % clock_interval != 0)
       return;
     // The first rank's clock counts for all.
     const bool due = dealii::Utilities::MPI::broadcast(
-      communicator,
-      seconds_since(last_checkpoint) > parameters.checkpoint_interval);
+        communicator,
+        seconds_since(last_checkpoint) > parameters.checkpoint_interval);
     if (due)
       save_checkpoint();
   }
 
-  void
-  Simulation::save_checkpoint()
+  void Simulation::save_checkpoint()
   {
-    all_or_none<RunError>(communicator, [&]() {
-      if (is_first_rank)
-        {
-          history_table->sync();
-          energy_table->sync();
-          record.histories_bytes = history_table->size();
-          record.energies_bytes  = energy_table->size();
-        }
-    });
+    solver->check_finite(record.state);
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (is_first_rank)
+                            {
+                              history_table->sync();
+                              energy_table->sync();
+                              record.histories_bytes = history_table->size();
+                              record.energies_bytes  = energy_table->size();
+                            }
+                          });
     CheckpointInfo info;
     info.step       = record.state.step;
     info.time       = record.state.time;
@@ -438,65 +414,65 @@ namespace quoin
     figures.stage    = stage.name;
     figures.time     = record.state.time;
     figures.step     = record.state.step;
-    figures.fraction = stage.end == StageEnd::time ?
-                         double(record.state.stage_step) / steps_of_stage :
-                         -1.;
-    figures.share_of_critical =
-      solver->get_time_step() / solver->critical_time_step();
+    figures.fraction = stage.end == StageEnd::time
+                           ? double(record.state.stage_step) / steps_of_stage
+                           : -1.;
+    figures.share_of_critical
+        = solver->get_time_step() / solver->critical_time_step();
     figures.unbalanced_ratio = solver->unbalanced_ratio();
     figures.energy_residual  = energy_residual();
     return figures;
   }
 
-  void
-  Simulation::write_summary(const bool finished)
+  void Simulation::write_summary(const bool finished)
   {
-    const double updates =
-      seconds_done > 0. ?
-        double(mesh.n_cells()) * double(steps_done) / seconds_done :
-        0.;
-    nlohmann::json summary = {
-      {"title", parameters.title},
-      {"version", QUOIN_VERSION},
-      {"finished", finished},
-      {"ranks", dealii::Utilities::MPI::n_mpi_processes(communicator)},
-      {"blocks", mesh.n_blocks()},
-      {"cells", mesh.n_cells()},
-      {"nodes", mesh.n_vertices()},
-      {"joint faces", mesh.joint_faces.size()},
-      {"joint length [m]", mesh_report.total_joint_length},
-      {"shortest edge [m]", mesh_report.shortest_edge},
-      {"smallest angle [deg]", mesh_report.smallest_angle},
-      {"time [s]", record.state.time},
-      {"steps", record.state.step},
-      {"time step [s]", solver->get_time_step()},
-      {"critical time step [s]", solver->critical_time_step()},
-      {"added mass share", solver->added_mass_share()},
-      {"wall time [s]", record.wall_time},
-      {"element updates per second", updates},
-      {"unbalanced ratio", solver->unbalanced_ratio()},
-      {"energy throughput [J]", solver->energies().throughput()},
-      {"energy residual [J]", solver->energies().residual()},
-      {"energy residual share", energy_residual()}};
+    const double updates
+        = seconds_done > 0.
+              ? double(mesh.n_cells()) * double(steps_done) / seconds_done
+              : 0.;
+    nlohmann::json summary
+        = { { "title", parameters.title },
+            { "version", QUOIN_VERSION },
+            { "finished", finished },
+            { "ranks", dealii::Utilities::MPI::n_mpi_processes(communicator) },
+            { "blocks", mesh.n_blocks() },
+            { "cells", mesh.n_cells() },
+            { "nodes", mesh.n_vertices() },
+            { "joint faces", mesh.joint_faces.size() },
+            { "joint length [m]", mesh_report.total_joint_length },
+            { "shortest edge [m]", mesh_report.shortest_edge },
+            { "smallest angle [deg]", mesh_report.smallest_angle },
+            { "time [s]", record.state.time },
+            { "steps", record.state.step },
+            { "time step [s]", solver->get_time_step() },
+            { "critical time step [s]", solver->critical_time_step() },
+            { "added mass share", solver->added_mass_share() },
+            { "wall time [s]", record.wall_time },
+            { "element updates per second", updates },
+            { "unbalanced ratio", solver->unbalanced_ratio() },
+            { "energy throughput [J]", solver->energies().throughput() },
+            { "energy residual [J]", solver->energies().residual() },
+            { "energy residual share", energy_residual() } };
     if (finished && parameters.measure_bandwidth)
-      {
-        const double measured =
-          dealii::Utilities::MPI::sum(memory_bandwidth(), communicator);
-        const double used = step_bytes(mesh.n_vertices(), mesh.n_cells()) *
-                            double(steps_done) / seconds_done;
-        summary["memory bandwidth [B/s]"] = measured;
-        summary["share of memory bandwidth"] = used / measured;
-      }
-    all_or_none<RunError>(communicator, [&]() {
-      if (is_first_rank)
-        write_json(output + "/summary.json", summary);
-    });
+    {
+      const double measured
+          = dealii::Utilities::MPI::sum(memory_bandwidth(), communicator);
+      const double used = step_bytes(mesh.n_vertices(), mesh.n_cells())
+                          * double(steps_done) / seconds_done;
+      summary["memory bandwidth [B/s]"]    = measured;
+      summary["share of memory bandwidth"] = used / measured;
+    }
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (is_first_rank)
+                              write_json(output + "/summary.json", summary);
+                          });
     if (!finished)
       return;
-    log.message("finished: " + std::to_string(record.state.step) +
-                " steps in " + duration_text(record.wall_time) + ", " +
-                number(updates / 1e6) +
-                " million element updates a second, energy residual " +
-                number(energy_residual()) + " of what went through");
+    log.message("finished: " + std::to_string(record.state.step) + " steps in "
+                + duration_text(record.wall_time) + ", " + number(updates / 1e6)
+                + " million element updates a second, energy residual "
+                + number(energy_residual()) + " of what went through");
   }
 } // namespace quoin

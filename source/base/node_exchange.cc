@@ -7,18 +7,16 @@ namespace quoin
 {
   namespace
   {
-    dealii::IndexSet
-    range(const unsigned int first,
-          const unsigned int last,
-          const unsigned int size)
+    dealii::IndexSet range(const unsigned int first, const unsigned int last,
+                           const unsigned int size)
     {
       dealii::IndexSet set(size);
       set.add_range(first, last);
       return set;
     }
 
-    dealii::IndexSet
-    indices(const std::vector<unsigned int> &entries, const unsigned int size)
+    dealii::IndexSet indices(const std::vector<unsigned int> &entries,
+                             const unsigned int size)
     {
       dealii::IndexSet set(size);
       set.add_indices(entries.begin(), entries.end());
@@ -27,13 +25,12 @@ namespace quoin
     }
   } // namespace
 
-  NodeExchange::NodeExchange(const unsigned int               first,
-                             const unsigned int               last,
-                             const unsigned int               n_global,
+  NodeExchange::NodeExchange(const unsigned int first, const unsigned int last,
+                             const unsigned int n_global,
                              const std::vector<unsigned int> &ghosts,
-                             const MPI_Comm                   communicator)
-    : partitioner(range(first, last, n_global),
-                  indices(ghosts, n_global),
+                             const MPI_Comm communicator)
+    : partitioner(range(first, last, n_global), indices(ghosts, n_global),
                   communicator)
-  {}
+  {
+  }
 } // namespace quoin

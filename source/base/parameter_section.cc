@@ -14,18 +14,15 @@ namespace quoin
   using dealii::Utilities::split_string_list;
 
   ParameterSection::ParameterSection(dealii::ParameterHandler &prm,
-                                     std::string               file)
-    : prm(prm)
-    , file_name(std::move(file))
-    , entered(false)
-  {}
+                                     std::string file)
+    : prm(prm), file_name(std::move(file)), entered(false)
+  {
+  }
 
   ParameterSection::ParameterSection(const ParameterSection &parent,
-                                     const std::string      &name)
-    : prm(parent.prm)
-    , file_name(parent.file_name)
-    , path(parent.path.empty() ? name : parent.path + "/" + name)
-    , entered(true)
+                                     const std::string &name)
+    : prm(parent.prm), file_name(parent.file_name),
+      path(parent.path.empty() ? name : parent.path + "/" + name), entered(true)
   {
     prm.enter_subsection(name);
   }
@@ -36,20 +33,17 @@ namespace quoin
       prm.leave_subsection();
   }
 
-  std::string
-  ParameterSection::text(const std::string &name) const
+  std::string ParameterSection::text(const std::string &name) const
   {
     return prm.get(name);
   }
 
-  bool
-  ParameterSection::flag(const std::string &name) const
+  bool ParameterSection::flag(const std::string &name) const
   {
     return text(name) == "yes" || text(name) == "true";
   }
 
-  double
-  ParameterSection::number(const std::string &name) const
+  double ParameterSection::number(const std::string &name) const
   {
     const double value = prm.get_double(name);
     if (!std::isfinite(value))
@@ -57,8 +51,7 @@ namespace quoin
     return value;
   }
 
-  double
-  ParameterSection::positive(const std::string &name) const
+  double ParameterSection::positive(const std::string &name) const
   {
     const double value = number(name);
     if (!(value > 0.))
@@ -66,8 +59,7 @@ namespace quoin
     return value;
   }
 
-  double
-  ParameterSection::nonnegative(const std::string &name) const
+  double ParameterSection::nonnegative(const std::string &name) const
   {
     const double value = number(name);
     if (value < 0.)
@@ -75,29 +67,25 @@ namespace quoin
     return value;
   }
 
-  double
-  ParameterSection::within(const std::string &name,
-                           const double       low,
-                           const double       high) const
+  double ParameterSection::within(const std::string &name, const double low,
+                                  const double high) const
   {
     const double value = number(name);
     if (!(value >= low && value <= high))
-      {
-        std::ostringstream why;
-        why << "must lie between " << low << " and " << high << ".";
-        fail(name, why.str());
-      }
+    {
+      std::ostringstream why;
+      why << "must lie between " << low << " and " << high << ".";
+      fail(name, why.str());
+    }
     return value;
   }
 
-  unsigned int
-  ParameterSection::integer(const std::string &name) const
+  unsigned int ParameterSection::integer(const std::string &name) const
   {
     return static_cast<unsigned int>(prm.get_integer(name));
   }
 
-  std::vector<std::string>
-  ParameterSection::list(const std::string &name) const
+  std::vector<std::string> ParameterSection::list(const std::string &name) const
   {
     auto words = split_string_list(text(name), ',');
     if (words.size() == 1 && words.front().empty())
@@ -107,35 +95,32 @@ namespace quoin
 
   std::vector<double>
   ParameterSection::number_list(const std::string &name,
-                                const std::size_t  size) const
+                                const std::size_t size) const
   {
-    const auto          words = list(name);
+    const auto words = list(name);
     std::vector<double> values;
     try
-      {
-        values = dealii::Utilities::string_to_double(words);
-      }
+    {
+      values = dealii::Utilities::string_to_double(words);
+    }
     catch (const std::exception &)
-      {
-        values.clear();
-      }
+    {
+      values.clear();
+    }
     if (values.size() != size)
       fail(name,
-           "must be " + std::to_string(size) +
-             " numbers separated by commas.");
+           "must be " + std::to_string(size) + " numbers separated by commas.");
     return values;
   }
 
-  void
-  ParameterSection::fail(const std::string &name,
-                         const std::string &why) const
+  void ParameterSection::fail(const std::string &name,
+                              const std::string &why) const
   {
-    throw InputError(file_name + ", section '" + (path.empty() ? "/" : path) +
-                     "': '" + name + " = " + text(name) + "' " + why);
+    throw InputError(file_name + ", section '" + (path.empty() ? "/" : path)
+                     + "': '" + name + " = " + text(name) + "' " + why);
   }
 
-  std::string
-  ParameterSection::folder() const
+  std::string ParameterSection::folder() const
   {
     const auto parent = std::filesystem::path(file_name).parent_path();
     return parent.empty() ? "./" : parent.string() + "/";

@@ -15,43 +15,40 @@ namespace quoin
 
     /** The joint set of each line name of the mesh. */
     std::vector<unsigned int>
-    sets_of_lines(const BlockMesh<2>                    &mesh,
+    sets_of_lines(const BlockMesh<2> &mesh,
                   const std::vector<JointSetParameters> &sets)
     {
       std::vector<unsigned int> set_of_line(mesh.line_names.size(), no_set);
       for (unsigned int s = 0; s < sets.size(); ++s)
         for (const std::string &curve : sets[s].curves)
+        {
+          const std::string name = curve == "unnamed" ? "" : curve;
+          const auto line
+              = std::find(mesh.line_names.begin(), mesh.line_names.end(), name);
+          if (line == mesh.line_names.end())
           {
-            const std::string name = curve == "unnamed" ? "" : curve;
-            const auto        line =
-              std::find(mesh.line_names.begin(), mesh.line_names.end(), name);
-            if (line == mesh.line_names.end())
-              {
-                std::string known;
-                for (const auto &n : mesh.line_names)
-                  known += n.empty() ? "" : " '" + n + "'";
-                throw InputError("section 'Joints/" + sets[s].name +
-                                 "': the mesh has no physical curve '" +
-                                 curve + "'. It has:" + known +
-                                 ". Correct 'Curves'.");
-              }
-            auto &set = set_of_line[line - mesh.line_names.begin()];
-            if (set != no_set)
-              throw InputError("section 'Joints/" + sets[s].name +
-                               "': curve '" + curve +
-                               "' belongs to the set '" + sets[set].name +
-                               "' already. Name it once.");
-            set = s;
+            std::string known;
+            for (const auto &n : mesh.line_names)
+              known += n.empty() ? "" : " '" + n + "'";
+            throw InputError("section 'Joints/" + sets[s].name
+                             + "': the mesh has no physical curve '" + curve
+                             + "'. It has:" + known + ". Correct 'Curves'.");
           }
+          auto &set = set_of_line[line - mesh.line_names.begin()];
+          if (set != no_set)
+            throw InputError("section 'Joints/" + sets[s].name + "': curve '"
+                             + curve + "' belongs to the set '" + sets[set].name
+                             + "' already. Name it once.");
+          set = s;
+        }
       return set_of_line;
     }
   } // namespace
 
-  void
-  MatchedJoints::prepare(const BlockMesh<2>                    &mesh,
-                         const NodeExchange                    &exchange,
-                         const std::vector<JointSetParameters> &sets,
-                         const double                           thickness)
+  void MatchedJoints::prepare(const BlockMesh<2> &mesh,
+                              const NodeExchange &exchange,
+                              const std::vector<JointSetParameters> &sets,
+                              const double thickness)
   {
     laws.clear();
     for (const auto &set : sets)
@@ -60,55 +57,52 @@ namespace quoin
     segments.clear();
     const auto set_of_line = sets_of_lines(mesh, sets);
     for (unsigned int f = 0; f < mesh.joint_faces.size(); ++f)
-      {
-        const JointFace   &face = mesh.joint_faces[f];
-        const unsigned int set  = set_of_line[face.name];
-        if (set == no_set)
-          throw InputError(
-            (face.name == 0 ? std::string("a joint on no named curve") :
-                              "the joint on curve '" +
-                                mesh.line_names[face.name] + "'") +
-            " between groups '" + mesh.group_names[face.groups[0]] +
-            "' and '" + mesh.group_names[face.groups[1]] +
-            "' belongs to no joint set. Add " +
-            (face.name == 0 ? "'unnamed'" :
-                              "'" + mesh.line_names[face.name] + "'") +
-            " to the 'Curves' of a set in section 'Joints'.");
+    {
+      const JointFace &face  = mesh.joint_faces[f];
+      const unsigned int set = set_of_line[face.name];
+      if (set == no_set)
+        throw InputError(
+            (face.name == 0
+                 ? std::string("a joint on no named curve")
+                 : "the joint on curve '" + mesh.line_names[face.name] + "'")
+            + " between groups '" + mesh.group_names[face.groups[0]] + "' and '"
+            + mesh.group_names[face.groups[1]]
+            + "' belongs to no joint set. Add "
+            + (face.name == 0 ? "'unnamed'"
+                              : "'" + mesh.line_names[face.name] + "'")
+            + " to the 'Curves' of a set in section 'Joints'.");
 
-        const int sides = exchange.owns(face.lower[0]) +
-                          exchange.owns(face.upper[0]);
-        if (sides == 0)
-          continue;
-        Segment segment;
-        for (unsigned int k = 0; k < 2; ++k)
-          {
-            segment.lower[k] = exchange.local(face.lower[k]);
-            segment.upper[k] = exchange.local(face.upper[k]);
-          }
-        segment.area = 0.5 * thickness *
-                       mesh.vertices[face.lower[0]].distance(
-                         mesh.vertices[face.lower[1]]);
-        segment.share = 0.5f * sides;
-        segment.set   = set;
-        segment.face  = f;
-        segments.push_back(segment);
+      const int sides
+          = exchange.owns(face.lower[0]) + exchange.owns(face.upper[0]);
+      if (sides == 0)
+        continue;
+      Segment segment;
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        segment.lower[k] = exchange.local(face.lower[k]);
+        segment.upper[k] = exchange.local(face.upper[k]);
       }
-    std::stable_sort(segments.begin(),
-                     segments.end(),
-                     [](const Segment &a, const Segment &b) {
-                       return a.set < b.set;
-                     });
+      segment.area = 0.5 * thickness
+                     * mesh.vertices[face.lower[0]].distance(
+                         mesh.vertices[face.lower[1]]);
+      segment.share = 0.5f * sides;
+      segment.set   = set;
+      segment.face  = f;
+      segments.push_back(segment);
+    }
+    std::stable_sort(segments.begin(), segments.end(),
+                     [](const Segment &a, const Segment &b)
+                     { return a.set < b.set; });
     set_begin.assign(1, 0);
     for (unsigned int s = 0; s < sets.size(); ++s)
-      set_begin.push_back(
-        std::partition_point(segments.begin(),
-                             segments.end(),
-                             [s](const Segment &a) { return a.set <= s; }) -
-        segments.begin());
+      set_begin.push_back(std::partition_point(segments.begin(), segments.end(),
+                                               [s](const Segment &a)
+                                               { return a.set <= s; })
+                          - segments.begin());
   }
 
-  inline MatchedJoints::Frame
-  MatchedJoints::frame(const Segment &segment, const NodeRecord *nodes)
+  inline MatchedJoints::Frame MatchedJoints::frame(const Segment &segment,
+                                                   const NodeRecord *nodes)
   {
     const NodeRecord &a0 = nodes[segment.lower[0]];
     const NodeRecord &a1 = nodes[segment.lower[1]];
@@ -116,204 +110,188 @@ namespace quoin
     const NodeRecord &b1 = nodes[segment.upper[1]];
 
     // Twice the mean edge of the two sides; the lower block is on its left.
-    const double x = (a1.X[0] - a0.X[0]) + (b1.X[0] - b0.X[0]) +
-                     (a1.u[0] - a0.u[0]) + (b1.u[0] - b0.u[0]);
-    const double y = (a1.X[1] - a0.X[1]) + (b1.X[1] - b0.X[1]) +
-                     (a1.u[1] - a0.u[1]) + (b1.u[1] - b0.u[1]);
+    const double x = (a1.X[0] - a0.X[0]) + (b1.X[0] - b0.X[0])
+                     + (a1.u[0] - a0.u[0]) + (b1.u[0] - b0.u[0]);
+    const double y = (a1.X[1] - a0.X[1]) + (b1.X[1] - b0.X[1])
+                     + (a1.u[1] - a0.u[1]) + (b1.u[1] - b0.u[1]);
     const double inverse_length = 1. / std::sqrt(x * x + y * y);
     const double nx = y * inverse_length, ny = -x * inverse_length;
-    return {{nx, ny}, {ny, -nx}};
+    return { { nx, ny }, { ny, -nx } };
   }
 
-  inline std::array<double, 2>
-  MatchedJoints::gap(const Segment     &segment,
-                     const Frame       &frame,
-                     const NodeRecord  *nodes,
-                     const unsigned int k)
+  inline std::array<double, 2> MatchedJoints::gap(const Segment &segment,
+                                                  const Frame &frame,
+                                                  const NodeRecord *nodes,
+                                                  const unsigned int k)
   {
     const NodeRecord &a = nodes[segment.lower[k]];
     const NodeRecord &b = nodes[segment.upper[k]];
 
     const double x = (b.X[0] - a.X[0]) + (b.u[0] - a.u[0]);
     const double y = (b.X[1] - a.X[1]) + (b.u[1] - a.u[1]);
-    return {{x * frame.normal[0] + y * frame.normal[1],
-             x * frame.tangent[0] + y * frame.tangent[1]}};
+    return { { x * frame.normal[0] + y * frame.normal[1],
+               x * frame.tangent[0] + y * frame.tangent[1] } };
   }
 
   std::array<std::array<double, 2>, 2>
   MatchedJoints::gaps(const NodeRecord *nodes, const unsigned int i) const
   {
     const Frame local = frame(segments[i], nodes);
-    return {{gap(segments[i], local, nodes, 0),
-             gap(segments[i], local, nodes, 1)}};
+    return { { gap(segments[i], local, nodes, 0),
+               gap(segments[i], local, nodes, 1) } };
   }
 
-  void
-  MatchedJoints::initialise(
-    const std::vector<std::array<double, 3>> &face_stress,
-    const State                              &state,
-    JointHistory                             &history) const
+  void MatchedJoints::initialise(
+      const std::vector<std::array<double, 3>> &face_stress, const State &state,
+      JointHistory &history) const
   {
     for (unsigned int i = 0; i < segments.size(); ++i)
+    {
+      const auto &[xx, yy, xy] = face_stress[segments[i].face];
+      const Frame local        = frame(segments[i], state.nodes.data());
+      const double *n = local.normal, *s = local.tangent;
+      const double traction[2]
+          = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
+      const CoulombLaw &law = laws[segments[i].set];
+      for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
       {
-        const auto &[xx, yy, xy] = face_stress[segments[i].face];
-        const Frame local        = frame(segments[i], state.nodes.data());
-        const double *n = local.normal, *s = local.tangent;
-        const double  traction[2] = {xx * n[0] + xy * n[1],
-                                     xy * n[0] + yy * n[1]};
-        const CoulombLaw &law = laws[segments[i].set];
-        for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
-          {
-            history.normal_traction[p] =
-              traction[0] * n[0] + traction[1] * n[1];
-            history.shear_traction[p] = traction[0] * s[0] + traction[1] * s[1];
-            history.plastic_opening[p] =
-              -history.normal_traction[p] / law.normal_stiffness;
-            history.plastic_slip[p] =
-              -history.shear_traction[p] / law.shear_stiffness;
-          }
+        history.normal_traction[p] = traction[0] * n[0] + traction[1] * n[1];
+        history.shear_traction[p]  = traction[0] * s[0] + traction[1] * s[1];
+        history.plastic_opening[p]
+            = -history.normal_traction[p] / law.normal_stiffness;
+        history.plastic_slip[p]
+            = -history.shear_traction[p] / law.shear_stiffness;
       }
+    }
   }
 
-  void
-  MatchedJoints::add_forces(const NodeRecord *nodes,
-                            JointHistory     &history,
-                            EnergyAccounts   &energy,
-                            NodeVector       *force) const
+  void MatchedJoints::add_forces(const NodeRecord *nodes, JointHistory &history,
+                                 EnergyAccounts &energy,
+                                 NodeVector *force) const
   {
     double friction = 0., fracture = 0.;
     for (unsigned int set = 0; set < laws.size(); ++set)
+    {
+      const CoulombLaw law = laws[set];
+      for (unsigned int i = set_begin[set]; i < set_begin[set + 1]; ++i)
       {
-        const CoulombLaw law = laws[set];
-        for (unsigned int i = set_begin[set]; i < set_begin[set + 1]; ++i)
-          {
-            const Segment &segment = segments[i];
-            const Frame    local   = frame(segment, nodes);
-            for (unsigned int k = 0; k < 2; ++k)
-              {
-                const auto [opening, slip] = gap(segment, local, nodes, k);
-                const unsigned int p       = 2 * i + k;
-                JointPoint         point{history.normal_traction[p],
-                                 history.shear_traction[p],
-                                 history.plastic_slip[p],
-                                 history.plastic_opening[p],
-                                 history.state[p]};
-                const JointDissipation lost =
-                  law.update(point, opening, slip);
-                history.normal_traction[p] = point.normal_traction;
-                history.shear_traction[p]  = point.shear_traction;
-                history.plastic_slip[p]    = point.plastic_slip;
-                history.plastic_opening[p] = point.plastic_opening;
-                history.state[p]           = point.state;
+        const Segment &segment = segments[i];
+        const Frame local      = frame(segment, nodes);
+        for (unsigned int k = 0; k < 2; ++k)
+        {
+          const auto [opening, slip] = gap(segment, local, nodes, k);
+          const unsigned int p       = 2 * i + k;
+          JointPoint point{ history.normal_traction[p],
+                            history.shear_traction[p], history.plastic_slip[p],
+                            history.plastic_opening[p], history.state[p] };
+          const JointDissipation lost = law.update(point, opening, slip);
+          history.normal_traction[p]  = point.normal_traction;
+          history.shear_traction[p]   = point.shear_traction;
+          history.plastic_slip[p]     = point.plastic_slip;
+          history.plastic_opening[p]  = point.plastic_opening;
+          history.state[p]            = point.state;
 
-                const double weight = segment.area * segment.share;
-                friction += weight * lost.friction;
-                fracture += weight * lost.fracture;
-                for (unsigned int d = 0; d < 2; ++d)
-                  {
-                    const double f =
-                      segment.area *
-                      (point.normal_traction * local.normal[d] +
-                       point.shear_traction * local.tangent[d]);
-                    force[segment.lower[k]].v[d] += f;
-                    force[segment.upper[k]].v[d] -= f;
-                  }
-              }
+          const double weight = segment.area * segment.share;
+          friction += weight * lost.friction;
+          fracture += weight * lost.fracture;
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            const double f = segment.area
+                             * (point.normal_traction * local.normal[d]
+                                + point.shear_traction * local.tangent[d]);
+            force[segment.lower[k]].v[d] += f;
+            force[segment.upper[k]].v[d] -= f;
           }
+        }
       }
+    }
     energy.friction += friction;
     energy.fracture += fracture;
   }
 
-  void
-  MatchedJoints::add_viscous_forces(const NodeRecord   *nodes,
-                                    const JointHistory &history,
-                                    const NodeVector   *velocity,
-                                    const double        beta,
-                                    NodeVector         *force) const
+  void MatchedJoints::add_viscous_forces(const NodeRecord *nodes,
+                                         const JointHistory &history,
+                                         const NodeVector *velocity,
+                                         const double beta,
+                                         NodeVector *force) const
   {
     for (unsigned int i = 0; i < segments.size(); ++i)
+    {
+      const Segment &segment = segments[i];
+      const Frame local      = frame(segment, nodes);
+      const CoulombLaw &law  = laws[segment.set];
+      for (unsigned int k = 0; k < 2; ++k)
       {
-        const Segment    &segment = segments[i];
-        const Frame       local   = frame(segment, nodes);
-        const CoulombLaw &law     = laws[segment.set];
-        for (unsigned int k = 0; k < 2; ++k)
-          {
-            const JointState state = history.state[2 * i + k];
-            if (state == JointState::slipping || state == JointState::open)
-              continue;
-            const double *a = velocity[segment.lower[k]].v;
-            const double *b = velocity[segment.upper[k]].v;
-            const double  opening_rate =
-              (b[0] - a[0]) * local.normal[0] + (b[1] - a[1]) * local.normal[1];
-            const double slip_rate = (b[0] - a[0]) * local.tangent[0] +
-                                     (b[1] - a[1]) * local.tangent[1];
-            const double sigma = beta * law.normal_stiffness * opening_rate;
-            const double tau   = beta * law.shear_stiffness * slip_rate;
-            for (unsigned int d = 0; d < 2; ++d)
-              {
-                const double f = segment.area * (sigma * local.normal[d] +
-                                                 tau * local.tangent[d]);
-                force[segment.lower[k]].v[d] += f;
-                force[segment.upper[k]].v[d] -= f;
-              }
-          }
+        const JointState state = history.state[2 * i + k];
+        if (state == JointState::slipping || state == JointState::open)
+          continue;
+        const double *a = velocity[segment.lower[k]].v;
+        const double *b = velocity[segment.upper[k]].v;
+        const double opening_rate
+            = (b[0] - a[0]) * local.normal[0] + (b[1] - a[1]) * local.normal[1];
+        const double slip_rate = (b[0] - a[0]) * local.tangent[0]
+                                 + (b[1] - a[1]) * local.tangent[1];
+        const double sigma = beta * law.normal_stiffness * opening_rate;
+        const double tau   = beta * law.shear_stiffness * slip_rate;
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double f = segment.area
+                           * (sigma * local.normal[d] + tau * local.tangent[d]);
+          force[segment.lower[k]].v[d] += f;
+          force[segment.upper[k]].v[d] -= f;
+        }
       }
+    }
   }
 
-  double
-  MatchedJoints::stored_energy(const NodeRecord   *nodes,
-                               const JointHistory &history) const
+  double MatchedJoints::stored_energy(const NodeRecord *nodes,
+                                      const JointHistory &history) const
   {
     double energy = 0.;
     for (unsigned int i = 0; i < segments.size(); ++i)
+    {
+      const Segment &segment = segments[i];
+      const auto gap         = gaps(nodes, i);
+      for (unsigned int k = 0; k < 2; ++k)
       {
-        const Segment &segment = segments[i];
-        const auto     gap     = gaps(nodes, i);
-        for (unsigned int k = 0; k < 2; ++k)
-          {
-            const unsigned int p = 2 * i + k;
-            energy += segment.area * segment.share *
-                      laws[segment.set].stored_energy(
-                        {history.normal_traction[p],
-                         history.shear_traction[p],
-                         history.plastic_slip[p],
-                         history.plastic_opening[p],
-                         history.state[p]},
-                        gap[k][0]);
-          }
+        const unsigned int p = 2 * i + k;
+        energy += segment.area * segment.share
+                  * laws[segment.set].stored_energy(
+                      { history.normal_traction[p], history.shear_traction[p],
+                        history.plastic_slip[p], history.plastic_opening[p],
+                        history.state[p] },
+                      gap[k][0]);
       }
+    }
     return energy;
   }
 
-  void
-  MatchedJoints::add_stiffness_bound(
-    const NodeRecord                   *nodes,
-    const std::vector<double>          &mass,
-    std::vector<std::array<double, 3>> &stiffness) const
+  void MatchedJoints::add_stiffness_bound(
+      const NodeRecord *nodes, const std::vector<double> &mass,
+      std::vector<std::array<double, 3>> &stiffness) const
   {
     for (const Segment &segment : segments)
+    {
+      const Frame local     = frame(segment, nodes);
+      const CoulombLaw &law = laws[segment.set];
+      const double *n = local.normal, *s = local.tangent;
+      const double kn = segment.area * law.normal_stiffness;
+      const double ks = segment.area * law.shear_stiffness;
+      const std::array<double, 3> spring
+          = { { kn * n[0] * n[0] + ks * s[0] * s[0],
+                kn * n[1] * n[1] + ks * s[1] * s[1],
+                kn * n[0] * n[1] + ks * s[0] * s[1] } };
+      for (unsigned int k = 0; k < 2; ++k)
       {
-        const Frame       local = frame(segment, nodes);
-        const CoulombLaw &law   = laws[segment.set];
-        const double     *n = local.normal, *s = local.tangent;
-        const double      kn = segment.area * law.normal_stiffness;
-        const double      ks = segment.area * law.shear_stiffness;
-        const std::array<double, 3> spring = {
-          {kn * n[0] * n[0] + ks * s[0] * s[0],
-           kn * n[1] * n[1] + ks * s[1] * s[1],
-           kn * n[0] * n[1] + ks * s[0] * s[1]}};
-        for (unsigned int k = 0; k < 2; ++k)
-          {
-            const unsigned int a = segment.lower[k], b = segment.upper[k];
-            if (a == b) // the tip of a crack
-              continue;
-            for (unsigned int c = 0; c < 3; ++c)
-              {
-                stiffness[a][c] += (1. + mass[a] / mass[b]) * spring[c];
-                stiffness[b][c] += (1. + mass[b] / mass[a]) * spring[c];
-              }
-          }
+        const unsigned int a = segment.lower[k], b = segment.upper[k];
+        if (a == b) // the tip of a crack
+          continue;
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          stiffness[a][c] += (1. + mass[a] / mass[b]) * spring[c];
+          stiffness[b][c] += (1. + mass[b] / mass[a]) * spring[c];
+        }
       }
+    }
   }
 } // namespace quoin

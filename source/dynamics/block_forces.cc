@@ -40,6 +40,7 @@ namespace quoin
     offsets.clear();
     masks.clear();
     lane_stress.clear();
+    node_groups.clear();
     make_tiles(options.tile_bytes);
     for (Tile &tile : tiles)
       make_runs(tile, options.max_run_cells);
@@ -63,7 +64,6 @@ namespace quoin
         ++end;
       tiles.push_back({ { first_node[begin], first_node[end] },
                         { first_cell[begin], first_cell[end] },
-                        0,
                         0,
                         0 });
       begin = end;
@@ -99,9 +99,6 @@ namespace quoin
     for (unsigned int s = 0; s < members.size(); ++s)
       finish(s);
     tile.end_run = runs.size();
-    tile.n_steps = 0;
-    for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
-      tile.n_steps += runs[r].n_steps;
   }
 
   void BlockForces::append_run(const std::vector<StripEntry> &strips,
@@ -110,12 +107,20 @@ namespace quoin
   {
     // Each lane takes an equal piece of the sequence, wherever that cuts a
     // strip, after the two nodes before the piece: all lanes end together.
-    const std::size_t end   = strips.size();
-    const std::size_t piece = (end + n_lanes - 1) / n_lanes;
-    const std::size_t n     = padded_steps(piece + 2);
-    const std::size_t first = masks.size();
+    const std::size_t end         = strips.size();
+    const std::size_t piece       = (end + n_lanes - 1) / n_lanes;
+    const std::size_t n           = padded_steps(piece + 2);
+    const std::size_t first       = masks.size();
+    const std::size_t first_group = node_groups.size();
+    for (const StripEntry &entry : strips)
+      node_groups.push_back(entry.node / 4);
+    const auto groups = node_groups.begin() + first_group;
+    std::sort(groups, node_groups.end());
+    node_groups.erase(std::unique(groups, node_groups.end()),
+                      node_groups.end());
     runs.push_back({ first, n, stiffness.bulk() * data.thickness,
-                     stiffness.c33 * data.thickness });
+                     stiffness.c33 * data.thickness, first_group,
+                     node_groups.size() - first_group });
 
     // The kernel begins two steps more than it ends.
     const std::size_t n_rows = n + 2;
@@ -133,8 +138,7 @@ namespace quoin
         // Before and after its piece a lane repeats what is there.
         const std::size_t k = std::min(
             std::max<std::size_t>(lane_begin + step, 2) - 2, end - 1);
-        const bool in_piece
-            = step >= 2 && lane_begin + step - 2 < lane_end;
+        const bool in_piece   = step >= 2 && lane_begin + step - 2 < lane_end;
         const std::size_t row = first + step;
         offsets[row * n_lanes + lane]
             = (strips[k].node - tile.nodes.begin) * sizeof(NodeVector);
@@ -166,16 +170,17 @@ namespace quoin
                                         const NodeRecord *nodes,
                                         NodeVector *force) const
   {
-    const Tile &next = (&tile == &tiles.back() ? tiles.front() : *(&tile + 1));
-    Prefetcher prefetcher(nodes, force, next.nodes.begin, next.nodes.end,
-                          tile.n_steps / 3);
     for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
     {
-      const Run &run = runs[r];
+      const Run &run  = runs[r];
+      const Run &next = runs[r + 1 < runs.size() ? r + 1 : 0];
+      Prefetcher prefetcher(nodes, force, &node_groups[next.first_group],
+                            &node_groups[next.first_group] + next.n_groups,
+                            run.n_steps / 3);
       StripSequence sequence{ &offsets[run.first_step * lanes],
                               &masks[run.first_step], run.n_steps };
-      ElasticRates moduli{ run.bulk, run.shear };
-      NodeRecord const *tile_records = nodes + tile.nodes.begin;
+      ScaledModuli moduli{ run.bulk, run.shear };
+      const NodeRecord *tile_records = nodes + tile.nodes.begin;
       NodeVector *tile_force         = force + tile.nodes.begin;
       if (lane_stress.empty())
         elastic_strips<lanes, false>(sequence, moduli, nullptr, tile_records,
@@ -299,8 +304,8 @@ namespace quoin
   }
 
   std::array<double, 4> BlockForces::cell_stress(const NodeRecord *nodes,
-                                            const std::size_t cell,
-                                            PlaneTensor *strain_out) const
+                                                 const std::size_t cell,
+                                                 PlaneTensor *strain_out) const
   {
     const auto [a, b, c] = data.cells[cell];
     const Triangle triangle(nodes[a], nodes[b], nodes[c]);

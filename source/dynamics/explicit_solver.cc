@@ -19,102 +19,97 @@ namespace quoin
     /** Change of its coefficient in one step. */
     constexpr double adaptive_change = 1.005;
 
-    bool
-    contains(const std::vector<std::string> &names, const std::string &name)
+    bool contains(const std::vector<std::string> &names,
+                  const std::string &name)
     {
       return std::find(names.begin(), names.end(), name) != names.end();
     }
 
-    double
-    norm(const NodeVector &f)
+    double norm(const NodeVector &f)
     {
       return std::sqrt(f.v[0] * f.v[0] + f.v[1] * f.v[1]);
     }
   } // namespace
 
-  double
-  Energies::throughput() const
+  double Energies::throughput() const
   {
-    return std::max({std::abs(accounts.external),
-                     kinetic + strain + joint,
-                     accounts.friction + accounts.fracture +
-                       accounts.damping + accounts.viscous});
+    return std::max({ std::abs(accounts.external), kinetic + strain + joint,
+                      accounts.friction + accounts.fracture + accounts.damping
+                          + accounts.viscous });
   }
 
-  ExplicitSolver::ExplicitSolver(const Model                       &model,
+  ExplicitSolver::ExplicitSolver(const Model &model,
                                  const std::vector<LoadParameters> &loads)
-    : model(model)
-    , communicator(model.exchange().communicator())
-    , mass(model.mass())
+    : model(model), communicator(model.exchange().communicator()),
+      mass(model.mass())
   {
-    const auto  &mesh     = model.mesh();
-    const auto  &exchange = model.exchange();
+    const auto &mesh       = model.mesh();
+    const auto &exchange   = model.exchange();
     unsigned int n_platens = 0;
     for (const LoadParameters &load : loads)
+    {
+      known_loads.push_back(load.name);
+      switch (load.type)
       {
-        known_loads.push_back(load.name);
-        switch (load.type)
-          {
-            case LoadType::viscous_boundary:
-              all_constraints.push_back(std::make_unique<ViscousBoundary>(
-                load, mesh, exchange, model.impedance(), model.thickness()));
-              break;
-            case LoadType::prescribed_motion:
-              all_constraints.push_back(
-                std::make_unique<PrescribedMotion>(load, mesh, exchange));
-              break;
-            case LoadType::platen:
-              all_constraints.push_back(
-                std::make_unique<Platen>(load, n_platens++, mesh, exchange));
-              break;
-            case LoadType::traction:
-            case LoadType::gravity:
-              all_loads.emplace_back(
-                load, mesh, exchange, model.mass(), model.thickness());
-              break;
-            case LoadType::initial_stress:
-              break;
-          }
+      case LoadType::viscous_boundary:
+        all_constraints.push_back(std::make_unique<ViscousBoundary>(
+            load, mesh, exchange, model.impedance(), model.thickness()));
+        break;
+      case LoadType::prescribed_motion:
+        all_constraints.push_back(
+            std::make_unique<PrescribedMotion>(load, mesh, exchange));
+        break;
+      case LoadType::platen:
+        all_constraints.push_back(
+            std::make_unique<Platen>(load, n_platens++, mesh, exchange));
+        break;
+      case LoadType::traction:
+      case LoadType::gravity:
+        all_loads.emplace_back(load, mesh, exchange, model.mass(),
+                               model.thickness());
+        break;
+      case LoadType::initial_stress:
+        break;
       }
-    force.assign(exchange.n_local(), NodeVector{{0., 0.}});
-    viscous_force.assign(exchange.n_local(), NodeVector{{0., 0.}});
+    }
+    force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
+    viscous_force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
 
     const State rest = model.initial_state();
     strain_at_start  = sum(model.blocks().strain_energy(rest.nodes.data()));
-    joint_at_start =
-      sum(model.joints().stored_energy(rest.nodes.data(), rest.joints));
+    joint_at_start
+        = sum(model.joints().stored_energy(rest.nodes.data(), rest.joints));
   }
 
-  double
-  ExplicitSolver::sum(const double value) const
+  double ExplicitSolver::sum(const double value) const
   {
     return dealii::Utilities::MPI::sum(value, communicator);
   }
 
-  void
-  ExplicitSolver::activate(const StageParameters &new_stage)
+  void ExplicitSolver::activate(const StageParameters &new_stage)
   {
     stage = new_stage;
     for (const std::string &name : stage.loads)
       if (!contains(known_loads, name))
-        {
-          std::string known;
-          for (const auto &load : known_loads)
-            known += (known.empty() ? "" : ", ") + load;
-          throw InputError("section 'Stages/" + stage.name +
-                           "': 'Loads' names '" + name +
-                           "', which is no load. Loads are: " + known + ".");
-        }
+      {
+        std::string known;
+        for (const auto &load : known_loads)
+          known += (known.empty() ? "" : ", ") + load;
+        throw InputError("section 'Stages/" + stage.name + "': 'Loads' names '"
+                         + name + "', which is no load. Loads are: " + known
+                         + ".");
+      }
 
     // Viscous boundaries act first, so that what is prescribed prevails;
     // platens last, because they move all of their nodes.
     constraints_on.clear();
-    for (const int rank : {0, 1, 2})
+    for (const int rank : { 0, 1, 2 })
       for (const auto &constraint : all_constraints)
-        if (contains(stage.loads, constraint->name()) &&
-            rank == (dynamic_cast<Platen *>(constraint.get()) ? 2 :
-                     constraint->moves_all()                  ? 0 :
-                                                                1))
+        if (contains(stage.loads, constraint->name())
+            && rank
+                   == (dynamic_cast<Platen *>(constraint.get()) ? 2
+                       : constraint->moves_all()                ? 0
+                                                                : 1))
           constraints_on.push_back(constraint.get());
     loads_on.clear();
     for (const NodalLoad &load : all_loads)
@@ -125,83 +120,79 @@ namespace quoin
       check_no_free_bodies(model, constraints_on, stage.name);
   }
 
-  void
-  ExplicitSolver::scale_masses(const StageParameters &stage, State &state)
+  void ExplicitSolver::scale_masses(const StageParameters &stage, State &state)
   {
     const unsigned int n_owned = model.exchange().n_owned();
-    const auto kinetic = [&]() {
+    const auto kinetic         = [&]()
+    {
       double energy = 0.;
       for (unsigned int i = 0; i < n_owned; ++i)
-        energy += 0.5 * mass[i] *
-                  (state.velocity[i].v[0] * state.velocity[i].v[0] +
-                   state.velocity[i].v[1] * state.velocity[i].v[1]);
+        energy += 0.5 * mass[i]
+                  * (state.velocity[i].v[0] * state.velocity[i].v[0]
+                     + state.velocity[i].v[1] * state.velocity[i].v[1]);
       return energy;
     };
 
     const double before = kinetic();
-    double       own = 0., scaled = 0.;
+    double own = 0., scaled = 0.;
     mass = model.mass();
     for (unsigned int i = 0; i < n_owned; ++i)
-      {
-        own += mass[i];
-        if (stage.scaled_time_step > 0.)
-          mass[i] = std::max(
+    {
+      own += mass[i];
+      if (stage.scaled_time_step > 0.)
+        mass[i] = std::max(
             mass[i], model.stability().mass_for(i, stage.scaled_time_step));
-        scaled += mass[i];
-      }
+      scaled += mass[i];
+    }
     added_mass = sum(scaled) / sum(own) - 1.;
     // Giving moving nodes another mass is work done from outside.
     state.energy.external += kinetic() - before;
 
     critical_step = StableTimeStep::critical(
-      dealii::Utilities::MPI::max(model.stability().largest_eigenvalue(mass),
-                                  communicator),
-      stage.stiffness_coefficient);
+        dealii::Utilities::MPI::max(model.stability().largest_eigenvalue(mass),
+                                    communicator),
+        stage.stiffness_coefficient);
     for (NodeConstraint *constraint : constraints_on)
       if (auto *platen = dynamic_cast<Platen *>(constraint))
         platen->set_mass(mass);
   }
 
-  void
-  ExplicitSolver::collect_constrained_nodes()
+  void ExplicitSolver::collect_constrained_nodes()
   {
     std::vector<unsigned int> nodes;
     for (const NodeConstraint *constraint : constraints_on)
-      nodes.insert(nodes.end(),
-                   constraint->nodes().begin(),
+      nodes.insert(nodes.end(), constraint->nodes().begin(),
                    constraint->nodes().end());
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 
     captured.assign(nodes.size(), CapturedNode{});
     for (unsigned int c = 0; c < nodes.size(); ++c)
-      {
-        captured[c].node    = nodes[c];
-        captured[c].mass    = mass[nodes[c]];
-        captured[c].free[0] = captured[c].free[1] = true;
-      }
+    {
+      captured[c].node    = nodes[c];
+      captured[c].mass    = mass[nodes[c]];
+      captured[c].free[0] = captured[c].free[1] = true;
+    }
     for (NodeConstraint *constraint : constraints_on)
+    {
+      std::vector<unsigned int> positions;
+      for (const unsigned int node : constraint->nodes())
       {
-        std::vector<unsigned int> positions;
-        for (const unsigned int node : constraint->nodes())
-          {
-            positions.push_back(
-              std::lower_bound(nodes.begin(), nodes.end(), node) -
-              nodes.begin());
-            for (unsigned int d = 0; d < 2; ++d)
-              if (constraint->moves_all() || constraint->holds()[d])
-                captured[positions.back()].free[d] = false;
-          }
-        constraint->bind(std::move(positions));
+        positions.push_back(std::lower_bound(nodes.begin(), nodes.end(), node)
+                            - nodes.begin());
+        for (unsigned int d = 0; d < 2; ++d)
+          if (constraint->moves_all() || constraint->holds()[d])
+            captured[positions.back()].free[d] = false;
       }
+      constraint->bind(std::move(positions));
+    }
 
     captured_begin.clear();
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
       captured_begin.push_back(
-        std::lower_bound(nodes.begin(),
-                         nodes.end(),
-                         model.blocks().tile_nodes(tile).begin) -
-        nodes.begin());
+          std::lower_bound(nodes.begin(), nodes.end(),
+                           model.blocks().tile_nodes(tile).begin)
+          - nodes.begin());
     captured_begin.push_back(nodes.size());
 
     moving_mass = mass;
@@ -212,10 +203,9 @@ namespace quoin
       moving_mass[node] = inverse_mass[node] = 0.;
   }
 
-  void
-  ExplicitSolver::begin_stage(const StageParameters &new_stage,
-                              const StageParameters *previous,
-                              State                 &state)
+  void ExplicitSolver::begin_stage(const StageParameters &new_stage,
+                                   const StageParameters *previous,
+                                   State &state)
   {
     activate(new_stage);
     scale_masses(stage, state);
@@ -226,15 +216,14 @@ namespace quoin
     state.platens.resize(n_platens);
     for (const auto &constraint : all_constraints)
       if (!contains(stage.loads, constraint->name()))
-        {
-          constraint->rest();
-          if (const auto *platen =
-                dynamic_cast<const Platen *>(constraint.get()))
-            state.platens[platen->index()].active = false;
-        }
+      {
+        constraint->rest();
+        if (const auto *platen = dynamic_cast<const Platen *>(constraint.get()))
+          state.platens[platen->index()].active = false;
+      }
     for (NodeConstraint *constraint : constraints_on)
       constraint->begin_stage(
-        state, previous && contains(previous->loads, constraint->name()));
+          state, previous && contains(previous->loads, constraint->name()));
     collect_constrained_nodes();
     state.stage_start      = state.time;
     state.stage_step       = 0;
@@ -242,8 +231,8 @@ namespace quoin
     last_ratio             = 1.;
   }
 
-  void
-  ExplicitSolver::resume_stage(const StageParameters &resumed, State &state)
+  void ExplicitSolver::resume_stage(const StageParameters &resumed,
+                                    State &state)
   {
     activate(resumed);
     const State saved = state;
@@ -254,23 +243,21 @@ namespace quoin
     collect_constrained_nodes();
   }
 
-  void
-  ExplicitSolver::step(State &state, const Requests &requests)
+  void ExplicitSolver::step(State &state, const Requests &requests)
   {
     const double in_stage = state.time - state.stage_start;
-    StepContext  context;
-    context.dt        = time_step;
-    context.dt_before = state.previous_time_step;
-    context.dt_velocity =
-      state.step == 0 ? time_step :
-                        0.5 * (time_step + state.previous_time_step);
-    context.begin  = {in_stage, state.time};
-    context.middle = {in_stage + 0.5 * time_step, state.time + 0.5 * time_step};
-    context.end    = {in_stage + time_step, state.time + time_step};
+    StepContext context;
+    context.dt          = time_step;
+    context.dt_before   = state.previous_time_step;
+    context.dt_velocity = 0.5 * (time_step + state.previous_time_step);
+    context.begin       = { in_stage, state.time };
+    context.middle
+        = { in_stage + 0.5 * time_step, state.time + 0.5 * time_step };
+    context.end           = { in_stage + time_step, state.time + time_step };
     context.local_damping = stage.local_coefficient;
-    context.mass_damping  = stage.damping == DampingType::adaptive ?
-                              state.adaptive_damping :
-                              stage.mass_coefficient;
+    context.mass_damping  = stage.damping == DampingType::adaptive
+                                ? state.adaptive_damping
+                                : stage.mass_coefficient;
 
     state.energy += state.pending;
     state.pending = EnergyAccounts();
@@ -279,179 +266,159 @@ namespace quoin
 
     double strain = 0., joint = 0.;
     if (requests.energies)
-      {
-        strain = model.blocks().strain_energy(state.nodes.data());
-        joint =
-          model.joints().stored_energy(state.nodes.data(), state.joints);
-        velocity_before = state.velocity;
-      }
+    {
+      strain = model.blocks().strain_energy(state.nodes.data());
+      joint  = model.joints().stored_energy(state.nodes.data(), state.joints);
+      velocity_before = state.velocity;
+    }
     advance_blocks(state, context, requests);
     move_constrained_nodes(state, context);
 
     for (const NodalLoad *load : loads_on)
-      state.pending.external +=
-        0.5 * context.dt * load->power(context.begin, state.velocity.data());
+      state.pending.external
+          += 0.5 * context.dt
+             * load->power(context.begin, state.velocity.data());
 
     if (requests.energies)
-      {
-        double kinetic = 0.;
-        for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
-          for (unsigned int d = 0; d < 2; ++d)
-            kinetic += 0.5 * mass[i] * velocity_before[i].v[d] *
-                       state.velocity[i].v[d];
-        find_energies(state, strain, joint, kinetic);
-      }
+    {
+      // 1/2 m v- v+, or the same half work on from v- if the step changed.
+      const double part = context.dt_before / context.dt_velocity;
+      double kinetic    = 0.;
+      for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double before = velocity_before[i].v[d];
+          kinetic += 0.5 * mass[i] * before
+                     * (before + part * (state.velocity[i].v[d] - before));
+        }
+      find_energies(state, strain, joint, kinetic);
+    }
     if (requests.balance)
-      {
-        find_ratio(applied_force, unbalanced_force);
-        check_finite(state);
-      }
+    {
+      find_ratio(applied_force, unbalanced_force);
+      check_finite(state);
+    }
 
+    model.exchange().update_ghosts(state.nodes.data());
     ++state.step;
     ++state.stage_step;
     state.time               = state.stage_start + state.stage_step * time_step;
     state.previous_time_step = time_step;
   }
 
-  void
-  ExplicitSolver::apply_forces(State &state, const StepContext &context)
+  void ExplicitSolver::apply_forces(State &state, const StepContext &context)
   {
     const bool viscous = stage.stiffness_coefficient > 0.;
-    model.exchange().update_ghosts(state.nodes.data());
     if (viscous)
       model.exchange().update_ghosts(state.velocity.data());
 
-    model.joints().add_forces(
-      state.nodes.data(), state.joints, state.energy, force.data());
+    model.joints().add_forces(state.nodes.data(), state.joints, state.energy,
+                              force.data());
     if (viscous)
-      model.joints().add_viscous_forces(state.nodes.data(),
-                                        state.joints,
-                                        state.velocity.data(),
-                                        stage.stiffness_coefficient,
-                                        viscous_force.data());
+      model.joints().add_viscous_forces(
+          state.nodes.data(), state.joints, state.velocity.data(),
+          stage.stiffness_coefficient, viscous_force.data());
     for (const NodalLoad *load : loads_on)
-      {
-        load->add_forces(context.begin, force.data());
-        state.energy.external +=
-          0.5 * context.dt_before *
-          load->power(context.begin, state.velocity.data());
-      }
+    {
+      load->add_forces(context.begin, force.data());
+      state.energy.external
+          += 0.5 * context.dt_before
+             * load->power(context.begin, state.velocity.data());
+    }
     for (unsigned int i = model.exchange().n_owned();
-         i < model.exchange().n_local();
-         ++i)
-      force[i] = viscous_force[i] = NodeVector{{0., 0.}};
+         i < model.exchange().n_local(); ++i)
+      force[i] = viscous_force[i] = NodeVector{ { 0., 0. } };
   }
 
-  void
-  ExplicitSolver::advance_blocks(State             &state,
-                                 const StepContext &context,
-                                 const Requests    &requests)
+  void ExplicitSolver::advance_blocks(State &state, const StepContext &context,
+                                      const Requests &requests)
   {
-    const BlockForces &blocks  = model.blocks();
-    const bool         viscous = stage.stiffness_coefficient > 0.;
-    const bool         damped  = stage.damping != DampingType::none;
-    const DampingFactors factors{context.local_damping,
-                                 context.mass_damping,
-                                 context.dt_before,
-                                 context.dt_velocity};
+    const BlockForces &blocks = model.blocks();
+    const bool viscous        = stage.stiffness_coefficient > 0.;
+    const bool damped         = stage.damping != DampingType::none;
+    const DampingFactors factors{ context.local_damping, context.mass_damping,
+                                  context.dt_before, context.dt_velocity };
 
     applied_force = unbalanced_force = 0.;
     if (requests.balance)
       for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
         applied_force += norm(force[i]);
 
-    const auto advance = stage.damping == DampingType::adaptive ?
-                           advance_nodes_damped<true> :
-                           advance_nodes_damped<false>;
+    const auto advance = stage.damping == DampingType::adaptive
+                             ? advance_nodes_damped<true>
+                             : advance_nodes_damped<false>;
     DampingWork work;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
+    {
+      const NodeRange range = blocks.tile_nodes(tile);
+      blocks.add_forces(tile, state.nodes.data(), force.data());
+      if (viscous)
+        blocks.add_viscous_forces(
+            tile, state.nodes.data(), state.velocity.data(),
+            stage.stiffness_coefficient, viscous_force.data());
+      for (unsigned int c = captured_begin[tile]; c < captured_begin[tile + 1];
+           ++c)
       {
-        const NodeRange range = blocks.tile_nodes(tile);
-        blocks.add_forces(tile, state.nodes.data(), force.data());
-        if (viscous)
-          blocks.add_viscous_forces(tile,
-                                    state.nodes.data(),
-                                    state.velocity.data(),
-                                    stage.stiffness_coefficient,
-                                    viscous_force.data());
-        for (unsigned int c = captured_begin[tile];
-             c < captured_begin[tile + 1];
-             ++c)
-          {
-            CapturedNode &node = captured[c];
-            node.force         = force[node.node];
-            node.viscous       = viscous_force[node.node];
-            for (unsigned int d = 0; d < 2; ++d)
-              {
-                node.force.v[d] += node.viscous.v[d];
-                node.displacement.v[d] = state.nodes[node.node].u[d];
-              }
-            node.velocity = state.velocity[node.node];
-          }
-        if (requests.balance)
-          for (std::size_t i = range.begin; i < range.end; ++i)
-            if (inverse_mass[i] > 0.)
-              unbalanced_force += norm(force[i]);
-
-        if (damped)
-          {
-            const DampingWork w = advance(range.begin,
-                                          range.end,
-                                          state.nodes.data(),
-                                          state.velocity.data(),
-                                          force.data(),
-                                          viscous_force.data(),
-                                          moving_mass.data(),
-                                          inverse_mass.data(),
-                                          factors,
-                                          context.dt);
-            work.before += w.before;
-            work.after += w.after;
-            work.mass_power += w.mass_power;
-            work.kinetic_change += w.kinetic_change;
-          }
-        else
-          advance_nodes(range.begin,
-                        range.end,
-                        state.nodes.data(),
-                        state.velocity.data(),
-                        force.data(),
-                        inverse_mass.data(),
-                        context.dt_velocity,
-                        context.dt);
+        CapturedNode &node = captured[c];
+        node.force         = force[node.node];
+        node.viscous       = viscous_force[node.node];
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          node.force.v[d] += node.viscous.v[d];
+          node.displacement.v[d] = state.nodes[node.node].u[d];
+        }
+        node.velocity = state.velocity[node.node];
       }
+      if (requests.balance)
+        for (std::size_t i = range.begin; i < range.end; ++i)
+          if (inverse_mass[i] > 0.)
+            unbalanced_force += norm(force[i]);
+
+      if (damped)
+      {
+        const DampingWork w = advance(
+            range.begin, range.end, state.nodes.data(), state.velocity.data(),
+            force.data(), viscous_force.data(), moving_mass.data(),
+            inverse_mass.data(), factors, context.dt);
+        work.before += w.before;
+        work.after += w.after;
+        work.mass_power += w.mass_power;
+        work.kinetic_change += w.kinetic_change;
+      }
+      else
+        advance_nodes(range.begin, range.end, state.nodes.data(),
+                      state.velocity.data(), force.data(), inverse_mass.data(),
+                      context.dt_velocity, context.dt);
+    }
     state.energy.damping += work.before;
     state.pending.damping += work.after;
     if (stage.damping == DampingType::adaptive)
       adapt_damping(state, work);
   }
 
-  void
-  ExplicitSolver::move_constrained_nodes(State             &state,
-                                         const StepContext &context)
+  void ExplicitSolver::move_constrained_nodes(State &state,
+                                              const StepContext &context)
   {
     // Components that nobody prescribes move by their own force.
-    const double a     = 0.5 * context.dt_velocity * context.mass_damping;
+    const double a = 0.5 * context.dt_velocity * context.mass_damping;
     for (const CapturedNode &node : captured)
       for (unsigned int d = 0; d < 2; ++d)
-        {
-          if (!node.free[d])
-            continue;
-          const double v0 = node.velocity.v[d];
-          const double gain = context.dt_velocity / (1. + a) / node.mass;
-          const double w =
-            (1. - a) / (1. + a) * v0 + gain * node.force.v[d];
-          const double local = -local_damping_velocity(
+      {
+        if (!node.free[d])
+          continue;
+        const double v0    = node.velocity.v[d];
+        const double gain  = context.dt_velocity / (1. + a) / node.mass;
+        const double w     = (1. - a) / (1. + a) * v0 + gain * node.force.v[d];
+        const double local = -local_damping_velocity(
             context.local_damping * gain * std::abs(node.force.v[d]), v0, w);
-          const double v1 = w + local;
-          const double drag =
-            local / gain - context.mass_damping * node.mass * 0.5 * (v0 + v1);
-          state.energy.damping -= 0.5 * context.dt_before * drag * v0;
-          state.pending.damping -= 0.5 * context.dt * drag * v1;
-          state.velocity[node.node].v[d] = v1;
-          state.nodes[node.node].u[d] =
-            node.displacement.v[d] + context.dt * v1;
-        }
+        const double v1 = w + local;
+        const double drag
+            = local / gain - context.mass_damping * node.mass * 0.5 * (v0 + v1);
+        state.energy.damping -= 0.5 * context.dt_before * drag * v0;
+        state.pending.damping -= 0.5 * context.dt * drag * v1;
+        state.velocity[node.node].v[d] = v1;
+        state.nodes[node.node].u[d] = node.displacement.v[d] + context.dt * v1;
+      }
     for (NodeConstraint *constraint : constraints_on)
       constraint->correct(context, captured, state);
     for (NodeConstraint *constraint : constraints_on)
@@ -460,45 +427,41 @@ namespace quoin
     if (stage.stiffness_coefficient > 0.)
       for (const CapturedNode &node : captured)
         for (unsigned int d = 0; d < 2; ++d)
-          {
-            const double v1 = state.velocity[node.node].v[d];
-            state.energy.damping -= 0.5 * context.dt_before *
-                                    node.viscous.v[d] * node.velocity.v[d];
-            state.pending.damping -=
-              0.5 * context.dt * node.viscous.v[d] * v1;
-          }
+        {
+          const double v1 = state.velocity[node.node].v[d];
+          state.energy.damping -= 0.5 * context.dt_before * node.viscous.v[d]
+                                  * node.velocity.v[d];
+          state.pending.damping -= 0.5 * context.dt * node.viscous.v[d] * v1;
+        }
   }
 
-  void
-  ExplicitSolver::adapt_damping(State &state, const DampingWork &work) const
+  void ExplicitSolver::adapt_damping(State &state,
+                                     const DampingWork &work) const
   {
-    double sums[2] = {work.mass_power, work.kinetic_change};
+    double sums[2] = { work.mass_power, work.kinetic_change };
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
     if (state.adaptive_damping == 0.)
       state.adaptive_damping = 1e-3 / time_step;
     const double power = state.adaptive_damping * sums[0];
     const double rate  = std::abs(sums[1]) / time_step;
     if (power < adaptive_power_share * rate)
-      state.adaptive_damping =
-        std::min(adaptive_change * state.adaptive_damping, 0.5 / time_step);
+      state.adaptive_damping
+          = std::min(adaptive_change * state.adaptive_damping, 0.5 / time_step);
     else
       state.adaptive_damping /= adaptive_change;
   }
 
-  void
-  ExplicitSolver::find_energies(State       &state,
-                                const double strain,
-                                const double joint,
-                                const double kinetic)
+  void ExplicitSolver::find_energies(State &state, const double strain,
+                                     const double joint, const double kinetic)
   {
-    double values[8] = {kinetic,
-                        strain,
-                        joint,
-                        state.energy.external,
-                        state.energy.friction,
-                        state.energy.fracture,
-                        state.energy.damping,
-                        state.energy.viscous};
+    double values[8] = { kinetic,
+                         strain,
+                         joint,
+                         state.energy.external,
+                         state.energy.friction,
+                         state.energy.fracture,
+                         state.energy.damping,
+                         state.energy.viscous };
     MPI_Allreduce(MPI_IN_PLACE, values, 8, MPI_DOUBLE, MPI_SUM, communicator);
     last_energies.kinetic           = values[0];
     last_energies.strain            = values[1] - strain_at_start;
@@ -510,33 +473,31 @@ namespace quoin
     last_energies.accounts.viscous  = values[7];
   }
 
-  void
-  ExplicitSolver::find_ratio(double applied, double unbalanced)
+  void ExplicitSolver::find_ratio(double applied, double unbalanced)
   {
     for (const CapturedNode &node : captured)
       applied += norm(node.force);
-    double sums[2] = {applied, unbalanced};
+    double sums[2] = { applied, unbalanced };
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
     for (const NodeConstraint *constraint : constraints_on)
       sums[1] += constraint->unbalanced();
     last_ratio = sums[0] > 0. ? sums[1] / sums[0] : 0.;
   }
 
-  void
-  ExplicitSolver::check_finite(const State &state) const
+  void ExplicitSolver::check_finite(const State &state) const
   {
-    unsigned int       bad = -1;
-    const unsigned int n   = model.exchange().n_owned();
+    unsigned int bad     = -1;
+    const unsigned int n = model.exchange().n_owned();
     for (unsigned int i = 0; i < n && bad == -1U; ++i)
       // A comparison with NaN is false.
-      if (!(std::abs(state.nodes[i].u[0]) < 1e100 &&
-            std::abs(state.nodes[i].u[1]) < 1e100))
+      if (!(std::abs(state.nodes[i].u[0]) < 1e100
+            && std::abs(state.nodes[i].u[1]) < 1e100))
         bad = i;
     const unsigned int first = dealii::Utilities::MPI::min(
-      bad == -1U ? bad : model.exchange().global(bad), communicator);
+        bad == -1U ? bad : model.exchange().global(bad), communicator);
     if (first == -1U)
       return;
-    const auto        &p = model.mesh().vertices[first];
+    const auto &p = model.mesh().vertices[first];
     std::ostringstream message;
     message << "the motion is no longer finite in block "
             << model.mesh().block_of_vertex(first) << " at (" << p[0] << ", "
@@ -549,24 +510,19 @@ namespace quoin
     throw RunError(message.str());
   }
 
-  std::array<double, 3>
-  ExplicitSolver::resultant(const std::string &load) const
+  std::array<double, 3> ExplicitSolver::resultant(const std::string &load) const
   {
     for (const auto &constraint : all_constraints)
       if (constraint->name() == load)
-        {
-          auto values = constraint->resultant();
-          if (!constraint->is_global())
-            MPI_Allreduce(MPI_IN_PLACE,
-                          values.data(),
-                          3,
-                          MPI_DOUBLE,
-                          MPI_SUM,
-                          communicator);
-          return values;
-        }
-    throw InputError("'" + load +
-                     "' is no prescribed motion, platen or viscous "
-                     "boundary, so it has no reaction.");
+      {
+        auto values = constraint->resultant();
+        if (!constraint->is_global())
+          MPI_Allreduce(MPI_IN_PLACE, values.data(), 3, MPI_DOUBLE, MPI_SUM,
+                        communicator);
+        return values;
+      }
+    throw InputError("'" + load
+                     + "' is no prescribed motion, platen or viscous "
+                       "boundary, so it has no reaction.");
   }
 } // namespace quoin

@@ -13,246 +13,227 @@ namespace quoin
 {
   namespace
   {
-    NodeRecord
-    at_rest(const dealii::Point<2> &p)
+    NodeRecord at_rest(const dealii::Point<2> &p)
     {
-      return {{p[0], p[1]}, {0., 0.}};
+      return { { p[0], p[1] }, { 0., 0. } };
     }
 
-    Triangle
-    triangle(const BlockMesh<2> &mesh, const std::array<unsigned int, 3> &cell)
+    Triangle triangle(const BlockMesh<2> &mesh,
+                      const std::array<unsigned int, 3> &cell)
     {
-      return {at_rest(mesh.vertices[cell[0]]),
-              at_rest(mesh.vertices[cell[1]]),
-              at_rest(mesh.vertices[cell[2]])};
+      return { at_rest(mesh.vertices[cell[0]]), at_rest(mesh.vertices[cell[1]]),
+               at_rest(mesh.vertices[cell[2]]) };
     }
   } // namespace
 
-  Model::Model(const BlockMesh<2>              &mesh,
+  Model::Model(const BlockMesh<2> &mesh,
                const std::vector<unsigned int> &rank_of_block,
-               const ModelParameters           &parameters,
-               const MPI_Comm                   communicator)
-    : block_mesh(mesh)
-    , parameters(parameters)
+               const ModelParameters &parameters, const MPI_Comm communicator)
+    : block_mesh(mesh), parameters(parameters)
   {
     find_materials();
     find_blocks(rank_of_block, communicator);
     find_masses();
     find_initial_stress();
     pack_blocks();
-    matched_joints.prepare(mesh, *nodes, parameters.joints, parameters.thickness);
+    matched_joints.prepare(mesh, *nodes, parameters.joints,
+                           parameters.thickness);
     find_stable_step();
   }
 
-  void
-  Model::find_materials()
+  void Model::find_materials()
   {
     constexpr unsigned int none = -1;
     material_of_group.assign(block_mesh.group_names.size(), none);
     for (unsigned int m = 0; m < parameters.materials.size(); ++m)
+    {
+      const auto &material = parameters.materials[m];
+      for (const auto &group : material.groups)
       {
-        const auto &material = parameters.materials[m];
-        for (const auto &group : material.groups)
-          {
-            const auto found = std::find(block_mesh.group_names.begin(),
-                                         block_mesh.group_names.end(),
-                                         group);
-            if (found == block_mesh.group_names.end())
-              {
-                std::string known;
-                for (const auto &name : block_mesh.group_names)
-                  known += (known.empty() ? "" : ", ") + name;
-                throw InputError("section 'Materials/" + material.name +
-                                 "': the mesh has no physical surface '" +
-                                 group + "'. It has: " + known +
-                                 ". Correct 'Groups'.");
-              }
-            unsigned int &owner =
-              material_of_group[found - block_mesh.group_names.begin()];
-            if (owner != none)
-              throw InputError("section 'Materials/" + material.name +
-                               "': physical surface '" + group +
-                               "' is made of '" +
-                               parameters.materials[owner].name +
-                               "' already. Name it once.");
-            owner = m;
-          }
+        const auto found = std::find(block_mesh.group_names.begin(),
+                                     block_mesh.group_names.end(), group);
+        if (found == block_mesh.group_names.end())
+        {
+          std::string known;
+          for (const auto &name : block_mesh.group_names)
+            known += (known.empty() ? "" : ", ") + name;
+          throw InputError("section 'Materials/" + material.name
+                           + "': the mesh has no physical surface '" + group
+                           + "'. It has: " + known + ". Correct 'Groups'.");
+        }
+        unsigned int &owner
+            = material_of_group[found - block_mesh.group_names.begin()];
+        if (owner != none)
+          throw InputError("section 'Materials/" + material.name
+                           + "': physical surface '" + group + "' is made of '"
+                           + parameters.materials[owner].name
+                           + "' already. Name it once.");
+        owner = m;
       }
+    }
     for (unsigned int g = 0; g < material_of_group.size(); ++g)
-      {
-        if (material_of_group[g] == none)
-          throw InputError("section 'Materials': physical surface '" +
-                           block_mesh.group_names[g] +
-                           "' has no material. Add it to the 'Groups' of "
+    {
+      if (material_of_group[g] == none)
+        throw InputError("section 'Materials': physical surface '"
+                         + block_mesh.group_names[g]
+                         + "' has no material. Add it to the 'Groups' of "
                            "one.");
-        const LinearElastic &material =
-          parameters.materials[material_of_group[g]].elastic;
-        const PlaneStiffness stiffness =
-          plane_stiffness(material, parameters.plane);
-        group_impedance.push_back({std::sqrt(material.density * stiffness.c11),
-                                   std::sqrt(material.density *
-                                             stiffness.c33)});
-      }
+      const LinearElastic &material
+          = parameters.materials[material_of_group[g]].elastic;
+      const PlaneStiffness stiffness
+          = plane_stiffness(material, parameters.plane);
+      group_impedance.push_back(
+          { std::sqrt(material.density * stiffness.c11),
+            std::sqrt(material.density * stiffness.c33) });
+    }
   }
 
-  void
-  Model::find_blocks(const std::vector<unsigned int> &rank_of_block,
-                     const MPI_Comm                   communicator)
+  void Model::find_blocks(const std::vector<unsigned int> &rank_of_block,
+                          const MPI_Comm communicator)
   {
-    const unsigned int rank =
-      dealii::Utilities::MPI::this_mpi_process(communicator);
-    const auto range =
-      std::equal_range(rank_of_block.begin(), rank_of_block.end(), rank);
+    const unsigned int rank
+        = dealii::Utilities::MPI::this_mpi_process(communicator);
+    const auto range
+        = std::equal_range(rank_of_block.begin(), rank_of_block.end(), rank);
     block_begin = range.first - rank_of_block.begin();
     block_end   = range.second - rank_of_block.begin();
 
     const unsigned int first = block_mesh.block_first_vertex[block_begin];
     const unsigned int last  = block_mesh.block_first_vertex[block_end];
-    const auto owned = [&](const unsigned int v) {
-      return v >= first && v < last;
-    };
+    const auto owned
+        = [&](const unsigned int v) { return v >= first && v < last; };
 
     std::vector<unsigned int> ghosts;
     for (const JointFace &face : block_mesh.joint_faces)
       if (owned(face.lower[0]) != owned(face.upper[0]))
         for (unsigned int k = 0; k < 2; ++k)
-          ghosts.push_back(owned(face.lower[k]) ? face.upper[k] :
-                                                  face.lower[k]);
+          ghosts.push_back(owned(face.lower[k]) ? face.upper[k]
+                                                : face.lower[k]);
     std::sort(ghosts.begin(), ghosts.end());
     ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    nodes = std::make_unique<NodeExchange>(
-      first, last, block_mesh.n_vertices(), ghosts, communicator);
+    nodes = std::make_unique<NodeExchange>(first, last, block_mesh.n_vertices(),
+                                           ghosts, communicator);
 
     for (unsigned int c = block_mesh.block_first_cell[block_begin];
-         c < block_mesh.block_first_cell[block_end];
-         ++c)
-      {
-        local_cells.push_back(block_mesh.cells[c]);
-        for (unsigned int &v : local_cells.back())
-          v -= first;
-      }
+         c < block_mesh.block_first_cell[block_end]; ++c)
+    {
+      local_cells.push_back(block_mesh.cells[c]);
+      for (unsigned int &v : local_cells.back())
+        v -= first;
+    }
   }
 
-  void
-  Model::find_masses()
+  void Model::find_masses()
   {
     std::vector<double> mass(block_mesh.n_vertices(), 0.);
     for (unsigned int c = 0; c < block_mesh.n_cells(); ++c)
-      {
-        const auto  &cell = block_mesh.cells[c];
-        const double third =
-          triangle(block_mesh, cell).area() * parameters.thickness *
-          parameters.materials[material_of_cell(c)].elastic.density / 3.;
-        for (const unsigned int v : cell)
-          mass[v] += third;
-      }
+    {
+      const auto &cell = block_mesh.cells[c];
+      const double third
+          = triangle(block_mesh, cell).area() * parameters.thickness
+            * parameters.materials[material_of_cell(c)].elastic.density / 3.;
+      for (const unsigned int v : cell)
+        mass[v] += third;
+    }
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       node_mass.push_back(mass[nodes->global(i)]);
   }
 
-  void
-  Model::find_initial_stress()
+  void Model::find_initial_stress()
   {
     if (parameters.initial_stresses.empty())
       return;
     cell_stress.assign(block_mesh.n_cells(), {});
     for (const LoadParameters &load : parameters.initial_stresses)
+    {
+      const auto groups = groups_of_names(block_mesh, load.groups, load.name);
+      for (unsigned int c = 0; c < block_mesh.n_cells(); ++c)
       {
-        const auto groups =
-          groups_of_names(block_mesh, load.groups, load.name);
-        for (unsigned int c = 0; c < block_mesh.n_cells(); ++c)
-          {
-            if (!groups.empty() &&
-                std::find(groups.begin(),
-                          groups.end(),
-                          block_mesh.cell_group[c]) == groups.end())
-              continue;
-            double y = 0.;
-            for (const unsigned int v : block_mesh.cells[c])
-              y += block_mesh.vertices[v][1] / 3.;
-            for (unsigned int k = 0; k < 3; ++k)
-              cell_stress[c][k] +=
-                load.stress[k] + y * load.stress_gradient[k];
-          }
+        if (!groups.empty()
+            && std::find(groups.begin(), groups.end(), block_mesh.cell_group[c])
+                   == groups.end())
+          continue;
+        double y = 0.;
+        for (const unsigned int v : block_mesh.cells[c])
+          y += block_mesh.vertices[v][1] / 3.;
+        for (unsigned int k = 0; k < 3; ++k)
+          cell_stress[c][k] += load.stress[k] + y * load.stress_gradient[k];
       }
+    }
   }
 
-  void
-  Model::pack_blocks()
+  void Model::pack_blocks()
   {
     BlockForcesData data;
-    data.cells     = local_cells;
-    data.thickness = parameters.thickness;
+    data.cells                = local_cells;
+    data.thickness            = parameters.thickness;
     const unsigned int cell_0 = first_cell();
     const unsigned int node_0 = block_mesh.block_first_vertex[block_begin];
     for (unsigned int b = block_begin; b <= block_end; ++b)
-      {
-        data.block_first_cell.push_back(block_mesh.block_first_cell[b] -
-                                        cell_0);
-        data.block_first_node.push_back(block_mesh.block_first_vertex[b] -
-                                        node_0);
-      }
+    {
+      data.block_first_cell.push_back(block_mesh.block_first_cell[b] - cell_0);
+      data.block_first_node.push_back(block_mesh.block_first_vertex[b]
+                                      - node_0);
+    }
     for (const MaterialParameters &material : parameters.materials)
       data.stiffness.push_back(
-        plane_stiffness(material.elastic, parameters.plane));
+          plane_stiffness(material.elastic, parameters.plane));
     for (unsigned int c = 0; c < n_cells(); ++c)
-      {
-        data.cell_stiffness.push_back(material_of_cell(cell_0 + c));
-        if (!cell_stress.empty())
-          data.initial_stress.push_back(cell_stress[cell_0 + c]);
-      }
+    {
+      data.cell_stiffness.push_back(material_of_cell(cell_0 + c));
+      if (!cell_stress.empty())
+        data.initial_stress.push_back(cell_stress[cell_0 + c]);
+    }
     block_forces.prepare(data);
   }
 
-  void
-  Model::find_stable_step()
+  void Model::find_stable_step()
   {
     std::vector<std::array<double, 3>> bound(nodes->n_local(),
-                                             {{0., 0., 0.}});
+                                             { { 0., 0., 0. } });
     for (unsigned int c = 0; c < n_cells(); ++c)
+    {
+      const unsigned int cell = first_cell() + c;
+      const LinearElastic &material
+          = parameters.materials[material_of_cell(cell)].elastic;
+      const Triangle element = triangle(block_mesh, block_mesh.cells[cell]);
+      const double share
+          = largest_eigenvalue_squared_frequency(
+                element, plane_stiffness(material, parameters.plane),
+                material.density)
+            * material.density * element.area() * parameters.thickness / 3.;
+      for (const unsigned int v : local_cells[c])
       {
-        const unsigned int cell = first_cell() + c;
-        const LinearElastic &material =
-          parameters.materials[material_of_cell(cell)].elastic;
-        const Triangle element = triangle(block_mesh, block_mesh.cells[cell]);
-        const double   share =
-          largest_eigenvalue_squared_frequency(
-            element,
-            plane_stiffness(material, parameters.plane),
-            material.density) *
-          material.density * element.area() * parameters.thickness / 3.;
-        for (const unsigned int v : local_cells[c])
-          {
-            bound[v][0] += share;
-            bound[v][1] += share;
-          }
+        bound[v][0] += share;
+        bound[v][1] += share;
       }
+    }
     const State state = initial_state();
     matched_joints.add_stiffness_bound(state.nodes.data(), node_mass, bound);
     bound.resize(nodes->n_owned());
     stable_step = std::make_unique<StableTimeStep>(bound);
   }
 
-  State
-  Model::initial_state() const
+  State Model::initial_state() const
   {
     State state;
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       state.nodes.push_back(at_rest(block_mesh.vertices[nodes->global(i)]));
-    state.velocity.assign(nodes->n_local(), NodeVector{{0., 0.}});
+    state.velocity.assign(nodes->n_local(), NodeVector{ { 0., 0. } });
     state.joints.resize(matched_joints.n_points());
     if (!cell_stress.empty())
+    {
+      std::vector<std::array<double, 3>> face_stress;
+      for (const JointFace &face : block_mesh.joint_faces)
       {
-        std::vector<std::array<double, 3>> face_stress;
-        for (const JointFace &face : block_mesh.joint_faces)
-          {
-            face_stress.emplace_back();
-            for (unsigned int k = 0; k < 3; ++k)
-              face_stress.back()[k] = 0.5 * (cell_stress[face.cells[0]][k] +
-                                             cell_stress[face.cells[1]][k]);
-          }
-        matched_joints.initialise(face_stress, state, state.joints);
+        face_stress.emplace_back();
+        for (unsigned int k = 0; k < 3; ++k)
+          face_stress.back()[k] = 0.5
+                                  * (cell_stress[face.cells[0]][k]
+                                     + cell_stress[face.cells[1]][k]);
       }
+      matched_joints.initialise(face_stress, state, state.joints);
+    }
     return state;
   }
 } // namespace quoin

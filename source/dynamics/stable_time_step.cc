@@ -9,11 +9,10 @@
 namespace quoin
 {
   StableTimeStep::StableTimeStep(
-    const std::vector<std::array<double, 3>> &bound)
+      const std::vector<std::array<double, 3>> &bound)
   {
     for (const auto &[xx, yy, xy] : bound)
-      eigenvalue.push_back(0.5 * (xx + yy) +
-                           std::hypot(0.5 * (xx - yy), xy));
+      eigenvalue.push_back(0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy));
   }
 
   double
@@ -25,8 +24,8 @@ namespace quoin
     return largest;
   }
 
-  double
-  StableTimeStep::critical(const double largest_eigenvalue, const double beta)
+  double StableTimeStep::critical(const double largest_eigenvalue,
+                                  const double beta)
   {
     const double omega = std::sqrt(largest_eigenvalue);
     const double xi    = 0.5 * beta * omega;

@@ -13,104 +13,79 @@ namespace quoin
     using dealii::Patterns::Selection;
   } // namespace
 
-  void
-  StageParameters::declare(dealii::ParameterHandler &prm)
+  void StageParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Loads",
-                      "",
-                      Anything(),
+    prm.declare_entry("Loads", "", Anything(),
                       "Names of the loads that act in this stage.");
-    prm.declare_entry("End",
-                      "time",
-                      Selection("time|static ratio"),
+    prm.declare_entry("End", "time", Selection("time|static ratio"),
                       "What ends the stage: its duration, or that the mean "
                       "unbalanced force has fallen to a share of the mean "
                       "applied force.");
     prm.declare_entry("Duration", "0", Double(), "For 'End = time' [s]");
-    prm.declare_entry("Static ratio",
-                      "1e-6",
-                      Double(),
+    prm.declare_entry("Static ratio", "1e-6", Double(),
                       "Unbalanced to applied force at which a stage with "
                       "'End = static ratio' ends [-]");
-    prm.declare_entry("Start time",
-                      "previous end",
-                      Anything(),
+    prm.declare_entry("Start time", "previous end", Anything(),
                       "'previous end', or the time at which the stage is "
                       "meant to begin, as a check [s]");
-    prm.declare_entry("Maximum steps",
-                      "10000000",
-                      Integer(1),
+    prm.declare_entry("Maximum steps", "10000000", Integer(1),
                       "A static stage that has not settled by then ends "
                       "the run as failed [-]");
-    prm.declare_entry("Damping",
-                      "none",
+    prm.declare_entry("Damping", "none",
                       Selection("none|local|adaptive|Rayleigh"),
                       "local: a share of the unbalanced force, against the "
                       "velocity; adaptive: mass-proportional with a "
                       "coefficient that keeps the damping power at half the "
                       "rate of kinetic energy; Rayleigh: alpha and beta.");
-    prm.declare_entry("Local damping coefficient",
-                      "0.8",
-                      Double(),
+    prm.declare_entry("Local damping coefficient", "0.8", Double(),
                       "Share of the unbalanced force [-]");
-    prm.declare_entry("Rayleigh mass coefficient",
-                      "0",
-                      Double(),
+    prm.declare_entry("Rayleigh mass coefficient", "0", Double(),
                       "alpha [1/s]");
-    prm.declare_entry("Rayleigh stiffness coefficient",
-                      "0",
-                      Double(),
+    prm.declare_entry("Rayleigh stiffness coefficient", "0", Double(),
                       "beta; it lowers the critical time step [s]");
-    prm.declare_entry("Mass scaling",
-                      "no",
-                      Selection("yes|no|true|false"),
+    prm.declare_entry("Mass scaling", "no", Selection("yes|no|true|false"),
                       "Add mass where needed for 'Scaled time step' to be "
                       "stable; for static work only.");
-    prm.declare_entry("Scaled time step",
-                      "0",
-                      Double(),
+    prm.declare_entry("Scaled time step", "0", Double(),
                       "Time step to which 'Mass scaling' raises the critical "
                       "one, before the share of it that is used [s]");
   }
 
-  StageParameters
-  StageParameters::read(const ParameterSection &section,
-                        const std::string      &name)
+  StageParameters StageParameters::read(const ParameterSection &section,
+                                        const std::string &name)
   {
     StageParameters stage;
     stage.name  = name;
     stage.loads = section.list("Loads");
     stage.end   = section.choice<StageEnd>(
-      "End",
-      {{"time", StageEnd::time}, {"static ratio", StageEnd::static_ratio}});
+        "End", { { "time", StageEnd::time },
+                   { "static ratio", StageEnd::static_ratio } });
     if (stage.end == StageEnd::time)
       stage.duration = section.positive("Duration");
     else
       stage.static_ratio = section.positive("Static ratio");
     stage.maximum_steps = section.integer("Maximum steps");
     if (section.text("Start time") != "previous end")
-      {
-        stage.start_time = section.numbers<1>("Start time").front();
-        if (stage.start_time < 0.)
-          section.fail("Start time",
-                       "must be 'previous end' or a time of zero or more.");
-      }
+    {
+      stage.start_time = section.numbers<1>("Start time").front();
+      if (stage.start_time < 0.)
+        section.fail("Start time",
+                     "must be 'previous end' or a time of zero or more.");
+    }
     stage.damping = section.choice<DampingType>(
-      "Damping",
-      {{"none", DampingType::none},
-       {"local", DampingType::local},
-       {"adaptive", DampingType::adaptive},
-       {"Rayleigh", DampingType::rayleigh}});
+        "Damping", { { "none", DampingType::none },
+                     { "local", DampingType::local },
+                     { "adaptive", DampingType::adaptive },
+                     { "Rayleigh", DampingType::rayleigh } });
     if (stage.damping == DampingType::local)
-      stage.local_coefficient =
-        section.within("Local damping coefficient", 0., 0.999);
+      stage.local_coefficient
+          = section.within("Local damping coefficient", 0., 0.999);
     if (stage.damping == DampingType::rayleigh)
-      {
-        stage.mass_coefficient =
-          section.nonnegative("Rayleigh mass coefficient");
-        stage.stiffness_coefficient =
-          section.nonnegative("Rayleigh stiffness coefficient");
-      }
+    {
+      stage.mass_coefficient = section.nonnegative("Rayleigh mass coefficient");
+      stage.stiffness_coefficient
+          = section.nonnegative("Rayleigh stiffness coefficient");
+    }
     if (section.flag("Mass scaling"))
       stage.scaled_time_step = section.positive("Scaled time step");
     return stage;

@@ -6,6 +6,7 @@
 
 #include <quoin/base/state.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -15,13 +16,8 @@
 #include <immintrin.h>
 #endif
 
-// Vectors wider than the machine's registers are legal here (the tests run 8
-// lanes everywhere) and never cross a call that is not inlined. GCC warns when
-// it instantiates templates, at the end of the file, so there is no pop.
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wpsabi"
-#endif
-
+// Vectors wider than the machine's registers are legal (the tests run 8 lanes
+// everywhere) but how they are passed by value is not settled: by reference.
 #define QUOIN_INLINE inline __attribute__((always_inline))
 
 /**
@@ -56,14 +52,8 @@ namespace quoin
       using Value = double __attribute__((vector_size(32), may_alias));
       using Bits  = std::int64_t __attribute__((vector_size(32), may_alias));
 
-      static QUOIN_INLINE Value broadcast(const double a)
-      {
-        return Value{ a, a, a, a };
-      }
-
-      /** The given value where a bit of the mask is set, else infinity. */
-      static QUOIN_INLINE Value or_infinity(const std::uint8_t mask,
-                                            const Value value)
+      /** Makes infinite what has no bit in the mask. */
+      static QUOIN_INLINE void keep(const std::uint8_t mask, Value &value)
       {
         alignas(32) static constexpr std::int64_t table[16][4]
             = { { -1, -1, -1, -1 }, { 0, -1, -1, -1 }, { -1, 0, -1, -1 },
@@ -73,24 +63,24 @@ namespace quoin
                 { -1, -1, 0, 0 },   { 0, -1, 0, 0 },   { -1, 0, 0, 0 },
                 { 0, 0, 0, 0 } };
         const Bits absent = *reinterpret_cast<const Bits *>(table[mask]);
-        return absent ? broadcast(std::numeric_limits<double>::infinity())
-                      : value;
+        value = absent ? Value{} + std::numeric_limits<double>::infinity()
+                       : value;
       }
 
-      static QUOIN_INLINE Value square_root(const Value a)
+      static QUOIN_INLINE void square_root(const Value &a, Value &root)
       {
 #ifdef __AVX__
-        return _mm256_sqrt_pd(a);
+        root = _mm256_sqrt_pd(a);
 #else
-        return Value{ std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]),
+        root = Value{ std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]),
                       std::sqrt(a[3]) };
 #endif
       }
 
-      static QUOIN_INLINE Value absolute(const Value a)
+      static QUOIN_INLINE void absolute(const Value &a, Value &result)
       {
         constexpr auto all = std::numeric_limits<std::int64_t>::max();
-        return (Value)((Bits)a & Bits{ all, all, all, all });
+        result             = (Value)((Bits)a & Bits{ all, all, all, all });
       }
 
       /** Transposes the pairs found at base + scale * offset. */
@@ -110,7 +100,7 @@ namespace quoin
 
       /** Adds x, y to the pairs at base + offset, one lane after the other. */
       static QUOIN_INLINE void add(char *base, const std::uint32_t *offset,
-                                   const Value x, const Value y)
+                                   const Value &x, const Value &y)
       {
         const Value p02 = __builtin_shufflevector(x, y, 0, 4, 2, 6);
         const Value p13 = __builtin_shufflevector(x, y, 1, 5, 3, 7);
@@ -137,37 +127,31 @@ namespace quoin
       using Value = double __attribute__((vector_size(64), may_alias));
       using Bits  = std::int64_t __attribute__((vector_size(64), may_alias));
 
-      static QUOIN_INLINE Value broadcast(const double a)
-      {
-        return Value{ a, a, a, a, a, a, a, a };
-      }
-
-      static QUOIN_INLINE Value or_infinity(const std::uint8_t mask,
-                                            const Value value)
+      static QUOIN_INLINE void keep(const std::uint8_t mask, Value &value)
       {
         const std::int64_t m = mask;
         const Bits bits      = Bits{ m, m, m, m, m, m, m, m }
                           & Bits{ 1, 2, 4, 8, 16, 32, 64, 128 };
-        return bits == 0 ? broadcast(std::numeric_limits<double>::infinity())
-                         : value;
+        value = bits == 0 ? Value{} + std::numeric_limits<double>::infinity()
+                          : value;
       }
 
-      static QUOIN_INLINE Value square_root(const Value a)
+      static QUOIN_INLINE void square_root(const Value &a, Value &root)
       {
 #ifdef __AVX512F__
-        return _mm512_sqrt_pd(a);
+        root = _mm512_maskz_sqrt_pd(0xff, a);
 #else
-        return Value{ std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]),
+        root = Value{ std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]),
                       std::sqrt(a[3]), std::sqrt(a[4]), std::sqrt(a[5]),
                       std::sqrt(a[6]), std::sqrt(a[7]) };
 #endif
       }
 
-      static QUOIN_INLINE Value absolute(const Value a)
+      static QUOIN_INLINE void absolute(const Value &a, Value &result)
       {
         constexpr auto all = std::numeric_limits<std::int64_t>::max();
-        return (Value)((Bits)a
-                       & Bits{ all, all, all, all, all, all, all, all });
+        result
+            = (Value)((Bits)a & Bits{ all, all, all, all, all, all, all, all });
       }
 
       static QUOIN_INLINE void load(const char *base, const std::size_t scale,
@@ -182,7 +166,7 @@ namespace quoin
       }
 
       static QUOIN_INLINE void add(char *base, const std::uint32_t *offset,
-                                   const Value x, const Value y)
+                                   const Value &x, const Value &y)
       {
         Lanes<4>::add(base, offset, __builtin_shufflevector(x, x, 0, 1, 2, 3),
                       __builtin_shufflevector(y, y, 0, 1, 2, 3));
@@ -201,48 +185,45 @@ namespace quoin
     };
 
     /** Moduli times the thickness (times a time, for rates). */
-    struct ElasticRates
+    struct ScaledModuli
     {
       double bulk;
       double shear;
     };
 
     /**
-     * Fetches the nodes and forces [begin, end), evenly spread over the
+     * Fetches groups of four nodes and their forces, evenly spread over the
      * calls of fetch().
      */
     class Prefetcher
     {
     public:
       Prefetcher(const NodeRecord *nodes, const NodeVector *force,
-                 const std::size_t begin, const std::size_t end,
+                 const std::uint32_t *begin, const std::uint32_t *end,
                  const std::size_t n_calls)
-        : record(reinterpret_cast<const char *>(nodes + begin)),
-          force(reinterpret_cast<const char *>(force + begin)),
-          left((end - begin + 3) / 4),
-          per_call((left + n_calls) / (n_calls + 1))
+        : records(reinterpret_cast<const char *>(nodes)),
+          forces(reinterpret_cast<const char *>(force)), next(begin), end(end),
+          per_call((end - begin + n_calls) / (n_calls + 1))
       {
       }
 
       QUOIN_INLINE void fetch()
       {
-        if (left < per_call)
-          return;
-        left -= per_call;
-        for (std::size_t i = 0; i < per_call; ++i)
+        const std::uint32_t *const stop = std::min(next + per_call, end);
+        for (; next < stop; ++next)
         {
-          __builtin_prefetch(record, 1);
-          __builtin_prefetch(record + 64, 1);
-          __builtin_prefetch(force, 1);
-          record += 128;
-          force += 64;
+          const std::size_t group = *next;
+          __builtin_prefetch(records + 128 * group, 1);
+          __builtin_prefetch(records + 128 * group + 64, 1);
+          __builtin_prefetch(forces + 64 * group, 1);
         }
       }
 
     private:
-      const char *record;
-      const char *force;
-      std::size_t left; /**< groups of four nodes */
+      const char *records;
+      const char *forces;
+      const std::uint32_t *next;
+      const std::uint32_t *end;
       std::size_t per_call;
     };
 
@@ -312,41 +293,42 @@ namespace quoin
     {
       using Value = typename Lanes<lanes>::Value;
 
-      Vector<lanes> e; /**< edge to the newest node */
-      Vector<lanes> w; /**< displacement along it */
+      Vector<lanes> e;                 /**< edge to the newest node */
+      Vector<lanes> w;                 /**< displacement along it */
       Value A, B, h1, h2, top, D2, NN; /**< left by the first stage */
-      Value N, y, r;                   /**< left by the second */
+      Value N, y, denominator;         /**< left by the second */
     };
 
     template <int lanes, bool with_stress>
     __attribute__((noinline)) void
-    elastic_strips(const StripSequence sequence, const ElasticRates moduli,
+    elastic_strips(const StripSequence sequence, const ScaledModuli moduli,
                    const double *stress, const NodeRecord *nodes,
                    NodeVector *force, Prefetcher &prefetcher)
     {
       using L     = Lanes<lanes>;
       using Value = typename L::Value;
 
-      const Value bulk  = L::broadcast(moduli.bulk);
-      const Value shear = L::broadcast(moduli.shear);
+      const Value bulk  = Value{} + moduli.bulk;
+      const Value shear = Value{} + moduli.shear;
 
       const char *const records = reinterpret_cast<const char *>(nodes);
-      char *const       sums    = reinterpret_cast<char *>(force);
+      char *const sums          = reinterpret_cast<char *>(force);
 
-      const std::uint32_t *      offset = sequence.offsets;
-      const std::uint32_t *const end    = offset + lanes * sequence.n_steps;
-      const std::uint8_t *       mask   = sequence.masks + 2;
+      const std::uint32_t *offset    = sequence.offsets;
+      const std::uint32_t *const end = offset + lanes * sequence.n_steps;
+      const std::uint8_t *mask       = sequence.masks + 2;
 
       Vector<lanes> X{}, u{}; // of the newest node
       Vector<lanes> f0{}, f1{}, f2;
 
       const auto enter = [&](const std::uint32_t *at, Vector<lanes> &e,
-                             Vector<lanes> &w) __attribute__((always_inline)) {
+                             Vector<lanes> &w) __attribute__((always_inline))
+      {
         Vector<lanes> new_X, new_u;
         L::load(records, 2, at, new_X.x, new_X.y);
         L::load(records + 16, 2, at, new_u.x, new_u.y);
-        e = {new_X.x - X.x, new_X.y - X.y};
-        w = {new_u.x - u.x, new_u.y - u.y};
+        e = { new_X.x - X.x, new_X.y - X.y };
+        w = { new_u.x - u.x, new_u.y - u.y };
         X = new_X;
         u = new_u;
       };
@@ -362,57 +344,59 @@ namespace quoin
         const Value det  = e1.x * e2.y - e1.y * e2.x;
         const Value det2 = det + det;
         const Value BB   = G.skew * G.skew;
-        now.D2           = L::absolute(det2);
-        now.A            = det2 + G.sum;
-        now.B            = G.skew;
-        now.h1           = G.h1;
-        now.h2           = G.h2;
-        now.NN           = now.A * now.A + BB;
-        now.top          = G.sum * (now.A + det2) + BB;
+        L::absolute(det2, now.D2);
+        now.A   = det2 + G.sum;
+        now.B   = G.skew;
+        now.h1  = G.h1;
+        now.h2  = G.h2;
+        now.NN  = now.A * now.A + BB;
+        now.top = G.sum * (now.A + det2) + BB;
       };
 
-      const auto second_stage
-          = [&](const std::uint8_t m, StripStep<lanes> &now)
-                __attribute__((always_inline))
+      const auto second_stage = [&](const std::uint8_t m, StripStep<lanes> &now)
+          __attribute__((always_inline))
       {
-        now.N = L::square_root(now.NN);
+        L::square_root(now.NN, now.N);
         now.y = now.NN + now.D2 * now.N;
-        // 1 / (2 D N (N + 2 D)), 0 for what is no triangle of the mesh.
-        now.r = L::or_infinity(m, now.D2 * now.y);
+        // 2 D N (N + 2 D), infinite for what is no triangle of the mesh: that
+        // makes its force zero.
+        now.denominator = now.D2 * now.y;
+        L::keep(m, now.denominator);
       };
 
-      const auto last_stage = [&](const std::uint32_t *  at,
-                                const StripStep<lanes> &before,
-                                const StripStep<lanes> &now,
-                                Vector<lanes> &oldest, Vector<lanes> &middle,
-                                Vector<lanes> &newest)
-                              __attribute__((always_inline)) {
-        const Value r = 1. / now.r;
-        const Value  q = bulk * now.top * r;
-        const Value  g = shear * now.y * r;
-        Value        a = q * now.A;
-        Value        b = q * now.B;
+      const auto last_stage
+          = [&](const std::uint32_t *at, const StripStep<lanes> &before,
+                const StripStep<lanes> &now, Vector<lanes> &oldest,
+                Vector<lanes> &middle, Vector<lanes> &newest)
+              __attribute__((always_inline))
+      {
+        const Value r = 1. / now.denominator;
+        const Value q = bulk * now.top * r;
+        const Value g = shear * now.y * r;
+        Value a       = q * now.A;
+        Value b       = q * now.B;
         Piola<lanes> P;
         if constexpr (with_stress)
-          {
-            const Value *s    = reinterpret_cast<const Value *>(stress);
-            const Value  mean = s[0], d1 = s[1], d2 = s[2];
-            stress += 3 * lanes;
-            // R S_0 + tau / n J R, see piola_stress() in triangle.h.
-            const Value inverse_N = r * now.D2 * (now.N + now.D2);
-            const Value turn      = (now.A * (d1 * now.h2 - d2 * now.h1) -
-                                now.B * (d1 * now.h1 + d2 * now.h2)) *
-                               (inverse_N * inverse_N * inverse_N);
-            const Value p = mean * inverse_N;
-            a += p * now.A - turn * now.B;
-            b += p * now.B + turn * now.A;
-            const Value k1 = inverse_N * (now.A * d1 - now.B * d2);
-            const Value k2 = inverse_N * (now.B * d1 + now.A * d2);
-            P              = {g * now.h1 + (a + k1), g * now.h2 - (b - k2),
-                 g * now.h2 + (b + k2), (a - k1) - g * now.h1};
-          }
+        {
+          const Value *s   = reinterpret_cast<const Value *>(stress);
+          const Value mean = s[0], d1 = s[1], d2 = s[2];
+          stress += 3 * lanes;
+          // R S_0 + tau / n J R, see piola_stress() in triangle.h.
+          const Value inverse_N = r * now.D2 * (now.N + now.D2);
+          const Value turn      = (now.A * (d1 * now.h2 - d2 * now.h1)
+                              - now.B * (d1 * now.h1 + d2 * now.h2))
+                             * (inverse_N * inverse_N * inverse_N);
+          const Value p = mean * inverse_N;
+          a += p * now.A - turn * now.B;
+          b += p * now.B + turn * now.A;
+          const Value k1 = inverse_N * (now.A * d1 - now.B * d2);
+          const Value k2 = inverse_N * (now.B * d1 + now.A * d2);
+          P              = { g * now.h1 + (a + k1), g * now.h2 - (b - k2),
+                             g * now.h2 + (b + k2), (a - k1) - g * now.h1 };
+        }
         else
-          P = {g * now.h1 + a, g * now.h2 - b, g * now.h2 + b, a - g * now.h1};
+          P = { g * now.h1 + a, g * now.h2 - b, g * now.h2 + b,
+                a - g * now.h1 };
         add_strip_forces(P, before.e, now.e, oldest, middle, newest);
         L::add(sums, at - 2 * lanes, oldest.x, oldest.y);
       };
@@ -428,35 +412,35 @@ namespace quoin
       first_stage(offset + lanes, s1, s2);
       // Two more steps begin than end; their results are not used.
       for (; offset < end; offset += 3 * lanes, mask += 3)
-        {
-          prefetcher.fetch();
-          last_stage(offset, s0, s1, f0, f1, f2);
-          second_stage(mask[1], s2);
-          first_stage(offset + 2 * lanes, s2, s0);
+      {
+        prefetcher.fetch();
+        last_stage(offset, s0, s1, f0, f1, f2);
+        second_stage(mask[1], s2);
+        first_stage(offset + 2 * lanes, s2, s0);
 
-          last_stage(offset + lanes, s1, s2, f1, f2, f0);
-          second_stage(mask[2], s0);
-          first_stage(offset + 3 * lanes, s0, s1);
+        last_stage(offset + lanes, s1, s2, f1, f2, f0);
+        second_stage(mask[2], s0);
+        first_stage(offset + 3 * lanes, s0, s1);
 
-          last_stage(offset + 2 * lanes, s2, s0, f2, f0, f1);
-          second_stage(mask[3], s1);
-          first_stage(offset + 4 * lanes, s1, s2);
-        }
+        last_stage(offset + 2 * lanes, s2, s0, f2, f0, f1);
+        second_stage(mask[3], s1);
+        first_stage(offset + 4 * lanes, s1, s2);
+      }
       L::add(sums, end - 2 * lanes, f0.x, f0.y);
       L::add(sums, end - lanes, f1.x, f1.y);
     }
 
     template <int lanes>
     __attribute__((noinline)) void
-    viscous_strips(const StripSequence sequence, const ElasticRates moduli,
+    viscous_strips(const StripSequence sequence, const ScaledModuli moduli,
                    const NodeRecord *nodes, const NodeVector *velocity,
                    NodeVector *force)
     {
       using L     = Lanes<lanes>;
       using Value = typename L::Value;
 
-      const Value bulk  = L::broadcast(moduli.bulk);
-      const Value shear = L::broadcast(moduli.shear);
+      const Value bulk  = Value{} + moduli.bulk;
+      const Value shear = Value{} + moduli.shear;
 
       const char *const records = reinterpret_cast<const char *>(nodes);
       const char *const rates   = reinterpret_cast<const char *>(velocity);
@@ -508,7 +492,11 @@ namespace quoin
         const Value A    = det2 + G.sum;
         const Value NN   = A * A + G.skew * G.skew;
         // The root itself cancels: (tr de/dt) R = (A T' + B B') / N^2 (A, B).
-        const Value r = 1. / L::or_infinity(m, L::absolute(det2) * NN);
+        Value denominator;
+        L::absolute(det2, denominator);
+        denominator *= NN;
+        L::keep(m, denominator);
+        const Value r = 1. / denominator;
         const Value q = bulk * (A * rate.sum + G.skew * rate.skew) * r;
         const Value g = shear * NN * r;
         const Value a = q * A;

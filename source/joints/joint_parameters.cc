@@ -12,26 +12,20 @@ namespace quoin
     using dealii::Patterns::Anything;
     using dealii::Patterns::Double;
 
-    double
-    tangent_of_degrees(const double angle)
+    double tangent_of_degrees(const double angle)
     {
       return std::tan(angle * dealii::numbers::PI / 180.);
     }
   } // namespace
 
-  void
-  JointSetParameters::declare(dealii::ParameterHandler &prm)
+  void JointSetParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Curves",
-                      "",
-                      Anything(),
+    prm.declare_entry("Curves", "", Anything(),
                       "Physical curves of the mesh whose joints form this "
                       "set; empty: the curve that bears the set's own name; "
                       "'unnamed': joints on no named curve.");
-    prm.declare_entry("Law",
-                      "Coulomb",
-                      dealii::Patterns::Selection(
-                        "Coulomb|elastic|no tension"),
+    prm.declare_entry("Law", "Coulomb",
+                      dealii::Patterns::Selection("Coulomb|elastic|no tension"),
                       "Coulomb: cohesion, friction and tension that drop to "
                       "their residual values at failure; elastic: never "
                       "fails; no tension: Coulomb without tension whose "
@@ -42,38 +36,29 @@ namespace quoin
     prm.declare_entry("Friction angle", "0", Double(), "phi [deg]");
     prm.declare_entry("Tensile strength", "0", Double(), "ft [Pa]");
     prm.declare_entry("Dilation angle", "0", Double(), "psi [deg]");
-    prm.declare_entry("Critical shear displacement",
-                      "1e300",
-                      Double(),
+    prm.declare_entry("Critical shear displacement", "1e300", Double(),
                       "Slip beyond which the joint dilates no more [m]");
-    prm.declare_entry("Residual cohesion",
-                      "0",
-                      Double(),
+    prm.declare_entry("Residual cohesion", "0", Double(),
                       "Cohesion once failed [Pa]");
-    prm.declare_entry("Residual friction angle",
-                      "same",
-                      Anything(),
+    prm.declare_entry("Residual friction angle", "same", Anything(),
                       "Friction angle once failed, or 'same' [deg]");
-    prm.declare_entry("Residual tensile strength",
-                      "0",
-                      Double(),
+    prm.declare_entry("Residual tensile strength", "0", Double(),
                       "Tensile strength once failed [Pa]");
   }
 
-  JointSetParameters
-  JointSetParameters::read(const ParameterSection &section,
-                           const std::string      &name)
+  JointSetParameters JointSetParameters::read(const ParameterSection &section,
+                                              const std::string &name)
   {
     JointSetParameters set;
     set.name   = name;
     set.curves = section.list("Curves");
     if (set.curves.empty())
-      set.curves = {name};
+      set.curves = { name };
 
-    CoulombLaw &law                 = set.law;
-    law.normal_stiffness            = section.positive("Normal stiffness");
-    law.shear_stiffness             = section.positive("Shear stiffness");
-    const std::string kind          = section.text("Law");
+    CoulombLaw &law        = set.law;
+    law.normal_stiffness   = section.positive("Normal stiffness");
+    law.shear_stiffness    = section.positive("Shear stiffness");
+    const std::string kind = section.text("Law");
     if (kind == "elastic")
       return set;
 
@@ -81,31 +66,31 @@ namespace quoin
     law.peak.cohesion       = section.nonnegative("Cohesion");
     law.peak.friction       = tangent_of_degrees(peak_angle);
     law.peak.tension        = section.nonnegative("Tensile strength");
-    law.dilation =
-      tangent_of_degrees(section.within("Dilation angle", 0., peak_angle));
-    law.critical_shear_displacement =
-      section.nonnegative("Critical shear displacement");
+    law.dilation
+        = tangent_of_degrees(section.within("Dilation angle", 0., peak_angle));
+    law.critical_shear_displacement
+        = section.nonnegative("Critical shear displacement");
 
     law.residual = law.peak;
     if (kind == "no tension")
-      {
-        if (law.peak.tension > 0.)
-          section.fail("Tensile strength",
-                       "must be 0 for the law 'no tension'; use the law "
-                       "'Coulomb' for a joint that holds tension.");
-        return set;
-      }
+    {
+      if (law.peak.tension > 0.)
+        section.fail("Tensile strength",
+                     "must be 0 for the law 'no tension'; use the law "
+                     "'Coulomb' for a joint that holds tension.");
+      return set;
+    }
     law.residual.cohesion = section.nonnegative("Residual cohesion");
     law.residual.tension  = section.nonnegative("Residual tensile strength");
     if (section.text("Residual friction angle") != "same")
-      {
-        const double angle =
-          section.numbers<1>("Residual friction angle").front();
-        if (!(angle >= 0. && angle <= 89.))
-          section.fail("Residual friction angle",
-                       "must lie between 0 and 89 degrees, or be 'same'.");
-        law.residual.friction = tangent_of_degrees(angle);
-      }
+    {
+      const double angle
+          = section.numbers<1>("Residual friction angle").front();
+      if (!(angle >= 0. && angle <= 89.))
+        section.fail("Residual friction angle",
+                     "must lie between 0 and 89 degrees, or be 'same'.");
+      law.residual.friction = tangent_of_degrees(angle);
+    }
     if (law.residual.cohesion > law.peak.cohesion)
       section.fail("Residual cohesion", "must not exceed 'Cohesion'.");
     if (law.residual.tension > law.peak.tension)

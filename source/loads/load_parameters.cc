@@ -12,26 +12,23 @@ namespace quoin
   {
     using dealii::Patterns::Anything;
 
-    TimeFunction
-    time_function(const ParameterSection &section,
-                  const std::string      &name,
-                  const std::string      &text)
+    TimeFunction time_function(const ParameterSection &section,
+                               const std::string &name, const std::string &text)
     {
       try
-        {
-          return TimeFunction(text, section.folder());
-        }
+      {
+        return TimeFunction(text, section.folder());
+      }
       catch (const InputError &error)
-        {
-          section.fail(name, error.what());
-        }
+      {
+        section.fail(name, error.what());
+      }
     }
 
     /** "free", or a function of time with or without its quantity before. */
-    LoadComponent
-    component(const ParameterSection &section,
-              const std::string      &name,
-              const LoadQuantity      default_quantity)
+    LoadComponent component(const ParameterSection &section,
+                            const std::string &name,
+                            const LoadQuantity default_quantity)
     {
       std::string text = section.text(name);
       if (text == "free")
@@ -39,156 +36,126 @@ namespace quoin
       LoadComponent result;
       result.quantity = default_quantity;
       for (const auto &[word, quantity] :
-           {std::make_pair("velocity ", LoadQuantity::velocity),
-            std::make_pair("displacement ", LoadQuantity::displacement),
-            std::make_pair("force ", LoadQuantity::force),
-            std::make_pair("moment ", LoadQuantity::force)})
+           { std::make_pair("velocity ", LoadQuantity::velocity),
+             std::make_pair("displacement ", LoadQuantity::displacement),
+             std::make_pair("force ", LoadQuantity::force),
+             std::make_pair("moment ", LoadQuantity::force) })
         if (text.rfind(word, 0) == 0)
-          {
-            result.quantity = quantity;
-            text.erase(0, std::string(word).size());
-            break;
-          }
+        {
+          result.quantity = quantity;
+          text.erase(0, std::string(word).size());
+          break;
+        }
       if (result.quantity == LoadQuantity::free)
-        section.fail(name,
-                     "must be 'free' or begin with 'velocity', "
-                     "'displacement', 'force' or 'moment'.");
+        section.fail(name, "must be 'free' or begin with 'velocity', "
+                           "'displacement', 'force' or 'moment'.");
       result.value = time_function(section, name, text);
       return result;
     }
   } // namespace
 
-  void
-  LoadParameters::declare(dealii::ParameterHandler &prm)
+  void LoadParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry(
-      "Type",
-      "traction",
-      dealii::Patterns::Selection("prescribed motion|traction|viscous "
-                                  "boundary|platen|gravity|initial stress"),
-      "What the load is.");
-    prm.declare_entry("Boundary",
-                      "",
-                      Anything(),
+        "Type", "traction",
+        dealii::Patterns::Selection("prescribed motion|traction|viscous "
+                                    "boundary|platen|gravity|initial stress"),
+        "What the load is.");
+    prm.declare_entry("Boundary", "", Anything(),
                       "Physical curves on which it acts.");
-    prm.declare_entry("Group",
-                      "",
-                      Anything(),
+    prm.declare_entry("Group", "", Anything(),
                       "Platen: physical surfaces whose blocks are the rigid "
                       "body, instead of a boundary.");
-    prm.declare_entry("Groups",
-                      "",
-                      Anything(),
+    prm.declare_entry("Groups", "", Anything(),
                       "Initial stress: physical surfaces in which it acts; "
                       "empty: all.");
-    prm.declare_entry("Quantity",
-                      "velocity",
+    prm.declare_entry("Quantity", "velocity",
                       dealii::Patterns::Selection("velocity|displacement"),
                       "Prescribed motion: what is given [m/s] or, from the "
                       "start of the stage, [m].");
-    for (const std::string direction : {"Horizontal", "Vertical"})
-      prm.declare_entry(direction,
-                        "free",
-                        Anything(),
+    for (const std::string direction : { "Horizontal", "Vertical" })
+      prm.declare_entry(direction, "free", Anything(),
                         "Function of t (time in the stage) and T (total "
                         "time) [s], 'table FILE' or 'free'. Traction [Pa], "
                         "gravity [m/s^2], motion [m/s] or [m]; for a platen "
                         "preceded by 'velocity' [m/s], 'displacement' [m] or "
                         "'force' [N].");
-    prm.declare_entry("Rotation",
-                      "free",
-                      Anything(),
+    prm.declare_entry("Rotation", "free", Anything(),
                       "Platen, anticlockwise: 'velocity' [deg/s], "
                       "'displacement' [deg] or 'moment' [N m] and a "
                       "function of time, or 'free'.");
-    for (const std::string direction : {"normal", "shear"})
-      prm.declare_entry("Incident " + direction + " velocity",
-                        "0",
-                        Anything(),
+    for (const std::string direction : { "normal", "shear" })
+      prm.declare_entry("Incident " + direction + " velocity", "0", Anything(),
                         "Viscous boundary: velocity of the wave that comes "
                         "in, along the inward normal or along the boundary "
                         "with the block on its left [m/s].");
-    prm.declare_entry("Stress",
-                      "0, 0, 0",
-                      Anything(),
+    prm.declare_entry("Stress", "0, 0, 0", Anything(),
                       "Initial stress xx, yy, xy at y = 0, tension positive "
                       "[Pa]");
-    prm.declare_entry("Stress gradient",
-                      "0, 0, 0",
-                      Anything(),
+    prm.declare_entry("Stress gradient", "0, 0, 0", Anything(),
                       "Change of the initial stress with y [Pa/m]");
   }
 
-  LoadParameters
-  LoadParameters::read(const ParameterSection &section,
-                       const std::string      &name)
+  LoadParameters LoadParameters::read(const ParameterSection &section,
+                                      const std::string &name)
   {
     LoadParameters load;
     load.name = name;
     load.type = section.choice<LoadType>(
-      "Type",
-      {{"prescribed motion", LoadType::prescribed_motion},
-       {"traction", LoadType::traction},
-       {"viscous boundary", LoadType::viscous_boundary},
-       {"platen", LoadType::platen},
-       {"gravity", LoadType::gravity},
-       {"initial stress", LoadType::initial_stress}});
+        "Type", { { "prescribed motion", LoadType::prescribed_motion },
+                  { "traction", LoadType::traction },
+                  { "viscous boundary", LoadType::viscous_boundary },
+                  { "platen", LoadType::platen },
+                  { "gravity", LoadType::gravity },
+                  { "initial stress", LoadType::initial_stress } });
     load.boundaries = section.list("Boundary");
 
     switch (load.type)
-      {
-        case LoadType::prescribed_motion:
-          {
-            const auto quantity = section.choice<LoadQuantity>(
-              "Quantity",
-              {{"velocity", LoadQuantity::velocity},
-               {"displacement", LoadQuantity::displacement}});
-            load.components[0] = component(section, "Horizontal", quantity);
-            load.components[1] = component(section, "Vertical", quantity);
-            for (unsigned int c = 0; c < 2; ++c)
-              if (load.components[c].quantity == LoadQuantity::force)
-                section.fail(c == 0 ? "Horizontal" : "Vertical",
-                             "is a force; a prescribed motion takes none. "
-                             "Use a load of type 'traction' or 'platen'.");
-            break;
-          }
-        case LoadType::traction:
-        case LoadType::gravity:
-          load.components[0] =
-            component(section, "Horizontal", LoadQuantity::force);
-          load.components[1] =
-            component(section, "Vertical", LoadQuantity::force);
-          break;
-        case LoadType::viscous_boundary:
-          load.components[0] = component(section,
-                                         "Incident normal velocity",
-                                         LoadQuantity::velocity);
-          load.components[1] = component(section,
-                                         "Incident shear velocity",
-                                         LoadQuantity::velocity);
-          break;
-        case LoadType::platen:
-          load.groups        = section.list("Group");
-          load.components[0] =
-            component(section, "Horizontal", LoadQuantity::free);
-          load.components[1] =
-            component(section, "Vertical", LoadQuantity::free);
-          load.components[2] =
-            component(section, "Rotation", LoadQuantity::free);
-          if (load.groups.empty() == load.boundaries.empty())
-            section.fail("Group",
-                         "and 'Boundary': a platen takes one of the two.");
-          break;
-        case LoadType::initial_stress:
-          load.groups          = section.list("Groups");
-          load.stress          = section.numbers<3>("Stress");
-          load.stress_gradient = section.numbers<3>("Stress gradient");
-          break;
-      }
-    if ((load.type == LoadType::prescribed_motion ||
-         load.type == LoadType::traction ||
-         load.type == LoadType::viscous_boundary) &&
-        load.boundaries.empty())
+    {
+    case LoadType::prescribed_motion:
+    {
+      const auto quantity = section.choice<LoadQuantity>(
+          "Quantity", { { "velocity", LoadQuantity::velocity },
+                        { "displacement", LoadQuantity::displacement } });
+      load.components[0] = component(section, "Horizontal", quantity);
+      load.components[1] = component(section, "Vertical", quantity);
+      for (unsigned int c = 0; c < 2; ++c)
+        if (load.components[c].quantity == LoadQuantity::force)
+          section.fail(c == 0 ? "Horizontal" : "Vertical",
+                       "is a force; a prescribed motion takes none. "
+                       "Use a load of type 'traction' or 'platen'.");
+      break;
+    }
+    case LoadType::traction:
+    case LoadType::gravity:
+      load.components[0]
+          = component(section, "Horizontal", LoadQuantity::force);
+      load.components[1] = component(section, "Vertical", LoadQuantity::force);
+      break;
+    case LoadType::viscous_boundary:
+      load.components[0] = component(section, "Incident normal velocity",
+                                     LoadQuantity::velocity);
+      load.components[1] = component(section, "Incident shear velocity",
+                                     LoadQuantity::velocity);
+      break;
+    case LoadType::platen:
+      load.groups        = section.list("Group");
+      load.components[0] = component(section, "Horizontal", LoadQuantity::free);
+      load.components[1] = component(section, "Vertical", LoadQuantity::free);
+      load.components[2] = component(section, "Rotation", LoadQuantity::free);
+      if (load.groups.empty() == load.boundaries.empty())
+        section.fail("Group", "and 'Boundary': a platen takes one of the two.");
+      break;
+    case LoadType::initial_stress:
+      load.groups          = section.list("Groups");
+      load.stress          = section.numbers<3>("Stress");
+      load.stress_gradient = section.numbers<3>("Stress gradient");
+      break;
+    }
+    if ((load.type == LoadType::prescribed_motion
+         || load.type == LoadType::traction
+         || load.type == LoadType::viscous_boundary)
+        && load.boundaries.empty())
       section.fail("Boundary", "must name a physical curve of the mesh.");
     return load;
   }

@@ -11,8 +11,7 @@ namespace quoin
 {
   namespace
   {
-    std::string
-    known_names(const std::vector<std::string> &names)
+    std::string known_names(const std::vector<std::string> &names)
     {
       std::string text;
       for (const auto &name : names)
@@ -21,111 +20,105 @@ namespace quoin
       return text.empty() ? "none" : text;
     }
 
-    unsigned int
-    position(const std::vector<std::string> &names,
-             const std::string              &name,
-             const std::string              &load,
-             const std::string              &kind)
+    unsigned int position(const std::vector<std::string> &names,
+                          const std::string &name, const std::string &load,
+                          const std::string &parameter, const std::string &kind)
     {
       const auto found = std::find(names.begin(), names.end(), name);
       if (name.empty() || found == names.end())
-        throw InputError("section 'Loads/" + load + "': the mesh has no " +
-                         kind + " '" + name + "'. It has: " +
-                         known_names(names) + ".");
+        throw InputError("section 'Loads/" + load + "': '" + parameter + " = "
+                         + name + "', but the mesh has no " + kind
+                         + " of that name. It has: " + known_names(names)
+                         + ".");
       return found - names.begin();
     }
   } // namespace
 
   std::vector<unsigned int>
-  faces_of_curves(const BlockMesh<2>             &mesh,
+  faces_of_curves(const BlockMesh<2> &mesh,
                   const std::vector<std::string> &names,
-                  const std::string              &load)
+                  const std::string &load)
   {
     std::vector<unsigned int> faces;
     for (const auto &name : names)
-      {
-        const unsigned int line =
-          position(mesh.line_names, name, load, "physical curve");
-        const auto n_before = faces.size();
-        for (unsigned int f = 0; f < mesh.boundary_faces.size(); ++f)
-          if (mesh.boundary_faces[f].name == line)
-            faces.push_back(f);
-        if (faces.size() == n_before)
-          throw InputError("section 'Loads/" + load + "': curve '" + name +
-                           "' has no edge on the outer boundary of a block. "
+    {
+      const unsigned int line
+          = position(mesh.line_names, name, load, "Boundary", "physical curve");
+      const auto n_before = faces.size();
+      for (unsigned int f = 0; f < mesh.boundary_faces.size(); ++f)
+        if (mesh.boundary_faces[f].name == line)
+          faces.push_back(f);
+      if (faces.size() == n_before)
+        throw InputError("section 'Loads/" + load + "': 'Boundary = " + name
+                         + "' has no edge on the outer boundary of a block. "
                            "Name a boundary curve.");
-      }
+    }
     return faces;
   }
 
   std::vector<unsigned int>
-  groups_of_names(const BlockMesh<2>             &mesh,
+  groups_of_names(const BlockMesh<2> &mesh,
                   const std::vector<std::string> &names,
-                  const std::string              &load)
+                  const std::string &load)
   {
     std::vector<unsigned int> groups;
     for (const auto &name : names)
       groups.push_back(
-        position(mesh.group_names, name, load, "physical surface"));
+          position(mesh.group_names, name, load, "Group", "physical surface"));
     return groups;
   }
 
-  NodalLoad::NodalLoad(const LoadParameters      &parameters,
-                       const BlockMesh<2>        &mesh,
-                       const NodeExchange        &exchange,
-                       const std::vector<double> &mass,
-                       const double               thickness)
-    : load_name(parameters.name)
-    , components(parameters.components)
+  NodalLoad::NodalLoad(const LoadParameters &parameters,
+                       const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                       const std::vector<double> &mass, const double thickness)
+    : load_name(parameters.name), components(parameters.components)
   {
     if (parameters.type == LoadType::gravity)
+    {
+      for (unsigned int i = 0; i < exchange.n_owned(); ++i)
       {
-        for (unsigned int i = 0; i < exchange.n_owned(); ++i)
-          {
-            nodes.push_back(i);
-            weights.push_back(mass[i]);
-          }
-        return;
+        nodes.push_back(i);
+        weights.push_back(mass[i]);
       }
+      return;
+    }
     std::map<unsigned int, double> area;
     for (const unsigned int f :
          faces_of_curves(mesh, parameters.boundaries, parameters.name))
-      {
-        const BlockFace &face   = mesh.boundary_faces[f];
-        const double     length = mesh.vertices[face.vertices[0]].distance(
-          mesh.vertices[face.vertices[1]]);
-        for (const unsigned int v : face.vertices)
-          if (exchange.owns(v))
-            area[exchange.local(v)] += 0.5 * length * thickness;
-      }
+    {
+      const BlockFace &face = mesh.boundary_faces[f];
+      const double length   = mesh.vertices[face.vertices[0]].distance(
+            mesh.vertices[face.vertices[1]]);
+      for (const unsigned int v : face.vertices)
+        if (exchange.owns(v))
+          area[exchange.local(v)] += 0.5 * length * thickness;
+    }
     for (const auto &[node, weight] : area)
-      {
-        nodes.push_back(node);
-        weights.push_back(weight);
-      }
+    {
+      nodes.push_back(node);
+      weights.push_back(weight);
+    }
   }
 
-  std::array<double, 2>
-  NodalLoad::amplitude(const TimePoint &time) const
+  std::array<double, 2> NodalLoad::amplitude(const TimePoint &time) const
   {
-    return {{components[0].value(time), components[1].value(time)}};
+    return { { components[0].value(time), components[1].value(time) } };
   }
 
-  void
-  NodalLoad::add_forces(const TimePoint &time, NodeVector *force) const
+  void NodalLoad::add_forces(const TimePoint &time, NodeVector *force) const
   {
     const auto [x, y] = amplitude(time);
     for (unsigned int i = 0; i < nodes.size(); ++i)
-      {
-        force[nodes[i]].v[0] += x * weights[i];
-        force[nodes[i]].v[1] += y * weights[i];
-      }
+    {
+      force[nodes[i]].v[0] += x * weights[i];
+      force[nodes[i]].v[1] += y * weights[i];
+    }
   }
 
-  double
-  NodalLoad::power(const TimePoint &time, const NodeVector *velocity) const
+  double NodalLoad::power(const TimePoint &time,
+                          const NodeVector *velocity) const
   {
-    double sum[2] = {0., 0.};
+    double sum[2] = { 0., 0. };
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         sum[d] += weights[i] * velocity[nodes[i]].v[d];

@@ -17,14 +17,13 @@ namespace quoin
     constexpr double radians_per_degree = dealii::numbers::PI / 180.;
 
     std::vector<unsigned int>
-    nodes_of_groups(const BlockMesh<2>              &mesh,
-                    const NodeExchange              &exchange,
+    nodes_of_groups(const BlockMesh<2> &mesh, const NodeExchange &exchange,
                     const std::vector<unsigned int> &groups)
     {
       std::vector<unsigned int> nodes;
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        if (std::find(groups.begin(), groups.end(), mesh.cell_group[c]) !=
-            groups.end())
+        if (std::find(groups.begin(), groups.end(), mesh.cell_group[c])
+            != groups.end())
           for (const unsigned int v : mesh.cells[c])
             if (exchange.owns(v))
               nodes.push_back(exchange.local(v));
@@ -34,204 +33,187 @@ namespace quoin
     }
 
     template <std::size_t N>
-    std::array<double, N>
-    sum(std::array<double, N> values, const MPI_Comm communicator)
+    std::array<double, N> sum(std::array<double, N> values,
+                              const MPI_Comm communicator)
     {
-      MPI_Allreduce(
-        MPI_IN_PLACE, values.data(), N, MPI_DOUBLE, MPI_SUM, communicator);
+      MPI_Allreduce(MPI_IN_PLACE, values.data(), N, MPI_DOUBLE, MPI_SUM,
+                    communicator);
       return values;
     }
   } // namespace
 
-  Platen::Platen(const LoadParameters &parameters,
-                 const unsigned int    index,
-                 const BlockMesh<2>   &mesh,
-                 const NodeExchange   &exchange)
-    : components(parameters.components)
-    , platen_index(index)
-    , communicator(exchange.communicator())
+  Platen::Platen(const LoadParameters &parameters, const unsigned int index,
+                 const BlockMesh<2> &mesh, const NodeExchange &exchange)
+    : components(parameters.components), platen_index(index),
+      communicator(exchange.communicator())
   {
     load_name = parameters.name;
-    node_list =
-      parameters.groups.empty() ?
-        nodes_of_faces(mesh,
-                       exchange,
-                       faces_of_curves(mesh,
-                                       parameters.boundaries,
-                                       load_name)) :
-        nodes_of_groups(mesh,
-                        exchange,
+    node_list = parameters.groups.empty()
+                    ? nodes_of_faces(
+                        mesh, exchange,
+                        faces_of_curves(mesh, parameters.boundaries, load_name))
+                    : nodes_of_groups(
+                        mesh, exchange,
                         groups_of_names(mesh, parameters.groups, load_name));
   }
 
-  void
-  Platen::set_mass(const std::vector<double> &mass)
+  void Platen::set_mass(const std::vector<double> &mass)
   {
     node_mass.clear();
     for (const unsigned int node : node_list)
       node_mass.push_back(mass[node]);
   }
 
-  void
-  Platen::begin_stage(State &state, const bool continues)
+  void Platen::begin_stage(State &state, const bool continues)
   {
     PlatenState &platen = state.platens[platen_index];
     std::array<double, 6> moments{};
     for (unsigned int i = 0; i < node_list.size(); ++i)
+    {
+      const NodeRecord &node = state.nodes[node_list[i]];
+      const NodeVector &v    = state.velocity[node_list[i]];
+      moments[0] += node_mass[i];
+      for (unsigned int d = 0; d < 2; ++d)
       {
-        const NodeRecord &node = state.nodes[node_list[i]];
-        const NodeVector &v    = state.velocity[node_list[i]];
-        moments[0] += node_mass[i];
-        for (unsigned int d = 0; d < 2; ++d)
-          {
-            moments[1 + d] += node_mass[i] * (node.X[d] + node.u[d]);
-            moments[3 + d] += node_mass[i] * v.v[d];
-          }
+        moments[1 + d] += node_mass[i] * (node.X[d] + node.u[d]);
+        moments[3 + d] += node_mass[i] * v.v[d];
       }
+    }
     moments    = sum(moments, communicator);
     inertia[0] = inertia[1] = moments[0];
 
     if (!continues || !platen.active)
+    {
+      platen        = PlatenState();
+      platen.active = true;
+      for (unsigned int d = 0; d < 2; ++d)
       {
-        platen        = PlatenState();
-        platen.active = true;
-        for (unsigned int d = 0; d < 2; ++d)
-          {
-            platen.centre[d]   = moments[1 + d] / moments[0];
-            platen.velocity[d] = moments[3 + d] / moments[0];
-          }
-        for (const unsigned int n : node_list)
-          for (unsigned int d = 0; d < 2; ++d)
-            platen.arms.push_back(state.nodes[n].X[d] + state.nodes[n].u[d] -
-                                  platen.centre[d]);
+        platen.centre[d]   = moments[1 + d] / moments[0];
+        platen.velocity[d] = moments[3 + d] / moments[0];
       }
-    std::copy(platen.displacement,
-              platen.displacement + 3,
-              platen.stage_start);
+      for (const unsigned int n : node_list)
+        for (unsigned int d = 0; d < 2; ++d)
+          platen.arms.push_back(state.nodes[n].X[d] + state.nodes[n].u[d]
+                                - platen.centre[d]);
+    }
+    std::copy(platen.displacement, platen.displacement + 3, platen.stage_start);
 
     std::array<double, 2> rotation{};
     for (unsigned int i = 0; i < node_list.size(); ++i)
-      {
-        const double *r = &platen.arms[2 * i];
-        const double *v = state.velocity[node_list[i]].v;
-        rotation[0] += node_mass[i] * (r[0] * r[0] + r[1] * r[1]);
-        rotation[1] += node_mass[i] * (r[0] * v[1] - r[1] * v[0]);
-      }
+    {
+      const double *r = &platen.arms[2 * i];
+      const double *v = state.velocity[node_list[i]].v;
+      rotation[0] += node_mass[i] * (r[0] * r[0] + r[1] * r[1]);
+      rotation[1] += node_mass[i] * (r[0] * v[1] - r[1] * v[0]);
+    }
     rotation   = sum(rotation, communicator);
     inertia[2] = rotation[0];
     if (!continues)
       platen.velocity[2] = rotation[1] / rotation[0];
   }
 
-  void
-  Platen::correct(const StepContext               &step,
-                  const std::vector<CapturedNode> &captured,
-                  State                           &state)
+  void Platen::correct(const StepContext &step,
+                       const std::vector<CapturedNode> &captured, State &state)
   {
-    PlatenState &platen = state.platens[platen_index];
+    PlatenState &platen      = state.platens[platen_index];
     const double *const arms = platen.arms.data();
 
     std::array<double, 3> force{};
     const double c0 = std::cos(platen.displacement[2]),
                  s0 = std::sin(platen.displacement[2]);
     for (unsigned int i = 0; i < node_list.size(); ++i)
-      {
-        const double *f  = captured[captured_positions[i]].force.v;
-        const double  rx = c0 * arms[2 * i] - s0 * arms[2 * i + 1];
-        const double  ry = s0 * arms[2 * i] + c0 * arms[2 * i + 1];
-        force[0] += f[0];
-        force[1] += f[1];
-        force[2] += rx * f[1] - ry * f[0];
-      }
+    {
+      const double *f = captured[captured_positions[i]].force.v;
+      const double rx = c0 * arms[2 * i] - s0 * arms[2 * i + 1];
+      const double ry = s0 * arms[2 * i] + c0 * arms[2 * i + 1];
+      force[0] += f[0];
+      force[1] += f[1];
+      force[2] += rx * f[1] - ry * f[0];
+    }
     nodal_force = sum(force, communicator);
 
     last_unbalanced = 0.;
     for (unsigned int d = 0; d < 3; ++d)
+    {
+      const double unit   = d == 2 ? radians_per_degree : 1.;
+      const double before = platen.velocity[d];
+      velocity_before[d]  = before;
+      damping[d]          = 0.;
+      if (components[d].quantity == LoadQuantity::velocity)
+        platen.velocity[d] = unit * components[d].value(step.middle);
+      else if (components[d].quantity == LoadQuantity::displacement)
+        platen.velocity[d]
+            = (platen.stage_start[d] + unit * components[d].value(step.end)
+               - platen.displacement[d])
+              / step.dt;
+      else
       {
-        const double unit   = d == 2 ? radians_per_degree : 1.;
-        const double before = platen.velocity[d];
-        velocity_before[d]  = before;
-        damping[d]          = 0.;
-        if (components[d].quantity == LoadQuantity::velocity)
-          platen.velocity[d] = unit * components[d].value(step.middle);
-        else if (components[d].quantity == LoadQuantity::displacement)
-          platen.velocity[d] =
-            (platen.stage_start[d] + unit * components[d].value(step.end) -
-             platen.displacement[d]) /
-            step.dt;
-        else
-          {
-            drive[d]           = components[d].value(step.begin);
-            const double total = nodal_force[d] + drive[d];
-            const double a = 0.5 * step.dt_velocity * step.mass_damping;
-            const double gain = step.dt_velocity / (1. + a) / inertia[d];
-            const double free = (1. - a) / (1. + a) * before + gain * total;
-            // Local damping as of a node (node_update.h).
-            const double sum = before + free;
-            const double local =
-              -std::copysign(std::min(step.local_damping * gain *
-                                        std::abs(total),
-                                      0.5 * std::abs(sum)),
-                             sum);
-            platen.velocity[d] = free + local;
-            damping[d]         = local / gain - step.mass_damping * inertia[d] *
-                                          0.5 *
-                                          (before + platen.velocity[d]);
-            if (d < 2)
-              last_unbalanced += std::abs(total);
-          }
-        if (driven(d))
-          drive[d] = inertia[d] * (platen.velocity[d] - before) /
-                       step.dt_velocity -
-                     nodal_force[d];
-        platen.displacement[d] += step.dt * platen.velocity[d];
+        drive[d]           = components[d].value(step.begin);
+        const double total = nodal_force[d] + drive[d];
+        const double a     = 0.5 * step.dt_velocity * step.mass_damping;
+        const double gain  = step.dt_velocity / (1. + a) / inertia[d];
+        const double free  = (1. - a) / (1. + a) * before + gain * total;
+        // Local damping as of a node (node_update.h).
+        const double sum   = before + free;
+        const double local = -std::copysign(
+            std::min(step.local_damping * gain * std::abs(total),
+                     0.5 * std::abs(sum)),
+            sum);
+        platen.velocity[d] = free + local;
+        damping[d]         = local / gain
+                     - step.mass_damping * inertia[d] * 0.5
+                           * (before + platen.velocity[d]);
+        if (d < 2)
+          last_unbalanced += std::abs(total);
       }
+      if (driven(d))
+        drive[d] = inertia[d] * (platen.velocity[d] - before) / step.dt_velocity
+                   - nodal_force[d];
+      platen.displacement[d] += step.dt * platen.velocity[d];
+    }
     last_resultant = drive;
 
     const double c = std::cos(platen.displacement[2]),
                  s = std::sin(platen.displacement[2]);
     for (unsigned int i = 0; i < node_list.size(); ++i)
-      {
-        const CapturedNode &before = captured[captured_positions[i]];
-        NodeRecord         &node   = state.nodes[before.node];
-        const double arm[2] = {c * arms[2 * i] - s * arms[2 * i + 1],
-                               s * arms[2 * i] + c * arms[2 * i + 1]};
-        // The rate from the mean arm: that from positions would lose digits.
-        const double mean[2] = {
-          0.5 * (arm[0] + c0 * arms[2 * i] - s0 * arms[2 * i + 1]),
-          0.5 * (arm[1] + s0 * arms[2 * i] + c0 * arms[2 * i + 1])};
-        NodeVector &velocity = state.velocity[before.node];
-        velocity.v[0] = platen.velocity[0] - platen.velocity[2] * mean[1];
-        velocity.v[1] = platen.velocity[1] + platen.velocity[2] * mean[0];
-        for (unsigned int d = 0; d < 2; ++d)
-          node.u[d] =
-            platen.centre[d] + platen.displacement[d] + arm[d] - node.X[d];
-      }
+    {
+      const CapturedNode &before = captured[captured_positions[i]];
+      NodeRecord &node           = state.nodes[before.node];
+      const double arm[2]        = { c * arms[2 * i] - s * arms[2 * i + 1],
+                                     s * arms[2 * i] + c * arms[2 * i + 1] };
+      // The rate from the mean arm: that from positions would lose digits.
+      const double mean[2]
+          = { 0.5 * (arm[0] + c0 * arms[2 * i] - s0 * arms[2 * i + 1]),
+              0.5 * (arm[1] + s0 * arms[2 * i] + c0 * arms[2 * i + 1]) };
+      NodeVector &velocity = state.velocity[before.node];
+      velocity.v[0]        = platen.velocity[0] - platen.velocity[2] * mean[1];
+      velocity.v[1]        = platen.velocity[1] + platen.velocity[2] * mean[0];
+      for (unsigned int d = 0; d < 2; ++d)
+        node.u[d]
+            = platen.centre[d] + platen.displacement[d] + arm[d] - node.X[d];
+    }
   }
 
-  void
-  Platen::account(const StepContext &step,
-                  const std::vector<CapturedNode> &,
-                  State &state)
+  void Platen::account(const StepContext &step,
+                       const std::vector<CapturedNode> &, State &state)
   {
     // Every rank knows the platen; the first one books its work.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       return;
     const PlatenState &platen = state.platens[platen_index];
     for (unsigned int d = 0; d < 3; ++d)
-      {
-        const double w0 = 0.5 * step.dt_before * velocity_before[d];
-        const double w1 = 0.5 * step.dt * platen.velocity[d];
-        state.energy.external += drive[d] * w0;
-        state.pending.external += drive[d] * w1;
-        state.energy.damping -= damping[d] * w0;
-        state.pending.damping -= damping[d] * w1;
-      }
+    {
+      const double w0 = 0.5 * step.dt_before * velocity_before[d];
+      const double w1 = 0.5 * step.dt * platen.velocity[d];
+      state.energy.external += drive[d] * w0;
+      state.pending.external += drive[d] * w1;
+      state.energy.damping -= damping[d] * w0;
+      state.pending.damping -= damping[d] * w1;
+    }
   }
 
-  std::array<bool, 3>
-  Platen::holds() const
+  std::array<bool, 3> Platen::holds() const
   {
-    return {{driven(0), driven(1), driven(2)}};
+    return { { driven(0), driven(1), driven(2) } };
   }
 } // namespace quoin

@@ -9,8 +9,7 @@
 namespace quoin
 {
   std::vector<unsigned int>
-  nodes_of_faces(const BlockMesh<2>              &mesh,
-                 const NodeExchange              &exchange,
+  nodes_of_faces(const BlockMesh<2> &mesh, const NodeExchange &exchange,
                  const std::vector<unsigned int> &faces)
   {
     std::vector<unsigned int> nodes;
@@ -24,78 +23,72 @@ namespace quoin
   }
 
   PrescribedMotion::PrescribedMotion(const LoadParameters &parameters,
-                                     const BlockMesh<2>   &mesh,
-                                     const NodeExchange   &exchange)
+                                     const BlockMesh<2> &mesh,
+                                     const NodeExchange &exchange)
     : components(parameters.components)
   {
     load_name = parameters.name;
     node_list = nodes_of_faces(
-      mesh,
-      exchange,
-      faces_of_curves(mesh, parameters.boundaries, parameters.name));
+        mesh, exchange,
+        faces_of_curves(mesh, parameters.boundaries, parameters.name));
   }
 
-  void
-  PrescribedMotion::correct(const StepContext               &step,
-                            const std::vector<CapturedNode> &captured,
-                            State                           &state)
+  void PrescribedMotion::correct(const StepContext &step,
+                                 const std::vector<CapturedNode> &captured,
+                                 State &state)
   {
     for (unsigned int d = 0; d < 2; ++d)
+    {
+      const LoadComponent &component = components[d];
+      if (component.quantity == LoadQuantity::free)
+        continue;
+      const double velocity
+          = component.quantity == LoadQuantity::velocity
+                ? component.value(step.middle)
+                : (component.value(step.end) - component.value(step.begin))
+                      / step.dt;
+      for (const unsigned int c : captured_positions)
       {
-        const LoadComponent &component = components[d];
-        if (component.quantity == LoadQuantity::free)
-          continue;
-        const double velocity =
-          component.quantity == LoadQuantity::velocity ?
-            component.value(step.middle) :
-            (component.value(step.end) - component.value(step.begin)) /
-              step.dt;
-        for (const unsigned int c : captured_positions)
-          {
-            const CapturedNode &before           = captured[c];
-            state.velocity[before.node].v[d]     = velocity;
-            state.nodes[before.node].u[d] =
-              before.displacement.v[d] + step.dt * velocity;
-          }
+        const CapturedNode &before       = captured[c];
+        state.velocity[before.node].v[d] = velocity;
+        state.nodes[before.node].u[d]
+            = before.displacement.v[d] + step.dt * velocity;
       }
+    }
   }
 
-  void
-  PrescribedMotion::account(const StepContext               &step,
-                            const std::vector<CapturedNode> &captured,
-                            State                           &state)
+  void PrescribedMotion::account(const StepContext &step,
+                                 const std::vector<CapturedNode> &captured,
+                                 State &state)
   {
     last_resultant = {};
     for (const unsigned int c : captured_positions)
+    {
+      const CapturedNode &before = captured[c];
+      const NodeRecord &node     = state.nodes[before.node];
+      double reaction[2]         = { 0., 0. };
+      for (unsigned int d = 0; d < 2; ++d)
       {
-        const CapturedNode &before = captured[c];
-        const NodeRecord   &node   = state.nodes[before.node];
-        double              reaction[2] = {0., 0.};
-        for (unsigned int d = 0; d < 2; ++d)
-          {
-            if (components[d].quantity == LoadQuantity::free)
-              continue;
-            const double after = state.velocity[before.node].v[d];
-            reaction[d] =
-              before.mass * (after - before.velocity.v[d]) / step.dt_velocity -
-              before.force.v[d];
-            state.energy.external +=
-              0.5 * step.dt_before * reaction[d] * before.velocity.v[d];
-            state.pending.external += 0.5 * step.dt * reaction[d] * after;
-            last_resultant[d] += reaction[d];
-          }
-        last_resultant[2] += (node.X[0] + before.displacement.v[0]) *
-                               reaction[1] -
-                             (node.X[1] + before.displacement.v[1]) *
-                               reaction[0];
+        if (components[d].quantity == LoadQuantity::free)
+          continue;
+        const double after = state.velocity[before.node].v[d];
+        reaction[d]
+            = before.mass * (after - before.velocity.v[d]) / step.dt_velocity
+              - before.force.v[d];
+        state.energy.external
+            += 0.5 * step.dt_before * reaction[d] * before.velocity.v[d];
+        state.pending.external += 0.5 * step.dt * reaction[d] * after;
+        last_resultant[d] += reaction[d];
       }
+      last_resultant[2]
+          += (node.X[0] + before.displacement.v[0]) * reaction[1]
+             - (node.X[1] + before.displacement.v[1]) * reaction[0];
+    }
   }
 
-  std::array<bool, 3>
-  PrescribedMotion::holds() const
+  std::array<bool, 3> PrescribedMotion::holds() const
   {
-    return {{components[0].quantity != LoadQuantity::free,
-             components[1].quantity != LoadQuantity::free,
-             false}};
+    return { { components[0].quantity != LoadQuantity::free,
+               components[1].quantity != LoadQuantity::free, false } };
   }
 } // namespace quoin

@@ -18,84 +18,79 @@ namespace quoin
   {
     using Table = std::vector<std::pair<double, double>>;
 
-    Table
-    read_table(const std::string &name)
+    Table read_table(const std::string &name)
     {
       std::ifstream file(name);
       if (!file)
         throw InputError("the table '" + name + "' cannot be read.");
-      Table        table;
-      std::string  line;
+      Table table;
+      std::string line;
       unsigned int number = 0;
       while (std::getline(file, line))
+      {
+        ++number;
+        std::replace(line.begin(), line.end(), ',', ' ');
+        std::istringstream words(line.substr(0, line.find('#')));
+        double time, value;
+        if (words >> time >> value)
         {
-          ++number;
-          std::replace(line.begin(), line.end(), ',', ' ');
-          std::istringstream words(line.substr(0, line.find('#')));
-          double             time, value;
-          if (words >> time >> value)
-            {
-              if (!table.empty() && time <= table.back().first)
-                throw InputError("the table '" + name + "' goes back in time "
-                                 "in line " + std::to_string(number) + ".");
-              table.emplace_back(time, value);
-            }
-          else if (!table.empty() &&
-                   line.find_first_not_of(" \t\r") != std::string::npos)
-            throw InputError("line " + std::to_string(number) +
-                             " of the table '" + name +
-                             "' is not a time and a value.");
+          if (!table.empty() && time <= table.back().first)
+            throw InputError("the table '" + name
+                             + "' goes back in time "
+                               "in line "
+                             + std::to_string(number) + ".");
+          table.emplace_back(time, value);
         }
+        else if (!table.empty()
+                 && line.find_first_not_of(" \t\r") != std::string::npos)
+          throw InputError("line " + std::to_string(number) + " of the table '"
+                           + name + "' is not a time and a value.");
+      }
       if (table.empty())
         throw InputError("the table '" + name + "' has no rows.");
       return table;
     }
 
-    double
-    interpolate(const Table &table, const double time)
+    double interpolate(const Table &table, const double time)
     {
-      const auto after = std::upper_bound(table.begin(),
-                                          table.end(),
+      const auto after = std::upper_bound(table.begin(), table.end(),
                                           std::make_pair(time, 1e300));
       if (after == table.begin())
         return table.front().second;
       if (after == table.end())
         return table.back().second;
-      const auto  &[t0, v0] = *(after - 1);
-      const auto  &[t1, v1] = *after;
+      const auto &[t0, v0] = *(after - 1);
+      const auto &[t1, v1] = *after;
       return v0 + (v1 - v0) * (time - t0) / (t1 - t0);
     }
   } // namespace
 
-  TimeFunction::TimeFunction(const std::string &text,
-                             const std::string &folder)
+  TimeFunction::TimeFunction(const std::string &text, const std::string &folder)
   {
     if (text.rfind("table ", 0) == 0)
-      {
-        std::string name = text.substr(6);
-        name.erase(0, name.find_first_not_of(' '));
-        const auto table = std::make_shared<const Table>(
+    {
+      std::string name = text.substr(6);
+      name.erase(0, name.find_first_not_of(' '));
+      const auto table = std::make_shared<const Table>(
           read_table(name.front() == '/' ? name : folder + name));
-        evaluate = [table](const TimePoint &time) {
-          return interpolate(*table, time.stage);
-        };
-        return;
-      }
+      evaluate = [table](const TimePoint &time)
+      { return interpolate(*table, time.stage); };
+      return;
+    }
 
     const auto parser = std::make_shared<dealii::FunctionParser<2>>(1);
     try
-      {
-        parser->initialize("t,T", text, {{"pi", 3.14159265358979323846}});
-        parser->value(dealii::Point<2>(0., 0.));
-      }
+    {
+      parser->initialize("t,T", text, { { "pi", 3.14159265358979323846 } });
+      parser->value(dealii::Point<2>(0., 0.));
+    }
     catch (const dealii::ExceptionBase &error)
-      {
-        std::ostringstream reason;
-        error.print_info(reason);
-        throw InputError("is no expression of t and T: " + reason.str());
-      }
-    evaluate = [parser](const TimePoint &time) {
-      return parser->value(dealii::Point<2>(time.stage, time.total));
-    };
+    {
+      std::ostringstream reason;
+      error.print_info(reason);
+      throw InputError("is no expression of t and T: " + reason.str());
+    }
+    evaluate = [parser](const TimePoint &time)
+    { return parser->value(dealii::Point<2>(time.stage, time.total)); };
   }
 } // namespace quoin

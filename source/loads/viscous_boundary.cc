@@ -9,11 +9,11 @@
 
 namespace quoin
 {
-  ViscousBoundary::ViscousBoundary(const LoadParameters         &parameters,
-                                   const BlockMesh<2>           &mesh,
-                                   const NodeExchange           &exchange,
+  ViscousBoundary::ViscousBoundary(const LoadParameters &parameters,
+                                   const BlockMesh<2> &mesh,
+                                   const NodeExchange &exchange,
                                    const std::vector<Impedance> &impedance,
-                                   const double                  thickness)
+                                   const double thickness)
     : components(parameters.components)
   {
     load_name        = parameters.name;
@@ -21,105 +21,99 @@ namespace quoin
     node_list        = nodes_of_faces(mesh, exchange, faces);
     dashpots.resize(node_list.size());
     for (const unsigned int f : faces)
+    {
+      const BlockFace &face = mesh.boundary_faces[f];
+      const auto edge
+          = mesh.vertices[face.vertices[1]] - mesh.vertices[face.vertices[0]];
+      const double half_area = 0.5 * edge.norm() * thickness;
+      const auto t           = edge / edge.norm();
+      const double n[2]      = { t[1], -t[0] }; // outward
+      const Impedance &z     = impedance[mesh.cell_group[face.cell]];
+      for (const unsigned int v : face.vertices)
       {
-        const BlockFace &face = mesh.boundary_faces[f];
-        const auto       edge =
-          mesh.vertices[face.vertices[1]] - mesh.vertices[face.vertices[0]];
-        const double half_area = 0.5 * edge.norm() * thickness;
-        const auto   t         = edge / edge.norm();
-        const double n[2]      = {t[1], -t[0]}; // outward
-        const Impedance &z     = impedance[mesh.cell_group[face.cell]];
-        for (const unsigned int v : face.vertices)
-          {
-            if (!exchange.owns(v))
-              continue;
-            Dashpot &dashpot =
-              dashpots[std::lower_bound(node_list.begin(),
-                                        node_list.end(),
-                                        exchange.local(v)) -
-                       node_list.begin()];
-            const double zn = z.normal * half_area, zs = z.shear * half_area;
-            dashpot.damping[0] += zn * n[0] * n[0] + zs * t[0] * t[0];
-            dashpot.damping[1] += zn * n[1] * n[1] + zs * t[1] * t[1];
-            dashpot.damping[2] += zn * n[0] * n[1] + zs * t[0] * t[1];
-            for (unsigned int d = 0; d < 2; ++d)
-              {
-                dashpot.normal[d] -= 2. * zn * n[d];
-                dashpot.shear[d] += 2. * zs * t[d];
-              }
-          }
+        if (!exchange.owns(v))
+          continue;
+        Dashpot &dashpot
+            = dashpots[std::lower_bound(node_list.begin(), node_list.end(),
+                                        exchange.local(v))
+                       - node_list.begin()];
+        const double zn = z.normal * half_area, zs = z.shear * half_area;
+        dashpot.damping[0] += zn * n[0] * n[0] + zs * t[0] * t[0];
+        dashpot.damping[1] += zn * n[1] * n[1] + zs * t[1] * t[1];
+        dashpot.damping[2] += zn * n[0] * n[1] + zs * t[0] * t[1];
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          dashpot.normal[d] -= 2. * zn * n[d];
+          dashpot.shear[d] += 2. * zs * t[d];
+        }
       }
+    }
   }
 
-  void
-  ViscousBoundary::correct(const StepContext               &step,
-                           const std::vector<CapturedNode> &captured,
-                           State                           &state)
+  void ViscousBoundary::correct(const StepContext &step,
+                                const std::vector<CapturedNode> &captured,
+                                State &state)
   {
     const double vn = components[0].value(step.begin);
     const double vs = components[1].value(step.begin);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
-      {
-        const CapturedNode &before  = captured[captured_positions[i]];
-        const Dashpot      &dashpot = dashpots[i];
-        const auto         &[cxx, cyy, cxy] = dashpot.damping;
-        const double h = 0.5 * step.dt_velocity, m = before.mass;
-        const double a = h * step.mass_damping * m;
-        const double vx = before.velocity.v[0], vy = before.velocity.v[1];
+    {
+      const CapturedNode &before  = captured[captured_positions[i]];
+      const Dashpot &dashpot      = dashpots[i];
+      const auto &[cxx, cyy, cxy] = dashpot.damping;
+      const double h = 0.5 * step.dt_velocity, m = before.mass;
+      const double a  = h * step.mass_damping * m;
+      const double vx = before.velocity.v[0], vy = before.velocity.v[1];
 
-        // (m + h c) v+ = (m - h c) v- + dt f, with c the 2x2 dashpot.
-        const double bx = (m - a) * vx - h * (cxx * vx + cxy * vy) +
-                          2. * h * (before.force.v[0] +
-                                    vn * dashpot.normal[0] +
-                                    vs * dashpot.shear[0]);
-        const double by = (m - a) * vy - h * (cxy * vx + cyy * vy) +
-                          2. * h * (before.force.v[1] +
-                                    vn * dashpot.normal[1] +
-                                    vs * dashpot.shear[1]);
-        const double axx = m + a + h * cxx, ayy = m + a + h * cyy,
-                     axy         = h * cxy;
-        const double determinant = axx * ayy - axy * axy;
+      // (m + h c) v+ = (m - h c) v- + dt f, with c the 2x2 dashpot.
+      const double bx = (m - a) * vx - h * (cxx * vx + cxy * vy)
+                        + 2. * h
+                              * (before.force.v[0] + vn * dashpot.normal[0]
+                                 + vs * dashpot.shear[0]);
+      const double by = (m - a) * vy - h * (cxy * vx + cyy * vy)
+                        + 2. * h
+                              * (before.force.v[1] + vn * dashpot.normal[1]
+                                 + vs * dashpot.shear[1]);
+      const double axx = m + a + h * cxx, ayy = m + a + h * cyy, axy = h * cxy;
+      const double determinant = axx * ayy - axy * axy;
 
-        NodeVector &after = state.velocity[before.node];
-        after.v[0]        = (ayy * bx - axy * by) / determinant;
-        after.v[1]        = (axx * by - axy * bx) / determinant;
-        for (unsigned int d = 0; d < 2; ++d)
-          state.nodes[before.node].u[d] =
-            before.displacement.v[d] + step.dt * after.v[d];
-      }
+      NodeVector &after = state.velocity[before.node];
+      after.v[0]        = (ayy * bx - axy * by) / determinant;
+      after.v[1]        = (axx * by - axy * bx) / determinant;
+      for (unsigned int d = 0; d < 2; ++d)
+        state.nodes[before.node].u[d]
+            = before.displacement.v[d] + step.dt * after.v[d];
+    }
   }
 
-  void
-  ViscousBoundary::account(const StepContext               &step,
-                           const std::vector<CapturedNode> &captured,
-                           State                           &state)
+  void ViscousBoundary::account(const StepContext &step,
+                                const std::vector<CapturedNode> &captured,
+                                State &state)
   {
     const double vn = components[0].value(step.begin);
     const double vs = components[1].value(step.begin);
     last_resultant  = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
+    {
+      const CapturedNode &before = captured[captured_positions[i]];
+      const Dashpot &dashpot     = dashpots[i];
+      const double *v0           = before.velocity.v;
+      const double *v1           = state.velocity[before.node].v;
+      const double mean[2] = { 0.5 * (v0[0] + v1[0]), 0.5 * (v0[1] + v1[1]) };
+      const auto &[cxx, cyy, cxy] = dashpot.damping;
+      const double drag[2]
+          = { cxx * mean[0] + cxy * mean[1], cxy * mean[0] + cyy * mean[1] };
+      for (unsigned int d = 0; d < 2; ++d)
       {
-        const CapturedNode &before  = captured[captured_positions[i]];
-        const Dashpot      &dashpot = dashpots[i];
-        const double       *v0      = before.velocity.v;
-        const double       *v1      = state.velocity[before.node].v;
-        const double        mean[2] = {0.5 * (v0[0] + v1[0]),
-                                0.5 * (v0[1] + v1[1])};
-        const auto &[cxx, cyy, cxy] = dashpot.damping;
-        const double drag[2]        = {cxx * mean[0] + cxy * mean[1],
-                                cxy * mean[0] + cyy * mean[1]};
-        for (unsigned int d = 0; d < 2; ++d)
-          {
-            const double incident =
-              vn * dashpot.normal[d] + vs * dashpot.shear[d];
-            const double w0 = 0.5 * step.dt_before * v0[d];
-            const double w1 = 0.5 * step.dt * v1[d];
-            state.energy.external += incident * w0;
-            state.pending.external += incident * w1;
-            state.energy.viscous += drag[d] * w0;
-            state.pending.viscous += drag[d] * w1;
-            last_resultant[d] += incident - drag[d];
-          }
+        const double incident = vn * dashpot.normal[d] + vs * dashpot.shear[d];
+        const double w0       = 0.5 * step.dt_before * v0[d];
+        const double w1       = 0.5 * step.dt * v1[d];
+        state.energy.external += incident * w0;
+        state.pending.external += incident * w1;
+        state.energy.viscous += drag[d] * w0;
+        state.pending.viscous += drag[d] * w1;
+        last_resultant[d] += incident - drag[d];
       }
+    }
   }
 } // namespace quoin

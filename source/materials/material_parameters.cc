@@ -8,12 +8,9 @@ namespace quoin
   using dealii::Patterns::Anything;
   using dealii::Patterns::Double;
 
-  void
-  MaterialParameters::declare(dealii::ParameterHandler &prm)
+  void MaterialParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Groups",
-                      "",
-                      Anything(),
+    prm.declare_entry("Groups", "", Anything(),
                       "Physical surfaces of the mesh that are made of this "
                       "material; empty: the one that bears its name.");
     prm.declare_entry("Density", "0", Double(), "rho [kg/m^3]");
@@ -21,15 +18,14 @@ namespace quoin
     prm.declare_entry("Poisson's ratio", "0", Double(), "nu [-]");
   }
 
-  MaterialParameters
-  MaterialParameters::read(const ParameterSection &section,
-                           const std::string      &name)
+  MaterialParameters MaterialParameters::read(const ParameterSection &section,
+                                              const std::string &name)
   {
     MaterialParameters material;
     material.name   = name;
     material.groups = section.list("Groups");
     if (material.groups.empty())
-      material.groups = {name};
+      material.groups = { name };
     material.elastic.density = section.positive("Density");
     material.elastic.young   = section.positive("Young's modulus");
     material.elastic.poisson = section.within("Poisson's ratio", -0.99, 0.4999);

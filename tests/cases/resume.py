@@ -24,20 +24,37 @@ def read(output, name):
         return stream.read()
 
 
-def kill_later(words, seconds, ranks):
-    """Starts a run and kills it; returns False if it had finished before."""
-    process = subprocess.Popen(words, env=common.environment(),
-                               stdout=subprocess.PIPE,
-                               stderr=subprocess.STDOUT, text=True)
+def written(checkpoint):
+    """A number that changes with every checkpoint; 0: there is none."""
     try:
-        process.wait(timeout=seconds)
-    except subprocess.TimeoutExpired:
-        process.kill()
-        process.wait()
-        return True
-    if process.returncode != 0:
-        raise Failure("the run ended with exit status %d:\n%s"
-                      % (process.returncode, process.stdout.read()[-1500:]))
+        return os.stat(checkpoint).st_mtime_ns
+    except FileNotFoundError:
+        return 0
+
+
+def kill(words, checkpoint, delay):
+    """Starts a run and kills it some time after its first new checkpoint;
+    returns False if it finished before."""
+    before = written(checkpoint)
+    deadline = time.monotonic() + 60
+    with tempfile.TemporaryFile(mode="w+") as screen:
+        process = subprocess.Popen(words, env=common.environment(),
+                                   stdout=screen, stderr=screen)
+        while process.poll() is None and written(checkpoint) == before:
+            if time.monotonic() > deadline:
+                process.kill()
+                raise Failure("no checkpoint within 60 s")
+            time.sleep(0.005)
+        try:
+            process.wait(timeout=delay)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.wait()
+            return True
+        if process.returncode != 0:
+            screen.seek(0)
+            raise Failure("the run ended with exit status %d:\n%s"
+                          % (process.returncode, screen.read()[-1500:]))
     return False
 
 
@@ -49,7 +66,8 @@ def body():
     random.seed(options.seed)
     # friction and two stages: the case with the most history
     prm = os.path.join(common.VERIFICATION, "slipping_crack", "case.prm")
-    sets = ["Output/Checkpoint interval=0.1", "Histories/Interval=1e-5"]
+    sets = ["Output/Checkpoint interval=0.1", "Histories/Interval=1e-5",
+            "Time stepping/Share of critical time step=0.3"]
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
         whole = os.path.join(scratch, "whole")
@@ -58,13 +76,13 @@ def body():
         words = common.command(options.quoin, prm, broken, sets)
         killed = 0
         for attempt in range(options.kills):
-            # past the start-up and the first checkpoints
-            delay = 0.7 + random.random() * max(seconds / options.kills, 0.3)
+            delay = random.random() * seconds / (options.kills + 1)
             extra = ["--resume"] if attempt else []
-            if not kill_later(words + extra, delay, 1):
+            if not kill(words + extra, os.path.join(
+                    broken, "checkpoint", "latest"), delay):
                 break
             killed += 1
-            print("  killed after %.2f s" % delay)
+            print("  killed %.2f s after a checkpoint" % delay)
         if killed == 0:
             raise Failure("the run finished before it could be killed")
         common.run(options.quoin, prm, broken, sets, extra=["--resume"])

@@ -10,8 +10,7 @@ namespace quoin
    * The program quoin. Returns its exit status: 0 finished, 1 wrong input, 2
    * the run failed.
    */
-  int
-  run_command_line(int argc, char **argv);
+  int run_command_line(int argc, char **argv);
 } // namespace quoin
 
 #endif

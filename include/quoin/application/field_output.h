@@ -12,12 +12,10 @@
 namespace quoin
 {
   /** Blocks of this rank as they go to ParaView. */
-  BlockFields
-  block_fields(const Model &model, const State &state);
+  BlockFields block_fields(const Model &model, const State &state);
 
   /** Joints of this rank, with tractions brought to the time of @p state. */
-  JointFields
-  joint_fields(const Model &model, const State &state);
+  JointFields joint_fields(const Model &model, const State &state);
 } // namespace quoin
 
 #endif

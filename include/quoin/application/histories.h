@@ -24,39 +24,33 @@ namespace quoin
   public:
     /** Throws an InputError about loads and curves that do not exist. */
     Histories(const std::vector<HistoryParameters> &parameters,
-              const Model                          &model,
-              const ExplicitSolver                 &solver);
+              const Model &model, const ExplicitSolver &solver);
 
     /** "time [s]" and "name [unit]" of each column. */
-    std::vector<std::string>
-    column_names() const;
+    std::vector<std::string> column_names() const;
 
-    void
-    before_step(const State &state);
+    void before_step(const State &state);
 
     /** The row of the time before the step; collective. */
-    std::vector<double>
-    after_step(const State &state);
+    std::vector<double> after_step(const State &state);
 
   private:
     struct Probe
     {
       HistoryParameters parameters;
-      unsigned int      entity = 0; /**< node, cell or joint point */
-      bool              here   = false;
-      const Platen     *platen = nullptr;
+      unsigned int entity  = 0; /**< node, cell or joint point */
+      bool here            = false;
+      const Platen *platen = nullptr;
     };
 
-    void
-    locate(Probe &probe) const;
-    double
-    point_value(const Probe &probe, const State &state) const;
+    void locate(Probe &probe) const;
+    double point_value(const Probe &probe, const State &state) const;
 
-    std::vector<Probe>    probes;
-    const Model          &model;
+    std::vector<Probe> probes;
+    const Model &model;
     const ExplicitSolver &solver;
-    MPI_Comm              communicator;
-    std::vector<double>   row;
+    MPI_Comm communicator;
+    std::vector<double> row;
   };
 } // namespace quoin
 

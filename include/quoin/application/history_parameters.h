@@ -27,18 +27,17 @@ namespace quoin
   /** One column of histories.csv: a subsection of 'Histories'. */
   struct HistoryParameters
   {
-    std::string           name;
-    HistoryQuantity       quantity  = HistoryQuantity::displacement;
-    unsigned int          component = 0;
-    std::string           unit;
+    std::string name;
+    HistoryQuantity quantity = HistoryQuantity::displacement;
+    unsigned int component   = 0;
+    std::string unit;
     std::array<double, 2> point{}; /**< [m] */
-    std::string           load;
-    std::string           curve;
+    std::string load;
+    std::string curve;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
-    static HistoryParameters
-    read(const ParameterSection &section, const std::string &name);
+    static void declare(dealii::ParameterHandler &prm);
+    static HistoryParameters read(const ParameterSection &section,
+                                  const std::string &name);
   };
 } // namespace quoin
 

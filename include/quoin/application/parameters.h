@@ -17,25 +17,25 @@ namespace quoin
   /** All that a parameter file says. */
   struct Parameters
   {
-    std::string file;             /**< the parameter file */
+    std::string file; /**< the parameter file */
     std::string title;
     std::string output_directory; /**< relative to the working directory */
 
-    std::string  mesh_file; /**< relative to the working directory */
+    std::string mesh_file; /**< relative to the working directory */
     SplitOptions split;
 
-    ModelParameters              model;
-    std::vector<LoadParameters>  loads; /**< initial stresses included */
+    ModelParameters model;
+    std::vector<LoadParameters> loads; /**< initial stresses included */
     std::vector<StageParameters> stages;
 
     double share_of_critical_step = 0.8;
     double time_step              = 0.; /**< [s]; 0: automatic */
 
     std::vector<HistoryParameters> histories;
-    double                         history_interval    = 0.; /**< [s] */
-    double                         field_interval      = 0.; /**< [s] */
-    double                         checkpoint_interval = 60.; /**< [s] */
-    bool                           measure_bandwidth   = false;
+    double history_interval    = 0.;  /**< [s] */
+    double field_interval      = 0.;  /**< [s] */
+    double checkpoint_interval = 60.; /**< [s] */
+    bool measure_bandwidth     = false;
 
     /** All values, as text that can be run again. */
     std::string effective;
@@ -46,13 +46,11 @@ namespace quoin
    * "Section/Name=value" applied. Throws an InputError that names file,
    * section, value and cure.
    */
-  Parameters
-  read_parameters(const std::string              &file,
-                  const std::vector<std::string> &overrides);
+  Parameters read_parameters(const std::string &file,
+                             const std::vector<std::string> &overrides);
 
   /** Every parameter there is, with defaults and meaning, as a prm file. */
-  std::string
-  describe_parameters();
+  std::string describe_parameters();
 } // namespace quoin
 
 #endif

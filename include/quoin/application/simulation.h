@@ -39,87 +39,71 @@ namespace quoin
   class Simulation
   {
   public:
-    Simulation(const Parameters &parameters,
-               const RunOptions &options,
-               MPI_Comm          communicator);
+    Simulation(const Parameters &parameters, const RunOptions &options,
+               MPI_Comm communicator);
 
     /** Throws InputError or RunError. */
-    void
-    run();
+    void run();
 
   private:
     /** What a checkpoint holds: the state and how far the outputs are. */
     struct Record
     {
-      State         state;
+      State state;
       std::uint64_t histories_bytes = 0;
       std::uint64_t energies_bytes  = 0;
-      BlockOutput   block_output;
-      JointOutput   joint_output;
-      double        wall_time         = 0.; /**< of the time loop [s] */
-      double        largest_residual  = 0.; /**< of the energy balance */
-      double        largest_kinetic_share = 0.; /**< per stage */
-      bool          stage_begun       = false;
+      BlockOutput block_output;
+      JointOutput joint_output;
+      double wall_time             = 0.; /**< of the time loop [s] */
+      double largest_residual      = 0.; /**< of the energy balance */
+      double largest_kinetic_share = 0.; /**< per stage */
+      bool stage_begun             = false;
 
       template <typename Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
+      void serialize(Archive &archive, const unsigned int)
       {
         archive &state &histories_bytes &energies_bytes &block_output
-          &joint_output &wall_time &largest_residual &largest_kinetic_share
-            &stage_begun;
+            &joint_output &wall_time &largest_residual &largest_kinetic_share
+                &stage_begun;
       }
     };
 
-    void
-    make_model();
-    void
-    report_model();
-    void
-    open_outputs();
-    void
-    run_stage(unsigned int index);
-    void
-    choose_time_step(const StageParameters &stage);
-    void
-    take_step(const StageParameters &stage, bool balance);
-    bool
-    stage_is_over(const StageParameters &stage, bool balance) const;
-    void
-    write_energies();
-    void
-    write_fields();
-    void
-    save_checkpoint();
-    void
-    checkpoint_if_due();
-    void
-    write_summary(bool finished);
-    ProgressFigures
-    progress_figures(const StageParameters &stage) const;
-    double
-    energy_residual() const;
+    void make_model();
+    void report_model();
+    void open_outputs();
+    void run_stage(unsigned int index);
+    void choose_time_step(const StageParameters &stage);
+    /** Returns whether the stage is over. */
+    bool take_step(const StageParameters &stage);
+    bool stage_is_over(const StageParameters &stage, bool balance) const;
+    void write_energies();
+    void write_fields();
+    void save_checkpoint();
+    void checkpoint_if_due();
+    void write_summary(bool finished);
+    ProgressFigures progress_figures(const StageParameters &stage) const;
+    double energy_residual() const;
 
     const Parameters parameters;
     const RunOptions options;
-    const MPI_Comm   communicator;
-    const bool       is_first_rank;
+    const MPI_Comm communicator;
+    const bool is_first_rank;
     const std::string output;
 
-    Log                             log;
-    Progress                        progress;
-    BlockMesh<2>                    mesh;
-    MeshReport                      mesh_report;
-    std::unique_ptr<Model>          model;
+    Log log;
+    Progress progress;
+    BlockMesh<2> mesh;
+    MeshReport mesh_report;
+    std::unique_ptr<Model> model;
     std::unique_ptr<ExplicitSolver> solver;
-    std::unique_ptr<Histories>      histories;
-    std::unique_ptr<CsvTable>       history_table, energy_table;
-    TimeControl                     history_control, field_control;
-    Record                          record;
+    std::unique_ptr<Histories> histories;
+    std::unique_ptr<CsvTable> history_table, energy_table;
+    TimeControl history_control, field_control;
+    Record record;
 
     std::uint64_t steps_of_stage = 0; /**< for stages that end by time */
     std::uint64_t steps_done     = 0; /**< by this process */
-    double        seconds_done   = 0.;
+    double seconds_done          = 0.;
     std::chrono::steady_clock::time_point last_checkpoint;
   };
 } // namespace quoin

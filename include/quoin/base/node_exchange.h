@@ -20,58 +20,46 @@ namespace quoin
   {
   public:
     /** Owns [first, last) of @p n_global nodes and mirrors @p ghosts. */
-    NodeExchange(unsigned int                     first,
-                 unsigned int                     last,
-                 unsigned int                     n_global,
+    NodeExchange(unsigned int first, unsigned int last, unsigned int n_global,
                  const std::vector<unsigned int> &ghosts,
-                 MPI_Comm                         communicator);
+                 MPI_Comm communicator);
 
-    unsigned int
-    n_owned() const
+    unsigned int n_owned() const
     {
       return partitioner.locally_owned_size();
     }
-    unsigned int
-    n_local() const
+    unsigned int n_local() const
     {
       return n_owned() + partitioner.n_ghost_indices();
     }
-    bool
-    owns(const unsigned int global) const
+    bool owns(const unsigned int global) const
     {
       return partitioner.in_local_range(global);
     }
     /** Local number of an owned node or ghost. */
-    unsigned int
-    local(const unsigned int global) const
+    unsigned int local(const unsigned int global) const
     {
       return partitioner.global_to_local(global);
     }
-    unsigned int
-    global(const unsigned int local) const
+    unsigned int global(const unsigned int local) const
     {
       return partitioner.local_to_global(local);
     }
-    MPI_Comm
-    communicator() const
+    MPI_Comm communicator() const
     {
       return partitioner.get_mpi_communicator();
     }
 
     /** Overwrites the ghost entries of @p values, n_local() long. */
     template <typename T>
-    void
-    update_ghosts(T *values) const;
+    void update_ghosts(T *values) const;
 
   private:
     dealii::Utilities::MPI::Partitioner partitioner;
   };
 
-
-
   template <typename T>
-  void
-  NodeExchange::update_ghosts(T *values) const
+  void NodeExchange::update_ghosts(T *values) const
   {
     const auto &sources = partitioner.ghost_targets();
     const auto &targets = partitioner.import_targets();
@@ -79,14 +67,14 @@ namespace quoin
       return;
 
     std::vector<MPI_Request> requests(sources.size() + targets.size());
-    auto                     request = requests.begin();
-    T                       *ghost   = values + n_owned();
+    auto request = requests.begin();
+    T *ghost     = values + n_owned();
     for (const auto &[rank, count] : sources)
-      {
-        MPI_Irecv(ghost, count * sizeof(T), MPI_BYTE, rank, 0,
-                  communicator(), &*request++);
-        ghost += count;
-      }
+    {
+      MPI_Irecv(ghost, count * sizeof(T), MPI_BYTE, rank, 0, communicator(),
+                &*request++);
+      ghost += count;
+    }
 
     std::vector<T> buffer;
     buffer.reserve(partitioner.n_import_indices());
@@ -94,11 +82,11 @@ namespace quoin
       buffer.insert(buffer.end(), values + begin, values + end);
     const T *outgoing = buffer.data();
     for (const auto &[rank, count] : targets)
-      {
-        MPI_Isend(outgoing, count * sizeof(T), MPI_BYTE, rank, 0,
-                  communicator(), &*request++);
-        outgoing += count;
-      }
+    {
+      MPI_Isend(outgoing, count * sizeof(T), MPI_BYTE, rank, 0, communicator(),
+                &*request++);
+      outgoing += count;
+    }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
   }
 } // namespace quoin

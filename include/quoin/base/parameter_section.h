@@ -27,76 +27,63 @@ namespace quoin
     /** The subsection @p name of @p parent. */
     ParameterSection(const ParameterSection &parent, const std::string &name);
 
-    ParameterSection(const ParameterSection &) = delete;
-    ParameterSection &
-    operator=(const ParameterSection &) = delete;
+    ParameterSection(const ParameterSection &)            = delete;
+    ParameterSection &operator=(const ParameterSection &) = delete;
     ~ParameterSection();
 
-    std::string
-    text(const std::string &name) const;
-    bool
-    flag(const std::string &name) const;
-    double
-    number(const std::string &name) const;
-    double
-    positive(const std::string &name) const;
-    double
-    nonnegative(const std::string &name) const;
+    std::string text(const std::string &name) const;
+    bool flag(const std::string &name) const;
+    double number(const std::string &name) const;
+    double positive(const std::string &name) const;
+    double nonnegative(const std::string &name) const;
     /** A number in [low, high]. */
-    double
-    within(const std::string &name, double low, double high) const;
-    unsigned int
-    integer(const std::string &name) const;
+    double within(const std::string &name, double low, double high) const;
+    unsigned int integer(const std::string &name) const;
     /** Comma-separated words; empty if the text is. */
-    std::vector<std::string>
-    list(const std::string &name) const;
+    std::vector<std::string> list(const std::string &name) const;
     /** Exactly N comma-separated numbers. */
     template <std::size_t N>
-    std::array<double, N>
-    numbers(const std::string &name) const
+    std::array<double, N> numbers(const std::string &name) const
     {
       std::array<double, N> result{};
-      const auto            values = number_list(name, N);
+      const auto values = number_list(name, N);
       std::copy(values.begin(), values.end(), result.begin());
       return result;
     }
     /** One of the words of @p table, and what it stands for. */
     template <typename Enum>
-    Enum
-    choice(const std::string                               &name,
-           const std::vector<std::pair<std::string, Enum>> &table) const
+    Enum choice(const std::string &name,
+                const std::vector<std::pair<std::string, Enum>> &table) const
     {
       std::string words;
       for (const auto &[word, value] : table)
-        {
-          if (text(name) == word)
-            return value;
-          words += (words.empty() ? "" : ", ") + word;
-        }
+      {
+        if (text(name) == word)
+          return value;
+        words += (words.empty() ? "" : ", ") + word;
+      }
       fail(name, "must be one of: " + words + ".");
     }
 
     /** Throws an InputError about the value of @p name. */
-    [[noreturn]] void
-    fail(const std::string &name, const std::string &why) const;
+    [[noreturn]] void fail(const std::string &name,
+                           const std::string &why) const;
 
-    const std::string &
-    file() const
+    const std::string &file() const
     {
       return file_name;
     }
     /** Folder of the parameter file, with a trailing slash. */
-    std::string
-    folder() const;
+    std::string folder() const;
 
   private:
-    std::vector<double>
-    number_list(const std::string &name, std::size_t size) const;
+    std::vector<double> number_list(const std::string &name,
+                                    std::size_t size) const;
 
     dealii::ParameterHandler &prm;
-    std::string               file_name;
-    std::string               path;
-    bool                      entered;
+    std::string file_name;
+    std::string path;
+    bool entered;
   };
 } // namespace quoin
 

@@ -15,31 +15,28 @@ namespace quoin
   template <typename T>
   struct CacheAlignedAllocator
   {
-    using value_type = T;
+    using value_type        = T;
     CacheAlignedAllocator() = default;
     template <typename U>
     CacheAlignedAllocator(const CacheAlignedAllocator<U> &)
-    {}
-    T *
-    allocate(const std::size_t n)
+    {
+    }
+    T *allocate(const std::size_t n)
     {
       return static_cast<T *>(
-        ::operator new(n * sizeof(T), std::align_val_t(64)));
+          ::operator new(n * sizeof(T), std::align_val_t(64)));
     }
-    void
-    deallocate(T *p, std::size_t)
+    void deallocate(T *p, std::size_t)
     {
       ::operator delete(p, std::align_val_t(64));
     }
     template <typename U>
-    bool
-    operator==(const CacheAlignedAllocator<U> &) const
+    bool operator==(const CacheAlignedAllocator<U> &) const
     {
       return true;
     }
     template <typename U>
-    bool
-    operator!=(const CacheAlignedAllocator<U> &) const
+    bool operator!=(const CacheAlignedAllocator<U> &) const
     {
       return false;
     }
@@ -77,18 +74,18 @@ namespace quoin
   /**
    * Histories of the joint points, structure of arrays, one entry per point.
    * Tension and opening are positive; slip is positive when the upper side
-   * moves along the edge direction of the lower one.
+   * moves along s = (n_y, -n_x), n the normal from the lower to the upper
+   * side: to the right on a horizontal joint.
    */
   struct JointHistory
   {
-    AlignedArray<double>     normal_traction; /**< [Pa] */
-    AlignedArray<double>     shear_traction;  /**< [Pa] */
-    AlignedArray<double>     plastic_slip;    /**< inelastic slip [m] */
-    AlignedArray<double>     plastic_opening; /**< dilation, offsets [m] */
+    AlignedArray<double> normal_traction; /**< [Pa] */
+    AlignedArray<double> shear_traction;  /**< [Pa] */
+    AlignedArray<double> plastic_slip;    /**< inelastic slip [m] */
+    AlignedArray<double> plastic_opening; /**< dilation, offsets [m] */
     AlignedArray<JointState> state;
 
-    void
-    resize(const std::size_t n)
+    void resize(const std::size_t n)
     {
       normal_traction.resize(n, 0.);
       shear_traction.resize(n, 0.);
@@ -98,11 +95,10 @@ namespace quoin
     }
 
     template <typename Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
+    void serialize(Archive &archive, const unsigned int)
     {
       archive &normal_traction &shear_traction &plastic_slip &plastic_opening
-        &state;
+          &state;
     }
   };
 
@@ -113,14 +109,13 @@ namespace quoin
    */
   struct EnergyAccounts
   {
-    double external  = 0.; /**< done by loads and prescribed motion */
-    double friction  = 0.; /**< dissipated in slip and dilation of joints */
-    double fracture  = 0.; /**< lost when joints break in tension */
-    double damping   = 0.; /**< taken by local, adaptive, Rayleigh damping */
-    double viscous   = 0.; /**< left through viscous boundaries */
+    double external = 0.; /**< done by loads and prescribed motion */
+    double friction = 0.; /**< dissipated in slip and dilation of joints */
+    double fracture = 0.; /**< lost when joints break in tension */
+    double damping  = 0.; /**< taken by local, adaptive, Rayleigh damping */
+    double viscous  = 0.; /**< left through viscous boundaries */
 
-    EnergyAccounts &
-    operator+=(const EnergyAccounts &other)
+    EnergyAccounts &operator+=(const EnergyAccounts &other)
     {
       external += other.external;
       friction += other.friction;
@@ -131,8 +126,7 @@ namespace quoin
     }
 
     template <typename Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
+    void serialize(Archive &archive, const unsigned int)
     {
       archive &external &friction &fracture &damping &viscous;
     }
@@ -141,16 +135,15 @@ namespace quoin
   /** A rigid platen: freedoms x [m], y [m], rotation [rad, anticlockwise]. */
   struct PlatenState
   {
-    bool                active = false;
-    double              centre[2]{}; /**< where it was when it took hold [m] */
-    double              displacement[3]{}; /**< since then */
-    double              stage_start[3]{};  /**< displacement at that time */
-    double              velocity[3]{};     /**< at time - dt/2 */
+    bool active = false;
+    double centre[2]{};       /**< where it was when it took hold [m] */
+    double displacement[3]{}; /**< since then */
+    double stage_start[3]{};  /**< displacement at that time */
+    double velocity[3]{};     /**< at time - dt/2 */
     std::vector<double> arms; /**< x, y of each node, from centre, then [m] */
 
     template <typename Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
+    void serialize(Archive &archive, const unsigned int)
     {
       archive &active &centre &displacement &stage_start &velocity &arms;
     }
@@ -165,29 +158,28 @@ namespace quoin
    */
   struct State
   {
-    double        time        = 0.; /**< [s] */
-    std::uint64_t step        = 0;  /**< since the start of the run */
-    unsigned int  stage       = 0;
-    double        stage_start = 0.; /**< [s] */
-    std::uint64_t stage_step  = 0;  /**< steps done in this stage */
+    double time              = 0.; /**< [s] */
+    std::uint64_t step       = 0;  /**< since the start of the run */
+    unsigned int stage       = 0;
+    double stage_start       = 0.; /**< [s] */
+    std::uint64_t stage_step = 0;  /**< steps done in this stage */
 
     AlignedArray<NodeRecord> nodes;
     AlignedArray<NodeVector> velocity; /**< at time - dt/2 */
-    JointHistory             joints;
+    JointHistory joints;
     std::vector<PlatenState> platens; /**< in the order of the loads */
-    double                   adaptive_damping = 0.; /**< [1/s] */
-    double                   previous_time_step = 0.; /**< [s] */
+    double adaptive_damping   = 0.;   /**< [1/s] */
+    double previous_time_step = 0.;   /**< [s] */
 
     /** Complete at time, and what the step under way adds for time + dt/2. */
     EnergyAccounts energy, pending;
 
     template <typename Archive>
-    void
-    serialize(Archive &archive, const unsigned int)
+    void serialize(Archive &archive, const unsigned int)
     {
       archive &time &step &stage &stage_start &stage_step &nodes &velocity
-        &joints &platens &adaptive_damping &previous_time_step &energy
-          &pending;
+          &joints &platens &adaptive_damping &previous_time_step &energy
+              &pending;
     }
   };
 } // namespace quoin

@@ -16,13 +16,12 @@ namespace quoin
   {
   public:
     /** @p interval [s]; 0: every step; negative: never. */
-    explicit TimeControl(const double interval = -1.)
-      : interval(interval)
-    {}
+    explicit TimeControl(const double interval = -1.) : interval(interval)
+    {
+    }
 
     /** At @p time [s], with steps of @p dt [s]. */
-    bool
-    is_due(const double time, const double dt) const
+    bool is_due(const double time, const double dt) const
     {
       if (interval < 0.)
         return false;

@@ -38,53 +38,41 @@ namespace quoin
      * Throws an InputError about a joint face that belongs to no set, or a
      * curve named by two sets.
      */
-    void
-    prepare(const BlockMesh<2>                    &mesh,
-            const NodeExchange                    &exchange,
-            const std::vector<JointSetParameters> &sets,
-            double                                 thickness);
+    void prepare(const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                 const std::vector<JointSetParameters> &sets, double thickness);
 
-    unsigned int
-    n_segments() const
+    unsigned int n_segments() const
     {
       return segments.size();
     }
-    unsigned int
-    n_points() const
+    unsigned int n_points() const
     {
       return 2 * segments.size();
     }
 
     /** Sets the tractions that balance an initial stress at rest. */
-    void
-    initialise(const std::vector<std::array<double, 3>> &face_stress,
-               const State                              &state,
-               JointHistory                             &history) const;
+    void initialise(const std::vector<std::array<double, 3>> &face_stress,
+                    const State &state, JointHistory &history) const;
 
     /**
      * Brings the histories to the positions in @p nodes, adds the joint
      * forces to @p force and books the dissipation.
      */
-    void
-    add_forces(const NodeRecord *nodes,
-               JointHistory     &history,
-               EnergyAccounts   &energy,
-               NodeVector       *force) const;
+    void add_forces(const NodeRecord *nodes, JointHistory &history,
+                    EnergyAccounts &energy, NodeVector *force) const;
 
     /**
      * Adds the stiffness-proportional damping forces of points that neither
      * slip nor are open: beta kn, beta ks times the rates [Pa].
      */
-    void
-    add_viscous_forces(const NodeRecord   *nodes,
-                       const JointHistory &history,
-                       const NodeVector   *velocity,
-                       double              beta,
-                       NodeVector         *force) const;
+    void add_viscous_forces(const NodeRecord *nodes,
+                            const JointHistory &history,
+                            const NodeVector *velocity, double beta,
+                            NodeVector *force) const;
 
     /** Recoverable energy [J] of this rank's share of the joints. */
-    double
-    stored_energy(const NodeRecord *nodes, const JointHistory &history) const;
+    double stored_energy(const NodeRecord *nodes,
+                         const JointHistory &history) const;
 
     /**
      * Adds to the 2x2 matrices @p stiffness (xx, yy, xy per local node) the
@@ -92,31 +80,29 @@ namespace quoin
      * m_a, m_b a spring k adds m_a k (1/m_a + 1/m_b) to node a.
      */
     void
-    add_stiffness_bound(const NodeRecord                   *nodes,
-                        const std::vector<double>          &mass,
+    add_stiffness_bound(const NodeRecord *nodes,
+                        const std::vector<double> &mass,
                         std::vector<std::array<double, 3>> &stiffness) const;
 
     struct Segment
     {
       std::array<unsigned int, 2> lower, upper; /**< local nodes */
-      double                      area; /**< of each point [m^2] */
-      float        share; /**< of the energy that this rank counts */
+      double area;                              /**< of each point [m^2] */
+      float share; /**< of the energy that this rank counts */
       unsigned int set;
       unsigned int face; /**< into BlockMesh::joint_faces */
     };
 
-    const Segment &
-    segment(const unsigned int i) const
+    const Segment &segment(const unsigned int i) const
     {
       return segments[i];
     }
 
     /** Opening and slip [m] of both points of segment @p i. */
-    std::array<std::array<double, 2>, 2>
-    gaps(const NodeRecord *nodes, unsigned int i) const;
+    std::array<std::array<double, 2>, 2> gaps(const NodeRecord *nodes,
+                                              unsigned int i) const;
 
-    const CoulombLaw &
-    law(const unsigned int set) const
+    const CoulombLaw &law(const unsigned int set) const
     {
       return laws[set];
     }
@@ -127,15 +113,11 @@ namespace quoin
       double normal[2];
       double tangent[2];
     };
-    static Frame
-    frame(const Segment &segment, const NodeRecord *nodes);
-    static std::array<double, 2>
-    gap(const Segment    &segment,
-        const Frame      &frame,
-        const NodeRecord *nodes,
-        unsigned int      k);
+    static Frame frame(const Segment &segment, const NodeRecord *nodes);
+    static std::array<double, 2> gap(const Segment &segment, const Frame &frame,
+                                     const NodeRecord *nodes, unsigned int k);
 
-    std::vector<Segment>    segments; /**< sorted by set */
+    std::vector<Segment> segments; /**< sorted by set */
     std::vector<CoulombLaw> laws;
     std::vector<unsigned int> set_begin; /**< first segment of each set */
   };

@@ -42,13 +42,13 @@ namespace quoin
   struct BlockForcesOptions
   {
     /** Nodes of a tile stay below this many bytes, if a block does. */
-    std::size_t tile_bytes = 128 * 1024;
+    std::size_t tile_bytes = 64 * 1024;
 
     /**
      * Strips reach over no more than this many consecutive cells, so that in
      * a large block too the lanes stay near one another.
      */
-    std::size_t max_run_cells = 8192;
+    std::size_t max_run_cells = 4096;
 
     /** Triangles computed at once: 4, 8, or 0 for what the machine has. */
     unsigned int n_lanes = 0;
@@ -148,7 +148,7 @@ namespace quoin
      * part of the stress, in zz by the same factor as the elastic one.
      */
     std::array<double, 4> cell_stress(const NodeRecord *nodes, std::size_t cell,
-                                 PlaneTensor *strain = nullptr) const;
+                                      PlaneTensor *strain = nullptr) const;
 
     /** cell_stress() of all cells. */
     void stresses(const NodeRecord *nodes,
@@ -176,8 +176,10 @@ namespace quoin
     {
       std::size_t first_step; /**< into offsets, masks, lane_stress */
       std::size_t n_steps;
-      double bulk;  /**< plane bulk modulus times thickness [N/m] */
-      double shear; /**< shear modulus times thickness [N/m] */
+      double bulk;             /**< plane bulk modulus times thickness [N/m] */
+      double shear;            /**< shear modulus times thickness [N/m] */
+      std::size_t first_group; /**< into node_groups */
+      std::size_t n_groups;
     };
 
     struct Tile
@@ -186,7 +188,6 @@ namespace quoin
       NodeRange cells;
       std::size_t begin_run;
       std::size_t end_run;
-      std::size_t n_steps; /**< of all runs */
     };
 
     void make_tiles(std::size_t tile_bytes);
@@ -222,6 +223,12 @@ namespace quoin
      * into the tile's NodeVectors, and half of that into its NodeRecords.
      */
     AlignedArray<std::uint32_t> offsets;
+
+    /**
+     * The groups of four consecutive nodes that each run meets: what is to
+     * be fetched while the run before is at work.
+     */
+    std::vector<std::uint32_t> node_groups;
 
     /** Bit l says that lane l completes a triangle. */
     std::vector<std::uint8_t> masks;

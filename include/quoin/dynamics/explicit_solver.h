@@ -21,23 +21,20 @@ namespace quoin
   /** Energies of the whole model at one time [J]. */
   struct Energies
   {
-    double         kinetic = 0.;
-    double         strain  = 0.; /**< of the blocks, since the start */
-    double         joint   = 0.; /**< recoverable, since the start */
+    double kinetic = 0.;
+    double strain  = 0.; /**< of the blocks, since the start */
+    double joint   = 0.; /**< recoverable, since the start */
     EnergyAccounts accounts;
 
     /** What the balance leaves over; zero but for rounding and kinks. */
-    double
-    residual() const
+    double residual() const
     {
-      return kinetic + strain + joint + accounts.friction +
-             accounts.fracture + accounts.damping + accounts.viscous -
-             accounts.external;
+      return kinetic + strain + joint + accounts.friction + accounts.fracture
+             + accounts.damping + accounts.viscous - accounts.external;
     }
 
     /** All energy that went through the model, to judge the residual by. */
-    double
-    throughput() const;
+    double throughput() const;
   };
 
   /**
@@ -52,7 +49,7 @@ namespace quoin
   {
   public:
     /** Keeps references to @p model. @p loads: all loads of the run. */
-    ExplicitSolver(const Model                       &model,
+    ExplicitSolver(const Model &model,
                    const std::vector<LoadParameters> &loads);
 
     /** What is due at the time of a step; see step(). */
@@ -67,35 +64,28 @@ namespace quoin
      * stage before or null. Throws an InputError about unknown loads, or
      * bodies that a static stage would let drift.
      */
-    void
-    begin_stage(const StageParameters &stage,
-                const StageParameters *previous,
-                State                 &state);
+    void begin_stage(const StageParameters &stage,
+                     const StageParameters *previous, State &state);
 
     /** The same for a state read from a checkpoint in mid-stage. */
-    void
-    resume_stage(const StageParameters &stage, State &state);
+    void resume_stage(const StageParameters &stage, State &state);
 
     /** Critical time step of the stage [s], the same on all ranks. */
-    double
-    critical_time_step() const
+    double critical_time_step() const
     {
       return critical_step;
     }
     /** Mass added by mass scaling, as a share of the model's. */
-    double
-    added_mass_share() const
+    double added_mass_share() const
     {
       return added_mass;
     }
 
-    void
-    set_time_step(const double dt)
+    void set_time_step(const double dt)
     {
       time_step = dt;
     }
-    double
-    get_time_step() const
+    double get_time_step() const
     {
       return time_step;
     }
@@ -105,88 +95,74 @@ namespace quoin
      * t; energies(), reactions and the unbalanced ratio are those of t too.
      * Throws a RunError if the state is no longer finite.
      */
-    void
-    step(State &state, const Requests &requests);
+    void step(State &state, const Requests &requests);
+
+    /** Throws a RunError if the state is no longer finite; collective. */
+    void check_finite(const State &state) const;
 
     /** As of the last step with Requests::energies; collective then. */
-    const Energies &
-    energies() const
+    const Energies &energies() const
     {
       return last_energies;
     }
     /** As of the last step with Requests::balance; collective then. */
-    double
-    unbalanced_ratio() const
+    double unbalanced_ratio() const
     {
       return last_ratio;
     }
     /** Force x, y [N] and moment [N m] of a load; collective. */
-    std::array<double, 3>
-    resultant(const std::string &load) const;
+    std::array<double, 3> resultant(const std::string &load) const;
 
-    /** Total force on free nodes and work of the ranks' own: see step(). */
-    const std::vector<std::unique_ptr<NodeConstraint>> &
-    constraints() const
+    /** Of all loads, acting in this stage or not. */
+    const std::vector<std::unique_ptr<NodeConstraint>> &constraints() const
     {
       return all_constraints;
     }
 
   private:
-    void
-    activate(const StageParameters &stage);
-    void
-    scale_masses(const StageParameters &stage, State &state);
-    void
-    collect_constrained_nodes();
-    void
-    apply_forces(State &state, const StepContext &context);
-    void
-    advance_blocks(State             &state,
-                   const StepContext &context,
-                   const Requests    &requests);
-    void
-    move_constrained_nodes(State &state, const StepContext &context);
-    void
-    adapt_damping(State &state, const DampingWork &work) const;
-    void
-    find_energies(State &state, double strain, double joint, double kinetic);
-    void
-    find_ratio(double applied, double unbalanced);
-    void
-    check_finite(const State &state) const;
-    double
-    sum(double value) const;
+    void activate(const StageParameters &stage);
+    void scale_masses(const StageParameters &stage, State &state);
+    void collect_constrained_nodes();
+    void apply_forces(State &state, const StepContext &context);
+    void advance_blocks(State &state, const StepContext &context,
+                        const Requests &requests);
+    void move_constrained_nodes(State &state, const StepContext &context);
+    void adapt_damping(State &state, const DampingWork &work) const;
+    void find_energies(State &state, double strain, double joint,
+                       double kinetic);
+    void find_ratio(double applied, double unbalanced);
+    double sum(double value) const;
 
     const Model &model;
-    MPI_Comm     communicator;
+    MPI_Comm communicator;
 
     std::vector<std::unique_ptr<NodeConstraint>> all_constraints;
-    std::vector<NodalLoad>                       all_loads;
-    std::vector<std::string>                     known_loads;
+    std::vector<NodalLoad> all_loads;
+    std::vector<std::string> known_loads;
 
-    std::vector<NodeConstraint *>  constraints_on; /**< in order of action */
+    std::vector<NodeConstraint *> constraints_on; /**< in order of action */
     std::vector<const NodalLoad *> loads_on;
-    StageParameters                stage;
+    StageParameters stage;
 
     std::vector<double> mass;         /**< scaled, local nodes [kg] */
     std::vector<double> moving_mass;  /**< zero at constrained nodes [kg] */
     std::vector<double> inverse_mass; /**< zero at constrained nodes [1/kg] */
-    double              critical_step = 0.;
-    double              added_mass    = 0.;
-    double              time_step     = 0.;
+    double critical_step = 0.;
+    double added_mass    = 0.;
+    double time_step     = 0.;
 
-    std::vector<CapturedNode> captured; /**< ascending nodes */
+    std::vector<CapturedNode> captured;       /**< ascending nodes */
     std::vector<unsigned int> captured_begin; /**< of each tile, and the end */
 
     AlignedArray<NodeVector> force;
     AlignedArray<NodeVector> viscous_force;
     AlignedArray<NodeVector> velocity_before; /**< when energies are due */
-    double                   applied_force    = 0.;
-    double                   unbalanced_force = 0.;
+    double applied_force    = 0.;
+    double unbalanced_force = 0.;
 
-    double   strain_at_start = 0., joint_at_start = 0.;
+    double strain_at_start = 0., joint_at_start = 0.;
     Energies last_energies;
-    double   last_ratio = 1.;
+    double last_ratio = 1.;
   };
 } // namespace quoin
 

@@ -18,10 +18,9 @@ namespace quoin
    * translate or rotate: it could never come to rest. @p stage is for the
    * message. Collective.
    */
-  void
-  check_no_free_bodies(const Model                               &model,
-                       const std::vector<NodeConstraint *>       &constraints,
-                       const std::string                         &stage);
+  void check_no_free_bodies(const Model &model,
+                            const std::vector<NodeConstraint *> &constraints,
+                            const std::string &stage);
 } // namespace quoin
 
 #endif

@@ -24,11 +24,11 @@ namespace quoin
   /** What a model is made of, beside its mesh. */
   struct ModelParameters
   {
-    PlaneAssumption                 plane     = PlaneAssumption::plane_strain;
-    double                          thickness = 1.; /**< [m] */
+    PlaneAssumption plane = PlaneAssumption::plane_strain;
+    double thickness      = 1.; /**< [m] */
     std::vector<MaterialParameters> materials;
     std::vector<JointSetParameters> joints;
-    std::vector<LoadParameters>     initial_stresses;
+    std::vector<LoadParameters> initial_stresses;
   };
 
   /**
@@ -45,118 +45,96 @@ namespace quoin
      * reference to the mesh. Throws an InputError about groups without
      * material and joints without set.
      */
-    Model(const BlockMesh<2>              &mesh,
+    Model(const BlockMesh<2> &mesh,
           const std::vector<unsigned int> &rank_of_block,
-          const ModelParameters           &parameters,
-          MPI_Comm                         communicator);
+          const ModelParameters &parameters, MPI_Comm communicator);
 
     /** Positions at rest, initial joint tractions. */
-    State
-    initial_state() const;
+    State initial_state() const;
 
-    const BlockMesh<2> &
-    mesh() const
+    const BlockMesh<2> &mesh() const
     {
       return block_mesh;
     }
-    const NodeExchange &
-    exchange() const
+    const NodeExchange &exchange() const
     {
       return *nodes;
     }
-    const BlockForces &
-    blocks() const
+    const BlockForces &blocks() const
     {
       return block_forces;
     }
-    const MatchedJoints &
-    joints() const
+    const MatchedJoints &joints() const
     {
       return matched_joints;
     }
-    const StableTimeStep &
-    stability() const
+    const StableTimeStep &stability() const
     {
       return *stable_step;
     }
     /** Lumped masses of owned nodes and ghosts [kg]. */
-    const std::vector<double> &
-    mass() const
+    const std::vector<double> &mass() const
     {
       return node_mass;
     }
     /** Of each cell group. */
-    const std::vector<Impedance> &
-    impedance() const
+    const std::vector<Impedance> &impedance() const
     {
       return group_impedance;
     }
-    unsigned int
-    first_block() const
+    unsigned int first_block() const
     {
       return block_begin;
     }
-    unsigned int
-    n_blocks() const
+    unsigned int n_blocks() const
     {
       return block_end - block_begin;
     }
-    unsigned int
-    first_cell() const
+    unsigned int first_cell() const
     {
       return block_mesh.block_first_cell[block_begin];
     }
-    unsigned int
-    n_cells() const
+    unsigned int n_cells() const
     {
       return block_mesh.block_first_cell[block_end] - first_cell();
     }
     /** Owned cells with local node numbers. */
-    const std::vector<std::array<unsigned int, 3>> &
-    cells() const
+    const std::vector<std::array<unsigned int, 3>> &cells() const
     {
       return local_cells;
     }
     /** Index into the materials of a cell of the whole mesh. */
-    unsigned int
-    material_of_cell(const unsigned int cell) const
+    unsigned int material_of_cell(const unsigned int cell) const
     {
       return material_of_group[block_mesh.cell_group[cell]];
     }
-    double
-    thickness() const
+    double thickness() const
     {
       return parameters.thickness;
     }
 
   private:
-    void
-    find_materials();
-    void
-    find_blocks(const std::vector<unsigned int> &rank_of_block,
-                MPI_Comm                         communicator);
-    void
-    find_masses();
-    void
-    find_initial_stress();
-    void
-    pack_blocks();
-    void
-    find_stable_step();
+    void find_materials();
+    void find_blocks(const std::vector<unsigned int> &rank_of_block,
+                     MPI_Comm communicator);
+    void find_masses();
+    void find_initial_stress();
+    void pack_blocks();
+    void find_stable_step();
 
-    const BlockMesh<2>   &block_mesh;
+    const BlockMesh<2> &block_mesh;
     const ModelParameters parameters;
 
-    std::vector<unsigned int>                 material_of_group;
-    std::vector<Impedance>                    group_impedance;
-    unsigned int                              block_begin, block_end;
-    std::unique_ptr<NodeExchange>             nodes;
-    std::vector<double>                       node_mass;
-    std::vector<std::array<unsigned int, 3>>  local_cells;
-    std::vector<std::array<double, 3>>        cell_stress; /**< or empty */
-    BlockForces                               block_forces;
-    MatchedJoints                             matched_joints;
-    std::unique_ptr<StableTimeStep>           stable_step;
+    std::vector<unsigned int> material_of_group;
+    std::vector<Impedance> group_impedance;
+    unsigned int block_begin, block_end;
+    std::unique_ptr<NodeExchange> nodes;
+    std::vector<double> node_mass;
+    std::vector<std::array<unsigned int, 3>> local_cells;
+    std::vector<std::array<double, 3>> cell_stress; /**< or empty */
+    BlockForces block_forces;
+    MatchedJoints matched_joints;
+    std::unique_ptr<StableTimeStep> stable_step;
   };
 } // namespace quoin
 

@@ -24,27 +24,23 @@ namespace quoin
   {
   public:
     /** @p bound: S_i as xx, yy, xy [N/m] of each owned node. */
-    explicit StableTimeStep(
-      const std::vector<std::array<double, 3>> &bound);
+    explicit StableTimeStep(const std::vector<std::array<double, 3>> &bound);
 
     /** Mass that node @p i needs for the step @p dt to be critical [kg]. */
-    double
-    mass_for(const unsigned int i, const double dt) const
+    double mass_for(const unsigned int i, const double dt) const
     {
       return eigenvalue[i] * dt * dt / 4.;
     }
 
     /** Largest omega^2 of the owned nodes with masses @p mass [1/s^2]. */
-    double
-    largest_eigenvalue(const std::vector<double> &mass) const;
+    double largest_eigenvalue(const std::vector<double> &mass) const;
 
     /**
      * Critical step [s] of central differences with the stiffness-
      * proportional damping @p beta [s] lagging half a step:
      * 2/omega (sqrt(1 + xi^2) - xi), xi = beta omega / 2.
      */
-    static double
-    critical(double largest_eigenvalue, double beta);
+    static double critical(double largest_eigenvalue, double beta);
 
   private:
     std::vector<double> eigenvalue; /**< of S_i [N/m] */

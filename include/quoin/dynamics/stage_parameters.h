@@ -29,25 +29,24 @@ namespace quoin
   /** One stage of a run: a subsection of 'Stages'. */
   struct StageParameters
   {
-    std::string              name;
+    std::string name;
     std::vector<std::string> loads;
-    StageEnd                 end          = StageEnd::time;
-    double                   duration     = 0.;   /**< [s] */
-    double                   static_ratio = 1e-6;
-    std::uint64_t            maximum_steps = 0;
-    double                   start_time   = -1.; /**< [s]; -1: previous end */
+    StageEnd end                = StageEnd::time;
+    double duration             = 0.; /**< [s] */
+    double static_ratio         = 1e-6;
+    std::uint64_t maximum_steps = 0;
+    double start_time           = -1.; /**< [s]; -1: previous end */
 
-    DampingType damping            = DampingType::none;
-    double      local_coefficient  = 0.;
-    double      mass_coefficient   = 0.; /**< alpha [1/s] */
-    double      stiffness_coefficient = 0.; /**< beta [s] */
+    DampingType damping          = DampingType::none;
+    double local_coefficient     = 0.;
+    double mass_coefficient      = 0.; /**< alpha [1/s] */
+    double stiffness_coefficient = 0.; /**< beta [s] */
 
     double scaled_time_step = 0.; /**< of mass scaling [s]; 0: none */
 
-    static void
-    declare(dealii::ParameterHandler &prm);
-    static StageParameters
-    read(const ParameterSection &section, const std::string &name);
+    static void declare(dealii::ParameterHandler &prm);
+    static StageParameters read(const ParameterSection &section,
+                                const std::string &name);
   };
 } // namespace quoin
 

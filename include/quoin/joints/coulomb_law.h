@@ -26,10 +26,10 @@ namespace quoin
   /** One joint point: what the law reads and overwrites. */
   struct JointPoint
   {
-    double     normal_traction; /**< sigma [Pa], tension positive */
-    double     shear_traction;  /**< tau [Pa] */
-    double     plastic_slip;    /**< [m] */
-    double     plastic_opening; /**< [m] */
+    double normal_traction; /**< sigma [Pa], tension positive */
+    double shear_traction;  /**< tau [Pa] */
+    double plastic_slip;    /**< [m] */
+    double plastic_opening; /**< [m] */
     JointState state;
   };
 
@@ -60,56 +60,53 @@ namespace quoin
    */
   struct CoulombLaw
   {
-    double        normal_stiffness = 0.; /**< kn [Pa/m] */
-    double        shear_stiffness  = 0.; /**< ks [Pa/m] */
+    double normal_stiffness = 0.; /**< kn [Pa/m] */
+    double shear_stiffness  = 0.; /**< ks [Pa/m] */
     JointStrength peak;
     JointStrength residual;
-    double        dilation = 0.; /**< tan(psi) */
-    double critical_shear_displacement =
-      std::numeric_limits<double>::infinity(); /**< u_cs [m] */
+    double dilation = 0.; /**< tan(psi) */
+    double critical_shear_displacement
+        = std::numeric_limits<double>::infinity(); /**< u_cs [m] */
 
     /**
      * Brings @p point to the given @p opening and @p slip [m] and returns
      * what that dissipated, by the trapezoidal rule of the explicit scheme.
      */
-    JointDissipation
-    update(JointPoint &point, const double opening, const double slip) const;
+    JointDissipation update(JointPoint &point, const double opening,
+                            const double slip) const;
 
     /** Recoverable energy per area [J/m^2] of @p point at @p opening [m]. */
-    double
-    stored_energy(const JointPoint &point, const double opening) const
+    double stored_energy(const JointPoint &point, const double opening) const
     {
-      const double normal =
-        point.state == JointState::open ?
-          normal_energy(normal_stiffness * (opening - point.plastic_opening)) :
-          0.5 * point.normal_traction * point.normal_traction /
-            normal_stiffness;
-      return normal + 0.5 * point.shear_traction * point.shear_traction /
-                        shear_stiffness;
+      const double normal
+          = point.state == JointState::open
+                ? normal_energy(normal_stiffness
+                                * (opening - point.plastic_opening))
+                : 0.5 * point.normal_traction * point.normal_traction
+                      / normal_stiffness;
+      return normal
+             + 0.5 * point.shear_traction * point.shear_traction
+                   / shear_stiffness;
     }
 
   private:
     /** Of a failed joint, whose traction is cut off at the residual one. */
-    double
-    normal_energy(const double sigma_trial) const
+    double normal_energy(const double sigma_trial) const
     {
       const double cut = std::min(sigma_trial, residual.tension);
       return cut * (sigma_trial - 0.5 * cut) / normal_stiffness;
     }
   };
 
-
-
-  inline JointDissipation
-  CoulombLaw::update(JointPoint  &point,
-                     const double opening,
-                     const double slip) const
+  inline JointDissipation CoulombLaw::update(JointPoint &point,
+                                             const double opening,
+                                             const double slip) const
   {
     const double kn = normal_stiffness, ks = shear_stiffness;
     const double sigma_old = point.normal_traction;
     const double tau_old   = point.shear_traction;
 
-    const bool           intact   = point.state == JointState::intact;
+    const bool intact             = point.state == JointState::intact;
     const JointStrength &strength = intact ? peak : residual;
 
     const double sigma_trial = kn * (opening - point.plastic_opening);
@@ -117,56 +114,54 @@ namespace quoin
 
     JointDissipation dissipation;
 
-    if (sigma_trial <= strength.tension &&
-        std::abs(tau_trial) <=
-          std::max(0., strength.cohesion - sigma_trial * strength.friction))
-      {
-        point.normal_traction = sigma_trial;
-        point.shear_traction  = tau_trial;
-        if (!intact)
-          point.state = JointState::slipped;
-        return dissipation;
-      }
+    if (sigma_trial <= strength.tension
+        && std::abs(tau_trial) <= std::max(
+               0., strength.cohesion - sigma_trial * strength.friction))
+    {
+      point.normal_traction = sigma_trial;
+      point.shear_traction  = tau_trial;
+      if (!intact)
+        point.state = JointState::slipped;
+      return dissipation;
+    }
 
     // From here on the joint has failed, now or earlier.
     if (sigma_trial > residual.tension)
-      {
-        const double sigma = std::min(sigma_trial, residual.tension);
-        // Work less the change of stored energy. A joint that opens without
-        // having been intact dissipates nothing here: what the finite step
-        // makes of the kink in its law is left to the energy residual.
-        if (intact)
-          dissipation.fracture =
-            0.5 * (sigma_old + sigma) * (sigma_trial - sigma_old) / kn +
-            0.5 * sigma_old * sigma_old / kn - normal_energy(sigma_trial);
-        const double shear_loss =
-          0.5 * tau_old * (slip - point.plastic_slip);
-        (intact ? dissipation.fracture : dissipation.friction) += shear_loss;
+    {
+      const double sigma = std::min(sigma_trial, residual.tension);
+      // Work less the change of stored energy. A joint that opens without
+      // having been intact dissipates nothing here: what the finite step
+      // makes of the kink in its law is left to the energy residual.
+      if (intact)
+        dissipation.fracture
+            = 0.5 * (sigma_old + sigma) * (sigma_trial - sigma_old) / kn
+              + 0.5 * sigma_old * sigma_old / kn - normal_energy(sigma_trial);
+      const double shear_loss = 0.5 * tau_old * (slip - point.plastic_slip);
+      (intact ? dissipation.fracture : dissipation.friction) += shear_loss;
 
-        point.normal_traction = sigma;
-        point.shear_traction  = 0.;
-        point.plastic_slip    = slip;
-        point.state           = JointState::open;
-        return dissipation;
-      }
+      point.normal_traction = sigma;
+      point.shear_traction  = 0.;
+      point.plastic_slip    = slip;
+      point.state           = JointState::open;
+      return dissipation;
+    }
 
     // Slip: implicit in sigma, because dilation presses the joint together.
     const double direction = tau_trial < 0. ? -1. : 1.;
-    const double psi =
-      std::abs(slip) < critical_shear_displacement ?
-        (direction * slip >= 0. ? dilation : -dilation) :
-        0.;
-    const double excess = std::abs(tau_trial) - residual.cohesion +
-                          sigma_trial * residual.friction;
+    const double psi       = std::abs(slip) < critical_shear_displacement
+                                 ? (direction * slip >= 0. ? dilation : -dilation)
+                                 : 0.;
+    const double excess    = std::abs(tau_trial) - residual.cohesion
+                          + sigma_trial * residual.friction;
     const double stiffness = ks + kn * psi * residual.friction;
-    double       dp = std::max(0., excess) / (stiffness > 0.1 * ks ? stiffness : ks);
+    double dp = std::max(0., excess) / (stiffness > 0.1 * ks ? stiffness : ks);
     // Friction cannot turn the shear traction round.
     dp = std::min(dp, std::abs(tau_trial) / ks);
 
     const double sigma = sigma_trial - kn * psi * dp;
     const double tau   = tau_trial - direction * ks * dp;
-    dissipation.friction =
-      0.5 * ((tau_old + tau) * direction + (sigma_old + sigma) * psi) * dp;
+    dissipation.friction
+        = 0.5 * ((tau_old + tau) * direction + (sigma_old + sigma) * psi) * dp;
 
     point.normal_traction = sigma;
     point.shear_traction  = tau;

@@ -15,14 +15,13 @@ namespace quoin
   /** A set of joints that share a law: one subsection of 'Joints'. */
   struct JointSetParameters
   {
-    std::string              name;
+    std::string name;
     std::vector<std::string> curves; /**< physical curves of the mesh */
-    CoulombLaw               law;
+    CoulombLaw law;
 
-    static void
-    declare(dealii::ParameterHandler &prm);
-    static JointSetParameters
-    read(const ParameterSection &section, const std::string &name);
+    static void declare(dealii::ParameterHandler &prm);
+    static JointSetParameters read(const ParameterSection &section,
+                                   const std::string &name);
   };
 } // namespace quoin
 

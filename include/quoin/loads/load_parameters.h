@@ -41,8 +41,8 @@ namespace quoin
   /** One load: a subsection of 'Loads'. */
   struct LoadParameters
   {
-    std::string              name;
-    LoadType                 type = LoadType::traction;
+    std::string name;
+    LoadType type = LoadType::traction;
     std::vector<std::string> boundaries; /**< physical curves */
     std::vector<std::string> groups;     /**< physical surfaces */
 
@@ -55,10 +55,9 @@ namespace quoin
     std::array<double, 3> stress{};          /**< xx, yy, xy at y = 0 [Pa] */
     std::array<double, 3> stress_gradient{}; /**< per metre of y [Pa/m] */
 
-    static void
-    declare(dealii::ParameterHandler &prm);
-    static LoadParameters
-    read(const ParameterSection &section, const std::string &name);
+    static void declare(dealii::ParameterHandler &prm);
+    static LoadParameters read(const ParameterSection &section,
+                               const std::string &name);
   };
 } // namespace quoin
 

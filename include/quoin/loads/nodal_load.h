@@ -22,33 +22,27 @@ namespace quoin
   {
   public:
     /** @p mass is that of the local nodes, unscaled [kg]. */
-    NodalLoad(const LoadParameters      &parameters,
-              const BlockMesh<2>        &mesh,
-              const NodeExchange        &exchange,
-              const std::vector<double> &mass,
-              double                     thickness);
+    NodalLoad(const LoadParameters &parameters, const BlockMesh<2> &mesh,
+              const NodeExchange &exchange, const std::vector<double> &mass,
+              double thickness);
 
-    void
-    add_forces(const TimePoint &time, NodeVector *force) const;
+    void add_forces(const TimePoint &time, NodeVector *force) const;
 
     /** Rate of work [W] on nodes that move with @p velocity. */
-    double
-    power(const TimePoint &time, const NodeVector *velocity) const;
+    double power(const TimePoint &time, const NodeVector *velocity) const;
 
-    const std::string &
-    name() const
+    const std::string &name() const
     {
       return load_name;
     }
 
   private:
-    std::array<double, 2>
-    amplitude(const TimePoint &time) const;
+    std::array<double, 2> amplitude(const TimePoint &time) const;
 
-    std::string                  load_name;
+    std::string load_name;
     std::array<LoadComponent, 3> components;
-    std::vector<unsigned int>    nodes;
-    std::vector<double>          weights;
+    std::vector<unsigned int> nodes;
+    std::vector<double> weights;
   };
 
   /**
@@ -57,15 +51,15 @@ namespace quoin
    * not exist or has no outer edge.
    */
   std::vector<unsigned int>
-  faces_of_curves(const BlockMesh<2>             &mesh,
+  faces_of_curves(const BlockMesh<2> &mesh,
                   const std::vector<std::string> &names,
-                  const std::string              &load);
+                  const std::string &load);
 
   /** Groups named @p names; throws an InputError naming @p load. */
   std::vector<unsigned int>
-  groups_of_names(const BlockMesh<2>             &mesh,
+  groups_of_names(const BlockMesh<2> &mesh,
                   const std::vector<std::string> &names,
-                  const std::string              &load);
+                  const std::string &load);
 } // namespace quoin
 
 #endif

@@ -21,23 +21,23 @@ namespace quoin
   struct CapturedNode
   {
     unsigned int node;
-    double       mass;
-    NodeVector   force;
-    NodeVector   velocity;
-    NodeVector   displacement;
-    NodeVector   viscous; /**< stiffness-proportional part of the force */
-    bool         free[2]; /**< components that no constraint moves */
+    double mass;
+    NodeVector force;
+    NodeVector velocity;
+    NodeVector displacement;
+    NodeVector viscous; /**< stiffness-proportional part of the force */
+    bool free[2];       /**< components that no constraint moves */
   };
 
   /** The step under way, from t to t + dt. */
   struct StepContext
   {
     TimePoint begin, middle, end;
-    double    dt;             /**< from t to t + dt [s] */
-    double    dt_before;      /**< of the step before; 0 at the first [s] */
-    double    dt_velocity;    /**< from middle to middle [s] */
-    double    local_damping;  /**< Cundall's factor; 0: none */
-    double    mass_damping;   /**< alpha [1/s] */
+    double dt;            /**< from t to t + dt [s] */
+    double dt_before;     /**< of the step before; 0 at the first [s] */
+    double dt_velocity;   /**< from middle to middle [s] */
+    double local_damping; /**< Cundall's factor; 0: none */
+    double mass_damping;  /**< alpha [1/s] */
   };
 
   /**
@@ -51,87 +51,78 @@ namespace quoin
     virtual ~NodeConstraint() = default;
 
     /** Local nodes that this rank owns, ascending. */
-    const std::vector<unsigned int> &
-    nodes() const
+    const std::vector<unsigned int> &nodes() const
     {
       return node_list;
     }
 
-    const std::string &
-    name() const
+    const std::string &name() const
     {
       return load_name;
     }
 
     /** Position of each of nodes() in the solver's list of captured nodes. */
-    void
-    bind(std::vector<unsigned int> positions)
+    void bind(std::vector<unsigned int> positions)
     {
       captured_positions = std::move(positions);
     }
 
     /** Called when a stage begins in which it does not act. */
-    void
-    rest()
+    void rest()
     {
       last_resultant = {};
     }
 
     /** Called when a stage begins; @p continues: it acted in the last one. */
-    virtual void
-    begin_stage(State &, const bool /*continues*/)
-    {}
+    virtual void begin_stage(State &, const bool /*continues*/)
+    {
+    }
 
-    virtual void
-    correct(const StepContext               &step,
-            const std::vector<CapturedNode> &captured,
-            State                           &state) = 0;
+    virtual void correct(const StepContext &step,
+                         const std::vector<CapturedNode> &captured,
+                         State &state)
+        = 0;
 
-    virtual void
-    account(const StepContext               &step,
-            const std::vector<CapturedNode> &captured,
-            State                           &state) = 0;
+    virtual void account(const StepContext &step,
+                         const std::vector<CapturedNode> &captured,
+                         State &state)
+        = 0;
 
     /**
      * Force x, y [N] and moment about the origin or, for a platen, its centre
      * [N m] on the nodes at the start of the last step; summed over ranks by
      * the caller unless is_global().
      */
-    std::array<double, 3>
-    resultant() const
+    std::array<double, 3> resultant() const
     {
       return last_resultant;
     }
 
     /** Whether it moves both components of its nodes, prescribed or not. */
-    virtual bool
-    moves_all() const
+    virtual bool moves_all() const
     {
       return true;
     }
 
-    virtual bool
-    is_global() const
+    virtual bool is_global() const
     {
       return false;
     }
 
     /** Unbalanced force [N] of freedoms that the constraint itself moves. */
-    virtual double
-    unbalanced() const
+    virtual double unbalanced() const
     {
       return 0.;
     }
 
     /** Which freedoms (x, y and, of platens, rotation) it prescribes. */
-    virtual std::array<bool, 3>
-    holds() const = 0;
+    virtual std::array<bool, 3> holds() const = 0;
 
   protected:
-    std::string               load_name;
+    std::string load_name;
     std::vector<unsigned int> node_list;
     std::vector<unsigned int> captured_positions;
-    std::array<double, 3>     last_resultant{};
+    std::array<double, 3> last_resultant{};
   };
 } // namespace quoin
 

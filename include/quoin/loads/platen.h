@@ -21,63 +21,52 @@ namespace quoin
   {
   public:
     /** @p index is its place in State::platens. */
-    Platen(const LoadParameters &parameters,
-           unsigned int          index,
-           const BlockMesh<2>   &mesh,
-           const NodeExchange   &exchange);
+    Platen(const LoadParameters &parameters, unsigned int index,
+           const BlockMesh<2> &mesh, const NodeExchange &exchange);
 
     /** Masses of the local nodes, as they act in the stage to come [kg]. */
-    void
-    set_mass(const std::vector<double> &mass);
+    void set_mass(const std::vector<double> &mass);
 
-    void
-    begin_stage(State &state, bool continues) override;
-    void
-    correct(const StepContext               &step,
-            const std::vector<CapturedNode> &captured,
-            State                           &state) override;
-    void
-    account(const StepContext               &step,
-            const std::vector<CapturedNode> &captured,
-            State                           &state) override;
+    void begin_stage(State &state, bool continues) override;
+    void correct(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
+    void account(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
 
-    bool
-    is_global() const override
+    bool is_global() const override
     {
       return true;
     }
-    double
-    unbalanced() const override
+    double unbalanced() const override
     {
       return last_unbalanced;
     }
-    std::array<bool, 3>
-    holds() const override;
+    std::array<bool, 3> holds() const override;
 
-    unsigned int
-    index() const
+    unsigned int index() const
     {
       return platen_index;
     }
 
   private:
-    bool
-    driven(const unsigned int freedom) const
+    bool driven(const unsigned int freedom) const
     {
-      return components[freedom].quantity == LoadQuantity::velocity ||
-             components[freedom].quantity == LoadQuantity::displacement;
+      return components[freedom].quantity == LoadQuantity::velocity
+             || components[freedom].quantity == LoadQuantity::displacement;
     }
 
     std::array<LoadComponent, 3> components;
-    unsigned int                 platen_index;
-    MPI_Comm                     communicator;
-    std::vector<double>          node_mass;
-    std::array<double, 3>        inertia{}; /**< mass, mass, moment */
+    unsigned int platen_index;
+    MPI_Comm communicator;
+    std::vector<double> node_mass;
+    std::array<double, 3> inertia{}; /**< mass, mass, moment */
 
     /** Of the last step: force on the platen from its drive and its nodes,
         damping force, velocity before. */
     std::array<double, 3> nodal_force{}, drive{}, damping{}, velocity_before{};
-    double                last_unbalanced = 0.;
+    double last_unbalanced = 0.;
   };
 } // namespace quoin
 

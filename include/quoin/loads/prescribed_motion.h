@@ -15,22 +15,17 @@ namespace quoin
   class PrescribedMotion : public NodeConstraint
   {
   public:
-    PrescribedMotion(const LoadParameters &parameters,
-                     const BlockMesh<2>   &mesh,
-                     const NodeExchange   &exchange);
+    PrescribedMotion(const LoadParameters &parameters, const BlockMesh<2> &mesh,
+                     const NodeExchange &exchange);
 
-    void
-    correct(const StepContext               &step,
-            const std::vector<CapturedNode> &captured,
-            State                           &state) override;
-    void
-    account(const StepContext               &step,
-            const std::vector<CapturedNode> &captured,
-            State                           &state) override;
-    std::array<bool, 3>
-    holds() const override;
-    bool
-    moves_all() const override
+    void correct(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
+    void account(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
+    std::array<bool, 3> holds() const override;
+    bool moves_all() const override
     {
       return false;
     }
@@ -41,8 +36,7 @@ namespace quoin
 
   /** Local owned nodes on the faces @p faces of the outer boundary. */
   std::vector<unsigned int>
-  nodes_of_faces(const BlockMesh<2>              &mesh,
-                 const NodeExchange              &exchange,
+  nodes_of_faces(const BlockMesh<2> &mesh, const NodeExchange &exchange,
                  const std::vector<unsigned int> &faces);
 } // namespace quoin
 

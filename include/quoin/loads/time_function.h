@@ -33,15 +33,14 @@ namespace quoin
      */
     TimeFunction(const std::string &text, const std::string &folder);
 
-    double
-    operator()(const TimePoint &time) const
+    double operator()(const TimePoint &time) const
     {
       return evaluate(time);
     }
 
   private:
-    std::function<double(const TimePoint &)> evaluate =
-      [](const TimePoint &) { return 0.; };
+    std::function<double(const TimePoint &)> evaluate
+        = [](const TimePoint &) { return 0.; };
   };
 } // namespace quoin
 

@@ -31,24 +31,19 @@ namespace quoin
   {
   public:
     /** @p impedance of each cell group of @p mesh. */
-    ViscousBoundary(const LoadParameters         &parameters,
-                    const BlockMesh<2>           &mesh,
-                    const NodeExchange           &exchange,
-                    const std::vector<Impedance> &impedance,
-                    double                        thickness);
+    ViscousBoundary(const LoadParameters &parameters, const BlockMesh<2> &mesh,
+                    const NodeExchange &exchange,
+                    const std::vector<Impedance> &impedance, double thickness);
 
-    void
-    correct(const StepContext               &step,
-            const std::vector<CapturedNode> &captured,
-            State                           &state) override;
-    void
-    account(const StepContext               &step,
-            const std::vector<CapturedNode> &captured,
-            State                           &state) override;
-    std::array<bool, 3>
-    holds() const override
+    void correct(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
+    void account(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
+    std::array<bool, 3> holds() const override
     {
-      return {{false, false, false}};
+      return { { false, false, false } };
     }
 
   private:
@@ -61,7 +56,7 @@ namespace quoin
     };
 
     std::array<LoadComponent, 3> components;
-    std::vector<Dashpot>         dashpots;
+    std::vector<Dashpot> dashpots;
   };
 } // namespace quoin
 

@@ -15,14 +15,13 @@ namespace quoin
   /** One material: a subsection of 'Materials'. */
   struct MaterialParameters
   {
-    std::string              name;
+    std::string name;
     std::vector<std::string> groups; /**< physical surfaces of the mesh */
-    LinearElastic            elastic{};
+    LinearElastic elastic{};
 
-    static void
-    declare(dealii::ParameterHandler &prm);
-    static MaterialParameters
-    read(const ParameterSection &section, const std::string &name);
+    static void declare(dealii::ParameterHandler &prm);
+    static MaterialParameters read(const ParameterSection &section,
+                                   const std::string &name);
   };
 } // namespace quoin
 

@@ -16,8 +16,8 @@ namespace quoin
   /**
    * The joint faces of this rank at one moment. Face f has the points 2 f and
    * 2 f + 1; all but the last array have one entry for each point. Opening
-   * and tension are positive; slip is positive when the upper side moves
-   * along the edge direction of the lower one.
+   * and tension are positive; slip is positive when the upper side
+   * moves to the right on a horizontal joint (matched_joints.h).
    */
   struct JointFields
   {

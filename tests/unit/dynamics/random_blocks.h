@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_tests_unit_dynamics_random_blocks_h
+#define quoin_tests_unit_dynamics_random_blocks_h
+
+#include <quoin/base/state.h>
+#include <quoin/dynamics/block_forces.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace quoin
+{
+  /** Irregular blocks: squares cut along random diagonals, nodes shaken. */
+  class RandomBlocks
+  {
+  public:
+    explicit RandomBlocks(const unsigned int seed) : generator(seed)
+    {
+      data.block_first_cell = { 0 };
+      data.block_first_node = { 0 };
+    }
+
+    /** A square of m by m pairs of triangles, its corner at (k side, 0). */
+    void add_block(const unsigned int m, const double side)
+    {
+      const unsigned int first = nodes.size();
+      for (unsigned int j = 0; j <= m; ++j)
+        for (unsigned int i = 0; i <= m; ++i)
+        {
+          const bool inside = i > 0 && j > 0 && i < m && j < m;
+          const double h    = side / m;
+          const double x    = h * (i + (inside ? 0.25 * random() : 0.));
+          const double y    = h * (j + (inside ? 0.25 * random() : 0.));
+          nodes.push_back({ { x, y }, { 0., 0. } });
+        }
+      std::vector<std::array<unsigned int, 3>> cells;
+      for (unsigned int j = 0; j < m; ++j)
+        for (unsigned int i = 0; i < m; ++i)
+        {
+          const unsigned int a = first + j * (m + 1) + i, b = a + 1;
+          const unsigned int c = b + m + 1, d = a + m + 1;
+          if (random() < 0.)
+          {
+            cells.push_back({ a, b, c });
+            cells.push_back({ c, d, a });
+          }
+          else
+          {
+            cells.push_back({ a, b, d });
+            cells.push_back({ b, c, d });
+          }
+        }
+      std::shuffle(cells.begin(), cells.end(), generator);
+      data.cells.insert(data.cells.end(), cells.begin(), cells.end());
+      finish_block();
+    }
+
+    void add_triangle()
+    {
+      const unsigned int n = nodes.size();
+      nodes.push_back({ { 3., 1. }, { 0., 0. } });
+      nodes.push_back({ { 4., 1.2 }, { 0., 0. } });
+      nodes.push_back({ { 3.4, 2. }, { 0., 0. } });
+      data.cells.push_back({ n, n + 1, n + 2 });
+      finish_block();
+    }
+
+    void add_initial_stress(const double size)
+    {
+      data.initial_stress.clear();
+      for (std::size_t k = 0; k < data.cells.size(); ++k)
+        data.initial_stress.push_back(
+            { size * random(), size * random(), size * random() });
+    }
+
+    template <typename Function>
+    void displace(const Function &u)
+    {
+      for (NodeRecord &node : nodes)
+        u(node.X[0], node.X[1], node.u);
+    }
+
+    /** Turns about the origin, then shifts. */
+    void move_rigidly(const double angle, const double ux, const double uy)
+    {
+      // cos - 1 without cancellation
+      const double h  = std::sin(0.5 * angle);
+      const double c1 = -2. * h * h, s = std::sin(angle);
+      displace(
+          [=](const double x, const double y, double *u)
+          {
+            u[0] = c1 * x - s * y + ux;
+            u[1] = s * x + c1 * y + uy;
+          });
+    }
+
+    /** Random strains of about @p strain on top of a rotation. */
+    void deform(const double strain, const double angle)
+    {
+      move_rigidly(angle, 0.3, 0.1);
+      std::vector<double> reach(nodes.size(), 1e300);
+      for (const auto &cell : data.cells)
+        for (unsigned int i = 0; i < 3; ++i)
+        {
+          const NodeRecord &a = nodes[cell[i]];
+          const NodeRecord &b = nodes[cell[(i + 1) % 3]];
+          const double length = std::hypot(a.X[0] - b.X[0], a.X[1] - b.X[1]);
+          reach[cell[i]]      = std::min(reach[cell[i]], length);
+          reach[cell[(i + 1) % 3]] = std::min(reach[cell[(i + 1) % 3]], length);
+        }
+      for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (double &u : nodes[i].u)
+          u += strain * reach[i] * random();
+    }
+
+    AlignedArray<NodeVector> random_velocity()
+    {
+      AlignedArray<NodeVector> velocity(nodes.size());
+      for (NodeVector &v : velocity)
+        v = { { random(), random() } };
+      return velocity;
+    }
+
+    /** In (-1, 1). */
+    double random()
+    {
+      return std::uniform_real_distribution<double>(-1., 1.)(generator);
+    }
+
+    BlockForcesData data;
+    AlignedArray<NodeRecord> nodes;
+
+  private:
+    void finish_block()
+    {
+      data.block_first_cell.push_back(data.cells.size());
+      data.block_first_node.push_back(nodes.size());
+    }
+
+    std::mt19937 generator;
+  };
+} // namespace quoin
+
+#endif

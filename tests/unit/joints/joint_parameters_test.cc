@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../output/temporary_directory.h"
+
+#include <quoin/base/exceptions.h>
+#include <quoin/joints/joint_parameters.h>
+
+#include <cmath>
+
+using namespace quoin;
+
+namespace
+{
+  const std::string stiffnesses
+      = "set Normal stiffness = 82e9\nset Shear stiffness = 36e9\n";
+
+  /** A set called "bed" of which the parameter file says @p text. */
+  JointSetParameters read(const std::string &text)
+  {
+    dealii::ParameterHandler prm;
+    prm.enter_subsection("bed");
+    JointSetParameters::declare(prm);
+    prm.leave_subsection();
+    prm.parse_input_from_string("subsection bed\n" + text + "end\n");
+    const ParameterSection top(prm, "wall.prm");
+    return JointSetParameters::read(ParameterSection(top, "bed"), "bed");
+  }
+
+  void expect_refused(const std::string &text, const std::string &setting,
+                      const std::string &why)
+  {
+    const std::string message
+        = message_of<InputError>([&] { read(stiffnesses + text); });
+    EXPECT_EQ(message.find("wall.prm, section 'bed': '" + setting + "' "), 0U)
+        << message;
+    EXPECT_NE(message.find(why), std::string::npos) << message;
+  }
+} // namespace
+
+TEST(JointParameters, Coulomb)
+{
+  const auto set = read(stiffnesses + "set Curves = bed, head\n"
+                                      "set Cohesion = 0.375e6\n"
+                                      "set Friction angle = 45\n"
+                                      "set Tensile strength = 0.25e6\n"
+                                      "set Dilation angle = 30\n"
+                                      "set Critical shear displacement = 2e-3\n"
+                                      "set Residual cohesion = 1e3\n"
+                                      "set Residual friction angle = 60\n"
+                                      "set Residual tensile strength = 2e3\n");
+  EXPECT_EQ(set.name, "bed");
+  EXPECT_EQ(set.curves, (std::vector<std::string>{ "bed", "head" }));
+  EXPECT_EQ(set.law.normal_stiffness, 82e9);
+  EXPECT_EQ(set.law.shear_stiffness, 36e9);
+  EXPECT_EQ(set.law.peak.cohesion, 0.375e6);
+  EXPECT_DOUBLE_EQ(set.law.peak.friction, 1.);
+  EXPECT_EQ(set.law.peak.tension, 0.25e6);
+  EXPECT_DOUBLE_EQ(set.law.dilation, 1. / std::sqrt(3.));
+  EXPECT_EQ(set.law.critical_shear_displacement, 2e-3);
+  EXPECT_EQ(set.law.residual.cohesion, 1e3);
+  EXPECT_DOUBLE_EQ(set.law.residual.friction, std::sqrt(3.));
+  EXPECT_EQ(set.law.residual.tension, 2e3);
+}
+
+TEST(JointParameters, OwnNameSameFrictionAndNoResidualByDefault)
+{
+  const auto set = read(stiffnesses + "set Cohesion = 1e6\n"
+                                      "set Friction angle = 45\n"
+                                      "set Tensile strength = 1e5\n");
+  EXPECT_EQ(set.curves, (std::vector<std::string>{ "bed" }));
+  EXPECT_EQ(set.law.residual.cohesion, 0.);
+  EXPECT_EQ(set.law.residual.tension, 0.);
+  EXPECT_EQ(set.law.residual.friction, set.law.peak.friction);
+  EXPECT_EQ(set.law.dilation, 0.);
+}
+
+TEST(JointParameters, Elastic)
+{
+  const auto set = read(stiffnesses + "set Law = elastic\n");
+  JointPoint point{ 0., 0., 0., 0., JointState::intact };
+  set.law.update(point, 1., 1.);
+  EXPECT_EQ(point.state, JointState::intact);
+  EXPECT_EQ(point.normal_traction, 82e9);
+  EXPECT_EQ(point.shear_traction, 36e9);
+}
+
+TEST(JointParameters, NoTension)
+{
+  const auto set = read(stiffnesses + "set Law = no tension\n"
+                                      "set Cohesion = 1e6\n"
+                                      "set Friction angle = 45\n");
+  EXPECT_EQ(set.law.peak.tension, 0.);
+  EXPECT_EQ(set.law.residual.tension, 0.);
+  EXPECT_EQ(set.law.residual.cohesion, 1e6);
+  EXPECT_EQ(set.law.residual.friction, set.law.peak.friction);
+}
+
+TEST(JointParameters, RefusesWhatMakesNoSense)
+{
+  expect_refused("set Normal stiffness = -1\n", "Normal stiffness = -1",
+                 "positive");
+  expect_refused("set Shear stiffness = 0\n", "Shear stiffness = 0",
+                 "positive");
+  expect_refused("set Cohesion = -3\n", "Cohesion = -3", "negative");
+  expect_refused("set Tensile strength = -3\n", "Tensile strength = -3",
+                 "negative");
+  expect_refused("set Friction angle = 90\n", "Friction angle = 90",
+                 "between 0 and 89");
+  expect_refused("set Friction angle = 20\nset Dilation angle = 21\n",
+                 "Dilation angle = 21", "between 0 and 20");
+  expect_refused("set Residual friction angle = some\n",
+                 "Residual friction angle = some", "1 numbers");
+  expect_refused("set Residual friction angle = -4\n",
+                 "Residual friction angle = -4", "between 0 and 89");
+  expect_refused("set Residual cohesion = 1\n", "Residual cohesion = 1",
+                 "must not exceed 'Cohesion'");
+  expect_refused("set Residual tensile strength = 1\n",
+                 "Residual tensile strength = 1",
+                 "must not exceed 'Tensile strength'");
+  expect_refused("set Law = no tension\nset Tensile strength = 5\n",
+                 "Tensile strength = 5", "Coulomb");
+}

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../output/temporary_directory.h"
+
+#include <quoin/base/exceptions.h>
+#include <quoin/loads/load_parameters.h>
+
+using namespace quoin;
+
+namespace
+{
+  /** A load called "push" of which the parameter file says @p text. */
+  LoadParameters read(const std::string &text)
+  {
+    dealii::ParameterHandler prm;
+    prm.enter_subsection("push");
+    LoadParameters::declare(prm);
+    prm.leave_subsection();
+    prm.parse_input_from_string("subsection push\n" + text + "end\n");
+    const ParameterSection top(prm, "wall.prm");
+    return LoadParameters::read(ParameterSection(top, "push"), "push");
+  }
+
+  void expect_refused(const std::string &text, const std::string &setting,
+                      const std::string &why)
+  {
+    const std::string message
+        = message_of<InputError>([&] { read(text); });
+    EXPECT_EQ(message.find("wall.prm, section 'push': '" + setting + "' "), 0U)
+        << message;
+    EXPECT_NE(message.find(why), std::string::npos) << message;
+  }
+
+  double value(const LoadParameters &load, const unsigned int component)
+  {
+    return load.components[component].value({ 2., 3. });
+  }
+} // namespace
+
+TEST(LoadParameters, PrescribedMotion)
+{
+  auto load = read("set Type = prescribed motion\n"
+                   "set Boundary = left, right\n"
+                   "set Horizontal = 0.1*t\n");
+  EXPECT_EQ(load.name, "push");
+  EXPECT_EQ(load.type, LoadType::prescribed_motion);
+  EXPECT_EQ(load.boundaries, (std::vector<std::string>{ "left", "right" }));
+  EXPECT_EQ(load.components[0].quantity, LoadQuantity::velocity);
+  EXPECT_DOUBLE_EQ(value(load, 0), 0.2);
+  EXPECT_EQ(load.components[1].quantity, LoadQuantity::free);
+
+  load = read("set Type = prescribed motion\nset Boundary = left\n"
+              "set Quantity = displacement\nset Vertical = T\n"
+              "set Horizontal = velocity 4\n");
+  EXPECT_EQ(load.components[1].quantity, LoadQuantity::displacement);
+  EXPECT_EQ(value(load, 1), 3.);
+  EXPECT_EQ(load.components[0].quantity, LoadQuantity::velocity);
+  EXPECT_EQ(value(load, 0), 4.);
+}
+
+TEST(LoadParameters, TractionAndGravity)
+{
+  auto load = read("set Type = traction\nset Boundary = top\n"
+                   "set Vertical = -1e6\n");
+  EXPECT_EQ(load.components[1].quantity, LoadQuantity::force);
+  EXPECT_EQ(value(load, 1), -1e6);
+  EXPECT_EQ(value(load, 0), 0.);
+
+  load = read("set Type = gravity\nset Vertical = -9.81\n");
+  EXPECT_EQ(load.type, LoadType::gravity);
+  EXPECT_EQ(value(load, 1), -9.81);
+}
+
+TEST(LoadParameters, Platen)
+{
+  auto load = read("set Type = platen\nset Group = beam\n"
+                   "set Horizontal = force -29.7e3\n"
+                   "set Vertical = displacement 1e-3*t\n"
+                   "set Rotation = velocity 5\n");
+  EXPECT_EQ(load.groups, (std::vector<std::string>{ "beam" }));
+  EXPECT_EQ(load.components[0].quantity, LoadQuantity::force);
+  EXPECT_EQ(value(load, 0), -29.7e3);
+  EXPECT_EQ(load.components[1].quantity, LoadQuantity::displacement);
+  EXPECT_EQ(value(load, 1), 2e-3);
+  EXPECT_EQ(load.components[2].quantity, LoadQuantity::velocity);
+  EXPECT_EQ(value(load, 2), 5.);
+
+  load = read("set Type = platen\nset Boundary = top\n"
+              "set Rotation = moment 7\n");
+  EXPECT_EQ(load.components[2].quantity, LoadQuantity::force);
+  EXPECT_EQ(load.components[0].quantity, LoadQuantity::free);
+}
+
+TEST(LoadParameters, ViscousBoundary)
+{
+  const auto load = read("set Type = viscous boundary\nset Boundary = base\n"
+                         "set Incident shear velocity = 0.5*t\n");
+  EXPECT_EQ(value(load, 0), 0.);
+  EXPECT_EQ(value(load, 1), 1.);
+}
+
+TEST(LoadParameters, InitialStress)
+{
+  const auto load = read("set Type = initial stress\nset Groups = rock\n"
+                         "set Stress = -1e6, -2e6, 3e5\n"
+                         "set Stress gradient = 1, 2, 3\n");
+  EXPECT_EQ(load.groups, (std::vector<std::string>{ "rock" }));
+  EXPECT_EQ(load.stress, (std::array<double, 3>{ { -1e6, -2e6, 3e5 } }));
+  EXPECT_EQ(load.stress_gradient, (std::array<double, 3>{ { 1., 2., 3. } }));
+}
+
+TEST(LoadParameters, TablesLieNextToTheParameterFile)
+{
+  expect_refused("set Type = traction\nset Boundary = top\n"
+                 "set Vertical = table t.csv\n",
+                 "Vertical = table t.csv", "'./t.csv' cannot be read");
+}
+
+TEST(LoadParameters, RefusesWhatMakesNoSense)
+{
+  expect_refused("set Type = traction\nset Vertical = 1\n", "Boundary = ",
+                 "must name a physical curve");
+  expect_refused("set Type = viscous boundary\n", "Boundary = ",
+                 "must name a physical curve");
+  expect_refused("set Type = prescribed motion\nset Horizontal = 0\n",
+                 "Boundary = ", "must name a physical curve");
+  expect_refused("set Type = traction\nset Boundary = top\n"
+                 "set Horizontal = 2*x\n",
+                 "Horizontal = 2*x", "is no expression of t and T");
+  expect_refused("set Type = prescribed motion\nset Boundary = top\n"
+                 "set Vertical = force 5\n",
+                 "Vertical = force 5", "traction");
+  expect_refused("set Type = platen\nset Boundary = top\n"
+                 "set Vertical = 5\n",
+                 "Vertical = 5", "must be 'free' or begin with");
+  expect_refused("set Type = platen\n", "Group = ", "one of the two");
+  expect_refused("set Type = platen\nset Group = a\nset Boundary = b\n",
+                 "Group = a", "one of the two");
+  expect_refused("set Type = initial stress\nset Stress = 1, 2\n",
+                 "Stress = 1, 2", "must be 3 numbers");
+}
+
+TEST(LoadParameters, RefusesMotionWhereAForceIsMeant)
+{
+  expect_refused("set Type = traction\nset Boundary = top\n"
+                 "set Horizontal = velocity 5\n",
+                 "Horizontal = velocity 5", "traction");
+  expect_refused("set Type = gravity\nset Vertical = displacement 5\n",
+                 "Vertical = displacement 5", "gravity");
+  expect_refused("set Type = viscous boundary\nset Boundary = base\n"
+                 "set Incident normal velocity = force 5\n",
+                 "Incident normal velocity = force 5", "velocity");
+}
