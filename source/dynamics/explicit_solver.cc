@@ -269,8 +269,10 @@ namespace quoin
     {
       strain = model.blocks().strain_energy(state.nodes.data());
       joint  = model.joints().stored_energy(state.nodes.data(), state.joints);
-      velocity_before = state.velocity;
     }
+    const bool step_changes = context.dt_before != context.dt;
+    if (requests.energies || step_changes)
+      velocity_before = state.velocity;
     advance_blocks(state, context, requests);
     move_constrained_nodes(state, context);
 
@@ -293,6 +295,8 @@ namespace quoin
         }
       find_energies(state, strain, joint, kinetic);
     }
+    if (step_changes)
+      account_for_new_step(state, context);
     if (requests.balance)
     {
       find_ratio(applied_force, unbalanced_force);
@@ -304,6 +308,25 @@ namespace quoin
     ++state.stage_step;
     state.time               = state.stage_start + state.stage_step * time_step;
     state.previous_time_step = time_step;
+  }
+
+  void ExplicitSolver::account_for_new_step(State &state,
+                                            const StepContext &context) const
+  {
+    // The kinetic energy that fits the trapezoidal work of the steps h1 before
+    // and h2 from now differs by (h1^2 - h2^2) m a^2 / 8. At the start of the
+    // run h1 = 0: the energy of the half step that starts from rest.
+    const double factor
+        = (context.dt_before * context.dt_before - context.dt * context.dt)
+          / (8. * context.dt_velocity * context.dt_velocity);
+    double energy = 0.;
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double change = state.velocity[i].v[d] - velocity_before[i].v[d];
+        energy += factor * mass[i] * change * change;
+      }
+    state.pending.external += energy;
   }
 
   void ExplicitSolver::apply_forces(State &state, const StepContext &context)

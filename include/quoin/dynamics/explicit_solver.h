@@ -127,6 +127,7 @@ namespace quoin
     void advance_blocks(State &state, const StepContext &context,
                         const Requests &requests);
     void move_constrained_nodes(State &state, const StepContext &context);
+    void account_for_new_step(State &state, const StepContext &context) const;
     void adapt_damping(State &state, const DampingWork &work) const;
     void find_energies(State &state, double strain, double joint,
                        double kinetic);

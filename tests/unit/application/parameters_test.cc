@@ -121,7 +121,7 @@ end
 
   std::string with(const std::string &from, const std::string &to)
   {
-    std::string text      = good;
+    std::string text        = good;
     const std::size_t place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
     return text.replace(place, from.size(), to);
@@ -166,8 +166,7 @@ TEST(Parameters, GoodFile)
   EXPECT_EQ(p.model.materials[0].elastic.density, 1900.);
   EXPECT_EQ(p.model.materials[0].elastic.young, 16.7e9);
   EXPECT_EQ(p.model.materials[0].elastic.poisson, 0.15);
-  EXPECT_EQ(p.model.materials[1].groups,
-            (std::vector<std::string>{ "rock" }));
+  EXPECT_EQ(p.model.materials[1].groups, (std::vector<std::string>{ "rock" }));
   ASSERT_EQ(p.model.joints.size(), 1U);
   EXPECT_EQ(p.model.joints[0].law.normal_stiffness, 82e9);
   ASSERT_EQ(p.model.initial_stresses.size(), 1U);
@@ -215,9 +214,9 @@ TEST(Parameters, DescriptionNamesEverySection)
 TEST(Parameters, OverridesReplaceAndExtend)
 {
   const Case it(good);
-  const Parameters p = it.read(
-      { "Thickness = 0.25", "Joints/bed/Cohesion=2e6", "Stages/Names=preload",
-        "Loads/Names=base, insitu", "Title=a=b" });
+  const Parameters p = it.read({ "Thickness = 0.25", "Joints/bed/Cohesion=2e6",
+                                 "Stages/Names=preload",
+                                 "Loads/Names=base, insitu", "Title=a=b" });
   EXPECT_EQ(p.model.thickness, 0.25);
   EXPECT_EQ(p.model.joints[0].law.peak.cohesion, 2e6);
   EXPECT_EQ(p.stages.size(), 1U);
@@ -279,27 +278,27 @@ TEST(Parameters, WrongWord)
 
 TEST(Parameters, WrongNumbers)
 {
-  expect_refused(with("set Normal stiffness = 82e9",
-                      "set Normal stiffness = -82e9"),
-                 { "section 'Joints/bed'", "Normal stiffness = -82e9" });
+  expect_refused(
+      with("set Normal stiffness = 82e9", "set Normal stiffness = -82e9"),
+      { "section 'Joints/bed'", "Normal stiffness = -82e9" });
   expect_refused(with("set Density = 1900", "set Density = 0"),
                  { "section 'Materials/brick'", "Density = 0", "positive" });
-  expect_refused(with("set Poisson's ratio = 0.15",
-                      "set Poisson's ratio = 0.5"),
-                 { "section 'Materials/brick'", "Poisson's ratio = 0.5" });
-  expect_refused(with("set Young's modulus = 16.7e9",
-                      "set Young's modulus = -1"),
-                 { "section 'Materials/brick'", "Young's modulus = -1" });
-  expect_refused(with("set Share of critical time step = 0.5",
-                      "set Share of critical time step = 1.5"),
-                 { "section 'Time stepping'",
-                   "Share of critical time step = 1.5" });
-  expect_refused(with("set Stress = -1e6, -2e6, 0", "set Stress = -1e6, -2e6"),
-                 { "section 'Loads/insitu'", "Stress = -1e6, -2e6",
-                   "3 numbers" });
-  expect_refused(with("set Point = 0.5, 1", "set Point = 0.5, 1, 2"),
-                 { "section 'Histories/ux'", "Point = 0.5, 1, 2",
-                   "2 numbers" });
+  expect_refused(
+      with("set Poisson's ratio = 0.15", "set Poisson's ratio = 0.5"),
+      { "section 'Materials/brick'", "Poisson's ratio = 0.5" });
+  expect_refused(
+      with("set Young's modulus = 16.7e9", "set Young's modulus = -1"),
+      { "section 'Materials/brick'", "Young's modulus = -1" });
+  expect_refused(
+      with("set Share of critical time step = 0.5",
+           "set Share of critical time step = 1.5"),
+      { "section 'Time stepping'", "Share of critical time step = 1.5" });
+  expect_refused(
+      with("set Stress = -1e6, -2e6, 0", "set Stress = -1e6, -2e6"),
+      { "section 'Loads/insitu'", "Stress = -1e6, -2e6", "3 numbers" });
+  expect_refused(
+      with("set Point = 0.5, 1", "set Point = 0.5, 1, 2"),
+      { "section 'Histories/ux'", "Point = 0.5, 1, 2", "2 numbers" });
   expect_refused(with("set Interval = 1e-3", "set Interval = -1"),
                  { "section 'Histories'", "Interval = -1" });
   expect_refused(with("set Field interval = 0.1", "set Field interval = -1"),
@@ -308,19 +307,18 @@ TEST(Parameters, WrongNumbers)
 
 TEST(Parameters, StagesMustFollowOneAnother)
 {
-  expect_refused(with("set Start time = 0.25", "set Start time = 0.2"),
-                 { "section 'Stages/shear'", "Start time = 0.2", "overlap",
-                   "0.25 s" });
+  expect_refused(
+      with("set Start time = 0.25", "set Start time = 0.2"),
+      { "section 'Stages/shear'", "Start time = 0.2", "overlap", "0.25 s" });
   expect_refused(with("set Start time = 0.25", "set Start time = 0.3"),
                  { "section 'Stages/shear'", "Start time = 0.3", "gap" });
   // When a static stage ends is not known beforehand.
+  expect_refused(with("set Names = preload, shear, rest",
+                      "set Names = preload, rest, shear"),
+                 { "section 'Stages/rest'", "Start time = 0.75", "gap" });
   expect_refused(
-      with("set Names = preload, shear, rest",
-           "set Names = preload, rest, shear"),
-      { "section 'Stages/rest'", "Start time = 0.75", "gap" });
-  expect_refused(with("set Duration = 0.25", "set End = static ratio"),
-                 { "section 'Stages/shear'", "Start time = 0.25",
-                   "previous end" });
+      with("set Duration = 0.25", "set End = static ratio"),
+      { "section 'Stages/shear'", "Start time = 0.25", "previous end" });
   expect_refused(with("set Names = preload, shear, rest", "set Names ="),
                  { "Stages" });
 }
@@ -349,8 +347,7 @@ TEST(Parameters, ReactionsNeedALoad)
 
 TEST(Parameters, PairsOfSurfaces)
 {
-  EXPECT_TRUE(
-      Case(with("rock:brick", "all")).read().split.between_all);
+  EXPECT_TRUE(Case(with("rock:brick", "all")).read().split.between_all);
   expect_refused(with("rock:brick", "rock:brick:clay"),
                  { "section 'Mesh'", "rock:brick:clay" });
 }

@@ -75,9 +75,8 @@ TEST(ParameterSection, ErrorsNameFileSectionParameterAndValue)
   const ParameterSection outer(top, "Outer");
   const ParameterSection inner(outer, "Inner");
   const std::string where = "dir/case.prm, section 'Outer/Inner': ";
-  const auto error        = [](const auto &task) {
-    return message_of<InputError>(task);
-  };
+  const auto error
+      = [](const auto &task) { return message_of<InputError>(task); };
 
   EXPECT_EQ(error([&] { inner.positive("Zero"); })
                 .find(where + "'Zero = 0' must be positive"),
@@ -94,9 +93,11 @@ TEST(ParameterSection, ErrorsNameFileSectionParameterAndValue)
   EXPECT_EQ(error([&] { inner.numbers<3>("Words"); })
                 .find(where + "'Words = a, b c ,d' must be 3 numbers"),
             0U);
-  EXPECT_EQ(error([&] {
-              inner.choice<int>("Flag", { { "on", 1 }, { "off", 0 } });
-            }).find(where + "'Flag = yes' must be one of: on, off."),
+  EXPECT_EQ(error(
+                [&] {
+                  inner.choice<int>("Flag", { { "on", 1 }, { "off", 0 } });
+                })
+                .find(where + "'Flag = yes' must be one of: on, off."),
             0U);
   EXPECT_EQ(inner.choice<int>("Flag", { { "no", 1 }, { "yes", 7 } }), 7);
 }

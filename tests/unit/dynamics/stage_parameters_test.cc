@@ -83,9 +83,9 @@ TEST(StageParameters, OnlyTheChosenDampingActs)
   EXPECT_EQ(adaptive.mass_coefficient, 0.);
   EXPECT_EQ(adaptive.stiffness_coefficient, 0.);
   // The scaled step is of no account without mass scaling.
-  EXPECT_EQ(read("set Duration = 1\nset Scaled time step = 1\n")
-                .scaled_time_step,
-            0.);
+  EXPECT_EQ(
+      read("set Duration = 1\nset Scaled time step = 1\n").scaled_time_step,
+      0.);
 }
 
 TEST(StageParameters, RefusesWhatMakesNoSense)

@@ -240,8 +240,8 @@ TEST(CoulombLaw, DilationIsSolvedWithTheNormalTraction)
 
 TEST(CoulombLaw, DilationInEitherSense)
 {
-  CoulombLaw law = brittle();
-  law.dilation   = 0.3;
+  CoulombLaw law   = brittle();
+  law.dilation     = 0.3;
   JointPoint forth = fresh(), back = fresh();
   law.update(forth, -1e-4, 2e-3);
   law.update(back, -1e-4, -2e-3);
@@ -340,15 +340,14 @@ TEST(CoulombLaw, WorkOnClosedPathsIsStoredOrDissipated)
       law.residual.cohesion           = residual_cohesion;
       law.dilation                    = dilation;
       law.critical_shear_displacement = 5e-3;
-      JointPoint point = { -0.7e6, 0.2e6, -0.2e6 / ks, 0.7e6 / kn,
-                           JointState::intact };
+      JointPoint point
+          = { -0.7e6, 0.2e6, -0.2e6 / ks, 0.7e6 / kn, JointState::intact };
       Ledger ledger;
-      const double stored = law.stored_energy(point, 0.);
+      const double stored  = law.stored_energy(point, 0.);
       unsigned int n_slips = 0, n_sticks = 0;
       for (unsigned int i = 0; i < 20000; ++i)
       {
-        const double slip
-            = 4e-3 * std::sin(2e-3 * i) + 2e-4 * uniform(random);
+        const double slip = 4e-3 * std::sin(2e-3 * i) + 2e-4 * uniform(random);
         const double opening
             = point.plastic_opening - (1.1 + uniform(random)) * 2e-4;
         ledger.move(law, point, opening, slip);
@@ -428,8 +427,7 @@ TEST(CoulombLaw, BreakingInTensionUnderShearTakesBothEnergies)
         + shear * shear / (2. * ks);
   EXPECT_NEAR(ledger.fracture, expected, 3e-3 * expected);
   EXPECT_EQ(ledger.friction, 0.);
-  EXPECT_NEAR(ledger.work
-                  - law.stored_energy(point, ledger.opening)
+  EXPECT_NEAR(ledger.work - law.stored_energy(point, ledger.opening)
                   - ledger.fracture,
               0., 1e-12 * ledger.turnover);
 }
@@ -441,15 +439,14 @@ TEST(CoulombLaw, OpeningAfterSlipTakesTheShearEnergy)
   const double slip    = 2e6 / ks;
   const double stored  = law.stored_energy(point, -1e6 / kn);
   Ledger ledger;
-  ledger.opening = -1e6 / kn;
-  ledger.slip    = slip;
+  ledger.opening     = -1e6 / kn;
+  ledger.slip        = slip;
   const double shear = point.shear_traction;
   EXPECT_NEAR(shear, 1e6 * mu, 1e-3);
   for (unsigned int i = 1; i <= 1001; ++i)
     ledger.move(law, point, (i - 1000.) / 1000. * 1e6 / kn, slip);
   EXPECT_EQ(point.state, JointState::open);
   EXPECT_EQ(ledger.fracture, 0.);
-  EXPECT_NEAR(ledger.work - (0. - stored) - ledger.friction, 0.,
-              1e-3 * stored);
+  EXPECT_NEAR(ledger.work - (0. - stored) - ledger.friction, 0., 1e-3 * stored);
   EXPECT_NEAR(ledger.friction, 0.5 * shear * shear / ks, 1e-2 * stored);
 }

@@ -40,15 +40,16 @@ namespace
 
 TEST(JointParameters, Coulomb)
 {
-  const auto set = read(stiffnesses + "set Curves = bed, head\n"
-                                      "set Cohesion = 0.375e6\n"
-                                      "set Friction angle = 45\n"
-                                      "set Tensile strength = 0.25e6\n"
-                                      "set Dilation angle = 30\n"
-                                      "set Critical shear displacement = 2e-3\n"
-                                      "set Residual cohesion = 1e3\n"
-                                      "set Residual friction angle = 60\n"
-                                      "set Residual tensile strength = 2e3\n");
+  const auto set = read(stiffnesses
+                        + "set Curves = bed, head\n"
+                          "set Cohesion = 0.375e6\n"
+                          "set Friction angle = 45\n"
+                          "set Tensile strength = 0.25e6\n"
+                          "set Dilation angle = 30\n"
+                          "set Critical shear displacement = 2e-3\n"
+                          "set Residual cohesion = 1e3\n"
+                          "set Residual friction angle = 60\n"
+                          "set Residual tensile strength = 2e3\n");
   EXPECT_EQ(set.name, "bed");
   EXPECT_EQ(set.curves, (std::vector<std::string>{ "bed", "head" }));
   EXPECT_EQ(set.law.normal_stiffness, 82e9);
@@ -65,9 +66,10 @@ TEST(JointParameters, Coulomb)
 
 TEST(JointParameters, OwnNameSameFrictionAndNoResidualByDefault)
 {
-  const auto set = read(stiffnesses + "set Cohesion = 1e6\n"
-                                      "set Friction angle = 45\n"
-                                      "set Tensile strength = 1e5\n");
+  const auto set = read(stiffnesses
+                        + "set Cohesion = 1e6\n"
+                          "set Friction angle = 45\n"
+                          "set Tensile strength = 1e5\n");
   EXPECT_EQ(set.curves, (std::vector<std::string>{ "bed" }));
   EXPECT_EQ(set.law.residual.cohesion, 0.);
   EXPECT_EQ(set.law.residual.tension, 0.);
@@ -87,9 +89,10 @@ TEST(JointParameters, Elastic)
 
 TEST(JointParameters, NoTension)
 {
-  const auto set = read(stiffnesses + "set Law = no tension\n"
-                                      "set Cohesion = 1e6\n"
-                                      "set Friction angle = 45\n");
+  const auto set = read(stiffnesses
+                        + "set Law = no tension\n"
+                          "set Cohesion = 1e6\n"
+                          "set Friction angle = 45\n");
   EXPECT_EQ(set.law.peak.tension, 0.);
   EXPECT_EQ(set.law.residual.tension, 0.);
   EXPECT_EQ(set.law.residual.cohesion, 1e6);

@@ -25,8 +25,7 @@ namespace
   void expect_refused(const std::string &text, const std::string &setting,
                       const std::string &why)
   {
-    const std::string message
-        = message_of<InputError>([&] { read(text); });
+    const std::string message = message_of<InputError>([&] { read(text); });
     EXPECT_EQ(message.find("wall.prm, section 'push': '" + setting + "' "), 0U)
         << message;
     EXPECT_NE(message.find(why), std::string::npos) << message;
@@ -119,10 +118,10 @@ TEST(LoadParameters, TablesLieNextToTheParameterFile)
 
 TEST(LoadParameters, RefusesWhatMakesNoSense)
 {
-  expect_refused("set Type = traction\nset Vertical = 1\n", "Boundary = ",
-                 "must name a physical curve");
-  expect_refused("set Type = viscous boundary\n", "Boundary = ",
-                 "must name a physical curve");
+  expect_refused("set Type = traction\nset Vertical = 1\n",
+                 "Boundary = ", "must name a physical curve");
+  expect_refused("set Type = viscous boundary\n",
+                 "Boundary = ", "must name a physical curve");
   expect_refused("set Type = prescribed motion\nset Horizontal = 0\n",
                  "Boundary = ", "must name a physical curve");
   expect_refused("set Type = traction\nset Boundary = top\n"

@@ -28,9 +28,8 @@ namespace
   {
     const TemporaryDirectory directory;
     write(directory / "t.csv", text);
-    return message_of<InputError>([&] {
-      TimeFunction("table t.csv", directory.path() + "/");
-    });
+    return message_of<InputError>(
+        [&] { TimeFunction("table t.csv", directory.path() + "/"); });
   }
 } // namespace
 
@@ -87,9 +86,8 @@ TEST(TimeFunction, TablesAreLinearAndConstantBeyondTheirEnds)
                              "\n"
                              "4,-20\r\n");
   const std::string folder = directory.path() + "/";
-  const auto value         = [&](const double t) {
-    return at("table t.csv", t, 1000., folder);
-  };
+  const auto value
+      = [&](const double t) { return at("table t.csv", t, 1000., folder); };
   EXPECT_EQ(value(-5.), 10.);
   EXPECT_EQ(value(1.), 10.);
   EXPECT_DOUBLE_EQ(value(1.25), 12.5);
@@ -111,7 +109,8 @@ TEST(TimeFunction, CommentsBetweenTheRowsOfATable)
 
 TEST(TimeFunction, BadTables)
 {
-  const auto expect = [](const std::string &message, const std::string &part) {
+  const auto expect = [](const std::string &message, const std::string &part)
+  {
     EXPECT_NE(message.find(part), std::string::npos) << message;
     EXPECT_NE(message.find("t.csv"), std::string::npos) << message;
   };

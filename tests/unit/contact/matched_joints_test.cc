@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../dynamics/test_models.h"
+
+#include <quoin/contact/matched_joints.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  constexpr double kn        = 8e9;
+  constexpr double ks        = 3e9;
+  constexpr double thickness = 0.3;
+  constexpr double degree    = 3.14159265358979323846 / 180.;
+
+  /** The joint between two stacked blocks, the whole turned by an angle. */
+  struct Stack
+  {
+    BlockMesh<2> mesh;
+    MatchedJoints joints;
+    State state;
+    AlignedArray<NodeVector> force;
+    EnergyAccounts energy;
+
+    explicit Stack(const unsigned int nx = 1, const double angle = 0.,
+                   const JointSetParameters &set = elastic_joint(kn, ks))
+    {
+      make_stack(mesh, nx, 1);
+      const double c = std::cos(angle), s = std::sin(angle);
+      for (auto &p : mesh.vertices)
+        p = { c * p[0] - s * p[1], s * p[0] + c * p[1] };
+      joints.prepare(mesh, exchange(), { set }, thickness);
+      state.joints.resize(joints.n_points());
+      for (const auto &p : mesh.vertices)
+        state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
+    }
+
+    NodeExchange exchange() const
+    {
+      return NodeExchange(0, mesh.n_vertices(), mesh.n_vertices(), {},
+                          MPI_COMM_SELF);
+    }
+
+    void move_upper(const double x, const double y)
+    {
+      for (unsigned int v = mesh.block_first_vertex[1];
+           v < mesh.block_first_vertex[2]; ++v)
+      {
+        state.nodes[v].u[0] += x;
+        state.nodes[v].u[1] += y;
+      }
+    }
+
+    void find_forces()
+    {
+      force.assign(mesh.n_vertices(), NodeVector{ { 0., 0. } });
+      joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
+    }
+
+    std::array<double, 2> total(const unsigned int block) const
+    {
+      std::array<double, 2> sum{};
+      for (unsigned int v = mesh.block_first_vertex[block];
+           v < mesh.block_first_vertex[block + 1]; ++v)
+        for (unsigned int d = 0; d < 2; ++d)
+          sum[d] += force[v].v[d];
+      return sum;
+    }
+
+    /** Expects the force @p x, @p y on the lower block, its opposite above. */
+    void expect_on_lower(const double x, const double y,
+                         const double tolerance) const
+    {
+      EXPECT_NEAR(total(0)[0], x, tolerance);
+      EXPECT_NEAR(total(0)[1], y, tolerance);
+      EXPECT_NEAR(total(1)[0], -x, tolerance);
+      EXPECT_NEAR(total(1)[1], -y, tolerance);
+    }
+  };
+
+  JointSetParameters frictional()
+  {
+    JointSetParameters set = elastic_joint(kn, ks);
+    set.law.peak           = { 0., 0.5, 0. };
+    set.law.residual       = set.law.peak;
+    return set;
+  }
+} // namespace
+
+TEST(MatchedJoints, TributaryAreasSumToTheJoint)
+{
+  for (const double angle : { 0., 50. * degree })
+  {
+    const Stack stack(3, angle);
+    ASSERT_EQ(stack.joints.n_segments(), 3U);
+    ASSERT_EQ(stack.joints.n_points(), 6U);
+    double area = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      EXPECT_NEAR(stack.joints.segment(i).area, 0.5 * thickness, 1e-15);
+      EXPECT_EQ(stack.joints.segment(i).share, 1.f);
+      area += 2. * stack.joints.segment(i).area;
+    }
+    EXPECT_NEAR(area, 3. * thickness, 1e-14);
+  }
+}
+
+TEST(MatchedJoints, UniformOpeningAndSlip)
+{
+  Stack stack(2);
+  const double slip = 2e-4, opening = 5e-4, area = 2. * thickness;
+  stack.move_upper(slip, opening);
+  for (unsigned int i = 0; i < 2; ++i)
+    for (const auto &[o, s] : stack.joints.gaps(stack.state.nodes.data(), i))
+    {
+      EXPECT_NEAR(o, opening, 1e-18);
+      EXPECT_NEAR(s, slip, 1e-18);
+    }
+  stack.find_forces();
+  stack.expect_on_lower(area * ks * slip, area * kn * opening, 1e-6);
+  for (unsigned int p = 0; p < 4; ++p)
+  {
+    EXPECT_NEAR(stack.state.joints.normal_traction[p], kn * opening, 1e-6);
+    EXPECT_NEAR(stack.state.joints.shear_traction[p], ks * slip, 1e-6);
+  }
+
+  // Half as much at the ends of the joint as in its middle.
+  for (const double x : { 0., 1., 2. })
+    for (const unsigned int v : vertices_at(stack.mesh, x, 1.))
+    {
+      const double share = (x == 1. ? 0.5 : 0.25)
+                           * (stack.mesh.block_of_vertex(v) == 0 ? 1. : -1.);
+      EXPECT_NEAR(stack.force[v].v[0], share * area * ks * slip, 1e-6);
+      EXPECT_NEAR(stack.force[v].v[1], share * area * kn * opening, 1e-6);
+    }
+  EXPECT_NEAR(
+      stack.joints.stored_energy(stack.state.nodes.data(), stack.state.joints),
+      0.5 * area * (kn * opening * opening + ks * slip * slip), 1e-9);
+}
+
+TEST(MatchedJoints, NoForceOnNodesOffTheJoint)
+{
+  Stack stack;
+  stack.move_upper(1e-3, -2e-3);
+  stack.find_forces();
+  for (const double y : { 0., 2. })
+    for (const double x : { 0., 1. })
+      for (const unsigned int v : vertices_at(stack.mesh, x, y))
+      {
+        EXPECT_EQ(stack.force[v].v[0], 0.);
+        EXPECT_EQ(stack.force[v].v[1], 0.);
+      }
+}
+
+TEST(MatchedJoints, AHeadJointSlipsUpwards)
+{
+  // The block on the right is the upper one; moving it down is slip too.
+  const Stack flat;
+  Stack stack(1, -90. * degree);
+  stack.move_upper(5e-4, -2e-4);
+  const auto gaps = stack.joints.gaps(stack.state.nodes.data(), 0);
+  for (const auto &[opening, slip] : gaps)
+  {
+    EXPECT_NEAR(opening, 5e-4, 1e-15);
+    EXPECT_NEAR(slip, 2e-4, 1e-15);
+  }
+}
+
+TEST(MatchedJoints, TheFrameTurnsWithTheBlocks)
+{
+  Stack stack(2);
+  const double angle = 37. * degree;
+  const double c = std::cos(angle), s = std::sin(angle);
+  for (NodeRecord &node : stack.state.nodes)
+  {
+    const double x = node.X[0] - 3., y = node.X[1] + 1.;
+    node.u[0] = c * x - s * y - x + 0.7;
+    node.u[1] = s * x + c * y - y - 0.2;
+  }
+  for (unsigned int i = 0; i < 2; ++i)
+    for (const auto &gap : stack.joints.gaps(stack.state.nodes.data(), i))
+    {
+      EXPECT_NEAR(gap[0], 0., 1e-15);
+      EXPECT_NEAR(gap[1], 0., 1e-15);
+    }
+  stack.find_forces();
+  stack.expect_on_lower(0., 0., 1e-15 * kn);
+
+  // What opens and slips in the turned frame pulls in the turned frame.
+  const double opening = 3e-4, slip = -1e-4, area = 2. * thickness;
+  stack.move_upper(slip * c - opening * s, slip * s + opening * c);
+  stack.find_forces();
+  const double fn = area * kn * opening, fs = area * ks * slip;
+  stack.expect_on_lower(fs * c - fn * s, fs * s + fn * c, 1e-11 * fn);
+}
+
+TEST(MatchedJoints, TheFrameIsTheMeanOfBothSides)
+{
+  // The upper side turns by a small angle about the middle of the joint.
+  Stack stack;
+  const double angle = 2e-3;
+  for (unsigned int v = stack.mesh.block_first_vertex[1];
+       v < stack.mesh.block_first_vertex[2]; ++v)
+  {
+    NodeRecord &node = stack.state.nodes[v];
+    const double x = node.X[0] - 0.5, y = node.X[1] - 1.;
+    node.u[0] = (std::cos(angle) - 1.) * x - std::sin(angle) * y;
+    node.u[1] = std::sin(angle) * x + (std::cos(angle) - 1.) * y;
+  }
+  // Half the angle lies on either side, so the gap is normal to the frame.
+  const auto gaps = stack.joints.gaps(stack.state.nodes.data(), 0);
+  for (const auto &[opening, slip] : gaps)
+  {
+    EXPECT_NEAR(std::abs(opening), std::sin(0.5 * angle), 1e-15);
+    EXPECT_NEAR(slip, 0., 1e-15);
+  }
+  EXPECT_NEAR(gaps[0][0] + gaps[1][0], 0., 1e-15);
+}
+
+TEST(MatchedJoints, InitialStressBecomesTraction)
+{
+  const double xx = -3e6, yy = -7e6, xy = 0.9e6;
+  for (const double angle : { 0., 30. * degree, -60. * degree })
+  {
+    Stack stack(2, angle);
+    stack.joints.initialise({ { { xx, yy, xy } }, { { xx, yy, xy } } },
+                            stack.state, stack.state.joints);
+    // The normal of a joint turned by the angle, and the tangent.
+    const double n[2]        = { -std::sin(angle), std::cos(angle) };
+    const double t[2]        = { n[1], -n[0] };
+    const double traction[2] = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
+    for (unsigned int p = 0; p < 4; ++p)
+    {
+      EXPECT_NEAR(stack.state.joints.normal_traction[p],
+                  traction[0] * n[0] + traction[1] * n[1], 1e-6);
+      EXPECT_NEAR(stack.state.joints.shear_traction[p],
+                  traction[0] * t[0] + traction[1] * t[1], 1e-6);
+    }
+    // At rest the first step must not change it.
+    stack.find_forces();
+    const double area = 2. * thickness;
+    stack.expect_on_lower(area * traction[0], area * traction[1], 1e-6);
+    EXPECT_EQ(stack.state.joints.state[0], JointState::intact);
+  }
+}
+
+TEST(MatchedJoints, BoundIsExactForTwoMassesAndASpring)
+{
+  const double angle = 30. * degree;
+  Stack stack(1, angle);
+  std::vector<double> mass;
+  for (unsigned int v = 0; v < stack.mesh.n_vertices(); ++v)
+    mass.push_back(1. + 0.37 * v * v);
+  std::vector<std::array<double, 3>> bound(mass.size(), { { 0., 0., 0. } });
+  stack.joints.add_stiffness_bound(stack.state.nodes.data(), mass, bound);
+
+  const double n[2]  = { -std::sin(angle), std::cos(angle) };
+  const double t[2]  = { n[1], -n[0] };
+  const auto segment = stack.joints.segment(0);
+  for (unsigned int k = 0; k < 2; ++k)
+  {
+    const unsigned int a = segment.lower[k], b = segment.upper[k];
+    for (const unsigned int v : { a, b })
+    {
+      const auto &[xx, yy, xy] = bound[v];
+      // omega^2 = k (1/m_a + 1/m_b), in both directions.
+      const double inverse = 1. / mass[a] + 1. / mass[b];
+      const double area    = 0.5 * thickness;
+      EXPECT_NEAR((xx * n[0] * n[0] + yy * n[1] * n[1] + 2. * xy * n[0] * n[1])
+                      / mass[v],
+                  area * kn * inverse, 1e-12 * kn);
+      EXPECT_NEAR((xx * t[0] * t[0] + yy * t[1] * t[1] + 2. * xy * t[0] * t[1])
+                      / mass[v],
+                  area * ks * inverse, 1e-12 * kn);
+      EXPECT_NEAR(xx * n[0] * t[0] + yy * n[1] * t[1]
+                      + xy * (n[0] * t[1] + n[1] * t[0]),
+                  0., 1e-12 * kn * mass[v]);
+    }
+  }
+  for (unsigned int v = 0; v < mass.size(); ++v)
+    if (std::abs(stack.mesh.vertices[v][1] * std::cos(angle)
+                 - stack.mesh.vertices[v][0] * std::sin(angle) - 1.)
+        > 0.1)
+    {
+      EXPECT_EQ(bound[v][0] + bound[v][1], 0.);
+    }
+}
+
+TEST(MatchedJoints, ViscousForcesOfStickingPoints)
+{
+  Stack stack(1, 0., frictional());
+  stack.move_upper(0., -1e-4);
+  stack.find_forces();
+  AlignedArray<NodeVector> velocity(stack.mesh.n_vertices(),
+                                    NodeVector{ { 0., 0. } });
+  for (unsigned int v = stack.mesh.block_first_vertex[1];
+       v < stack.mesh.block_first_vertex[2]; ++v)
+    velocity[v] = { { 0.3, -0.2 } };
+
+  const double beta = 1e-4;
+  const auto damp   = [&]()
+  {
+    stack.force.assign(stack.mesh.n_vertices(), NodeVector{ { 0., 0. } });
+    stack.joints.add_viscous_forces(stack.state.nodes.data(),
+                                    stack.state.joints, velocity.data(), beta,
+                                    stack.force.data());
+  };
+  damp();
+  stack.expect_on_lower(thickness * beta * ks * 0.3,
+                        -thickness * beta * kn * 0.2, 1e-8);
+
+  stack.state.joints.state[0] = JointState::slipping;
+  stack.state.joints.state[1] = JointState::slipped;
+  damp();
+  stack.expect_on_lower(0.5 * thickness * beta * ks * 0.3,
+                        -0.5 * thickness * beta * kn * 0.2, 1e-8);
+  stack.state.joints.state[1] = JointState::open;
+  damp();
+  stack.expect_on_lower(0., 0., 0.);
+}
+
+TEST(MatchedJoints, BooksFrictionPerArea)
+{
+  Stack stack(2, 0., frictional());
+  const double sigma = 1e6, area = 2. * thickness;
+  stack.move_upper(0., -sigma / kn);
+  stack.find_forces();
+  EXPECT_EQ(stack.energy.friction, 0.);
+  // From the limit on, all further slip is inelastic at constant traction.
+  stack.move_upper(0.5 * sigma / ks, 0.);
+  stack.find_forces();
+  stack.move_upper(4e-3, 0.);
+  stack.find_forces();
+  EXPECT_NEAR(stack.energy.friction, area * 0.5 * sigma * 4e-3,
+              1e-9 * area * sigma);
+  EXPECT_EQ(stack.energy.fracture, 0.);
+  EXPECT_EQ(stack.state.joints.state[3], JointState::slipping);
+}
+
+TEST(MatchedJoints, CrackTipsAreHarmless)
+{
+  MeshData data;
+  add_grid(data, 2, 2, "rock");
+  add_curve(data, "crack", 0, 1, 1, 1);
+  SplitOptions options;
+  options.joints_along = { "crack" };
+  BlockMesh<2> mesh;
+  split_into_blocks(data, options, mesh);
+  ASSERT_EQ(mesh.n_blocks(), 1U);
+  ASSERT_EQ(mesh.joint_faces.size(), 1U);
+  const unsigned int n = mesh.n_vertices();
+
+  MatchedJoints joints;
+  joints.prepare(mesh, NodeExchange(0, n, n, {}, MPI_COMM_SELF),
+                 { elastic_joint(kn, ks, "crack") }, thickness);
+  const auto segment     = joints.segment(0);
+  const unsigned int tip = segment.lower[0] == segment.upper[0] ? 0 : 1;
+  ASSERT_EQ(segment.lower[tip], segment.upper[tip]);
+  ASSERT_NE(segment.lower[1 - tip], segment.upper[1 - tip]);
+
+  State state;
+  state.joints.resize(joints.n_points());
+  for (const auto &p : mesh.vertices)
+    state.nodes.push_back({ { p[0], p[1] }, { 0.01 * p[0], -0.02 * p[1] } });
+  state.nodes[segment.upper[1 - tip]].u[1] += 1e-4;
+  joints.initialise({ { { 2e5, 3e5, 1e5 } } }, state, state.joints);
+
+  AlignedArray<NodeVector> force(n, NodeVector{ { 0., 0. } });
+  EnergyAccounts energy;
+  joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
+  const auto gaps = joints.gaps(state.nodes.data(), 0);
+  EXPECT_EQ(gaps[tip][0], 0.);
+  EXPECT_EQ(gaps[tip][1], 0.);
+  EXPECT_EQ(force[segment.lower[tip]].v[0], 0.);
+  EXPECT_EQ(force[segment.lower[tip]].v[1], 0.);
+  EXPECT_NEAR(gaps[1 - tip][0], 1e-4, 1e-8);
+  EXPECT_NEAR(force[segment.lower[1 - tip]].v[1],
+              0.5 * thickness * (3e5 + kn * 1e-4), 1e2);
+
+  std::vector<std::array<double, 3>> bound(n, { { 0., 0., 0. } });
+  joints.add_stiffness_bound(state.nodes.data(), std::vector<double>(n, 1.),
+                             bound);
+  EXPECT_EQ(bound[segment.lower[tip]][0], 0.);
+  EXPECT_EQ(bound[segment.lower[tip]][1], 0.);
+  EXPECT_GT(bound[segment.lower[1 - tip]][1], 0.);
+}
+
+TEST(MatchedJoints, SetsActOnTheirOwnCurves)
+{
+  // Three blocks side by side; the set of the second joint comes first.
+  MeshData data;
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    add_grid(data, 1, 1, "rock", i, 0.);
+    if (i > 0)
+      add_curve(data, i == 1 ? "first" : "second", i, 0, i, 1);
+  }
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  const unsigned int n = mesh.n_vertices();
+  MatchedJoints joints;
+  joints.prepare(
+      mesh, NodeExchange(0, n, n, {}, MPI_COMM_SELF),
+      { elastic_joint(1e9, 1e8, "second"), elastic_joint(5e9, 5e8, "first") },
+      1.);
+  State state;
+  state.joints.resize(joints.n_points());
+  for (const auto &p : mesh.vertices)
+    state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
+  for (unsigned int b = 1; b < 3; ++b)
+    for (unsigned int v = mesh.block_first_vertex[b];
+         v < mesh.block_first_vertex[b + 1]; ++v)
+      state.nodes[v].u[0] = b * 1e-3;
+  AlignedArray<NodeVector> force(n, NodeVector{ { 0., 0. } });
+  EnergyAccounts energy;
+  joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
+  const double expected[3] = { 5e6, 1e6 - 5e6, -1e6 };
+  for (unsigned int b = 0; b < 3; ++b)
+  {
+    double sum = 0.;
+    for (unsigned int v = mesh.block_first_vertex[b];
+         v < mesh.block_first_vertex[b + 1]; ++v)
+      sum += force[v].v[0];
+    EXPECT_NEAR(sum, expected[b], 1e-3);
+  }
+}
+
+TEST(MatchedJoints, RefusesCurvesItCannotPlace)
+{
+  Stack stack;
+  const auto prepare = [&](const std::vector<JointSetParameters> &sets)
+  { MatchedJoints().prepare(stack.mesh, stack.exchange(), sets, thickness); };
+  expect_input_error([&] { prepare({ elastic_joint(1., 1., "crack") }); },
+                     { "Joints/crack", "'crack'", "'joint'", "Curves" });
+  auto again = elastic_joint(1., 1.);
+  again.name = "again";
+  expect_input_error(
+      [&] {
+        prepare({ elastic_joint(1., 1.), again });
+      },
+      { "Joints/again", "'joint'" });
+  expect_input_error([&] { prepare({ elastic_joint(1., 1., "top") }); },
+                     { "'joint'", "'lower'", "'upper'", "no joint set" });
+}
+
+TEST(MatchedJoints, UnnamedJointsHaveAWordOfTheirOwn)
+{
+  MeshData data;
+  add_grid(data, 1, 1, "lower");
+  add_grid(data, 1, 1, "upper", 0., 1.);
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  const NodeExchange exchange(0, 8, 8, {}, MPI_COMM_SELF);
+  MatchedJoints joints;
+  joints.prepare(mesh, exchange, { elastic_joint(kn, ks, "unnamed") }, 1.);
+  EXPECT_EQ(joints.n_segments(), 1U);
+  expect_input_error([&] { joints.prepare(mesh, exchange, {}, 1.); },
+                     { "'unnamed'", "'lower'", "'upper'" });
+}

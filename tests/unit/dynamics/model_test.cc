@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "test_models.h"
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  LoadParameters initial_stress(const std::array<double, 3> &stress,
+                                const std::array<double, 3> &gradient,
+                                const std::vector<std::string> &groups = {})
+  {
+    LoadParameters result;
+    result.name            = "insitu";
+    result.type            = LoadType::initial_stress;
+    result.stress          = stress;
+    result.stress_gradient = gradient;
+    result.groups          = groups;
+    return result;
+  }
+
+  void make_model(const BlockMesh<2> &mesh, const ModelParameters &parameters)
+  {
+    Model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+  }
+} // namespace
+
+TEST(Model, LumpsAThirdOfEachCell)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 1);
+  ModelParameters parameters = two_blocks();
+  parameters.materials = { material("upper", 3000.), material("lower", 1200.) };
+  const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+  ASSERT_EQ(model.mass().size(), 8U);
+  double mass[2]{};
+  for (unsigned int v = 0; v < 8; ++v)
+  {
+    const unsigned int block = mesh.block_of_vertex(v);
+    mass[block] += model.mass()[v];
+    // Two of the corners of a square belong to one triangle, two to both.
+    const double third = (block == 0 ? 1200. : 3000.) * 0.5 * 0.5 / 3.;
+    const auto &p      = mesh.vertices[v];
+    const bool both    = std::abs(p[0] - (p[1] - block)) < 1e-12;
+    EXPECT_DOUBLE_EQ(model.mass()[v], both ? 2. * third : third);
+  }
+  EXPECT_DOUBLE_EQ(mass[0], 1200. * 0.5);
+  EXPECT_DOUBLE_EQ(mass[1], 3000. * 0.5);
+  EXPECT_EQ(model.n_blocks(), 2U);
+  EXPECT_EQ(model.n_cells(), 4U);
+  EXPECT_EQ(model.thickness(), 0.5);
+}
+
+TEST(Model, ImpedanceOfWaves)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 1);
+  const double rho = 2500., E = 1e10, nu = 0.2;
+  for (const bool strain : { true, false })
+  {
+    ModelParameters parameters = two_blocks();
+    parameters.plane           = strain ? PlaneAssumption::plane_strain
+                                        : PlaneAssumption::plane_stress;
+    const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+    const double modulus = strain ? E * (1. - nu) / ((1. + nu) * (1. - 2. * nu))
+                                  : E / (1. - nu * nu);
+    ASSERT_EQ(model.impedance().size(), 2U);
+    EXPECT_NEAR(model.impedance()[1].normal, std::sqrt(rho * modulus), 1e-3);
+    EXPECT_NEAR(model.impedance()[1].shear,
+                std::sqrt(rho * E / (2. * (1. + nu))), 1e-3);
+  }
+}
+
+TEST(Model, StartsAtRestInPlace)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 1);
+  const Model model(mesh, { 0, 0 }, two_blocks(), MPI_COMM_SELF);
+  const State state = model.initial_state();
+  ASSERT_EQ(state.nodes.size(), mesh.n_vertices());
+  ASSERT_EQ(state.joints.state.size(), 4U);
+  for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      EXPECT_EQ(state.nodes[v].X[d], mesh.vertices[v][d]);
+      EXPECT_EQ(state.nodes[v].u[d], 0.);
+      EXPECT_EQ(state.velocity[v].v[d], 0.);
+    }
+  for (const double sigma : state.joints.normal_traction)
+    EXPECT_EQ(sigma, 0.);
+  EXPECT_EQ(state.time, 0.);
+  EXPECT_EQ(state.step, 0U);
+}
+
+TEST(Model, InitialStressInEquilibriumStaysAtRest)
+{
+  // Uniform stress, held by the tractions that belong to it. The joint is
+  // elastic, so that it may take what it gets.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  ModelParameters parameters  = two_blocks();
+  parameters.initial_stresses = { initial_stress({ { -1e6, -2e6, 0. } }, {}) };
+  Run run(mesh, parameters,
+          { traction("top", "top", "0", "-2e6"),
+            traction("bottom", "bottom", "0", "2e6"),
+            motion("sides", "sides", "0", "") });
+  for (unsigned int p = 0; p < run.model.joints().n_points(); ++p)
+  {
+    EXPECT_DOUBLE_EQ(run.state.joints.normal_traction[p], -2e6);
+    EXPECT_NEAR(run.state.joints.shear_traction[p], 0., 1e-9);
+  }
+  run.begin(stage_with({ "top", "bottom", "sides" }));
+  run.step(100);
+  for (const NodeVector &v : run.state.velocity)
+    for (unsigned int d = 0; d < 2; ++d)
+      // To rounding of forces of 1e6 N on 400 kg, a hundred times.
+      EXPECT_NEAR(v.v[d], 0., 1e-10 * run.dt() * 1e6 / 400. * 100.);
+  // The rollers carry the horizontal stress: both sides together nothing,
+  // the moment of either about the origin opposite.
+  EXPECT_NEAR(run.solver.resultant("sides")[0], 0., 1e-4);
+}
+
+TEST(Model, InitialStressOfAGroupAndWithDepth)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 1);
+  ModelParameters parameters = two_blocks();
+  parameters.initial_stresses
+      = { initial_stress({ { 0., -1e6, 0. } }, { { 0., 3e5, 0. } }),
+          initial_stress({ { -5e5, 0., 1e5 } }, {}, { "upper" }) };
+  const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+  const State state = model.initial_state();
+  for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+  {
+    double y = 0.;
+    for (const unsigned int v : mesh.cells[c])
+      y += mesh.vertices[v][1] / 3.;
+    const bool upper  = mesh.block_of_cell(c) == 1;
+    const auto stress = model.blocks().cell_stress(state.nodes.data(), c);
+    EXPECT_NEAR(stress[0], upper ? -5e5 : 0., 1e-6);
+    EXPECT_NEAR(stress[1], -1e6 + 3e5 * y, 1e-6);
+    EXPECT_NEAR(stress[2], upper ? 1e5 : 0., 1e-6);
+  }
+  // The joint takes the mean of the cells on its sides, at y = 2/3 and 4/3.
+  for (unsigned int p = 0; p < 2; ++p)
+  {
+    EXPECT_NEAR(state.joints.normal_traction[p], -1e6 + 3e5, 1e-6);
+    EXPECT_NEAR(state.joints.shear_traction[p], 0.5e5, 1e-6);
+  }
+}
+
+TEST(Model, RefusesGroupsWithoutMaterialAndJointsWithoutSet)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 1);
+  ModelParameters parameters = two_blocks();
+  parameters.materials       = { material("lower") };
+  expect_input_error([&] { make_model(mesh, parameters); },
+                     { "Materials", "'upper'", "no material" });
+
+  parameters.materials
+      = { material("lower"), material("upper"), material("marble") };
+  expect_input_error([&] { make_model(mesh, parameters); },
+                     { "Materials/marble", "'marble'", "lower, upper" });
+
+  parameters.materials = { material("lower"), material("upper") };
+  parameters.materials[1].groups.push_back("lower");
+  expect_input_error([&] { make_model(mesh, parameters); },
+                     { "Materials/upper", "'lower'", "already" });
+
+  parameters = two_blocks();
+  parameters.joints.clear();
+  expect_input_error([&] { make_model(mesh, parameters); },
+                     { "'joint'", "no joint set" });
+
+  parameters                  = two_blocks();
+  parameters.initial_stresses = { initial_stress({}, {}, { "marble" }) };
+  expect_input_error([&] { make_model(mesh, parameters); },
+                     { "Loads/insitu", "'marble'", "lower, upper" });
+}
