@@ -76,6 +76,11 @@ namespace quoin
     if (options.check)
       return;
     open_outputs();
+    if (record.state.stage == parameters.stages.size())
+    {
+      log.message("the run had finished: nothing is left to do");
+      return;
+    }
     last_checkpoint = Clock::now();
     for (unsigned int i = record.state.stage; i < parameters.stages.size(); ++i)
       run_stage(i);
@@ -113,6 +118,13 @@ namespace quoin
   {
     log.message(parameters.title.empty() ? parameters.file : parameters.title);
     log.message(mesh_report.to_text());
+    if (mesh_report.unmatched_length > 0.)
+      log.warning("outer edges lie on each other over "
+                  + number(mesh_report.unmatched_length)
+                  + " m without matching nodes, the first near ("
+                  + number(mesh_report.unmatched_position[0]) + ", "
+                  + number(mesh_report.unmatched_position[1])
+                  + ") m: no joint is made there. Mesh both sides alike.");
 
     // Each stage's step is found without starting it.
     State state = record.state;
@@ -358,6 +370,9 @@ namespace quoin
   void Simulation::write_fields()
   {
     const State &state = record.state;
+    if (state.time == record.fields_time)
+      return;
+    record.fields_time = state.time;
     record.block_output.write(state.time, block_fields(*model, state));
     record.joint_output.write(state.time, joint_fields(*model, state));
     all_or_none<RunError>(communicator,
@@ -452,6 +467,7 @@ namespace quoin
             { "unbalanced ratio", solver->unbalanced_ratio() },
             { "energy throughput [J]", solver->energies().throughput() },
             { "energy residual [J]", solver->energies().residual() },
+            { "largest energy residual [J]", record.largest_residual },
             { "energy residual share", energy_residual() } };
     if (finished && parameters.measure_bandwidth)
     {

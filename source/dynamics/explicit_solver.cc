@@ -169,9 +169,9 @@ namespace quoin
     captured.assign(nodes.size(), CapturedNode{});
     for (unsigned int c = 0; c < nodes.size(); ++c)
     {
-      captured[c].node    = nodes[c];
-      captured[c].mass    = mass[nodes[c]];
-      captured[c].free[0] = captured[c].free[1] = true;
+      captured[c].node     = nodes[c];
+      captured[c].mass     = mass[nodes[c]];
+      captured[c].owner[0] = captured[c].owner[1] = nullptr;
     }
     for (NodeConstraint *constraint : constraints_on)
     {
@@ -182,7 +182,7 @@ namespace quoin
                             - nodes.begin());
         for (unsigned int d = 0; d < 2; ++d)
           if (constraint->moves_all() || constraint->holds()[d])
-            captured[positions.back()].free[d] = false;
+            captured[positions.back()].owner[d] = constraint;
       }
       constraint->bind(std::move(positions));
     }
@@ -427,7 +427,7 @@ namespace quoin
     for (const CapturedNode &node : captured)
       for (unsigned int d = 0; d < 2; ++d)
       {
-        if (!node.free[d])
+        if (node.owner[d])
           continue;
         const double v0    = node.velocity.v[d];
         const double gain  = context.dt_velocity / (1. + a) / node.mass;

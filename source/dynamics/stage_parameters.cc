@@ -18,9 +18,9 @@ namespace quoin
     prm.declare_entry("Loads", "", Anything(),
                       "Names of the loads that act in this stage.");
     prm.declare_entry("End", "time", Selection("time|static ratio"),
-                      "What ends the stage: its duration, or that the mean "
-                      "unbalanced force has fallen to a share of the mean "
-                      "applied force.");
+                      "What ends the stage: its duration, or that the sum of "
+                      "the unbalanced forces has fallen to a share of that of "
+                      "the applied ones.");
     prm.declare_entry("Duration", "0", Double(), "For 'End = time' [s]");
     prm.declare_entry("Static ratio", "1e-6", Double(),
                       "Unbalanced to applied force at which a stage with "

@@ -25,32 +25,64 @@ namespace quoin
       }
     }
 
-    /** "free", or a function of time with or without its quantity before. */
-    LoadComponent component(const ParameterSection &section,
-                            const std::string &name,
-                            const LoadQuantity default_quantity)
+    /** What may stand before a function of time, and what it stands for. */
+    using Words = std::vector<std::pair<std::string, LoadQuantity>>;
+
+    const Words platen_words = { { "velocity", LoadQuantity::velocity },
+                                 { "displacement", LoadQuantity::displacement },
+                                 { "force", LoadQuantity::force } };
+    const Words rotation_words
+        = { { "velocity", LoadQuantity::velocity },
+            { "displacement", LoadQuantity::displacement },
+            { "moment", LoadQuantity::force } };
+
+    /** "free", or one of @p words and a function of time. */
+    LoadComponent platen_component(const ParameterSection &section,
+                                   const std::string &name, const Words &words)
     {
-      std::string text = section.text(name);
+      const std::string text = section.text(name);
       if (text == "free")
         return {};
-      LoadComponent result;
-      result.quantity = default_quantity;
-      for (const auto &[word, quantity] :
-           { std::make_pair("velocity ", LoadQuantity::velocity),
-             std::make_pair("displacement ", LoadQuantity::displacement),
-             std::make_pair("force ", LoadQuantity::force),
-             std::make_pair("moment ", LoadQuantity::force) })
-        if (text.rfind(word, 0) == 0)
+      std::string known = "'free'";
+      for (const auto &[word, quantity] : words)
+      {
+        if (text.rfind(word + " ", 0) == 0)
+          return { quantity,
+                   time_function(section, name, text.substr(word.size())) };
+        known += " or begin with '" + word + "'";
+      }
+      section.fail(name, "must be " + known + ".");
+    }
+
+    /**
+     * "free", or a function of time that stands for @p quantity. A prescribed
+     * motion may have 'velocity' or 'displacement' before it; other loads take
+     * no such word.
+     */
+    LoadComponent component(const ParameterSection &section,
+                            const std::string &name,
+                            const LoadQuantity quantity)
+    {
+      const std::string text = section.text(name);
+      if (text == "free")
+        return {};
+      const std::string type = section.text("Type");
+      for (const std::string word :
+           { "velocity", "displacement", "force", "moment" })
+        if (text.rfind(word + " ", 0) == 0)
         {
-          result.quantity = quantity;
-          text.erase(0, std::string(word).size());
-          break;
+          if (type == "prescribed motion"
+              && (word == "velocity" || word == "displacement"))
+            return platen_component(section, name, platen_words);
+          section.fail(name, "is a " + word + ", which a load of type '" + type
+                                 + "' does not take: give a plain function of "
+                                   "time"
+                                 + (type == "prescribed motion"
+                                        ? ", or use the type 'traction' or "
+                                          "'platen'."
+                                        : "."));
         }
-      if (result.quantity == LoadQuantity::free)
-        section.fail(name, "must be 'free' or begin with 'velocity', "
-                           "'displacement', 'force' or 'moment'.");
-      result.value = time_function(section, name, text);
-      return result;
+      return { quantity, time_function(section, name, text) };
     }
   } // namespace
 
@@ -119,11 +151,6 @@ namespace quoin
                         { "displacement", LoadQuantity::displacement } });
       load.components[0] = component(section, "Horizontal", quantity);
       load.components[1] = component(section, "Vertical", quantity);
-      for (unsigned int c = 0; c < 2; ++c)
-        if (load.components[c].quantity == LoadQuantity::force)
-          section.fail(c == 0 ? "Horizontal" : "Vertical",
-                       "is a force; a prescribed motion takes none. "
-                       "Use a load of type 'traction' or 'platen'.");
       break;
     }
     case LoadType::traction:
@@ -139,10 +166,12 @@ namespace quoin
                                      LoadQuantity::velocity);
       break;
     case LoadType::platen:
-      load.groups        = section.list("Group");
-      load.components[0] = component(section, "Horizontal", LoadQuantity::free);
-      load.components[1] = component(section, "Vertical", LoadQuantity::free);
-      load.components[2] = component(section, "Rotation", LoadQuantity::free);
+      load.groups = section.list("Group");
+      load.components[0]
+          = platen_component(section, "Horizontal", platen_words);
+      load.components[1] = platen_component(section, "Vertical", platen_words);
+      load.components[2]
+          = platen_component(section, "Rotation", rotation_words);
       if (load.groups.empty() == load.boundaries.empty())
         section.fail("Group", "and 'Boundary': a platen takes one of the two.");
       break;

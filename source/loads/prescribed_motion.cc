@@ -69,7 +69,7 @@ namespace quoin
       double reaction[2]         = { 0., 0. };
       for (unsigned int d = 0; d < 2; ++d)
       {
-        if (components[d].quantity == LoadQuantity::free)
+        if (before.owner[d] != this)
           continue;
         const double after = state.velocity[before.node].v[d];
         reaction[d]

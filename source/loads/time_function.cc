@@ -5,6 +5,7 @@
 #include <quoin/loads/time_function.h>
 
 #include <deal.II/base/function_parser.h>
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <fstream>
@@ -30,7 +31,8 @@ namespace quoin
       {
         ++number;
         std::replace(line.begin(), line.end(), ',', ' ');
-        std::istringstream words(line.substr(0, line.find('#')));
+        line = line.substr(0, line.find('#'));
+        std::istringstream words(line);
         double time, value;
         if (words >> time >> value)
         {
@@ -65,8 +67,10 @@ namespace quoin
     }
   } // namespace
 
-  TimeFunction::TimeFunction(const std::string &text, const std::string &folder)
+  TimeFunction::TimeFunction(const std::string &given,
+                             const std::string &folder)
   {
+    const std::string text = dealii::Utilities::trim(given);
     if (text.rfind("table ", 0) == 0)
     {
       std::string name = text.substr(6);

@@ -105,6 +105,8 @@ namespace quoin
           = { cxx * mean[0] + cxy * mean[1], cxy * mean[0] + cyy * mean[1] };
       for (unsigned int d = 0; d < 2; ++d)
       {
+        if (before.owner[d] != this)
+          continue;
         const double incident = vn * dashpot.normal[d] + vs * dashpot.shear[d];
         const double w0       = 0.5 * step.dt_before * v0[d];
         const double w1       = 0.5 * step.dt * v1[d];
@@ -112,6 +114,9 @@ namespace quoin
         state.pending.external += incident * w1;
         state.energy.viscous += drag[d] * w0;
         state.pending.viscous += drag[d] * w1;
+        const double rayleigh = step.mass_damping * before.mass * mean[d];
+        state.energy.damping += rayleigh * w0;
+        state.pending.damping += rayleigh * w1;
         last_resultant[d] += incident - drag[d];
       }
     }

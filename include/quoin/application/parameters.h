@@ -37,7 +37,7 @@ namespace quoin
     double checkpoint_interval = 60.; /**< [s] */
     bool measure_bandwidth     = false;
 
-    /** All values, as text that can be run again. */
+    /** All values; paths stay relative to the parameter file. */
     std::string effective;
   };
 

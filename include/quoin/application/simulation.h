@@ -54,17 +54,16 @@ namespace quoin
       std::uint64_t energies_bytes  = 0;
       BlockOutput block_output;
       JointOutput joint_output;
-      double wall_time             = 0.; /**< of the time loop [s] */
-      double largest_residual      = 0.; /**< of the energy balance */
-      double largest_kinetic_share = 0.; /**< per stage */
-      bool stage_begun             = false;
+      double wall_time        = 0.;  /**< of the time loop [s] */
+      double largest_residual = 0.;  /**< of the energy balance */
+      double fields_time      = -1.; /**< of the last VTU files [s] */
+      bool stage_begun        = false;
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &state &histories_bytes &energies_bytes &block_output
-            &joint_output &wall_time &largest_residual &largest_kinetic_share
-                &stage_begun;
+        archive &state &histories_bytes &energies_bytes &block_output &
+            joint_output &wall_time &largest_residual &fields_time &stage_begun;
       }
     };
 

@@ -39,7 +39,7 @@ namespace quoin
 
   /**
    * Central differences with velocities at half steps (@cite
-   * JinWangZhang2001, Eqs. 4-5) for one stage after the other.
+   * JinWangZhang1998, Eqs. 4-5) for one stage after the other.
    *
    * Because the kinetic energy 1/2 v(t-dt/2) m v(t+dt/2) changes by exactly
    * the trapezoidal work of the forces, every account is kept with that rule

@@ -68,7 +68,7 @@ namespace quoin
    * velocity. Against that of the half step before it would drive modes near
    * the critical step, whose velocity changes sign every step; so it acts
    * against the mean of @p v0 before and @p v1 after the step, at most
-   * bringing it to zero, and never does positive work.
+   * halving it, and never does positive work.
    *
    * @p strength is the share times |force| dt / m [m/s].
    */
@@ -82,7 +82,7 @@ namespace quoin
   /**
    * As advance_nodes(), with local and mass-proportional damping and the
    * stiffness-proportional damping forces @p viscous, which it clears too.
-   * Mass-proportional damping is centred in time (@cite JinWangZhang2001,
+   * Mass-proportional damping is centred in time (@cite JinWangZhang1998,
    * Eq. 5) and does not affect stability.
    *
    * @p mass and @p inverse_mass are both zero where a node does not move by

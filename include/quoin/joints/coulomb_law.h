@@ -54,7 +54,7 @@ namespace quoin
    * transfers no shear; it takes up shear afresh from where it closes.
    *
    * The elastic joint is this law with infinite strength, and the no-tension
-   * joint (@cite JinWangZhang2001, Eq. 1) this law with zero tension and
+   * joint (@cite JinWangZhang1998, Eq. 1) this law with zero tension and
    * residual strength equal to the peak; of their equation we drop the
    * cohesive shear of an open joint.
    */

@@ -13,6 +13,8 @@
 
 namespace quoin
 {
+  class NodeConstraint;
+
   /**
    * A node whose motion is not its own: what it had at the start of the step,
    * that is the force at t before local and mass damping, the velocity at
@@ -26,7 +28,8 @@ namespace quoin
     NodeVector velocity;
     NodeVector displacement;
     NodeVector viscous; /**< stiffness-proportional part of the force */
-    bool free[2];       /**< components that no constraint moves */
+    /** What moves each component: the last to act on it; null: nothing. */
+    const NodeConstraint *owner[2];
   };
 
   /** The step under way, from t to t + dt. */

@@ -18,8 +18,8 @@ namespace quoin
 
   /**
    * A value that depends on time alone: an expression of t (time in the
-   * stage) and T (total time), with pi and the functions of muParser and the
-   * step function heaviside(x); or "table FILE", a CSV file of times [s] in
+   * stage) and T (total time), with pi and the functions of muParser,
+   * if(condition, a, b) among them; or "table FILE", a CSV file of times [s] in
    * the stage and values, linear in between and constant beyond its ends.
    */
   class TimeFunction

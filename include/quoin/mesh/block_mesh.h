@@ -37,10 +37,8 @@ namespace quoin
    * Lower is the side whose normal points up (n_y > 0), and for upright edges
    * (|n_y| <= 1e-6) the one whose normal points right (n_x > 0). So lower is
    * the block below a bed joint, with t pointing left (t_x < 0), and the block
-   * left of a head joint, with t pointing up (t_y > 0). Slip, positive when
-   * the upper side moves along t, is then positive when the block above moves
-   * left, or when the block on the right moves up. The sides of a curved joint
-   * change places where its tangent is upright.
+   * left of a head joint, with t pointing up (t_y > 0). The sides of a curved
+   * joint change places where its tangent is upright.
    *
    * Where a joint ends inside a block the vertex there is not split:
    * lower[k] == upper[k] at such a tip.

@@ -1,10 +1,10 @@
 // Square blocks of 1 m, apart from each other, n_blocks x n_blocks of them with
-// n_edges edges on each side. Defaults: 196 blocks, about 100 000 triangles.
+// n_edges edges on each side. Defaults: 100 blocks, about 100 000 triangles.
 If (!Exists(n_blocks))
-  n_blocks = 14;
+  n_blocks = 10;
 EndIf
 If (!Exists(n_edges))
-  n_edges = 15;
+  n_edges = 21;
 EndIf
 Mesh.Algorithm = 6; // frontal
 

@@ -215,27 +215,37 @@ TEST(Parameters, OverridesReplaceAndExtend)
 {
   const Case it(good);
   const Parameters p = it.read({ "Thickness = 0.25", "Joints/bed/Cohesion=2e6",
-                                 "Stages/Names=preload",
-                                 "Loads/Names=base, insitu", "Title=a=b" });
+                                 "Stages/rest/Damping=adaptive", "Title=a=b",
+                                 "Histories/Names=ux,fy,vy",
+                                 "Histories/vy/Quantity=velocity y" });
   EXPECT_EQ(p.model.thickness, 0.25);
   EXPECT_EQ(p.model.joints[0].law.peak.cohesion, 2e6);
-  EXPECT_EQ(p.stages.size(), 1U);
+  EXPECT_EQ(p.stages[2].damping, DampingType::adaptive);
   EXPECT_EQ(p.title, "a=b");
+  ASSERT_EQ(p.histories.size(), 3U);
+  EXPECT_EQ(p.histories[2].quantity, HistoryQuantity::velocity);
 }
 
 TEST(Parameters, BadOverrides)
 {
   const Case it(good);
-  for (const std::string text : { "Thickness", "Thickness 3", "", "=3" })
+  const auto refusal = [&](const std::string &text)
+  { return message_of<InputError>([&] { it.read({ text }); }); };
+  for (const std::string text : { "Thickness", "Thickness 3", "", "=3", " =3" })
   {
-    const std::string message
-        = message_of<InputError>([&] { it.read({ text }); });
+    const std::string message = refusal(text);
     EXPECT_NE(message.find("--set '" + text + "'"), std::string::npos)
         << message;
     EXPECT_NE(message.find("Section/Name=value"), std::string::npos);
   }
-  expect_refused(good, { "Thicknes" }, { "Thicknes=3" });
-  expect_refused(good, { "Nowhere" }, { "Nowhere/Thickness=3" });
+  // What is wrong is on the command line, not in the file.
+  for (const std::string text :
+       { "Thicknes=3", "Nowhere/Thickness=3", "Loads/pull/Type=tractions" })
+  {
+    const std::string message = refusal(text);
+    EXPECT_NE(message.find("--set"), std::string::npos) << message;
+    EXPECT_NE(message.find(text), std::string::npos) << message;
+  }
   expect_refused(good, { "Thickness = -3", "positive" }, { "Thickness=-3" });
 }
 

@@ -154,10 +154,9 @@ TEST(MatchedJoints, NoForceOnNodesOffTheJoint)
       }
 }
 
-TEST(MatchedJoints, AHeadJointSlipsUpwards)
+TEST(MatchedJoints, SlipOfAHeadJoint)
 {
-  // The block on the right is the upper one; moving it down is slip too.
-  const Stack flat;
+  // The block on the right is the upper one; it slips when it moves down.
   Stack stack(1, -90. * degree);
   stack.move_upper(5e-4, -2e-4);
   const auto gaps = stack.joints.gaps(stack.state.nodes.data(), 0);
@@ -373,8 +372,8 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   const auto gaps = joints.gaps(state.nodes.data(), 0);
   EXPECT_EQ(gaps[tip][0], 0.);
   EXPECT_EQ(gaps[tip][1], 0.);
-  EXPECT_EQ(force[segment.lower[tip]].v[0], 0.);
-  EXPECT_EQ(force[segment.lower[tip]].v[1], 0.);
+  EXPECT_NEAR(force[segment.lower[tip]].v[0], 0., 1e-9);
+  EXPECT_NEAR(force[segment.lower[tip]].v[1], 0., 1e-9);
   EXPECT_NEAR(gaps[1 - tip][0], 1e-4, 1e-8);
   EXPECT_NEAR(force[segment.lower[1 - tip]].v[1],
               0.5 * thickness * (3e5 + kn * 1e-4), 1e2);

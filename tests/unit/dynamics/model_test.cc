@@ -102,10 +102,10 @@ TEST(Model, InitialStressInEquilibriumStaysAtRest)
   make_stack(mesh, 2, 2);
   ModelParameters parameters  = two_blocks();
   parameters.initial_stresses = { initial_stress({ { -1e6, -2e6, 0. } }, {}) };
-  Run run(mesh, parameters,
-          { traction("top", "top", "0", "-2e6"),
-            traction("bottom", "bottom", "0", "2e6"),
-            motion("sides", "sides", "0", "") });
+  TestRun run(mesh, parameters,
+              { traction("top", "top", "0", "-2e6"),
+                traction("bottom", "bottom", "0", "2e6"),
+                motion("sides", "sides", "0", "") });
   for (unsigned int p = 0; p < run.model.joints().n_points(); ++p)
   {
     EXPECT_DOUBLE_EQ(run.state.joints.normal_traction[p], -2e6);
@@ -178,5 +178,5 @@ TEST(Model, RefusesGroupsWithoutMaterialAndJointsWithoutSet)
   parameters                  = two_blocks();
   parameters.initial_stresses = { initial_stress({}, {}, { "marble" }) };
   expect_input_error([&] { make_model(mesh, parameters); },
-                     { "Loads/insitu", "'marble'", "lower, upper" });
+                     { "Loads/insitu", "marble", "lower, upper" });
 }

@@ -184,7 +184,7 @@ TEST(StableTimeStep, BoundsTheFrequencyWhereFourBlocksMeet)
     const double exact = exact_eigenvalue(model);
     const double bound = model.stability().largest_eigenvalue(model.mass());
     EXPECT_GE(bound, exact * (1. - 1e-6)) << kn;
-    EXPECT_LE(bound, 2. * exact) << kn;
+    EXPECT_LE(bound, 1.3 * exact) << kn;
   }
 }
 
@@ -195,7 +195,7 @@ TEST(StableTimeStep, RunsAtTheBoundStayBounded)
   for (const auto &[kn, ks] : joint_stiffnesses)
     for (const double beta : { 0., 2e-4 })
     {
-      Run run(mesh, two_blocks(kn, ks), {});
+      TestRun run(mesh, two_blocks(kn, ks), {});
       StageParameters stage = stage_with({}, beta > 0. ? DampingType::rayleigh
                                                        : DampingType::none);
       stage.stiffness_coefficient = beta;
@@ -213,7 +213,7 @@ TEST(StableTimeStep, RunsAboveTheLargestFrequencyBlowUp)
   make_stack(mesh, 2, 2);
   for (const auto &[kn, ks] : joint_stiffnesses)
   {
-    Run run(mesh, two_blocks(kn, ks), {});
+    TestRun run(mesh, two_blocks(kn, ks), {});
     run.begin(stage_with({}));
     run.solver.set_time_step(1.01 * 2.
                              / std::sqrt(exact_eigenvalue(run.model)));

@@ -126,8 +126,8 @@ namespace quoin::test
   }
 
   inline LoadParameters platen(const std::string &name,
-                               const std::string &group,
-                               const LoadComponent &x, const LoadComponent &y,
+                               const std::string &group, const LoadComponent &x,
+                               const LoadComponent &y,
                                const LoadComponent &rotation)
   {
     LoadParameters result;
@@ -153,15 +153,15 @@ namespace quoin::test
   }
 
   /** A model of one rank with its solver, ready to step. */
-  struct Run
+  struct TestRun
   {
     BlockMesh<2> &mesh;
     Model model;
     ExplicitSolver solver;
     State state;
 
-    Run(BlockMesh<2> &mesh, const ModelParameters &parameters,
-        const std::vector<LoadParameters> &loads)
+    TestRun(BlockMesh<2> &mesh, const ModelParameters &parameters,
+            const std::vector<LoadParameters> &loads)
       : mesh(mesh), model(mesh, std::vector<unsigned int>(mesh.n_blocks(), 0),
                           parameters, MPI_COMM_SELF),
         solver(model, loads), state(model.initial_state())

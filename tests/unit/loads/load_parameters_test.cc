@@ -149,5 +149,5 @@ TEST(LoadParameters, RefusesMotionWhereAForceIsMeant)
                  "Vertical = displacement 5", "gravity");
   expect_refused("set Type = viscous boundary\nset Boundary = base\n"
                  "set Incident normal velocity = force 5\n",
-                 "Incident normal velocity = force 5", "velocity");
+                 "Incident normal velocity = force 5", "viscous boundary");
 }

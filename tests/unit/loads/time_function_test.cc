@@ -50,10 +50,10 @@ TEST(TimeFunction, ExpressionsOfBothTimes)
   EXPECT_EQ(at("if(t < 1, 5, 6)", 1.5), 6.);
 }
 
-TEST(TimeFunction, StepFunction)
+TEST(TimeFunction, ConditionalExpression)
 {
-  EXPECT_EQ(at("heaviside(t - 1)", 0.9), 0.);
-  EXPECT_EQ(at("heaviside(t - 1)", 1.1), 1.);
+  EXPECT_EQ(at("if(t < 1, 0, 1)", 0.9), 0.);
+  EXPECT_EQ(at("if(t < 1, 0, 1)", 1.1), 1.);
 }
 
 TEST(TimeFunction, CopiesAreIndependentOfTheOriginal)
