@@ -200,11 +200,11 @@ namespace quoin
     std::string override_text(const std::string &option)
     {
       const auto equals = option.find('=');
-      if (equals == std::string::npos || equals == 0)
-        throw InputError("--set '" + option
-                         + "': give it as \"Section/Name=value\".");
       auto path
           = dealii::Utilities::split_string_list(option.substr(0, equals), '/');
+      if (equals == std::string::npos || path.empty() || path.back().empty())
+        throw InputError("--set '" + option
+                         + "': give it as \"Section/Name=value\".");
       const std::string name = path.back();
       path.pop_back();
       std::string text;
