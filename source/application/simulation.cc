@@ -32,11 +32,13 @@ namespace quoin
     constexpr std::uint64_t clock_interval = 256;
 
     /**
-     * Largest share of the critical step with local damping, whose sense of
-     * direction needs modes that turn by less than about 60 degrees a step:
-     * beyond, fast modes keep ringing and hold up the slow ones.
+     * Largest share of the critical step where modes must turn by less than
+     * about 60 degrees a step. Local damping needs it for its sense of
+     * direction: beyond, fast modes keep ringing and hold up the slow ones.
+     * Joints that open and close need it, because the kink in their law falls
+     * between two steps: beyond, stiff joints that chatter create energy.
      */
-    constexpr double local_damping_share = 0.5;
+    constexpr double cautious_share = 0.5;
 
     double seconds_since(const Clock::time_point start)
     {
@@ -236,9 +238,8 @@ namespace quoin
                        + "'. Give a smaller one, or 0 for an automatic one.");
     if (dt == 0.)
       dt = critical
-           * (stage.damping == DampingType::local
-                  ? std::min(parameters.share_of_critical_step,
-                             local_damping_share)
+           * (stage.damping == DampingType::local || model->joints().can_fail()
+                  ? std::min(parameters.share_of_critical_step, cautious_share)
                   : parameters.share_of_critical_step);
     steps_of_stage = 0;
     if (stage.end == StageEnd::time)

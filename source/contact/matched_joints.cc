@@ -141,6 +141,13 @@ namespace quoin
                gap(segments[i], local, nodes, 1) } };
   }
 
+  bool MatchedJoints::can_fail() const
+  {
+    return std::any_of(laws.begin(), laws.end(),
+                       [](const CoulombLaw &law)
+                       { return std::isfinite(law.peak.tension); });
+  }
+
   void MatchedJoints::initialise(
       const std::vector<std::array<double, 3>> &face_stress, const State &state,
       JointHistory &history) const
@@ -169,38 +176,61 @@ namespace quoin
                                  EnergyAccounts &energy,
                                  NodeVector *force) const
   {
+    // Positions first, for some segments at a time: the square roots and
+    // divisions of several then overlap, where one followed by its law would
+    // wait for each.
+    constexpr unsigned int chunk = 32;
+    std::array<Frame, chunk> frames;
+    std::array<std::array<double, 2>, 2 * chunk> gaps;
+
     double friction = 0., fracture = 0.;
     for (unsigned int set = 0; set < laws.size(); ++set)
     {
-      const CoulombLaw law = laws[set];
-      for (unsigned int i = set_begin[set]; i < set_begin[set + 1]; ++i)
+      const CoulombLaw law   = laws[set];
+      const unsigned int end = set_begin[set + 1];
+      for (unsigned int begin = set_begin[set]; begin < end; begin += chunk)
       {
-        const Segment &segment = segments[i];
-        const Frame local      = frame(segment, nodes);
-        for (unsigned int k = 0; k < 2; ++k)
+        const unsigned int n = std::min(chunk, end - begin);
+        for (unsigned int j = 0; j < n; ++j)
         {
-          const auto [opening, slip] = gap(segment, local, nodes, k);
-          const unsigned int p       = 2 * i + k;
+          const Segment &segment = segments[begin + j];
+          frames[j]              = frame(segment, nodes);
+          for (unsigned int k = 0; k < 2; ++k)
+            gaps[2 * j + k] = gap(segment, frames[j], nodes, k);
+        }
+        for (unsigned int j = 0; j < 2 * n; ++j)
+        {
+          const Segment &segment     = segments[begin + j / 2];
+          const Frame &local         = frames[j / 2];
+          const unsigned int k       = j % 2;
+          const unsigned int p       = 2 * begin + j;
+          const auto [opening, slip] = gaps[j];
           JointPoint point{ history.normal_traction[p],
                             history.shear_traction[p], history.plastic_slip[p],
                             history.plastic_opening[p], history.state[p] };
-          const JointDissipation lost = law.update(point, opening, slip);
-          history.normal_traction[p]  = point.normal_traction;
-          history.shear_traction[p]   = point.shear_traction;
-          history.plastic_slip[p]     = point.plastic_slip;
-          history.plastic_opening[p]  = point.plastic_opening;
-          history.state[p]            = point.state;
+          if (!law.update_elastic(point, opening, slip))
+          {
+            const JointDissipation lost
+                = law.update_failing(point, opening, slip);
+            const double weight = segment.area * segment.share;
+            friction += weight * lost.friction;
+            fracture += weight * lost.fracture;
+            history.plastic_slip[p]    = point.plastic_slip;
+            history.plastic_opening[p] = point.plastic_opening;
+          }
+          history.normal_traction[p] = point.normal_traction;
+          history.shear_traction[p]  = point.shear_traction;
+          history.state[p]           = point.state;
 
-          const double weight = segment.area * segment.share;
-          friction += weight * lost.friction;
-          fracture += weight * lost.fracture;
+          const double sigma = segment.area * point.normal_traction;
+          const double tau   = segment.area * point.shear_traction;
+          NodeVector &lower  = force[segment.lower[k]];
+          NodeVector &upper  = force[segment.upper[k]];
           for (unsigned int d = 0; d < 2; ++d)
           {
-            const double f = segment.area
-                             * (point.normal_traction * local.normal[d]
-                                + point.shear_traction * local.tangent[d]);
-            force[segment.lower[k]].v[d] += f;
-            force[segment.upper[k]].v[d] -= f;
+            const double f = sigma * local.normal[d] + tau * local.tangent[d];
+            lower.v[d] += f;
+            upper.v[d] -= f;
           }
         }
       }

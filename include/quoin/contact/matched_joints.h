@@ -50,6 +50,9 @@ namespace quoin
       return 2 * segments.size();
     }
 
+    /** Whether a joint of any rank may open or slip. */
+    bool can_fail() const;
+
     /** Sets the tractions that balance an initial stress at rest. */
     void initialise(const std::vector<std::array<double, 3>> &face_stress,
                     const State &state, JointHistory &history) const;

@@ -75,6 +75,13 @@ namespace quoin
     JointDissipation update(JointPoint &point, const double opening,
                             const double slip) const;
 
+    /** The same, if the joint neither fails, slips nor is open; else false. */
+    bool update_elastic(JointPoint &point, double opening, double slip) const;
+
+    /** The same for a joint that fails, slips or is open. */
+    JointDissipation update_failing(JointPoint &point, double opening,
+                                    double slip) const;
+
     /** Recoverable energy per area [J/m^2] of @p point at @p opening [m]. */
     double stored_energy(const JointPoint &point, const double opening) const
     {
@@ -98,34 +105,48 @@ namespace quoin
     }
   };
 
+  inline bool CoulombLaw::update_elastic(JointPoint &point,
+                                         const double opening,
+                                         const double slip) const
+  {
+    const bool intact             = point.state == JointState::intact;
+    const JointStrength &strength = intact ? peak : residual;
+
+    const double sigma = normal_stiffness * (opening - point.plastic_opening);
+    const double tau   = shear_stiffness * (slip - point.plastic_slip);
+    if (!(sigma <= strength.tension
+          && std::abs(tau) <= std::max(0., strength.cohesion
+                                               - sigma * strength.friction)))
+      return false;
+    point.normal_traction = sigma;
+    point.shear_traction  = tau;
+    if (!intact)
+      point.state = JointState::slipped;
+    return true;
+  }
+
   inline JointDissipation CoulombLaw::update(JointPoint &point,
                                              const double opening,
                                              const double slip) const
   {
+    return update_elastic(point, opening, slip)
+               ? JointDissipation()
+               : update_failing(point, opening, slip);
+  }
+
+  inline JointDissipation CoulombLaw::update_failing(JointPoint &point,
+                                                     const double opening,
+                                                     const double slip) const
+  {
     const double kn = normal_stiffness, ks = shear_stiffness;
     const double sigma_old = point.normal_traction;
     const double tau_old   = point.shear_traction;
-
-    const bool intact             = point.state == JointState::intact;
-    const JointStrength &strength = intact ? peak : residual;
+    const bool intact      = point.state == JointState::intact;
 
     const double sigma_trial = kn * (opening - point.plastic_opening);
     const double tau_trial   = ks * (slip - point.plastic_slip);
 
     JointDissipation dissipation;
-
-    if (sigma_trial <= strength.tension
-        && std::abs(tau_trial) <= std::max(
-               0., strength.cohesion - sigma_trial * strength.friction))
-    {
-      point.normal_traction = sigma_trial;
-      point.shear_traction  = tau_trial;
-      if (!intact)
-        point.state = JointState::slipped;
-      return dissipation;
-    }
-
-    // From here on the joint has failed, now or earlier.
     if (sigma_trial > residual.tension)
     {
       const double sigma = std::min(sigma_trial, residual.tension);

@@ -151,7 +151,7 @@ TEST(NodeUpdate, LocalDampingNeverDoesPositiveWork)
         EXPECT_GE(work.before + work.after, 0.);
         taken += work.before + work.after;
         set.force[0]
-            = { { -5. * set.velocity[0].v[0], 7. * set.velocity[0].v[1] } };
+            = { { -70. * set.velocity[0].v[0], -20. * set.velocity[0].v[1] } };
       }
       EXPECT_GT(taken, 0.);
     }
