@@ -9,7 +9,9 @@
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace quoin
 {
@@ -117,6 +119,21 @@ namespace quoin
 
     // The nearest of all ranks, the first of them if there is a tie.
     const double nearest = dealii::Utilities::MPI::min(best, communicator);
+    double longest       = 0.;
+    for (const auto &cell : mesh.cells)
+      for (unsigned int k = 0; k < 3; ++k)
+        longest = std::max(longest, mesh.vertices[cell[k]].distance_square(
+                                        mesh.vertices[cell[(k + 1) % 3]]));
+    if (nearest > 4. * longest && nearest != std::numeric_limits<double>::max())
+    {
+      std::ostringstream message;
+      message << section << "'Point = " << point[0] << ", " << point[1]
+              << "' is " << std::sqrt(nearest)
+              << " m from the nearest node, cell or joint of the model, more "
+                 "than two of its longest edges. Give a point of the model in "
+                 "metres.";
+      throw InputError(message.str());
+    }
     if (nearest == std::numeric_limits<double>::max())
       throw InputError(section + "there is no "
                        + (wanted.curve.empty()
@@ -164,6 +181,15 @@ namespace quoin
     default:
       return 0.;
     }
+  }
+
+  bool Histories::need_balance() const
+  {
+    return std::any_of(probes.begin(), probes.end(),
+                       [](const Probe &probe) {
+                         return probe.parameters.quantity
+                                == HistoryQuantity::unbalanced_ratio;
+                       });
   }
 
   void Histories::before_step(const State &state)
@@ -216,7 +242,7 @@ namespace quoin
           || wanted.quantity == HistoryQuantity::platen_force)
         result[1 + i] = solver.resultant(wanted.load)[wanted.component];
       else if (wanted.quantity == HistoryQuantity::unbalanced_ratio)
-        result[1 + i] = solver.unbalanced_ratio();
+        result[1 + i] = state.unbalanced_ratio;
       else if (wanted.quantity == HistoryQuantity::kinetic_share)
         result[1 + i] = solver.energies().kinetic
                         / std::max(solver.energies().throughput(), 1e-300);

@@ -190,12 +190,14 @@ namespace quoin
       const CheckpointInfo info
           = load_checkpoint(output, communicator, QUOIN_VERSION,
                             fingerprint(parameters.effective), record);
-      log.open(output + "/log.txt", true);
+      all_or_none<RunError>(communicator,
+                            [&]() { log.open(output + "/log.txt", true); });
       log.message("resumed at time " + number(info.time) + " s, step "
                   + std::to_string(info.step));
     }
     else
-      log.open(output + "/log.txt", false);
+      all_or_none<RunError>(communicator,
+                            [&]() { log.open(output + "/log.txt", false); });
 
     all_or_none<RunError>(
         communicator,
@@ -251,6 +253,18 @@ namespace quoin
     solver->set_time_step(dt);
   }
 
+  void Simulation::check_start() const
+  {
+    try
+    {
+      solver->check_start(record.state);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(parameters.file + ", " + error.what());
+    }
+  }
+
   void Simulation::run_stage(const unsigned int index)
   {
     const StageParameters &stage = parameters.stages[index];
@@ -261,6 +275,7 @@ namespace quoin
     {
       solver->begin_stage(
           stage, index == 0 ? nullptr : &parameters.stages[index - 1], state);
+      check_start();
       record.stage_begun = true;
     }
     choose_time_step(stage);
@@ -306,7 +321,7 @@ namespace quoin
                                  : balance;
     ExplicitSolver::Requests requests;
     requests.energies = row_is_due || may_be_last;
-    requests.balance  = balance;
+    requests.balance  = balance || (row_is_due && histories->need_balance());
     if (requests.energies)
       histories->before_step(state);
     try
@@ -320,6 +335,7 @@ namespace quoin
     const bool over = stage_is_over(stage, balance);
     if (row_is_due || over)
     {
+      solver->check_finite(state);
       const auto row = histories->after_step(state);
       write_energies();
       if (is_first_rank)
@@ -329,18 +345,23 @@ namespace quoin
   }
 
   bool Simulation::stage_is_over(const StageParameters &stage,
-                                 const bool balance) const
+                                 const bool balance)
   {
     if (stage.end == StageEnd::time)
       return record.state.stage_step >= steps_of_stage;
-    if (balance && record.state.stage_step > balance_interval
-        && solver->unbalanced_ratio() <= stage.static_ratio)
+    if (balance
+        && !solver->loads_have_changed(
+            record.state, balance_interval * solver->get_time_step())
+        && record.state.time - record.state.stage_start
+               >= stage.minimum_duration
+        && record.state.stage_step > balance_interval
+        && record.state.unbalanced_ratio <= stage.static_ratio)
       return true;
     if (record.state.stage_step >= stage.maximum_steps)
       throw RunError("stage '" + stage.name + "' has not settled within "
                      + std::to_string(stage.maximum_steps)
                      + " steps: the unbalanced ratio is "
-                     + number(solver->unbalanced_ratio()) + " instead of "
+                     + number(record.state.unbalanced_ratio) + " instead of "
                      + number(stage.static_ratio)
                      + ". The model may have no equilibrium under these "
                        "loads; otherwise raise 'Maximum steps' or damp more.");
@@ -435,7 +456,7 @@ namespace quoin
                            : -1.;
     figures.share_of_critical
         = solver->get_time_step() / solver->critical_time_step();
-    figures.unbalanced_ratio = solver->unbalanced_ratio();
+    figures.unbalanced_ratio = record.state.unbalanced_ratio;
     figures.energy_residual  = energy_residual();
     return figures;
   }
@@ -465,7 +486,7 @@ namespace quoin
             { "added mass share", solver->added_mass_share() },
             { "wall time [s]", record.wall_time },
             { "element updates per second", updates },
-            { "unbalanced ratio", solver->unbalanced_ratio() },
+            { "unbalanced ratio", record.state.unbalanced_ratio },
             { "energy throughput [J]", solver->energies().throughput() },
             { "energy residual [J]", solver->energies().residual() },
             { "largest energy residual [J]", record.largest_residual },

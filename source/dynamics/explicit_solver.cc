@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 namespace quoin
@@ -187,6 +188,8 @@ namespace quoin
       constraint->bind(std::move(positions));
     }
 
+    refuse_shared_platens();
+
     captured_begin.clear();
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
       captured_begin.push_back(
@@ -201,6 +204,34 @@ namespace quoin
       inverse_mass[i] = 1. / mass[i];
     for (const unsigned int node : nodes)
       moving_mass[node] = inverse_mass[node] = 0.;
+  }
+
+  void ExplicitSolver::refuse_shared_platens() const
+  {
+    constexpr unsigned int none = -1;
+    for (const NodeConstraint *a : constraints_on)
+      for (const NodeConstraint *b : constraints_on)
+      {
+        if (a == b || !a->is_global() || !b->is_global())
+          continue;
+        std::vector<unsigned int> shared;
+        std::set_intersection(a->nodes().begin(), a->nodes().end(),
+                              b->nodes().begin(), b->nodes().end(),
+                              std::back_inserter(shared));
+        const unsigned int first = dealii::Utilities::MPI::min(
+            shared.empty() ? none : model.exchange().global(shared.front()),
+            communicator);
+        if (first == none)
+          continue;
+        const auto &p = model.mesh().vertices[first];
+        std::ostringstream message;
+        message << "section 'Stages/" << stage.name << "': the platens '"
+                << a->name() << "' and '" << b->name()
+                << "' share the node at (" << p[0] << ", " << p[1]
+                << ") m. A node can belong to one rigid platen: use one of "
+                   "them, or leave a gap.";
+        throw InputError(message.str());
+      }
   }
 
   void ExplicitSolver::begin_stage(const StageParameters &new_stage,
@@ -228,7 +259,7 @@ namespace quoin
     state.stage_start      = state.time;
     state.stage_step       = 0;
     state.adaptive_damping = 0.;
-    last_ratio             = 1.;
+    state.unbalanced_ratio = 1.;
   }
 
   void ExplicitSolver::resume_stage(const StageParameters &resumed,
@@ -299,7 +330,7 @@ namespace quoin
       account_for_new_step(state, context);
     if (requests.balance)
     {
-      find_ratio(applied_force, unbalanced_force);
+      find_ratio(state, context, applied_force, unbalanced_force);
       check_finite(state);
     }
 
@@ -496,15 +527,53 @@ namespace quoin
     last_energies.accounts.viscous  = values[7];
   }
 
-  void ExplicitSolver::find_ratio(double applied, double unbalanced)
+  void ExplicitSolver::find_ratio(State &state, const StepContext &context,
+                                  double applied, double unbalanced)
   {
+    // What nobody moves is unbalanced by its force, what a viscous boundary
+    // moves by what accelerates it; what is prescribed is held by a reaction.
     for (const CapturedNode &node : captured)
-      applied += norm(node.force);
+    {
+      NodeVector free{ { 0., 0. } }, held{ { 0., 0. } };
+      for (unsigned int d = 0; d < 2; ++d)
+        if (!node.owner[d])
+          free.v[d] = node.force.v[d];
+        else if (node.owner[d]->holds()[d] || node.owner[d]->is_global())
+          held.v[d] = node.force.v[d];
+        else
+          free.v[d] = node.mass
+                      * (state.velocity[node.node].v[d] - node.velocity.v[d])
+                      / context.dt_velocity;
+      unbalanced += norm(free);
+      applied += norm(held);
+    }
     double sums[2] = { applied, unbalanced };
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
     for (const NodeConstraint *constraint : constraints_on)
       sums[1] += constraint->unbalanced();
-    last_ratio = sums[0] > 0. ? sums[1] / sums[0] : 0.;
+    state.unbalanced_ratio = sums[0] > 0. ? sums[1] / sums[0] : 0.;
+  }
+
+  bool ExplicitSolver::loads_have_changed(const State &state,
+                                          const double duration) const
+  {
+    const double now    = state.time - state.stage_start;
+    const double before = std::max(0., now - duration);
+    const TimePoint times[]
+        = { { before, state.stage_start + before }, { now, state.time } };
+    for (const NodalLoad *load : loads_on)
+      if (load->amplitude(times[0]) != load->amplitude(times[1]))
+        return true;
+    for (const NodeConstraint *constraint : constraints_on)
+      if (constraint->values(times[0]) != constraint->values(times[1]))
+        return true;
+    return false;
+  }
+
+  void ExplicitSolver::check_start(const State &state) const
+  {
+    for (const NodeConstraint *constraint : constraints_on)
+      constraint->check_start({ 0., state.time });
   }
 
   void ExplicitSolver::check_finite(const State &state) const

@@ -10,7 +10,6 @@
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
-#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -45,8 +44,11 @@ namespace quoin
     // What holds each block: rows x, y, size * rotation. All blocks of a
     // platen are one body, whose rows go to the first of them.
     std::vector<double> gram_entries(6 * n, 0.);
-    std::vector<unsigned int> joined(n);
-    std::iota(joined.begin(), joined.end(), 0);
+    std::vector<unsigned int> rank(n), parent(n);
+    boost::disjoint_sets<unsigned int *, unsigned int *> bodies(rank.data(),
+                                                                parent.data());
+    for (unsigned int b = 0; b < n; ++b)
+      bodies.make_set(b);
     for (const NodeConstraint *constraint : constraints)
     {
       const auto holds   = constraint->holds();
@@ -77,8 +79,13 @@ namespace quoin
         continue;
       first = dealii::Utilities::MPI::min(blocks.empty() ? n : *blocks.begin(),
                                           exchange.communicator());
+      std::vector<unsigned int> member(n, 0);
       for (const unsigned int block : blocks)
-        joined[block] = std::min(joined[block], first);
+        member[block] = 1;
+      dealii::Utilities::MPI::max(member, exchange.communicator(), member);
+      for (unsigned int block = 0; block < n; ++block)
+        if (member[block])
+          bodies.union_set(block, first);
       if (!holds[2] && !blocks.empty() && *blocks.begin() == first)
       {
         Gram gram;
@@ -97,15 +104,6 @@ namespace quoin
     }
     dealii::Utilities::MPI::sum(gram_entries, exchange.communicator(),
                                 gram_entries);
-    dealii::Utilities::MPI::min(joined, exchange.communicator(), joined);
-
-    std::vector<unsigned int> rank(n), parent(n);
-    boost::disjoint_sets<unsigned int *, unsigned int *> bodies(rank.data(),
-                                                                parent.data());
-    for (unsigned int b = 0; b < n; ++b)
-      bodies.make_set(b);
-    for (unsigned int b = 0; b < n; ++b)
-      bodies.union_set(b, joined[b]);
     for (const JointFace &face : mesh.joint_faces)
       bodies.union_set(mesh.block_of_vertex(face.lower[0]),
                        mesh.block_of_vertex(face.upper[0]));

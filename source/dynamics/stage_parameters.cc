@@ -25,6 +25,9 @@ namespace quoin
     prm.declare_entry("Static ratio", "1e-6", Double(),
                       "Unbalanced to applied force at which a stage with "
                       "'End = static ratio' ends [-]");
+    prm.declare_entry("Minimum duration", "0", Double(),
+                      "For 'End = static ratio': the stage lasts at least so "
+                      "long, for loads that begin later [s]");
     prm.declare_entry("Start time", "previous end", Anything(),
                       "'previous end', or the time at which the stage is "
                       "meant to begin, as a check [s]");
@@ -63,7 +66,10 @@ namespace quoin
     if (stage.end == StageEnd::time)
       stage.duration = section.positive("Duration");
     else
-      stage.static_ratio = section.positive("Static ratio");
+    {
+      stage.static_ratio     = section.positive("Static ratio");
+      stage.minimum_duration = section.nonnegative("Minimum duration");
+    }
     stage.maximum_steps = section.integer("Maximum steps");
     if (section.text("Start time") != "previous end")
     {

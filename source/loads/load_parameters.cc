@@ -4,7 +4,8 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/load_parameters.h>
 
-#include <deal.II/base/numbers.h>
+#include <cmath>
+#include <sstream>
 
 namespace quoin
 {
@@ -85,6 +86,35 @@ namespace quoin
       return { quantity, time_function(section, name, text) };
     }
   } // namespace
+
+  std::array<double, 3>
+  component_values(const std::array<LoadComponent, 3> &components,
+                   const TimePoint &time)
+  {
+    std::array<double, 3> values{};
+    for (unsigned int d = 0; d < 3; ++d)
+      if (components[d].quantity != LoadQuantity::free)
+        values[d] = components[d].value(time);
+    return values;
+  }
+
+  void check_no_jump(const std::array<LoadComponent, 3> &components,
+                     const TimePoint &time, const std::string &load)
+  {
+    const auto values         = component_values(components, time);
+    const std::string names[] = { "Horizontal", "Vertical", "Rotation" };
+    for (unsigned int d = 0; d < 3; ++d)
+      if (components[d].quantity == LoadQuantity::displacement
+          && std::abs(values[d]) > 1e-14)
+      {
+        std::ostringstream message;
+        message << "section 'Loads/" << load << "': the displacement '"
+                << names[d] << "' is " << values[d]
+                << " where the stage begins. It counts from there, so it must "
+                   "begin at 0: let it rise from 0.";
+        throw InputError(message.str());
+      }
+  }
 
   void LoadParameters::declare(dealii::ParameterHandler &prm)
   {

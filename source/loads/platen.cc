@@ -87,24 +87,29 @@ namespace quoin
       platen        = PlatenState();
       platen.active = true;
       for (unsigned int d = 0; d < 2; ++d)
-      {
-        platen.centre[d]   = moments[1 + d] / moments[0];
         platen.velocity[d] = moments[3 + d] / moments[0];
-      }
-      for (const unsigned int n : node_list)
-        for (unsigned int d = 0; d < 2; ++d)
-          platen.arms.push_back(state.nodes[n].X[d] + state.nodes[n].u[d]
-                                - platen.centre[d]);
     }
     std::copy(platen.displacement, platen.displacement + 3, platen.stage_start);
 
+    // Centre and arms are those of the masses that act in this stage.
+    const double c = std::cos(platen.displacement[2]),
+                 s = std::sin(platen.displacement[2]);
+    const double centre[2]
+        = { moments[1] / moments[0], moments[2] / moments[0] };
+    platen.arms.clear();
     std::array<double, 2> rotation{};
+    for (unsigned int d = 0; d < 2; ++d)
+      platen.centre[d] = centre[d] - platen.displacement[d];
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      const double *r = &platen.arms[2 * i];
-      const double *v = state.velocity[node_list[i]].v;
-      rotation[0] += node_mass[i] * (r[0] * r[0] + r[1] * r[1]);
-      rotation[1] += node_mass[i] * (r[0] * v[1] - r[1] * v[0]);
+      const NodeRecord &node = state.nodes[node_list[i]];
+      const double *v        = state.velocity[node_list[i]].v;
+      const double x         = node.X[0] + node.u[0] - centre[0];
+      const double y         = node.X[1] + node.u[1] - centre[1];
+      platen.arms.push_back(c * x + s * y);
+      platen.arms.push_back(c * y - s * x);
+      rotation[0] += node_mass[i] * (x * x + y * y);
+      rotation[1] += node_mass[i] * (x * v[1] - y * v[0]);
     }
     rotation   = sum(rotation, communicator);
     inertia[2] = rotation[0];
@@ -163,8 +168,9 @@ namespace quoin
         damping[d]         = local / gain
                      - step.mass_damping * inertia[d] * 0.5
                            * (before + platen.velocity[d]);
-        if (d < 2)
-          last_unbalanced += std::abs(total);
+        // A moment counts as the force on the arm of gyration.
+        last_unbalanced += std::abs(total)
+                           / (d < 2 ? 1. : std::sqrt(inertia[2] / inertia[0]));
       }
       if (driven(d))
         drive[d] = inertia[d] * (platen.velocity[d] - before) / step.dt_velocity

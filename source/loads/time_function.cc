@@ -34,7 +34,8 @@ namespace quoin
         line = line.substr(0, line.find('#'));
         std::istringstream words(line);
         double time, value;
-        if (words >> time >> value)
+        std::string rest;
+        if (words >> time >> value && !(words >> rest))
         {
           if (!table.empty() && time <= table.back().first)
             throw InputError("the table '" + name

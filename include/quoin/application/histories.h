@@ -29,6 +29,9 @@ namespace quoin
     /** "time [s]" and "name [unit]" of each column. */
     std::vector<std::string> column_names() const;
 
+    /** Whether a row needs the unbalanced ratio of its own step. */
+    bool need_balance() const;
+
     void before_step(const State &state);
 
     /** The row of the time before the step; collective. */

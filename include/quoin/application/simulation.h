@@ -74,7 +74,8 @@ namespace quoin
     void choose_time_step(const StageParameters &stage);
     /** Returns whether the stage is over. */
     bool take_step(const StageParameters &stage);
-    bool stage_is_over(const StageParameters &stage, bool balance) const;
+    bool stage_is_over(const StageParameters &stage, bool balance);
+    void check_start() const;
     void write_energies();
     void write_fields();
     void save_checkpoint();

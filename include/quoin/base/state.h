@@ -170,6 +170,7 @@ namespace quoin
     std::vector<PlatenState> platens; /**< in the order of the loads */
     double adaptive_damping   = 0.;   /**< [1/s] */
     double previous_time_step = 0.;   /**< [s] */
+    double unbalanced_ratio   = 1.;   /**< as last measured [-] */
 
     /** Complete at time, and what the step under way adds for time + dt/2. */
     EnergyAccounts energy, pending;
@@ -178,8 +179,8 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &time &step &stage &stage_start &stage_step &nodes &velocity
-          &joints &platens &adaptive_damping &previous_time_step &energy
-              &pending;
+          &joints &platens &adaptive_damping &previous_time_step
+              &unbalanced_ratio &energy &pending;
     }
   };
 } // namespace quoin

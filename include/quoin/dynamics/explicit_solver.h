@@ -105,11 +105,14 @@ namespace quoin
     {
       return last_energies;
     }
-    /** As of the last step with Requests::balance; collective then. */
-    double unbalanced_ratio() const
-    {
-      return last_ratio;
-    }
+    /**
+     * Whether loads have changed in the last @p duration of the stage [s]: a
+     * static stage is not over before they rest.
+     */
+    bool loads_have_changed(const State &state, double duration) const;
+
+    /** Throws an InputError about loads that would begin with a jump. */
+    void check_start(const State &state) const;
     /** Force x, y [N] and moment [N m] of a load; collective. */
     std::array<double, 3> resultant(const std::string &load) const;
 
@@ -123,6 +126,8 @@ namespace quoin
     void activate(const StageParameters &stage);
     void scale_masses(const StageParameters &stage, State &state);
     void collect_constrained_nodes();
+    /** Throws an InputError if two platens of the stage share a node. */
+    void refuse_shared_platens() const;
     void apply_forces(State &state, const StepContext &context);
     void advance_blocks(State &state, const StepContext &context,
                         const Requests &requests);
@@ -131,7 +136,8 @@ namespace quoin
     void adapt_damping(State &state, const DampingWork &work) const;
     void find_energies(State &state, double strain, double joint,
                        double kinetic);
-    void find_ratio(double applied, double unbalanced);
+    void find_ratio(State &state, const StepContext &context, double applied,
+                    double unbalanced);
     double sum(double value) const;
 
     const Model &model;
@@ -163,7 +169,6 @@ namespace quoin
 
     double strain_at_start = 0., joint_at_start = 0.;
     Energies last_energies;
-    double last_ratio = 1.;
   };
 } // namespace quoin
 

@@ -34,6 +34,7 @@ namespace quoin
     StageEnd end                = StageEnd::time;
     double duration             = 0.; /**< [s] */
     double static_ratio         = 1e-6;
+    double minimum_duration     = 0.; /**< of a static stage [s] */
     std::uint64_t maximum_steps = 0;
     double start_time           = -1.; /**< [s]; -1: previous end */
 

@@ -38,6 +38,18 @@ namespace quoin
     TimeFunction value;
   };
 
+  /** The functions' values; zero for those that are free. */
+  std::array<double, 3>
+  component_values(const std::array<LoadComponent, 3> &components,
+                   const TimePoint &time);
+
+  /**
+   * Throws an InputError naming @p load if a displacement is not zero at
+   * @p time, the start of a stage.
+   */
+  void check_no_jump(const std::array<LoadComponent, 3> &components,
+                     const TimePoint &time, const std::string &load);
+
   /** One load: a subsection of 'Loads'. */
   struct LoadParameters
   {

@@ -31,14 +31,15 @@ namespace quoin
     /** Rate of work [W] on nodes that move with @p velocity. */
     double power(const TimePoint &time, const NodeVector *velocity) const;
 
+    /** Traction [Pa] or acceleration [m/s^2]. */
+    std::array<double, 2> amplitude(const TimePoint &time) const;
+
     const std::string &name() const
     {
       return load_name;
     }
 
   private:
-    std::array<double, 2> amplitude(const TimePoint &time) const;
-
     std::string load_name;
     std::array<LoadComponent, 3> components;
     std::vector<unsigned int> nodes;

@@ -70,6 +70,17 @@ namespace quoin
       captured_positions = std::move(positions);
     }
 
+    /** Its functions of time: what they are now, to see whether they rest. */
+    virtual std::array<double, 3> values(const TimePoint &time) const = 0;
+
+    /**
+     * Throws an InputError if a displacement is not zero where the stage
+     * begins: it would be a jump.
+     */
+    virtual void check_start(const TimePoint &) const
+    {
+    }
+
     /** Called when a stage begins in which it does not act. */
     void rest()
     {

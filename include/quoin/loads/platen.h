@@ -43,6 +43,14 @@ namespace quoin
     {
       return last_unbalanced;
     }
+    std::array<double, 3> values(const TimePoint &time) const override
+    {
+      return component_values(components, time);
+    }
+    void check_start(const TimePoint &time) const override
+    {
+      check_no_jump(components, time, load_name);
+    }
     std::array<bool, 3> holds() const override;
 
     unsigned int index() const

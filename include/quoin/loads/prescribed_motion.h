@@ -24,6 +24,14 @@ namespace quoin
     void account(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
                  State &state) override;
+    std::array<double, 3> values(const TimePoint &time) const override
+    {
+      return component_values(components, time);
+    }
+    void check_start(const TimePoint &time) const override
+    {
+      check_no_jump(components, time, load_name);
+    }
     std::array<bool, 3> holds() const override;
     bool moves_all() const override
     {

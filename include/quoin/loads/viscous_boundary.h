@@ -41,6 +41,10 @@ namespace quoin
     void account(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
                  State &state) override;
+    std::array<double, 3> values(const TimePoint &time) const override
+    {
+      return component_values(components, time);
+    }
     std::array<bool, 3> holds() const override
     {
       return { { false, false, false } };
