@@ -137,6 +137,8 @@ namespace quoin
       {
         solver->begin_stage(stage, i == 0 ? nullptr : &parameters.stages[i - 1],
                             state);
+        if (i == 0)
+          solver->check_start(state);
       }
       catch (const InputError &error)
       {

@@ -269,7 +269,7 @@ namespace quoin
     const State saved = state;
     scale_masses(stage, state);
     for (NodeConstraint *constraint : constraints_on)
-      constraint->begin_stage(state, true);
+      constraint->resume_stage(state);
     state = saved;
     collect_constrained_nodes();
   }

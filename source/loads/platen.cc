@@ -79,8 +79,7 @@ namespace quoin
         moments[3 + d] += node_mass[i] * v.v[d];
       }
     }
-    moments    = sum(moments, communicator);
-    inertia[0] = inertia[1] = moments[0];
+    moments = sum(moments, communicator);
 
     if (!continues || !platen.active)
     {
@@ -97,7 +96,7 @@ namespace quoin
     const double centre[2]
         = { moments[1] / moments[0], moments[2] / moments[0] };
     platen.arms.clear();
-    std::array<double, 2> rotation{};
+    double spin = 0.;
     for (unsigned int d = 0; d < 2; ++d)
       platen.centre[d] = centre[d] - platen.displacement[d];
     for (unsigned int i = 0; i < node_list.size(); ++i)
@@ -108,13 +107,27 @@ namespace quoin
       const double y         = node.X[1] + node.u[1] - centre[1];
       platen.arms.push_back(c * x + s * y);
       platen.arms.push_back(c * y - s * x);
-      rotation[0] += node_mass[i] * (x * x + y * y);
-      rotation[1] += node_mass[i] * (x * v[1] - y * v[0]);
+      spin += node_mass[i] * (x * v[1] - y * v[0]);
     }
-    rotation   = sum(rotation, communicator);
-    inertia[2] = rotation[0];
+    spin = sum<1>({ spin }, communicator)[0];
+    resume_stage(state);
     if (!continues)
-      platen.velocity[2] = rotation[1] / rotation[0];
+      platen.velocity[2] = spin / inertia[2];
+  }
+
+  void Platen::resume_stage(const State &state)
+  {
+    const auto &arms = state.platens[platen_index].arms;
+    inertia          = {};
+    for (unsigned int i = 0; i < node_list.size(); ++i)
+    {
+      inertia[0] += node_mass[i];
+      inertia[2]
+          += node_mass[i]
+             * (arms[2 * i] * arms[2 * i] + arms[2 * i + 1] * arms[2 * i + 1]);
+    }
+    inertia    = sum(inertia, communicator);
+    inertia[1] = inertia[0];
   }
 
   void Platen::correct(const StepContext &step,

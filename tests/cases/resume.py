@@ -67,6 +67,8 @@ def body():
     # friction and two stages: the case with the most history
     prm = os.path.join(common.VERIFICATION, "slipping_crack", "case.prm")
     sets = ["Output/Checkpoint interval=0.1", "Histories/Interval=1e-5",
+            "Histories/Names=displacement, force, ratio",
+            "Histories/ratio/Quantity=unbalanced ratio",
             "Time stepping/Share of critical time step=0.3"]
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:

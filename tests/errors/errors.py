@@ -140,6 +140,18 @@ def output_below_a_file(quoin, folder):
     expect(status, printed, 1, [output])
 
 
+def read_only_output_on_two_ranks(quoin, folder):
+    """A file that cannot be written stops both ranks."""
+    if not shutil.which("mpirun"):
+        raise Skip("no mpirun")
+    prm = prepare(folder)
+    output = os.path.join(folder, "out")
+    os.makedirs(os.path.join(output, "log.txt"))  # in the way of the log
+    status, printed = run(["mpirun", "--oversubscribe", "-np", "2", quoin, prm,
+                           "--quiet", "--output", output])
+    expect(status, printed, 2, ["log.txt"])
+
+
 def full_disk(quoin, folder):
     """A disk that fills up: the file is named, the run ends with 2."""
     if os.geteuid() != 0 or not shutil.which("unshare"):
@@ -228,7 +240,8 @@ def nothing_to_resume(quoin, folder):
 
 
 FUNCTIONS = [base_case_runs, check_writes_nothing, no_arguments,
-             unknown_option, output_below_a_file, full_disk, no_number,
+             unknown_option, output_below_a_file,
+             read_only_output_on_two_ranks, full_disk, no_number,
              no_number_at_the_end, runaway, other_ranks, other_parameters,
              nothing_to_resume]
 

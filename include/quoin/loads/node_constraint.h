@@ -92,6 +92,11 @@ namespace quoin
     {
     }
 
+    /** Called instead when a run is resumed within a stage. */
+    virtual void resume_stage(const State &)
+    {
+    }
+
     virtual void correct(const StepContext &step,
                          const std::vector<CapturedNode> &captured,
                          State &state)

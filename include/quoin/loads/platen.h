@@ -28,6 +28,7 @@ namespace quoin
     void set_mass(const std::vector<double> &mass);
 
     void begin_stage(State &state, bool continues) override;
+    void resume_stage(const State &state) override;
     void correct(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
                  State &state) override;
