@@ -3,12 +3,10 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
-#include <quoin/dynamics/free_bodies.h>
 #include <quoin/loads/prescribed_motion.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <sstream>
 
 namespace quoin
@@ -19,12 +17,6 @@ namespace quoin
     constexpr double adaptive_power_share = 0.5;
     /** Change of its coefficient in one step. */
     constexpr double adaptive_change = 1.005;
-
-    bool contains(const std::vector<std::string> &names,
-                  const std::string &name)
-    {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    }
 
     double norm(const NodeVector &f)
     {
@@ -85,193 +77,6 @@ namespace quoin
   double ExplicitSolver::sum(const double value) const
   {
     return dealii::Utilities::MPI::sum(value, communicator);
-  }
-
-  void ExplicitSolver::activate(const StageParameters &new_stage)
-  {
-    stage = new_stage;
-    for (const std::string &name : stage.loads)
-      if (!contains(known_loads, name))
-      {
-        std::string known;
-        for (const auto &load : known_loads)
-          known += (known.empty() ? "" : ", ") + load;
-        throw InputError("section 'Stages/" + stage.name + "': 'Loads' names '"
-                         + name + "', which is no load. Loads are: " + known
-                         + ".");
-      }
-
-    // Viscous boundaries act first, so that what is prescribed prevails;
-    // platens last, because they move all of their nodes.
-    constraints_on.clear();
-    for (const int rank : { 0, 1, 2 })
-      for (const auto &constraint : all_constraints)
-        if (contains(stage.loads, constraint->name())
-            && rank
-                   == (dynamic_cast<Platen *>(constraint.get()) ? 2
-                       : constraint->moves_all()                ? 0
-                                                                : 1))
-          constraints_on.push_back(constraint.get());
-    loads_on.clear();
-    for (const NodalLoad &load : all_loads)
-      if (contains(stage.loads, load.name()))
-        loads_on.push_back(&load);
-
-    if (stage.end == StageEnd::static_ratio)
-      check_no_free_bodies(model, constraints_on, stage.name);
-  }
-
-  void ExplicitSolver::scale_masses(const StageParameters &stage, State &state)
-  {
-    const unsigned int n_owned = model.exchange().n_owned();
-    const auto kinetic         = [&]()
-    {
-      double energy = 0.;
-      for (unsigned int i = 0; i < n_owned; ++i)
-        energy += 0.5 * mass[i]
-                  * (state.velocity[i].v[0] * state.velocity[i].v[0]
-                     + state.velocity[i].v[1] * state.velocity[i].v[1]);
-      return energy;
-    };
-
-    const double before = kinetic();
-    double own = 0., scaled = 0.;
-    mass = model.mass();
-    for (unsigned int i = 0; i < n_owned; ++i)
-    {
-      own += mass[i];
-      if (stage.scaled_time_step > 0.)
-        mass[i] = std::max(
-            mass[i], model.stability().mass_for(i, stage.scaled_time_step));
-      scaled += mass[i];
-    }
-    added_mass = sum(scaled) / sum(own) - 1.;
-    // Giving moving nodes another mass is work done from outside.
-    state.energy.external += kinetic() - before;
-
-    critical_step = StableTimeStep::critical(
-        dealii::Utilities::MPI::max(model.stability().largest_eigenvalue(mass),
-                                    communicator),
-        stage.stiffness_coefficient);
-    for (NodeConstraint *constraint : constraints_on)
-      if (auto *platen = dynamic_cast<Platen *>(constraint))
-        platen->set_mass(mass);
-  }
-
-  void ExplicitSolver::collect_constrained_nodes()
-  {
-    std::vector<unsigned int> nodes;
-    for (const NodeConstraint *constraint : constraints_on)
-      nodes.insert(nodes.end(), constraint->nodes().begin(),
-                   constraint->nodes().end());
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-
-    captured.assign(nodes.size(), CapturedNode{});
-    for (unsigned int c = 0; c < nodes.size(); ++c)
-    {
-      captured[c].node     = nodes[c];
-      captured[c].mass     = mass[nodes[c]];
-      captured[c].owner[0] = captured[c].owner[1] = nullptr;
-    }
-    for (NodeConstraint *constraint : constraints_on)
-    {
-      std::vector<unsigned int> positions;
-      for (const unsigned int node : constraint->nodes())
-      {
-        positions.push_back(std::lower_bound(nodes.begin(), nodes.end(), node)
-                            - nodes.begin());
-        for (unsigned int d = 0; d < 2; ++d)
-          if (constraint->moves_all() || constraint->holds()[d])
-            captured[positions.back()].owner[d] = constraint;
-      }
-      constraint->bind(std::move(positions));
-    }
-
-    refuse_shared_platens();
-
-    captured_begin.clear();
-    for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
-      captured_begin.push_back(
-          std::lower_bound(nodes.begin(), nodes.end(),
-                           model.blocks().tile_nodes(tile).begin)
-          - nodes.begin());
-    captured_begin.push_back(nodes.size());
-
-    moving_mass = mass;
-    inverse_mass.resize(mass.size());
-    for (unsigned int i = 0; i < mass.size(); ++i)
-      inverse_mass[i] = 1. / mass[i];
-    for (const unsigned int node : nodes)
-      moving_mass[node] = inverse_mass[node] = 0.;
-  }
-
-  void ExplicitSolver::refuse_shared_platens() const
-  {
-    constexpr unsigned int none = -1;
-    for (const NodeConstraint *a : constraints_on)
-      for (const NodeConstraint *b : constraints_on)
-      {
-        if (a == b || !a->is_global() || !b->is_global())
-          continue;
-        std::vector<unsigned int> shared;
-        std::set_intersection(a->nodes().begin(), a->nodes().end(),
-                              b->nodes().begin(), b->nodes().end(),
-                              std::back_inserter(shared));
-        const unsigned int first = dealii::Utilities::MPI::min(
-            shared.empty() ? none : model.exchange().global(shared.front()),
-            communicator);
-        if (first == none)
-          continue;
-        const auto &p = model.mesh().vertices[first];
-        std::ostringstream message;
-        message << "section 'Stages/" << stage.name << "': the platens '"
-                << a->name() << "' and '" << b->name()
-                << "' share the node at (" << p[0] << ", " << p[1]
-                << ") m. A node can belong to one rigid platen: use one of "
-                   "them, or leave a gap.";
-        throw InputError(message.str());
-      }
-  }
-
-  void ExplicitSolver::begin_stage(const StageParameters &new_stage,
-                                   const StageParameters *previous,
-                                   State &state)
-  {
-    activate(new_stage);
-    scale_masses(stage, state);
-    unsigned int n_platens = 0;
-    for (const auto &constraint : all_constraints)
-      if (dynamic_cast<const Platen *>(constraint.get()))
-        ++n_platens;
-    state.platens.resize(n_platens);
-    for (const auto &constraint : all_constraints)
-      if (!contains(stage.loads, constraint->name()))
-      {
-        constraint->rest();
-        if (const auto *platen = dynamic_cast<const Platen *>(constraint.get()))
-          state.platens[platen->index()].active = false;
-      }
-    for (NodeConstraint *constraint : constraints_on)
-      constraint->begin_stage(
-          state, previous && contains(previous->loads, constraint->name()));
-    collect_constrained_nodes();
-    state.stage_start      = state.time;
-    state.stage_step       = 0;
-    state.adaptive_damping = 0.;
-    state.unbalanced_ratio = 1.;
-  }
-
-  void ExplicitSolver::resume_stage(const StageParameters &resumed,
-                                    State &state)
-  {
-    activate(resumed);
-    const State saved = state;
-    scale_masses(stage, state);
-    for (NodeConstraint *constraint : constraints_on)
-      constraint->resume_stage(state);
-    state = saved;
-    collect_constrained_nodes();
   }
 
   void ExplicitSolver::step(State &state, const Requests &requests)
@@ -552,28 +357,6 @@ namespace quoin
     for (const NodeConstraint *constraint : constraints_on)
       sums[1] += constraint->unbalanced();
     state.unbalanced_ratio = sums[0] > 0. ? sums[1] / sums[0] : 0.;
-  }
-
-  bool ExplicitSolver::loads_have_changed(const State &state,
-                                          const double duration) const
-  {
-    const double now    = state.time - state.stage_start;
-    const double before = std::max(0., now - duration);
-    const TimePoint times[]
-        = { { before, state.stage_start + before }, { now, state.time } };
-    for (const NodalLoad *load : loads_on)
-      if (load->amplitude(times[0]) != load->amplitude(times[1]))
-        return true;
-    for (const NodeConstraint *constraint : constraints_on)
-      if (constraint->values(times[0]) != constraint->values(times[1]))
-        return true;
-    return false;
-  }
-
-  void ExplicitSolver::check_start(const State &state) const
-  {
-    for (const NodeConstraint *constraint : constraints_on)
-      constraint->check_start({ 0., state.time });
   }
 
   void ExplicitSolver::check_finite(const State &state) const

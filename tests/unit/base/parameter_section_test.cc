@@ -39,7 +39,7 @@ TEST(ParameterSection, FolderOfTheFile)
 {
   EXPECT_EQ(folder_of("case.prm"), "./");
   EXPECT_EQ(folder_of("a/b/case.prm"), "a/b/");
-  EXPECT_EQ(folder_of("/tmp/case.prm"), "/tmp/");
+  EXPECT_EQ(folder_of("/data/case.prm"), "/data/");
 }
 
 TEST(ParameterSection, ReadsValues)
