@@ -132,6 +132,18 @@ def energy_drift(case, folder, output, histories):
     }
 
 
+def at_rest(case, folder, output, histories):
+    """Displacement of the top by what gravity alone would make of it, and the
+    reaction, which must be the weight 2500 x 9.81 x 4 N throughout."""
+    settlement = 2500 * 9.81 * 4**2 / (2 * 10e9 * 0.7 / (1.3 * 0.4))
+    weight = 2500 * 9.81 * 4
+    return {
+        "displacement / settlement": (
+            float(np.max(np.abs(histories["top"])) / settlement), 1e-9),
+        "reaction - weight": (
+            float(np.max(np.abs(histories["reaction"] / weight - 1))), 1e-9)}
+
+
 def wall_stiffness(case, folder, output, histories):
     """Force by displacement of the beam, against 103 kN/mm, within 10 %."""
     stiffness = histories["horizontal"][-1] / histories["displacement"][-1]
