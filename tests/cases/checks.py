@@ -145,9 +145,13 @@ def at_rest(case, folder, output, histories):
 
 
 def wall_stiffness(case, folder, output, histories):
-    """Force by displacement of the beam, against 103 kN/mm, within 10 %."""
+    """Force by displacement of the beam: 92.99 kN/mm by a separate static
+    finite element solution (numpy, dense) of the same triangles and joint
+    springs, and within 10 % of 103 kN/mm."""
     stiffness = histories["horizontal"][-1] / histories["displacement"][-1]
-    return {"stiffness": (float(abs(stiffness / 103e6 - 1)), 0.1)}
+    return {"static finite elements": (
+                float(abs(stiffness / 92.99e6 - 1)), 0.003),
+            "103 kN/mm": (float(abs(stiffness / 103e6 - 1)), 0.1)}
 
 
 def wall_cracks(case, folder, output, histories):
