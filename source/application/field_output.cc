@@ -22,6 +22,8 @@ namespace quoin
                                  static_cast<std::int32_t>(cell[1]),
                                  static_cast<std::int32_t>(cell[2]) } });
     model.blocks().stresses(state.nodes.data(), fields.stress, fields.strain);
+    fields.stress.resize(model.n_cells(), { { 0., 0., 0., 0. } }); // rigid
+    fields.strain.resize(model.n_cells(), { { 0., 0., 0. } });
     for (unsigned int b = 0; b < model.n_blocks(); ++b)
     {
       const unsigned int block = model.first_block() + b;
@@ -37,26 +39,20 @@ namespace quoin
 
   JointFields joint_fields(const Model &model, const State &state)
   {
-    // The histories are those of the step before; a trial on a copy brings
-    // them to the present positions.
-    State now = state;
-    AlignedArray<NodeVector> force(now.nodes.size(), NodeVector{ { 0., 0. } });
-    model.joints().add_forces(now.nodes.data(), now.joints, now.energy,
-                              force.data());
-
     JointFields fields;
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
     {
       const auto &segment = model.joints().segment(i);
       // A joint between two ranks is written by that of its lower side.
-      if (segment.lower[0] >= model.exchange().n_owned())
+      if (segment.lower[0] >= model.exchange().n_owned()
+          || state.joints.handed_over[i])
         continue;
-      const auto gaps = model.joints().gaps(now.nodes.data(), i);
+      const auto gaps = model.joints().gaps(state.nodes.data(), i);
       fields.joint_set.push_back(segment.set);
       for (unsigned int k = 0; k < 2; ++k)
       {
-        const NodeRecord &a  = now.nodes[segment.lower[k]];
-        const NodeRecord &b  = now.nodes[segment.upper[k]];
+        const NodeRecord &a  = state.nodes[segment.lower[k]];
+        const NodeRecord &b  = state.nodes[segment.upper[k]];
         const unsigned int p = 2 * i + k;
         fields.position.push_back(
             { { 0.5 * (a.X[0] + b.X[0]), 0.5 * (a.X[1] + b.X[1]) } });
@@ -64,9 +60,36 @@ namespace quoin
             { { 0.5 * (a.u[0] + b.u[0]), 0.5 * (a.u[1] + b.u[1]) } });
         fields.opening.push_back(gaps[k][0]);
         fields.slip.push_back(gaps[k][1]);
-        fields.normal_traction.push_back(now.joints.normal_traction[p]);
-        fields.shear_traction.push_back(now.joints.shear_traction[p]);
-        fields.state.push_back(now.joints.state[p]);
+        fields.normal_traction.push_back(state.joints.normal_traction[p]);
+        fields.shear_traction.push_back(state.joints.shear_traction[p]);
+        fields.state.push_back(state.joints.state[p]);
+      }
+    }
+    return fields;
+  }
+
+  JointFields contact_fields(const BlockContacts &contacts, const State &state)
+  {
+    JointFields fields;
+    const auto &pairs = state.contacts.pairs;
+    for (unsigned int i = 0; i < pairs.size(); ++i)
+    {
+      BlockContacts::Contact contact;
+      if (!contacts.is_own(state.contacts, i)
+          || !contacts.contact(state.contacts, i, contact))
+        continue;
+      fields.joint_set.push_back(contact.set);
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const auto &[x, y]   = contact.position[k];
+        const auto &[x0, y0] = contact.reference[k];
+        fields.position.push_back(contact.reference[k]);
+        fields.displacement.push_back({ { x - x0, y - y0 } });
+        fields.opening.push_back(contact.opening[k]);
+        fields.slip.push_back(contact.slip[k]);
+        fields.normal_traction.push_back(pairs[i].points[k].normal_traction);
+        fields.shear_traction.push_back(pairs[i].points[k].shear_traction);
+        fields.state.push_back(pairs[i].points[k].state);
       }
     }
     return fields;

@@ -65,6 +65,7 @@ namespace quoin
         consider(mesh.vertices[model.exchange().global(i)], i);
       break;
     case HistoryQuantity::stress:
+    case HistoryQuantity::rotation:
       for (unsigned int c = 0; c < model.n_cells(); ++c)
       {
         const auto &cell = mesh.cells[model.first_cell() + c];
@@ -114,6 +115,7 @@ namespace quoin
     }
     case HistoryQuantity::unbalanced_ratio:
     case HistoryQuantity::kinetic_share:
+    case HistoryQuantity::contacts:
       return;
     }
 
@@ -156,8 +158,12 @@ namespace quoin
       return state.nodes[probe.entity].u[wanted.component];
     case HistoryQuantity::velocity:
       return state.velocity[probe.entity].v[wanted.component];
+    case HistoryQuantity::rotation:
+      return rotation(probe.entity, state) * 180. / dealii::numbers::PI;
     case HistoryQuantity::stress:
     {
+      if (probe.entity >= model.n_deformable_cells())
+        return 0.;
       const auto stress
           = model.blocks().cell_stress(state.nodes.data(), probe.entity);
       if (wanted.component < 4)
@@ -181,6 +187,23 @@ namespace quoin
     default:
       return 0.;
     }
+  }
+
+  double Histories::rotation(const unsigned int cell, const State &state) const
+  {
+    const auto &nodes = model.cells()[cell];
+    if (cell >= model.n_deformable_cells())
+    {
+      const RigidBlocks &rigid = model.rigid_blocks();
+      unsigned int b           = 0;
+      while (rigid.block(b).end <= nodes[0])
+        ++b;
+      return state.rigid_blocks[b].rotation;
+    }
+    const NodeRecord &a = state.nodes[nodes[0]], &b = state.nodes[nodes[1]],
+                     &c = state.nodes[nodes[2]];
+    const CorotatedStrain strain(Triangle(a, b, c).gradient(a.u, b.u, c.u));
+    return std::atan2(strain.s, strain.c);
   }
 
   bool Histories::need_balance() const
@@ -225,6 +248,10 @@ namespace quoin
           && probe.parameters.component >= 2)
         row[1 + i] = point_value(probe, state);
     }
+    for (unsigned int i = 0; i < probes.size(); ++i)
+      if (probes[i].parameters.quantity == HistoryQuantity::contacts
+          && solver.contacts())
+        row[1 + i] = solver.contacts()->n_touching(state.contacts);
     const double time          = row[0];
     std::vector<double> result = row;
     // Platen displacements are known to all ranks, points to one.

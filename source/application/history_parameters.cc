@@ -30,6 +30,7 @@ namespace quoin
               { "stress zz", { Q::stress, 3, "Pa" } },
               { "stress 1", { Q::stress, 4, "Pa" } },
               { "stress 2", { Q::stress, 5, "Pa" } },
+              { "rotation", { Q::rotation, 0, "deg" } },
               { "joint opening", { Q::joint, 0, "m" } },
               { "joint slip", { Q::joint, 1, "m" } },
               { "joint normal traction", { Q::joint, 2, "Pa" } },
@@ -46,7 +47,8 @@ namespace quoin
               { "platen force y", { Q::platen_force, 1, "N" } },
               { "platen force moment", { Q::platen_force, 2, "N m" } },
               { "unbalanced ratio", { Q::unbalanced_ratio, 0, "-" } },
-              { "kinetic energy share", { Q::kinetic_share, 0, "-" } } };
+              { "kinetic energy share", { Q::kinetic_share, 0, "-" } },
+              { "contacts", { Q::contacts, 0, "-" } } };
       return table;
     }
 
@@ -67,7 +69,12 @@ namespace quoin
                       "What the column holds, in SI units; 'stress 1' and "
                       "'stress 2' are the larger and the smaller principal "
                       "stress; 'kinetic energy share' is kinetic energy by "
-                      "all energy that went through the model.");
+                      "all energy that went through the model; 'contacts' the "
+                      "number of points that press on each other, matched "
+                      "joints apart; 'rotation' is that of the nearest rigid "
+                      "block, full turns counted, or of the nearest cell, "
+                      "from -180 to 180, anticlockwise. Rigid blocks have no "
+                      "stress: it is written as 0.");
     prm.declare_entry("Point", "0, 0", Anything(),
                       "x, y of the point whose nearest node, cell or joint "
                       "point is recorded [m]");

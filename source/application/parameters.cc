@@ -77,6 +77,10 @@ namespace quoin
                         "cracks, or stop.");
       prm.leave_subsection();
 
+      prm.enter_subsection("Contact");
+      ContactParameters::declare(prm);
+      prm.leave_subsection();
+
       prm.enter_subsection("Time stepping");
       prm.declare_entry("Share of critical time step", "0.8", Double(),
                         "Of the bound that is computed from blocks, joints "
@@ -410,7 +414,11 @@ namespace quoin
                        + ", section 'Materials': 'Names' must list at "
                          "least one material.");
     parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
-    parameters.loads        = read_named<LoadParameters>(top, "Loads");
+    parameters.model.contact
+        = ContactParameters::read(ParameterSection(top, "Contact"));
+    parameters.model.large_displacements
+        = parameters.model.contact.large_displacements;
+    parameters.loads = read_named<LoadParameters>(top, "Loads");
     for (const LoadParameters &load : parameters.loads)
       if (load.type == LoadType::initial_stress)
         parameters.model.initial_stresses.push_back(load);

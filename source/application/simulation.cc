@@ -67,7 +67,9 @@ namespace quoin
               0,
               0,
               BlockOutput(parameters.output_directory, communicator),
-              JointOutput(parameters.output_directory, communicator) }
+              JointOutput(parameters.output_directory, communicator),
+              JointOutput(parameters.output_directory, communicator,
+                          "contacts") }
   {
   }
 
@@ -98,11 +100,13 @@ namespace quoin
     // Whole blocks to ranks: blocks share no nodes, only joints cross ranks.
     auto rank_of_block = partition_blocks(
         mesh, dealii::Utilities::MPI::n_mpi_processes(communicator));
-    renumber_blocks(mesh, order_by_part(rank_of_block));
-    std::sort(rank_of_block.begin(), rank_of_block.end());
-
     try
     {
+      renumber_blocks(
+          mesh,
+          order_by_part(rank_of_block,
+                        find_rigid_blocks(mesh, parameters.model.materials)));
+      std::sort(rank_of_block.begin(), rank_of_block.end());
       model  = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
                                       communicator);
       solver = std::make_unique<ExplicitSolver>(*model, parameters.loads);
@@ -120,7 +124,13 @@ namespace quoin
   {
     log.message(parameters.title.empty() ? parameters.file : parameters.title);
     log.message(mesh_report.to_text());
-    if (mesh_report.unmatched_length > 0.)
+    const auto &rigid          = model->is_rigid();
+    const unsigned int n_rigid = std::count(rigid.begin(), rigid.end(), true);
+    if (n_rigid > 0)
+      log.message(std::to_string(n_rigid) + " of the blocks "
+                  + (n_rigid == 1 ? "is rigid" : "are rigid"));
+    if (mesh_report.unmatched_length > 0.
+        && !parameters.model.contact.large_displacements)
       log.warning("outer edges lie on each other over "
                   + number(mesh_report.unmatched_length)
                   + " m without matching nodes, the first near ("
@@ -185,8 +195,8 @@ namespace quoin
         output + "/energies.csv",
         std::vector<std::string>{ "time [s]", "kinetic [J]", "strain [J]",
                                    "joint [J]", "friction [J]", "fracture [J]",
-                                   "damping [J]", "viscous [J]", "external [J]",
-                                   "residual [J]" });
+                                   "damping [J]", "viscous [J]", "contact [J]",
+                                   "external [J]", "residual [J]" });
     if (options.resume)
     {
       const CheckpointInfo info
@@ -228,6 +238,8 @@ namespace quoin
         });
     record.block_output.start();
     record.joint_output.start();
+    if (solver->contacts())
+      record.contact_output.start();
   }
 
   void Simulation::choose_time_step(const StageParameters &stage)
@@ -240,9 +252,17 @@ namespace quoin
                        + "' is above the critical time step " + number(critical)
                        + " s of stage '" + stage.name
                        + "'. Give a smaller one, or 0 for an automatic one.");
+    if (dt == 0. && !std::isfinite(critical))
+      throw InputError(parameters.file
+                       + ", section 'Time stepping': 'Time step = 0' asks for "
+                         "a share of the critical step, but in stage '"
+                       + stage.name
+                       + "' rigid blocks move freely, without joints, and any "
+                         "step is stable. Give one.");
     if (dt == 0.)
       dt = critical
            * (stage.damping == DampingType::local || model->joints().can_fail()
+                      || model->large_displacements()
                   ? std::min(parameters.share_of_critical_step, cautious_share)
                   : parameters.share_of_critical_step);
     steps_of_stage = 0;
@@ -384,11 +404,11 @@ namespace quoin
     record.largest_residual
         = std::max(record.largest_residual, std::abs(energies.residual()));
     if (is_first_rank)
-      energy_table->add_row({ record.state.time - solver->get_time_step(),
-                              energies.kinetic, energies.strain, energies.joint,
-                              accounts.friction, accounts.fracture,
-                              accounts.damping, accounts.viscous,
-                              accounts.external, energies.residual() });
+      energy_table->add_row(
+          { record.state.time - solver->get_time_step(), energies.kinetic,
+            energies.strain, energies.joint, accounts.friction,
+            accounts.fracture, accounts.damping, accounts.viscous,
+            accounts.contact, accounts.external, energies.residual() });
   }
 
   void Simulation::write_fields()
@@ -398,7 +418,13 @@ namespace quoin
       return;
     record.fields_time = state.time;
     record.block_output.write(state.time, block_fields(*model, state));
-    record.joint_output.write(state.time, joint_fields(*model, state));
+    // Histories are those of the step before.
+    State now = state;
+    solver->update_histories(now);
+    record.joint_output.write(state.time, joint_fields(*model, now));
+    if (solver->contacts())
+      record.contact_output.write(state.time,
+                                  contact_fields(*solver->contacts(), now));
     all_or_none<RunError>(communicator,
                           [&]()
                           {
@@ -475,6 +501,8 @@ namespace quoin
             { "finished", finished },
             { "ranks", dealii::Utilities::MPI::n_mpi_processes(communicator) },
             { "blocks", mesh.n_blocks() },
+            { "rigid blocks", std::count(model->is_rigid().begin(),
+                                         model->is_rigid().end(), true) },
             { "cells", mesh.n_cells() },
             { "nodes", mesh.n_vertices() },
             { "joint faces", mesh.joint_faces.size() },
@@ -493,6 +521,24 @@ namespace quoin
             { "energy residual [J]", solver->energies().residual() },
             { "largest energy residual [J]", record.largest_residual },
             { "energy residual share", energy_residual() } };
+    if (const BlockContacts *contacts = solver->contacts())
+    {
+      const double sums[3]
+          = { contacts->n_touching(record.state.contacts),
+              double(contacts->n_updates()), contacts->search_seconds() };
+      std::array<double, 3> all;
+      MPI_Allreduce(sums, all.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
+      summary["contacts"] = all[0];
+      summary["contact updates per second"]
+          = seconds_done > 0. ? all[1] / seconds_done : 0.;
+      summary["contact searches"] = record.state.contacts.n_searches;
+      // Ranks search together: the mean of their times counts.
+      summary["contact search share"]
+          = seconds_done > 0.
+                ? all[2] / dealii::Utilities::MPI::n_mpi_processes(communicator)
+                      / seconds_done
+                : 0.;
+    }
     if (finished && parameters.measure_bandwidth)
     {
       const double measured

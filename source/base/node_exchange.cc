@@ -33,4 +33,12 @@ namespace quoin
                   communicator)
   {
   }
+
+  NodeExchange
+  NodeExchange::with_ghosts(const std::vector<unsigned int> &ghosts) const
+  {
+    const auto [first, last] = partitioner.local_range();
+    return NodeExchange(first, last, partitioner.size(), ghosts,
+                        communicator());
+  }
 } // namespace quoin

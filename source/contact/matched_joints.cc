@@ -205,6 +205,8 @@ namespace quoin
           const unsigned int k       = j % 2;
           const unsigned int p       = 2 * begin + j;
           const auto [opening, slip] = gaps[j];
+          if (history.handed_over[begin + j / 2])
+            continue;
           JointPoint point{ history.normal_traction[p],
                             history.shear_traction[p], history.plastic_slip[p],
                             history.plastic_opening[p], history.state[p] };
@@ -280,6 +282,8 @@ namespace quoin
     double energy = 0.;
     for (unsigned int i = 0; i < segments.size(); ++i)
     {
+      if (history.handed_over[i])
+        continue;
       const Segment &segment = segments[i];
       const auto gap         = gaps(nodes, i);
       for (unsigned int k = 0; k < 2; ++k)
@@ -297,7 +301,7 @@ namespace quoin
   }
 
   void MatchedJoints::add_stiffness_bound(
-      const NodeRecord *nodes, const std::vector<double> &mass,
+      const NodeRecord *nodes, const NodeRatio &ratio,
       std::vector<std::array<double, 3>> &stiffness) const
   {
     for (const Segment &segment : segments)
@@ -316,10 +320,11 @@ namespace quoin
         const unsigned int a = segment.lower[k], b = segment.upper[k];
         if (a == b) // the tip of a crack
           continue;
+        const double ab = ratio(a, b), ba = ratio(b, a);
         for (unsigned int c = 0; c < 3; ++c)
         {
-          stiffness[a][c] += (1. + mass[a] / mass[b]) * spring[c];
-          stiffness[b][c] += (1. + mass[b] / mass[a]) * spring[c];
+          stiffness[a][c] += (1. + ab) * spring[c];
+          stiffness[b][c] += (1. + ba) * spring[c];
         }
       }
     }

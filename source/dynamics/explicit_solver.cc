@@ -28,7 +28,7 @@ namespace quoin
   {
     return std::max({ std::abs(accounts.external), kinetic + strain + joint,
                       accounts.friction + accounts.fracture + accounts.damping
-                          + accounts.viscous });
+                          + accounts.viscous + accounts.contact });
   }
 
   ExplicitSolver::ExplicitSolver(const Model &model,
@@ -65,6 +65,9 @@ namespace quoin
         break;
       }
     }
+    if (model.large_displacements())
+      block_contacts = std::make_unique<BlockContacts>(mesh, exchange,
+                                                       model.contact_model());
     force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
     viscous_force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
 
@@ -105,12 +108,18 @@ namespace quoin
     {
       strain = model.blocks().strain_energy(state.nodes.data());
       joint  = model.joints().stored_energy(state.nodes.data(), state.joints);
+      if (block_contacts)
+        joint += block_contacts->stored_energy(state.contacts);
     }
     const bool step_changes = context.dt_before != context.dt;
     if (requests.energies || step_changes)
+    {
       velocity_before = state.velocity;
+      rigid_before    = state.rigid_blocks;
+    }
     advance_blocks(state, context, requests);
     move_constrained_nodes(state, context);
+    model.rigid_blocks().follow_nodes(rigid_stage, state);
 
     for (const NodalLoad *load : loads_on)
       state.pending.external
@@ -121,8 +130,9 @@ namespace quoin
     {
       // 1/2 m v- v+, or the same half work on from v- if the step changed.
       const double part = context.dt_before / context.dt_velocity;
-      double kinetic    = 0.;
-      for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      double kinetic    = model.rigid_blocks().kinetic_energy(
+             rigid_stage, rigid_before, state.rigid_blocks, part);
+      for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
         for (unsigned int d = 0; d < 2; ++d)
         {
           const double before = velocity_before[i].v[d];
@@ -155,8 +165,10 @@ namespace quoin
     const double factor
         = (context.dt_before * context.dt_before - context.dt * context.dt)
           / (8. * context.dt_velocity * context.dt_velocity);
-    double energy = 0.;
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    double energy = factor
+                    * model.rigid_blocks().squared_change(
+                        rigid_stage, rigid_before, state.rigid_blocks);
+    for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
       {
         const double change = state.velocity[i].v[d] - velocity_before[i].v[d];
@@ -171,6 +183,16 @@ namespace quoin
     if (viscous)
       model.exchange().update_ghosts(state.velocity.data());
 
+    // First, because what it hands over are joints no more.
+    if (block_contacts)
+    {
+      block_contacts->update(state, model.joints(), context.dt);
+      const BlockContacts::Viscous rates{ state.velocity.data(),
+                                          stage.stiffness_coefficient,
+                                          viscous_force.data() };
+      block_contacts->add_forces(state.contacts, state.energy, force.data(),
+                                 viscous ? &rates : nullptr);
+    }
     model.joints().add_forces(state.nodes.data(), state.joints, state.energy,
                               force.data());
     if (viscous)
@@ -187,6 +209,32 @@ namespace quoin
     for (unsigned int i = model.exchange().n_owned();
          i < model.exchange().n_local(); ++i)
       force[i] = viscous_force[i] = NodeVector{ { 0., 0. } };
+  }
+
+  void ExplicitSolver::update_histories(State &state)
+  {
+    AlignedArray<NodeVector> unused(state.nodes.size(),
+                                    NodeVector{ { 0., 0. } });
+    if (block_contacts)
+    {
+      state.contacts.next_check = -1; // search nothing for a mere look
+      block_contacts->update(state, model.joints(), time_step);
+      block_contacts->add_forces(state.contacts, state.energy, unused.data());
+    }
+    model.joints().add_forces(state.nodes.data(), state.joints, state.energy,
+                              unused.data());
+  }
+
+  void ExplicitSolver::capture(CapturedNode &node, const State &state) const
+  {
+    node.force   = force[node.node];
+    node.viscous = viscous_force[node.node];
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      node.force.v[d] += node.viscous.v[d];
+      node.displacement.v[d] = state.nodes[node.node].u[d];
+    }
+    node.velocity = state.velocity[node.node];
   }
 
   void ExplicitSolver::advance_blocks(State &state, const StepContext &context,
@@ -217,17 +265,7 @@ namespace quoin
             stage.stiffness_coefficient, viscous_force.data());
       for (unsigned int c = captured_begin[tile]; c < captured_begin[tile + 1];
            ++c)
-      {
-        CapturedNode &node = captured[c];
-        node.force         = force[node.node];
-        node.viscous       = viscous_force[node.node];
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          node.force.v[d] += node.viscous.v[d];
-          node.displacement.v[d] = state.nodes[node.node].u[d];
-        }
-        node.velocity = state.velocity[node.node];
-      }
+        capture(captured[c], state);
       if (requests.balance)
         for (std::size_t i = range.begin; i < range.end; ++i)
           if (inverse_mass[i] > 0.)
@@ -249,6 +287,17 @@ namespace quoin
                       state.velocity.data(), force.data(), inverse_mass.data(),
                       context.dt_velocity, context.dt);
     }
+
+    for (unsigned int c = captured_begin.back(); c < captured.size(); ++c)
+      capture(captured[c], state);
+    const RigidBlockWork rigid = model.rigid_blocks().advance(
+        context, rigid_stage, force.data(), viscous_force.data(), state);
+    work.before += rigid.damping.before;
+    work.after += rigid.damping.after;
+    work.mass_power += rigid.damping.mass_power;
+    work.kinetic_change += rigid.damping.kinetic_change;
+    unbalanced_force += rigid.unbalanced;
+
     state.energy.damping += work.before;
     state.pending.damping += work.after;
     if (stage.damping == DampingType::adaptive)
@@ -313,15 +362,16 @@ namespace quoin
   void ExplicitSolver::find_energies(State &state, const double strain,
                                      const double joint, const double kinetic)
   {
-    double values[8] = { kinetic,
+    double values[9] = { kinetic,
                          strain,
                          joint,
                          state.energy.external,
                          state.energy.friction,
                          state.energy.fracture,
                          state.energy.damping,
-                         state.energy.viscous };
-    MPI_Allreduce(MPI_IN_PLACE, values, 8, MPI_DOUBLE, MPI_SUM, communicator);
+                         state.energy.viscous,
+                         state.energy.contact };
+    MPI_Allreduce(MPI_IN_PLACE, values, 9, MPI_DOUBLE, MPI_SUM, communicator);
     last_energies.kinetic           = values[0];
     last_energies.strain            = values[1] - strain_at_start;
     last_energies.joint             = values[2] - joint_at_start;
@@ -330,6 +380,7 @@ namespace quoin
     last_energies.accounts.fracture = values[5];
     last_energies.accounts.damping  = values[6];
     last_energies.accounts.viscous  = values[7];
+    last_energies.accounts.contact  = values[8];
   }
 
   void ExplicitSolver::find_ratio(State &state, const StepContext &context,

@@ -9,6 +9,7 @@
 #include <quoin/dynamics/free_bodies.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <sstream>
 
@@ -53,17 +54,20 @@ namespace quoin
       if (contains(stage.loads, load.name()))
         loads_on.push_back(&load);
 
-    if (stage.end == StageEnd::static_ratio)
+    // With large displacements blocks may rest on others without a joint.
+    if (stage.end == StageEnd::static_ratio && !model.large_displacements())
       check_no_free_bodies(model, constraints_on, stage.name);
   }
 
   void ExplicitSolver::scale_masses(const StageParameters &stage, State &state)
   {
-    const unsigned int n_owned = model.exchange().n_owned();
-    const auto kinetic         = [&]()
+    const RigidBlocks &rigid = model.rigid_blocks();
+    rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
+    const auto kinetic = [&]()
     {
-      double energy = 0.;
-      for (unsigned int i = 0; i < n_owned; ++i)
+      double energy = rigid.kinetic_energy(rigid_stage, state.rigid_blocks,
+                                           state.rigid_blocks, 1.);
+      for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
         energy += 0.5 * mass[i]
                   * (state.velocity[i].v[0] * state.velocity[i].v[0]
                      + state.velocity[i].v[1] * state.velocity[i].v[1]);
@@ -73,7 +77,20 @@ namespace quoin
     const double before = kinetic();
     double own = 0., scaled = 0.;
     mass = model.mass();
-    for (unsigned int i = 0; i < n_owned; ++i)
+    for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+    {
+      double &factor = rigid_stage.mass_factor[b];
+      factor         = stage.scaled_time_step > 0.
+                           ? model.stability().rigid_factor(b, stage.scaled_time_step)
+                           : 1.;
+      for (unsigned int i = rigid.block(b).begin; i < rigid.block(b).end; ++i)
+      {
+        own += mass[i];
+        mass[i] *= factor;
+        scaled += mass[i];
+      }
+    }
+    for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
     {
       own += mass[i];
       if (stage.scaled_time_step > 0.)
@@ -86,12 +103,31 @@ namespace quoin
     state.energy.external += kinetic() - before;
 
     critical_step = StableTimeStep::critical(
-        dealii::Utilities::MPI::max(model.stability().largest_eigenvalue(mass),
-                                    communicator),
+        dealii::Utilities::MPI::max(
+            model.stability().largest_eigenvalue(mass, rigid_stage.mass_factor),
+            communicator),
         stage.stiffness_coefficient);
     for (NodeConstraint *constraint : constraints_on)
       if (auto *platen = dynamic_cast<Platen *>(constraint))
-        platen->set_mass(mass);
+      {
+        double inertia = 0., spin = 0.;
+        for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+        {
+          const RigidBlocks::Block &block = rigid.block(b);
+          if (!std::binary_search(platen->nodes().begin(),
+                                  platen->nodes().end(), block.begin))
+            continue;
+          const double factor = rigid_stage.mass_factor[b];
+          const double omega  = state.rigid_blocks[b].velocity[2];
+          inertia += factor * (block.inertia - block.lumped_inertia);
+          // Velocities of nodes are those of the mean arm of the last step.
+          const double mean
+              = 0.5 * (1. + std::cos(omega * state.previous_time_step));
+          spin
+              += factor * (block.inertia - mean * block.lumped_inertia) * omega;
+        }
+        platen->set_mass(mass, inertia, spin);
+      }
   }
 
   void ExplicitSolver::collect_constrained_nodes()
@@ -125,6 +161,7 @@ namespace quoin
     }
 
     refuse_shared_platens();
+    find_held_blocks();
 
     captured_begin.clear();
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
@@ -132,7 +169,9 @@ namespace quoin
           std::lower_bound(nodes.begin(), nodes.end(),
                            model.blocks().tile_nodes(tile).begin)
           - nodes.begin());
-    captured_begin.push_back(nodes.size());
+    captured_begin.push_back(
+        std::lower_bound(nodes.begin(), nodes.end(), model.n_deformable_nodes())
+        - nodes.begin());
 
     moving_mass = mass;
     inverse_mass.resize(mass.size());
@@ -140,6 +179,43 @@ namespace quoin
       inverse_mass[i] = 1. / mass[i];
     for (const unsigned int node : nodes)
       moving_mass[node] = inverse_mass[node] = 0.;
+  }
+
+  void ExplicitSolver::find_held_blocks()
+  {
+    constexpr unsigned int none = -1;
+    const RigidBlocks &rigid    = model.rigid_blocks();
+    rigid_stage.held.assign(rigid.n_blocks(), false);
+    for (const NodeConstraint *constraint : constraints_on)
+    {
+      const auto &nodes  = constraint->nodes();
+      unsigned int wrong = none;
+      for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+      {
+        const RigidBlocks::Block &block = rigid.block(b);
+        const auto first
+            = std::lower_bound(nodes.begin(), nodes.end(), block.begin);
+        const auto last = std::lower_bound(first, nodes.end(), block.end);
+        if (first == last)
+          continue;
+        if (constraint->is_global() && last - first == block.end - block.begin)
+          rigid_stage.held[b] = true;
+        else if (wrong == none)
+          wrong = model.exchange().global(*first);
+      }
+      wrong = dealii::Utilities::MPI::min(wrong, communicator);
+      if (wrong == none)
+        continue;
+      const auto &p = model.mesh().vertices[wrong];
+      std::ostringstream message;
+      message << "section 'Stages/" << stage.name << "': the load '"
+              << constraint->name() << "' moves the node at (" << p[0] << ", "
+              << p[1]
+              << ") m by itself, but its block is rigid. Hold or drive rigid "
+                 "blocks as a whole, by a load with 'Type = platen' and their "
+                 "'Group', or make the block deformable.";
+      throw InputError(message.str());
+    }
   }
 
   void ExplicitSolver::refuse_shared_platens() const

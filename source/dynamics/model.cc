@@ -32,6 +32,7 @@ namespace quoin
     : block_mesh(mesh), parameters(parameters)
   {
     find_materials();
+    rigid_block = find_rigid_blocks(mesh, parameters.materials);
     find_blocks(rank_of_block, communicator);
     find_masses();
     find_initial_stress();
@@ -97,6 +98,13 @@ namespace quoin
         = std::equal_range(rank_of_block.begin(), rank_of_block.end(), rank);
     block_begin = range.first - rank_of_block.begin();
     block_end   = range.second - rank_of_block.begin();
+    rigid_begin = std::find(rigid_block.begin() + block_begin,
+                            rigid_block.begin() + block_end, true)
+                  - rigid_block.begin();
+    AssertThrow(std::find(rigid_block.begin() + rigid_begin,
+                          rigid_block.begin() + block_end, false)
+                    == rigid_block.begin() + block_end,
+                dealii::ExcMessage("Rigid blocks must come last."));
 
     const unsigned int first = block_mesh.block_first_vertex[block_begin];
     const unsigned int last  = block_mesh.block_first_vertex[block_end];
@@ -137,6 +145,12 @@ namespace quoin
     }
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       node_mass.push_back(mass[nodes->global(i)]);
+
+    std::vector<double> density;
+    for (const unsigned int material : material_of_group)
+      density.push_back(parameters.materials[material].elastic.density);
+    rigid.prepare(block_mesh, rigid_begin, block_end, n_deformable_nodes(),
+                  density, parameters.thickness);
   }
 
   void Model::find_initial_stress()
@@ -165,11 +179,12 @@ namespace quoin
   void Model::pack_blocks()
   {
     BlockForcesData data;
-    data.cells                = local_cells;
+    data.cells.assign(local_cells.begin(),
+                      local_cells.begin() + n_deformable_cells());
     data.thickness            = parameters.thickness;
     const unsigned int cell_0 = first_cell();
     const unsigned int node_0 = block_mesh.block_first_vertex[block_begin];
-    for (unsigned int b = block_begin; b <= block_end; ++b)
+    for (unsigned int b = block_begin; b <= rigid_begin; ++b)
     {
       data.block_first_cell.push_back(block_mesh.block_first_cell[b] - cell_0);
       data.block_first_node.push_back(block_mesh.block_first_vertex[b]
@@ -178,7 +193,7 @@ namespace quoin
     for (const MaterialParameters &material : parameters.materials)
       data.stiffness.push_back(
           plane_stiffness(material.elastic, parameters.plane));
-    for (unsigned int c = 0; c < n_cells(); ++c)
+    for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
       data.cell_stiffness.push_back(material_of_cell(cell_0 + c));
       if (!cell_stress.empty())
@@ -191,7 +206,7 @@ namespace quoin
   {
     std::vector<std::array<double, 3>> bound(nodes->n_local(),
                                              { { 0., 0., 0. } });
-    for (unsigned int c = 0; c < n_cells(); ++c)
+    for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
       const unsigned int cell = first_cell() + c;
       const LinearElastic &material
@@ -208,15 +223,106 @@ namespace quoin
         bound[v][1] += share;
       }
     }
-    const State state = initial_state();
-    matched_joints.add_stiffness_bound(state.nodes.data(), node_mass, bound);
+    if (parameters.large_displacements)
+      add_contact_bound(bound);
+    else
+      add_joint_bound(bound);
     bound.resize(nodes->n_owned());
+    std::vector<double> rigid_bound;
+    for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+      rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
+    std::fill(bound.begin() + n_deformable_nodes(), bound.end(),
+              std::array<double, 3>{ { 0., 0., 0. } });
     stable_step = std::make_unique<StableTimeStep>(bound);
+    stable_step->set_rigid_blocks(rigid_bound);
+  }
+
+  void Model::add_joint_bound(std::vector<std::array<double, 3>> &bound) const
+  {
+    const State state = initial_state();
+    const auto none   = std::find(rigid_block.begin(), rigid_block.end(), true);
+    if (none == rigid_block.end())
+    {
+      matched_joints.add_stiffness_bound(state.nodes.data(), node_mass, bound);
+      return;
+    }
+
+    // What a body, node or rigid block, would have as omega^2 if the other
+    // side of its joints were fixed. In the ratio of these the springs'
+    // shares are best divided, because a rigid block may have any number of
+    // them: no bound is above the sum of two bodies' own.
+    std::vector<std::array<double, 3>> springs(nodes->n_local(),
+                                               { { 0., 0., 0. } });
+    matched_joints.add_stiffness_bound(
+        state.nodes.data(), [](unsigned int, unsigned int) { return 0.; },
+        springs);
+    std::vector<double> own(nodes->n_local(), 0.);
+    for (unsigned int i = 0; i < n_deformable_nodes(); ++i)
+      own[i]
+          = StableTimeStep({ springs[i] }).largest_eigenvalue({ node_mass[i] });
+    for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+      std::fill(own.begin() + rigid.block(b).begin,
+                own.begin() + rigid.block(b).end,
+                rigid.largest_eigenvalue(b, springs));
+    nodes->update_ghosts(own.data());
+
+    const auto is_rigid_node = [&](const unsigned int i)
+    { return rigid_block[block_mesh.block_of_vertex(nodes->global(i))]; };
+    matched_joints.add_stiffness_bound(
+        state.nodes.data(),
+        [&](const unsigned int a, const unsigned int b)
+        {
+          return is_rigid_node(a) || is_rigid_node(b)
+                     ? own[b] / own[a]
+                     : node_mass[a] / node_mass[b];
+        },
+        bound);
+  }
+
+  void Model::add_contact_bound(std::vector<std::array<double, 3>> &bound) const
+  {
+    // A spring k between nodes a and b has no more energy than 2 k at each.
+    double stiffness = 0.;
+    for (const JointSetParameters &set : parameters.joints)
+      stiffness = std::max(
+          { stiffness, set.law.normal_stiffness, set.law.shear_stiffness });
+    const auto add_edge = [&](const std::array<unsigned int, 2> &edge)
+    {
+      const double tributary = 0.5
+                               * block_mesh.vertices[edge[0]].distance(
+                                   block_mesh.vertices[edge[1]]);
+      for (const unsigned int v : edge)
+        if (nodes->owns(v))
+          for (unsigned int c = 0; c < 2; ++c)
+            bound[nodes->local(v)][c]
+                += 2. * stiffness * tributary * parameters.thickness;
+    };
+    for (const BlockFace &face : block_mesh.boundary_faces)
+      add_edge(face.vertices);
+    for (const JointFace &face : block_mesh.joint_faces)
+    {
+      add_edge(face.lower);
+      add_edge(face.upper);
+    }
+  }
+
+  ContactModel Model::contact_model() const
+  {
+    ContactModel result;
+    result.parameters = parameters.contact;
+    result.sets       = parameters.joints;
+    for (const MaterialParameters &material : parameters.materials)
+      result.materials.push_back(material.name);
+    result.material_of_group = material_of_group;
+    result.is_rigid          = rigid_block;
+    result.thickness         = parameters.thickness;
+    return result;
   }
 
   State Model::initial_state() const
   {
     State state;
+    state.rigid_blocks.resize(rigid.n_blocks());
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       state.nodes.push_back(at_rest(block_mesh.vertices[nodes->global(i)]));
     state.velocity.assign(nodes->n_local(), NodeVector{ { 0., 0. } });

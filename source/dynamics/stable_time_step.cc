@@ -15,12 +15,17 @@ namespace quoin
       eigenvalue.push_back(0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy));
   }
 
-  double
-  StableTimeStep::largest_eigenvalue(const std::vector<double> &mass) const
+  double StableTimeStep::largest_eigenvalue(
+      const std::vector<double> &mass,
+      const std::vector<double> &rigid_factors) const
   {
     double largest = 0.;
     for (unsigned int i = 0; i < eigenvalue.size(); ++i)
       largest = std::max(largest, eigenvalue[i] / mass[i]);
+    for (unsigned int b = 0; b < rigid_eigenvalue.size(); ++b)
+      largest = std::max(largest,
+                         rigid_eigenvalue[b]
+                             / (rigid_factors.empty() ? 1. : rigid_factors[b]));
     return largest;
   }
 

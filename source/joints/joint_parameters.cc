@@ -4,6 +4,7 @@
 #include <quoin/joints/joint_parameters.h>
 
 #include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
 
 namespace quoin
 {
@@ -24,6 +25,12 @@ namespace quoin
                       "Physical curves of the mesh whose joints form this "
                       "set; empty: the curve that bears the set's own name; "
                       "'unnamed': joints on no named curve.");
+    prm.declare_entry("New contacts between", "", Anything(),
+                      "Pairs a:b of materials between which contacts that "
+                      "come up while blocks move follow this set, or 'all': "
+                      "the pairs that no other set names. They are born "
+                      "failed, that is with the residual strength. For large "
+                      "displacements; such a set needs no curve.");
     prm.declare_entry("Law", "Coulomb",
                       dealii::Patterns::Selection("Coulomb|elastic|no tension"),
                       "Coulomb: cohesion, friction and tension that drop to "
@@ -52,7 +59,22 @@ namespace quoin
     JointSetParameters set;
     set.name   = name;
     set.curves = section.list("Curves");
-    if (set.curves.empty())
+    for (const std::string &pair : section.list("New contacts between"))
+    {
+      if (pair == "all")
+      {
+        set.all_new_contacts = true;
+        continue;
+      }
+      const auto names = dealii::Utilities::split_string_list(pair, ':');
+      if (names.size() != 2 || names[0].empty() || names[1].empty())
+        section.fail("New contacts between",
+                     "must be 'all' or pairs of materials such as "
+                     "rock:concrete.");
+      set.new_contacts.emplace_back(names[0], names[1]);
+    }
+    const bool is_new = set.all_new_contacts || !set.new_contacts.empty();
+    if (set.curves.empty() && !is_new)
       set.curves = { name };
 
     CoulombLaw &law        = set.law;
@@ -60,7 +82,13 @@ namespace quoin
     law.shear_stiffness    = section.positive("Shear stiffness");
     const std::string kind = section.text("Law");
     if (kind == "elastic")
+    {
+      if (is_new)
+        section.fail("Law", "cannot be 'elastic' for new contacts, which "
+                            "would then hold together for good. Use "
+                            "'Coulomb'.");
       return set;
+    }
 
     const double peak_angle = section.within("Friction angle", 0., 89.);
     law.peak.cohesion       = section.nonnegative("Cohesion");

@@ -57,8 +57,11 @@ namespace quoin
                         groups_of_names(mesh, parameters.groups, load_name));
   }
 
-  void Platen::set_mass(const std::vector<double> &mass)
+  void Platen::set_mass(const std::vector<double> &mass,
+                        const double extra_inertia, const double extra_spin)
   {
+    rigid_inertia = extra_inertia;
+    rigid_spin    = extra_spin;
     node_mass.clear();
     for (const unsigned int node : node_list)
       node_mass.push_back(mass[node]);
@@ -96,7 +99,7 @@ namespace quoin
     const double centre[2]
         = { moments[1] / moments[0], moments[2] / moments[0] };
     platen.arms.clear();
-    double spin = 0.;
+    double spin = rigid_spin;
     for (unsigned int d = 0; d < 2; ++d)
       platen.centre[d] = centre[d] - platen.displacement[d];
     for (unsigned int i = 0; i < node_list.size(); ++i)
@@ -118,7 +121,7 @@ namespace quoin
   void Platen::resume_stage(const State &state)
   {
     const auto &arms = state.platens[platen_index].arms;
-    inertia          = {};
+    inertia          = { 0., 0., rigid_inertia };
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
       inertia[0] += node_mass[i];

@@ -7,15 +7,22 @@ namespace quoin
 {
   using dealii::Patterns::Anything;
   using dealii::Patterns::Double;
+  using dealii::Patterns::Selection;
 
   void MaterialParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry("Groups", "", Anything(),
                       "Physical surfaces of the mesh that are made of this "
                       "material; empty: the one that bears its name.");
+    prm.declare_entry("Law", "linear elastic",
+                      Selection("linear elastic|rigid"),
+                      "Whether blocks of this material deform; rigid blocks "
+                      "need only the density.");
     prm.declare_entry("Density", "0", Double(), "rho [kg/m^3]");
-    prm.declare_entry("Young's modulus", "0", Double(), "E [Pa]");
-    prm.declare_entry("Poisson's ratio", "0", Double(), "nu [-]");
+    prm.declare_entry("Young's modulus", "0", Double(),
+                      "E [Pa]; not read if 'Law = rigid'");
+    prm.declare_entry("Poisson's ratio", "0", Double(),
+                      "nu [-]; not read if 'Law = rigid'");
   }
 
   MaterialParameters MaterialParameters::read(const ParameterSection &section,
@@ -27,6 +34,9 @@ namespace quoin
     if (material.groups.empty())
       material.groups = { name };
     material.elastic.density = section.positive("Density");
+    material.rigid           = section.text("Law") == "rigid";
+    if (material.rigid)
+      return material;
     material.elastic.young   = section.positive("Young's modulus");
     material.elastic.poisson = section.within("Poisson's ratio", -0.99, 0.4999);
     return material;

@@ -13,6 +13,7 @@
 #include <limits>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace quoin
 {
@@ -295,13 +296,16 @@ namespace quoin
   }
 
   std::vector<unsigned int>
-  order_by_part(const std::vector<unsigned int> &part_of_block)
+  order_by_part(const std::vector<unsigned int> &part_of_block,
+                const std::vector<bool> &behind)
   {
+    const auto place = [&](const unsigned int b)
+    { return std::make_pair(part_of_block[b], !behind.empty() && behind[b]); };
     std::vector<unsigned int> order(part_of_block.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
                      [&](const unsigned int a, const unsigned int b)
-                     { return part_of_block[a] < part_of_block[b]; });
+                     { return place(a) < place(b); });
     return order;
   }
 } // namespace quoin

@@ -32,8 +32,8 @@ namespace quoin
   }
 
   JointOutput::JointOutput(const std::string &output_directory,
-                           const MPI_Comm communicator)
-    : VtuSeries(output_directory, "joints", communicator)
+                           const MPI_Comm communicator, const std::string &name)
+    : VtuSeries(output_directory, name, communicator)
   {
   }
 

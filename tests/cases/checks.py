@@ -5,6 +5,7 @@
 Each takes the case's entry, its folder, the output folder and the histories,
 and returns {what: (error, tolerance)}.
 """
+import json
 import os
 import sys
 
@@ -22,7 +23,7 @@ def energies(output):
 
 def peak_energy(table):
     names = ("kinetic", "strain", "joint", "friction", "fracture", "damping",
-             "viscous", "external")
+             "viscous", "contact", "external")
     return max(np.max(np.abs(table[name])) for name in names)
 
 
@@ -183,6 +184,407 @@ def wall_cracks(case, folder, output, histories):
             float(29.7e3 / histories["vertical"][-1]), 0.8),
         "kinetic energy share beyond 0.4 mm": (
             float(np.max(histories["kinetic"][late])), 0.01),
+        "energy residual": (
+            float(np.max(np.abs(table["residual"])) / peak_energy(table)),
+            1e-3),
+    }
+
+
+def residual_of(table):
+    """The residual of the energy balance relative to the peak energy."""
+    return float(np.max(np.abs(table["residual"])) / peak_energy(table))
+
+
+def frame(histories, slope, x="corner_x", y="corner_y"):
+    """Displacement down a plane that falls to the right, and off it."""
+    c, s = np.cos(np.radians(slope)), np.sin(np.radians(slope))
+    return (c * histories[x] - s * histories[y],
+            s * histories[x] + c * histories[y])
+
+
+def incline_slides(case, folder, output, histories):
+    """The acceleration down the plane by a parabola through the displacement
+    from well after the start on, and that it stays a parabola."""
+    slope, gravity = 40.0, 10.0
+    angle, friction = np.radians(slope), np.radians(case["friction"])
+    wanted = gravity * (np.sin(angle) - np.cos(angle) * np.tan(friction))
+    along, above = frame(histories, slope)
+    t = histories["time"] - case["from"]
+    if t[-1] < 1:
+        raise Failure("the run ended before the block slid")
+    t, along, above = t[t >= 0], along[t >= 0], above[t >= 0]
+    found = np.polyfit(t, along, 2)
+    print("  acceleration %.5f m/s^2, formula %.5f m/s^2"
+          % (2 * found[0], wanted))
+    rest = along - np.polyval(found, t)
+    return {
+        "acceleration": (float(abs(2 * found[0] / wanted - 1)),
+                         case.get("acceleration tolerance", 1e-3)),
+        "deviation from the parabola / path": (
+            float(np.max(np.abs(rest)) / np.ptp(along)), 1e-3),
+        "lift off the plane [m]": (
+            float(np.ptp(above)), case.get("lift", 1e-3)),
+        "rotation [deg]": (
+            float(np.max(np.abs(histories["rotation"]))),
+            case.get("turn", 0.05)),
+        "energy residual": (residual_of(energies(output)), 1e-3),
+    }
+
+
+def incline_stands(case, folder, output, histories):
+    """At rest, leaning as statics of its two corner springs have it."""
+    slope, gravity, stiffness = np.radians(40.0), 10.0, case["stiffness"]
+    width, height = 10.0, 10.0
+    weight = 2000 * gravity * width * height
+    lean = np.degrees(4 * weight * np.cos(slope) * height / 2 * np.tan(slope)
+                      / (stiffness * width**3))
+    along, _ = frame(histories, 40.0)
+    t = histories["time"]
+    late = t > t[-1] - 0.25 * (t[-1] - 6.0)
+    elastic = weight * np.sin(slope) / (stiffness * width)
+    print("  rotation %.5f deg, statics %.5f deg; %.3e m down the plane, "
+          "elastic %.3e m" % (histories["rotation"][-1], -lean, along[-1],
+                              elastic))
+    return {
+        "rotation": (float(abs(histories["rotation"][-1] / -lean - 1)), 0.05),
+        "path down the plane / elastic one": (float(along[-1] / elastic), 3.0),
+        "motion in the last quarter / width": (
+            float(np.ptp(along[late]) / width), 1e-9),
+    }
+
+
+def incline_topples(case, folder, output, histories):
+    """The signs of the motion: it turns downhill all the while; its corner
+    stays, or slides downhill all the while if 'slides'."""
+    along, _ = frame(histories, 40.0)
+    moving = histories["time"] > 6.0
+    turn, along = histories["rotation"][moving], along[moving]
+    table = energies(output)
+    result = {
+        "rotation back [deg]": (float(np.max(np.diff(turn))), 0.05),
+        "20 deg / rotation downhill": (
+            float(20 / max(-turn[-1], 1e-9)), 1.0),
+        "energy residual": (residual_of(table), 1e-3),
+    }
+    if case.get("slides"):
+        result["0.5 m / path of the corner"] = (
+            float(0.5 / max(along[-1], 1e-9)), 1.0)
+        result["path of the corner uphill [m]"] = (
+            float(max(0, -np.min(np.diff(along)))), 1e-3)
+    else:
+        result["path of the corner / width"] = (
+            float(np.ptp(along) / 10), case.get("corner", 0.005))
+    return result
+
+
+def block_at_rest(case, folder, output, histories):
+    """Drift and vibration of the undamped stage relative to the width. If the
+    block was set vibrating: how much the envelope has moved, relative to the
+    amplitude."""
+    along, above = frame(histories, 20.0)
+    rest = histories["time"] > 2.1
+    along, above = along[rest], above[rest]
+    n = len(along) // 10
+    with open(os.path.join(output, "summary.json")) as stream:
+        done = json.load(stream).get("steps", 0)
+    missing = (float(max(1e6 - done, 0)) / 1e6, 1e-9)
+    if not case.get("vibrates"):
+        return {
+            "drift / width": (float(abs(
+                along[-n:].mean() - along[:n].mean()) / 10), 1e-12),
+            "vibration along / width": (float(np.ptp(along) / 10), 1e-11),
+            "vibration across / width": (float(np.ptp(above) / 10), 1e-11),
+            "steps missing": missing}
+    amplitude = np.ptp(along[:n]) / 2
+    print("  amplitude %.3e m" % amplitude)
+    return {
+        "shift of the upper envelope / amplitude": (
+            float(abs(along[-n:].max() - along[:n].max()) / amplitude), 0.25),
+        "shift of the lower envelope / amplitude": (
+            float(abs(along[-n:].min() - along[:n].min()) / amplitude), 0.25),
+        "1e-7 m / amplitude": (float(1e-7 / amplitude), 1.0),
+        "energy residual": (residual_of(energies(output)), 1e-3),
+        "steps missing": missing}
+
+
+def quarter(folder, ratio):
+    """Row of quarters.csv: tilt ratio, tilt [deg], exact, Housner [s]."""
+    table = np.loadtxt(os.path.join(folder, "quarters.csv"), delimiter=",",
+                       skiprows=1)
+    return table[np.argmin(np.abs(table[:, 0] - ratio))]
+
+
+def first_crossing(t, values, level):
+    above = np.nonzero(values >= level)[0]
+    if len(above) == 0 or above[0] == 0:
+        raise Failure("the block did not come upright")
+    i = above[0]
+    return float(t[i - 1] + (t[i] - t[i - 1]) * (level - values[i - 1])
+                 / (values[i] - values[i - 1]))
+
+
+def rocking(case, folder, output, histories):
+    """Time from the release to the first impact, where the tilt vanishes."""
+    _, tilt, exact, housner = quarter(folder, case["ratio"])
+    found = first_crossing(histories["time"], histories["rotation"], tilt)
+    print("  quarter %.6f s, exact %.6f s; period %.4f s, Housner %.4f s"
+          % (found, exact, 4 * found, 4 * housner))
+    return {
+        "quarter, exact": (abs(found / exact - 1),
+                           case.get("quarter tolerance", 1e-3)),
+        "period, Housner": (abs(found / housner - 1), 0.01),
+        "energy residual": (residual_of(energies(output)), 1e-3),
+    }
+
+
+def rocking_decay(case, folder, output, histories):
+    """Energy after by energy before an impact, from the largest tilts."""
+    _, tilt, _, _ = quarter(folder, case["ratio"])
+    slenderness = np.arctan(0.25)
+    theta = np.radians(histories["rotation"] - tilt)
+    # largest tilt of each half cycle; the chatter at an impact is none
+    peaks, side = [], 0
+    for value in theta:
+        if abs(value) < 0.02 * slenderness:
+            continue
+        if np.sign(value) != side:
+            side = np.sign(value)
+            peaks.append(0.0)
+        peaks[-1] = max(peaks[-1], abs(value))
+    energy = np.cos(slenderness - np.array(peaks[:5])) - np.cos(slenderness)
+    if len(energy) < 5:
+        raise Failure("only %d half cycles" % len(energy))
+    ratios = energy[1:] / energy[:-1]
+    wanted = (1 - 1.5 * np.sin(slenderness)**2)**2
+    print("  energy ratios %s, rigid theory %.4f"
+          % (", ".join("%.4f" % r for r in ratios), wanted))
+    return {
+        "energy ratio": (float(np.max(np.abs(ratios / wanted - 1))), 0.03),
+        "energy residual": (residual_of(energies(output)), 1e-3),
+    }
+
+
+def bounce(case, folder, output, histories):
+    """Energy relative to that of the drop, and at least ten bounces."""
+    drop = 4000.0 * 10 * 0.1
+    table = energies(output)
+    y = histories["y"] + 0.1
+    bounces = int(np.sum((y[1:] < 0) & (y[:-1] >= 0)))
+    total = (table["kinetic"] + table["strain"] + table["joint"]
+             - table["external"])
+    flying = y > 0.01
+    print("  %d bounces" % bounces)
+    return {
+        "energy residual / drop": (
+            float(np.max(np.abs(table["residual"])) / drop),
+            case.get("energy tolerance", 1e-6)),
+        "range of the total / drop": (
+            float(np.ptp(total) / drop),
+            2 * case.get("energy tolerance", 1e-6)),
+        "contact account at the end / drop": (
+            float(abs(table["contact"][-1]) / drop), 1e-9),
+        "bounces missing": (float(max(0, 10 - bounces)), 0.5),
+        "rotation [deg]": (
+            float(np.max(np.abs(histories["rotation"]))),
+            case.get("turn", 1e-6)),
+        "contacts in flight": (
+            float(np.max(histories["contacts"][flying])), 0.5),
+    }
+
+
+def newmark(case, folder, output, histories):
+    """Slip of the block on the base against the exact history."""
+    reference, _ = read_table(os.path.join(folder, case["slip"]))
+    histories = strictly_increasing(histories)
+    shaken = histories["time"] >= 1.0
+    t = histories["time"][shaken]
+    relative = {
+        "x": (histories["block_x"] - histories["base_x"])[shaken],
+        "y": histories["block_y"][shaken]}
+    along, above = frame(relative, case["slope"], "x", "y")
+    found = np.interp(reference["time"], t, along - along[0])
+    peak = np.max(np.abs(reference["slip"]))
+    base = np.interp(reference["time"], t, histories["base_x"][shaken])
+    return {
+        "slip": (float(np.max(np.abs(found - reference["slip"])) / peak), 0.01),
+        "motion of the base": (
+            float(np.max(np.abs(base - reference["base_x"]))
+                  / np.max(np.abs(reference["base_x"]))), 1e-3),
+        "lift off the base / height": (float(np.ptp(above)), 1e-4),
+        "energy residual": (residual_of(energies(output)), 1e-3),
+    }
+
+
+def corner_passage(case, folder, output, histories):
+    """Forces on either block of the table against statics, by the weight."""
+    weight, left_weight, right_weight = 2500.0, 20000.0, 10000.0
+    friction = np.tan(np.radians(30))
+    reference, _ = read_table(os.path.join(folder, case["statics"]))
+    histories = strictly_increasing(histories)
+    # after the start, until the statics end
+    travel = histories["slider_x"]
+    keep = ((histories["time"] > 1.2) & (travel <= reference["travel"][-1]))
+    travel = travel[keep]
+    normal = {"left": histories["left_y"][keep] - left_weight,
+              "right": histories["right_y"][keep] - right_weight}
+    shear = {"left": -histories["left_x"][keep],
+             "right": -histories["right_x"][keep]}
+    share = case.get("share tolerance", 0.005)
+    result = {}
+    for side in ("left", "right"):
+        wanted = np.interp(travel, reference["travel"], reference[side])
+        result["normal force " + side] = (
+            float(np.max(np.abs(normal[side] - wanted)) / weight), share)
+        result["shear force " + side] = (
+            float(np.max(np.abs(shear[side] - friction * wanted))
+                  / (friction * weight)), share)
+        result["jump of the normal force " + side] = (
+            float(np.max(np.abs(np.diff(normal[side]))) / weight),
+            case.get("jump", 0.005))
+    bound = case.get("sum tolerance", 0.002)
+    result["sum of normal forces"] = (
+        float(np.max(np.abs(normal["left"] + normal["right"] - weight))
+              / weight), bound)
+    result["push"] = (
+        float(np.max(np.abs(histories["push"][keep] / (friction * weight)
+                            - 1))), bound)
+    return result
+
+
+def toppling_modes(case, folder, output, histories):
+    """Every column moves as limit equilibrium says: 0 stays, 1 topples,
+    2 slides. Told apart by the motion of its upper corner and its rotation,
+    relative to those of the column that moves or turns most."""
+    modes, _ = read_table(os.path.join(folder, "modes.csv"))
+    blocks = modes["block"].astype(int)
+    moved = np.array([np.hypot(histories["x%d" % i][-1],
+                               histories["y%d" % i][-1]) for i in blocks])
+    turned = np.abs([histories["rotation%d" % i][-1] for i in blocks])
+    moves = moved > 0.05 * np.max(moved)
+    topples = turned > 0.2 * np.max(turned)
+    found = np.where(~moves, 0, np.where(topples, 1, 2))
+    for i, wanted, mode in zip(blocks, modes["mode"].astype(int), found):
+        if mode != wanted:
+            print("  column %d: %s, expected %s: moved %.3g m, turned %.3g deg"
+                  % (i, *(("stays", "topples", "slides")[m]
+                          for m in (mode, wanted)),
+                     moved[blocks == i][0], turned[blocks == i][0]))
+    return {"columns in another mode": (
+        float(np.count_nonzero(found != modes["mode"])), 0.5)}
+
+
+def block_outlines(grid, position):
+    """{block: (n, 2, 2) edges of its outline}, from the edges that belong to
+    one triangle only."""
+    cells = grid.cells
+    edges = np.concatenate([cells[:, [0, 1]], cells[:, [1, 2]],
+                            cells[:, [2, 0]]])
+    owner = np.tile(grid.cell_data["block"], 3)
+    _, first, count = np.unique(np.sort(edges), axis=0, return_index=True,
+                                return_counts=True)
+    outer = first[count == 1]
+    return {block: position[edges[outer[owner[outer] == block]]]
+            for block in np.unique(owner)}
+
+
+def depths_in(points, edges):
+    """How deep points lie in a polygon: the distance to its nearest edge;
+    0 outside."""
+    a, b = edges[:, 0], edges[:, 1]
+    x, y = points[:, None, 0], points[:, None, 1]
+    crosses = (a[:, 1] > y) != (b[:, 1] > y)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = a[:, 0] + (y - a[:, 1]) * (b - a)[:, 0] / (b - a)[:, 1]
+    inside = np.count_nonzero(crosses & (x < at), axis=1) % 2 == 1
+    if not inside.any():
+        return np.zeros(len(points))
+    along = b - a
+    share = np.einsum("pek,ek->pe", points[:, None] - a, along)
+    share = np.clip(share / np.sum(along**2, axis=1), 0, 1)
+    foot = a + share[..., None] * along
+    distance = np.linalg.norm(points[:, None] - foot, axis=2).min(axis=1)
+    return np.where(inside, distance, 0.0)
+
+
+def deepest_overlap(outlines):
+    """The deepest overlap of any two blocks and their numbers. Points on the
+    edges are looked for as well, for edges that cross without a corner
+    inside."""
+    share = np.linspace(0, 1, 10, endpoint=False)[:, None, None]
+    points = {k: (e[:, 0] + share * (e[:, 1] - e[:, 0])).reshape(-1, 2)
+              for k, e in outlines.items()}
+    low = {k: p.min(axis=0) for k, p in points.items()}
+    high = {k: p.max(axis=0) for k, p in points.items()}
+    deepest = (0.0, None, None)
+    blocks = sorted(outlines)
+    lows, highs = (np.array([d[k] for k in blocks]) for d in (low, high))
+    for a in blocks:
+        near = np.all((lows < high[a]) & (highs > low[a]), axis=1)
+        for b in np.array(blocks)[near]:
+            if b == a:
+                continue
+            p = points[a]
+            p = p[np.all((p > low[b]) & (p < high[b]), axis=1)]
+            if len(p) > 0:
+                depth = depths_in(p, outlines[b]).max()
+                deepest = max(deepest, (float(depth), int(a), int(b)),
+                              key=lambda record: record[0])
+    return deepest
+
+
+def pile(case, folder, output, histories):
+    """Blocks at rest in a box: static ratio, penetration against the elastic
+    one, nothing outside of the box, reaction equal to the weight."""
+    sys.path.insert(0, os.path.join(os.path.dirname(HERE), os.pardir,
+                                    "scripts"))
+    import vtu  # noqa: E402
+
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    position = grid.points + grid.point_data["displacement"][:, :2]
+    if not np.all(np.isfinite(position)):
+        raise Failure("displacements are not finite")
+    outlines = block_outlines(grid, position)
+    reference = block_outlines(grid, grid.points)
+
+    # the box: the blocks that have not moved
+    u = np.linalg.norm(grid.point_data["displacement"][:, :2], axis=1)
+    moved = {block: u[grid.cells[grid.cell_data["block"] == block]].max()
+             for block in outlines}
+    loose = [block for block in outlines if moved[block] > 1e-9]
+    if len(outlines) - len(loose) != 3:
+        raise Failure("%d blocks have not moved, expected the three of the "
+                      "box" % (len(outlines) - len(loose)))
+
+    nodes = np.concatenate([outlines[b].reshape(-1, 2) for b in loose])
+    shortest = min(np.linalg.norm(reference[b][:, 1] - reference[b][:, 0],
+                                  axis=1).min() for b in loose)
+    largest = max(np.linalg.norm(np.ptp(reference[b].reshape(-1, 2), axis=0))
+                  for b in loose)
+    gravity = 9.81
+    column = case["density"] * gravity * nodes[:, 1].max() * largest
+    bound = column / (case["normal stiffness"] * shortest / 2)
+    depth, a, b = deepest_overlap(outlines)
+    outside = max(np.abs(nodes[:, 0]).max() - case["half width"],
+                  -nodes[:, 1].min(), 0.0)
+
+    p = grid.points[grid.cells]
+    side, other = p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]
+    area = np.abs(side[:, 0] * other[:, 1] - side[:, 1] * other[:, 0]) / 2
+    weight = case["density"] * gravity * area.sum()
+    with open(os.path.join(output, "summary.json")) as stream:
+        summary = json.load(stream)
+    table = energies(output)
+    print("  pile %.2f m high, deepest overlap %.2e m of blocks %s and %s, "
+          "bound %.2e m, %s contacts"
+          % (nodes[:, 1].max(), depth, a, b, bound,
+             summary.get("contacts", "?")))
+    return {
+        "unbalanced ratio": (float(summary["unbalanced ratio"]),
+                             case["static ratio"]),
+        "deepest overlap / elastic": (float(depth / bound), 1.0),
+        "out of the box / elastic": (float(outside / bound), 1.0),
+        "reaction - weight": (
+            float(abs(histories["reaction"][-1] / weight - 1)), 1e-3),
         "energy residual": (
             float(np.max(np.abs(table["residual"])) / peak_energy(table)),
             1e-3),

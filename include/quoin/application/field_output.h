@@ -14,8 +14,14 @@ namespace quoin
   /** Blocks of this rank as they go to ParaView. */
   BlockFields block_fields(const Model &model, const State &state);
 
-  /** Joints of this rank, with tractions brought to the time of @p state. */
+  /**
+   * Matched joints of this rank. @p state: after
+   * ExplicitSolver::update_histories().
+   */
   JointFields joint_fields(const Model &model, const State &state);
+
+  /** General contacts of this rank, for the same state. */
+  JointFields contact_fields(const BlockContacts &contacts, const State &state);
 } // namespace quoin
 
 #endif

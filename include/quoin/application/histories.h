@@ -48,6 +48,8 @@ namespace quoin
 
     void locate(Probe &probe) const;
     double point_value(const Probe &probe, const State &state) const;
+    /** Of a local cell [rad]. */
+    double rotation(unsigned int cell, const State &state) const;
 
     std::vector<Probe> probes;
     const Model &model;

@@ -16,12 +16,14 @@ namespace quoin
     displacement,
     velocity,
     stress,
+    rotation,
     joint,
     reaction,
     platen_displacement,
     platen_force,
     unbalanced_ratio,
-    kinetic_share
+    kinetic_share,
+    contacts
   };
 
   /** One column of histories.csv: a subsection of 'Histories'. */

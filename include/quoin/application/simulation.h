@@ -54,6 +54,7 @@ namespace quoin
       std::uint64_t energies_bytes  = 0;
       BlockOutput block_output;
       JointOutput joint_output;
+      JointOutput contact_output;
       double wall_time        = 0.;  /**< of the time loop [s] */
       double largest_residual = 0.;  /**< of the energy balance */
       double fields_time      = -1.; /**< of the last VTU files [s] */
@@ -62,8 +63,9 @@ namespace quoin
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &state &histories_bytes &energies_bytes &block_output &
-            joint_output &wall_time &largest_residual &fields_time &stage_begun;
+        archive &state &histories_bytes &energies_bytes &block_output
+            &joint_output &contact_output &wall_time &largest_residual
+                &fields_time &stage_begun;
       }
     };
 

@@ -24,6 +24,9 @@ namespace quoin
                  const std::vector<unsigned int> &ghosts,
                  MPI_Comm communicator);
 
+    /** The same owned nodes with other @p ghosts; collective. */
+    NodeExchange with_ghosts(const std::vector<unsigned int> &ghosts) const;
+
     unsigned int n_owned() const
     {
       return partitioner.locally_owned_size();
@@ -52,14 +55,21 @@ namespace quoin
 
     /** Overwrites the ghost entries of @p values, n_local() long. */
     template <typename T>
-    void update_ghosts(T *values) const;
+    void update_ghosts(T *values) const
+    {
+      update_ghosts(values, values + n_owned());
+    }
+
+    /** The same with the ghosts in an array of their own. */
+    template <typename T>
+    void update_ghosts(const T *owned, T *ghosts) const;
 
   private:
     dealii::Utilities::MPI::Partitioner partitioner;
   };
 
   template <typename T>
-  void NodeExchange::update_ghosts(T *values) const
+  void NodeExchange::update_ghosts(const T *owned, T *ghosts) const
   {
     const auto &sources = partitioner.ghost_targets();
     const auto &targets = partitioner.import_targets();
@@ -68,7 +78,7 @@ namespace quoin
 
     std::vector<MPI_Request> requests(sources.size() + targets.size());
     auto request = requests.begin();
-    T *ghost     = values + n_owned();
+    T *ghost     = ghosts;
     for (const auto &[rank, count] : sources)
     {
       MPI_Irecv(ghost, count * sizeof(T), MPI_BYTE, rank, 0, communicator(),
@@ -79,7 +89,7 @@ namespace quoin
     std::vector<T> buffer;
     buffer.reserve(partitioner.n_import_indices());
     for (const auto &[begin, end] : partitioner.import_indices())
-      buffer.insert(buffer.end(), values + begin, values + end);
+      buffer.insert(buffer.end(), owned + begin, owned + end);
     const T *outgoing = buffer.data();
     for (const auto &[rank, count] : targets)
     {

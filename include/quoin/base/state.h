@@ -84,6 +84,8 @@ namespace quoin
     AlignedArray<double> plastic_slip;    /**< inelastic slip [m] */
     AlignedArray<double> plastic_opening; /**< dilation, offsets [m] */
     AlignedArray<JointState> state;
+    /** Of each segment, two points: it is a general contact by now. */
+    AlignedArray<std::uint8_t> handed_over;
 
     void resize(const std::size_t n)
     {
@@ -92,13 +94,14 @@ namespace quoin
       plastic_slip.resize(n, 0.);
       plastic_opening.resize(n, 0.);
       state.resize(n, JointState::intact);
+      handed_over.resize(n / 2, 0);
     }
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       archive &normal_traction &shear_traction &plastic_slip &plastic_opening
-          &state;
+          &state &handed_over;
     }
   };
 
@@ -114,6 +117,7 @@ namespace quoin
     double fracture = 0.; /**< lost when joints break in tension */
     double damping  = 0.; /**< taken by local, adaptive, Rayleigh damping */
     double viscous  = 0.; /**< left through viscous boundaries */
+    double contact  = 0.; /**< lost as contacts changed their length */
 
     EnergyAccounts &operator+=(const EnergyAccounts &other)
     {
@@ -122,13 +126,64 @@ namespace quoin
       fracture += other.fracture;
       damping += other.damping;
       viscous += other.viscous;
+      contact += other.contact;
       return *this;
     }
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &external &friction &fracture &damping &viscous;
+      archive &external &friction &fracture &damping &viscous &contact;
+    }
+  };
+
+  /** One end of the overlap of two edges in contact; as JointHistory. */
+  struct ContactPoint
+  {
+    double normal_traction = 0.; /**< [Pa] */
+    double shear_traction  = 0.; /**< [Pa] */
+    double plastic_slip    = 0.; /**< [m] */
+    double plastic_opening = 0.; /**< [m] */
+    double slip_offset     = 0.; /**< slip at the anchors [m] */
+    double anchor_lower    = 0.; /**< where on the edges, 0 to 1, slip is */
+    double anchor_upper    = 0.; /**< counted from */
+    double area            = 0.; /**< as last used [m^2] */
+    JointState state       = JointState::slipped;
+  };
+
+  /** Two edges of blocks that touch or may soon do so. */
+  struct ContactPair
+  {
+    unsigned int lower      = 0; /**< edges, see ContactEdges */
+    unsigned int upper      = 0;
+    unsigned int set        = 0; /**< of joints, whose law it follows */
+    std::uint16_t active    = 0; /**< whether the points have a history */
+    std::uint16_t was_joint = 0; /**< whether it was a matched joint */
+    /** Slip of the matched joint that became this pair [m], and what of it is
+        still allowed for in the overlap. */
+    double shift       = 0.;
+    double shift_start = 0.; /**< slip at that time [m] */
+    ContactPoint points[2];
+  };
+
+  /** Contacts that come and go; empty if displacements are small. */
+  struct ContactState
+  {
+    AlignedArray<ContactPair> pairs; /**< ascending in their edges */
+
+    AlignedArray<std::uint8_t> handed_over; /**< of interfaces of joints */
+    AlignedArray<std::uint8_t> outside;     /**< blocks that left the box */
+
+    /** Of the boundary nodes, when pairs were last searched [m]. */
+    AlignedArray<NodeVector> search_positions;
+    std::uint64_t next_check = 0; /**< step of the next look at motions */
+    std::uint64_t n_searches = 0;
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &pairs &handed_over &outside &search_positions &next_check
+          &n_searches;
     }
   };
 
@@ -146,6 +201,20 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &active &centre &displacement &stage_start &velocity &arms;
+    }
+  };
+
+  /** A rigid block: freedoms x [m], y [m], rotation [rad, anticlockwise]. */
+  struct RigidBlockState
+  {
+    double displacement[2]{}; /**< of the centroid, from the reference */
+    double rotation = 0.;     /**< counts full turns */
+    double velocity[3]{};     /**< of the centroid and spin, at time - dt/2 */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &displacement &rotation &velocity;
     }
   };
 
@@ -167,10 +236,12 @@ namespace quoin
     AlignedArray<NodeRecord> nodes;
     AlignedArray<NodeVector> velocity; /**< at time - dt/2 */
     JointHistory joints;
+    ContactState contacts;            /**< empty if displacements are small */
     std::vector<PlatenState> platens; /**< in the order of the loads */
-    double adaptive_damping   = 0.;   /**< [1/s] */
-    double previous_time_step = 0.;   /**< [s] */
-    double unbalanced_ratio   = 1.;   /**< as last measured [-] */
+    std::vector<RigidBlockState> rigid_blocks; /**< of this rank */
+    double adaptive_damping   = 0.;            /**< [1/s] */
+    double previous_time_step = 0.;            /**< [s] */
+    double unbalanced_ratio   = 1.;            /**< as last measured [-] */
 
     /** Complete at time, and what the step under way adds for time + dt/2. */
     EnergyAccounts energy, pending;
@@ -179,8 +250,8 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &time &step &stage &stage_start &stage_step &nodes &velocity
-          &joints &platens &adaptive_damping &previous_time_step
-              &unbalanced_ratio &energy &pending;
+          &joints &contacts &platens &rigid_blocks &adaptive_damping
+              &previous_time_step &unbalanced_ratio &energy &pending;
     }
   };
 } // namespace quoin

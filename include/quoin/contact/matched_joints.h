@@ -10,6 +10,7 @@
 #include <quoin/mesh/block_mesh.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace quoin
@@ -77,15 +78,32 @@ namespace quoin
     double stored_energy(const NodeRecord *nodes,
                          const JointHistory &history) const;
 
+    /** What node a counts for against node b, see add_stiffness_bound(). */
+    using NodeRatio = std::function<double(unsigned int, unsigned int)>;
+
     /**
      * Adds to the 2x2 matrices @p stiffness (xx, yy, xy per local node) the
-     * springs' share of a bound of the highest frequency: with node masses
-     * m_a, m_b a spring k adds m_a k (1/m_a + 1/m_b) to node a.
+     * springs' share of a bound of the highest frequency: a spring k between
+     * the nodes a and b adds (1 + r) k to node a and (1 + 1/r) k to node b,
+     * with r = @p ratio (a, b) and 1/r = @p ratio (b, a). The bound holds with
+     * any r > 0 and is closest where r is that of the masses, m_a / m_b.
      */
+    void
+    add_stiffness_bound(const NodeRecord *nodes, const NodeRatio &ratio,
+                        std::vector<std::array<double, 3>> &stiffness) const;
+
+    /** The same with the ratio of the node masses @p mass. */
     void
     add_stiffness_bound(const NodeRecord *nodes,
                         const std::vector<double> &mass,
-                        std::vector<std::array<double, 3>> &stiffness) const;
+                        std::vector<std::array<double, 3>> &stiffness) const
+    {
+      add_stiffness_bound(
+          nodes,
+          [&](const unsigned int a, const unsigned int b)
+          { return mass[a] / mass[b]; },
+          stiffness);
+    }
 
     struct Segment
     {

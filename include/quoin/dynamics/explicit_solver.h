@@ -30,7 +30,8 @@ namespace quoin
     double residual() const
     {
       return kinetic + strain + joint + accounts.friction + accounts.fracture
-             + accounts.damping + accounts.viscous - accounts.external;
+             + accounts.damping + accounts.viscous + accounts.contact
+             - accounts.external;
     }
 
     /** All energy that went through the model, to judge the residual by. */
@@ -97,6 +98,12 @@ namespace quoin
      */
     void step(State &state, const Requests &requests);
 
+    /**
+     * Brings the histories of joints and contacts of @p state, a copy, to its
+     * positions, as the step to come would do. Collective.
+     */
+    void update_histories(State &state);
+
     /** Throws a RunError if the state is no longer finite; collective. */
     void check_finite(const State &state) const;
 
@@ -116,6 +123,12 @@ namespace quoin
     /** Force x, y [N] and moment [N m] of a load; collective. */
     std::array<double, 3> resultant(const std::string &load) const;
 
+    /** Null if displacements are small. */
+    const BlockContacts *contacts() const
+    {
+      return block_contacts.get();
+    }
+
     /** Of all loads, acting in this stage or not. */
     const std::vector<std::unique_ptr<NodeConstraint>> &constraints() const
     {
@@ -126,11 +139,17 @@ namespace quoin
     void activate(const StageParameters &stage);
     void scale_masses(const StageParameters &stage, State &state);
     void collect_constrained_nodes();
+    /**
+     * Finds the rigid blocks that platens move. Throws an InputError about
+     * one that is held in part or by something else.
+     */
+    void find_held_blocks();
     /** Throws an InputError if two platens of the stage share a node. */
     void refuse_shared_platens() const;
     void apply_forces(State &state, const StepContext &context);
     void advance_blocks(State &state, const StepContext &context,
                         const Requests &requests);
+    void capture(CapturedNode &node, const State &state) const;
     void move_constrained_nodes(State &state, const StepContext &context);
     void account_for_new_step(State &state, const StepContext &context) const;
     void adapt_damping(State &state, const DampingWork &work) const;
@@ -143,6 +162,7 @@ namespace quoin
     const Model &model;
     MPI_Comm communicator;
 
+    std::unique_ptr<BlockContacts> block_contacts;
     std::vector<std::unique_ptr<NodeConstraint>> all_constraints;
     std::vector<NodalLoad> all_loads;
     std::vector<std::string> known_loads;
@@ -158,12 +178,16 @@ namespace quoin
     double added_mass    = 0.;
     double time_step     = 0.;
 
-    std::vector<CapturedNode> captured;       /**< ascending nodes */
-    std::vector<unsigned int> captured_begin; /**< of each tile, and the end */
+    RigidBlockStage rigid_stage;
+
+    std::vector<CapturedNode> captured; /**< ascending nodes */
+    /** Of each tile, and of the rigid blocks. */
+    std::vector<unsigned int> captured_begin;
 
     AlignedArray<NodeVector> force;
     AlignedArray<NodeVector> viscous_force;
     AlignedArray<NodeVector> velocity_before; /**< when energies are due */
+    std::vector<RigidBlockState> rigid_before;
     double applied_force    = 0.;
     double unbalanced_force = 0.;
 

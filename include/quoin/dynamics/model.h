@@ -6,8 +6,10 @@
 
 #include <quoin/base/node_exchange.h>
 #include <quoin/base/state.h>
+#include <quoin/contact/block_contacts.h>
 #include <quoin/contact/matched_joints.h>
 #include <quoin/dynamics/block_forces.h>
+#include <quoin/dynamics/rigid_blocks.h>
 #include <quoin/dynamics/stable_time_step.h>
 #include <quoin/joints/joint_parameters.h>
 #include <quoin/loads/load_parameters.h>
@@ -29,25 +31,36 @@ namespace quoin
     std::vector<MaterialParameters> materials;
     std::vector<JointSetParameters> joints;
     std::vector<LoadParameters> initial_stresses;
+
+    /**
+     * Blocks may meet anywhere: the critical step then allows for contacts on
+     * all boundary edges instead of for the joints alone.
+     */
+    bool large_displacements = false;
+    ContactParameters contact;
   };
 
   /**
    * The blocks and joints of this rank, packed for the explicit solver and
    * constant from then on. Nodes, cells and blocks have local numbers: whole
-   * blocks, the owned nodes first, then the ghosts that joints reach.
+   * blocks, deformable ones first, then rigid ones, then the ghosts of nodes
+   * that joints reach.
    */
   class Model
   {
   public:
     /**
      * Blocks of @p mesh are owned by the rank that @p rank_of_block names;
-     * those of a rank must be consecutive and ranks ascending. Keeps a
-     * reference to the mesh. Throws an InputError about groups without
-     * material and joints without set.
+     * those of a rank must be consecutive, its rigid ones last, and ranks
+     * ascending. Keeps a reference to the mesh. Throws an InputError about
+     * groups without material and joints without set.
      */
     Model(const BlockMesh<2> &mesh,
           const std::vector<unsigned int> &rank_of_block,
           const ModelParameters &parameters, MPI_Comm communicator);
+
+    /** What BlockContacts needs, for large displacements. */
+    ContactModel contact_model() const;
 
     /** Positions at rest, initial joint tractions. */
     State initial_state() const;
@@ -60,9 +73,34 @@ namespace quoin
     {
       return *nodes;
     }
+    /** The deformable blocks: their nodes, cells and numbers come first. */
     const BlockForces &blocks() const
     {
       return block_forces;
+    }
+    const RigidBlocks &rigid_blocks() const
+    {
+      return rigid;
+    }
+    /** Of the whole mesh, by the number of the block. */
+    const std::vector<bool> &is_rigid() const
+    {
+      return rigid_block;
+    }
+    /** Owned nodes from this one on are those of rigid blocks. */
+    unsigned int n_deformable_nodes() const
+    {
+      return block_mesh.block_first_vertex[rigid_begin]
+             - block_mesh.block_first_vertex[block_begin];
+    }
+    /** Owned cells from this one on are those of rigid blocks. */
+    unsigned int n_deformable_cells() const
+    {
+      return block_mesh.block_first_cell[rigid_begin] - first_cell();
+    }
+    bool large_displacements() const
+    {
+      return parameters.large_displacements;
     }
     const MatchedJoints &joints() const
     {
@@ -121,18 +159,24 @@ namespace quoin
     void find_initial_stress();
     void pack_blocks();
     void find_stable_step();
+    /** Adds springs of the joints to the bound of the local nodes. */
+    void add_joint_bound(std::vector<std::array<double, 3>> &bound) const;
+    /** The same with springs wherever blocks may touch. */
+    void add_contact_bound(std::vector<std::array<double, 3>> &bound) const;
 
     const BlockMesh<2> &block_mesh;
     const ModelParameters parameters;
 
     std::vector<unsigned int> material_of_group;
     std::vector<Impedance> group_impedance;
-    unsigned int block_begin, block_end;
+    unsigned int block_begin, rigid_begin, block_end;
+    std::vector<bool> rigid_block;
     std::unique_ptr<NodeExchange> nodes;
     std::vector<double> node_mass;
     std::vector<std::array<unsigned int, 3>> local_cells;
     std::vector<std::array<double, 3>> cell_stress; /**< or empty */
     BlockForces block_forces;
+    RigidBlocks rigid;
     MatchedJoints matched_joints;
     std::unique_ptr<StableTimeStep> stable_step;
   };

@@ -4,6 +4,7 @@
 #ifndef quoin_dynamics_stable_time_step_h
 #define quoin_dynamics_stable_time_step_h
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -19,6 +20,9 @@ namespace quoin
    *
    * so omega^2 <= max_i eig(S_i) / m_i: exact for one element and for one
    * spring, and never too low. Mass scaling raises m_i.
+   *
+   * The nodes of a rigid block have one matrix, that of its three freedoms
+   * (RigidBlocks::largest_eigenvalue()); by themselves they count for nothing.
    */
   class StableTimeStep
   {
@@ -26,14 +30,31 @@ namespace quoin
     /** @p bound: S_i as xx, yy, xy [N/m] of each owned node. */
     explicit StableTimeStep(const std::vector<std::array<double, 3>> &bound);
 
+    /** Adds rigid blocks with their omega^2 [1/s^2]. */
+    void set_rigid_blocks(const std::vector<double> &eigenvalues)
+    {
+      rigid_eigenvalue = eigenvalues;
+    }
+
     /** Mass that node @p i needs for the step @p dt to be critical [kg]. */
     double mass_for(const unsigned int i, const double dt) const
     {
       return eigenvalue[i] * dt * dt / 4.;
     }
 
-    /** Largest omega^2 of the owned nodes with masses @p mass [1/s^2]. */
-    double largest_eigenvalue(const std::vector<double> &mass) const;
+    /** The same for rigid block @p b: by what its mass is multiplied. */
+    double rigid_factor(const unsigned int b, const double dt) const
+    {
+      return std::max(1., rigid_eigenvalue[b] * dt * dt / 4.);
+    }
+
+    /**
+     * Largest omega^2 [1/s^2] of the owned nodes with masses @p mass and of
+     * the rigid blocks with @p rigid_factors times theirs; empty: 1.
+     */
+    double largest_eigenvalue(const std::vector<double> &mass,
+                              const std::vector<double> &rigid_factors
+                              = {}) const;
 
     /**
      * Critical step [s] of central differences with the stiffness-
@@ -43,7 +64,8 @@ namespace quoin
     static double critical(double largest_eigenvalue, double beta);
 
   private:
-    std::vector<double> eigenvalue; /**< of S_i [N/m] */
+    std::vector<double> eigenvalue;       /**< of S_i [N/m] */
+    std::vector<double> rigid_eigenvalue; /**< omega^2 [1/s^2] */
   };
 } // namespace quoin
 

@@ -8,6 +8,7 @@
 #include <quoin/joints/coulomb_law.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quoin
@@ -17,6 +18,9 @@ namespace quoin
   {
     std::string name;
     std::vector<std::string> curves; /**< physical curves of the mesh */
+    /** Pairs of materials whose new contacts follow this set. */
+    std::vector<std::pair<std::string, std::string>> new_contacts;
+    bool all_new_contacts = false; /**< of pairs that no other set names */
     CoulombLaw law;
 
     static void declare(dealii::ParameterHandler &prm);

@@ -24,8 +24,14 @@ namespace quoin
     Platen(const LoadParameters &parameters, unsigned int index,
            const BlockMesh<2> &mesh, const NodeExchange &exchange);
 
-    /** Masses of the local nodes, as they act in the stage to come [kg]. */
-    void set_mass(const std::vector<double> &mass);
+    /**
+     * Masses of the local nodes, as they act in the stage to come [kg].
+     * Rigid blocks are no masses at nodes: @p extra_inertia [kg m^2] is what
+     * their moments of inertia have beyond those of the masses of their
+     * nodes, @p extra_spin the angular momentum that goes with it.
+     */
+    void set_mass(const std::vector<double> &mass, double extra_inertia = 0.,
+                  double extra_spin = 0.);
 
     void begin_stage(State &state, bool continues) override;
     void resume_stage(const State &state) override;
@@ -70,6 +76,7 @@ namespace quoin
     unsigned int platen_index;
     MPI_Comm communicator;
     std::vector<double> node_mass;
+    double rigid_inertia = 0., rigid_spin = 0.;
     std::array<double, 3> inertia{}; /**< mass, mass, moment */
 
     /** Of the last step: force on the platen from its drive and its nodes,

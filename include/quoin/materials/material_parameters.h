@@ -17,6 +17,7 @@ namespace quoin
   {
     std::string name;
     std::vector<std::string> groups; /**< physical surfaces of the mesh */
+    bool rigid = false;              /**< then only the density counts */
     LinearElastic elastic{};
 
     static void declare(dealii::ParameterHandler &prm);

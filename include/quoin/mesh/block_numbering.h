@@ -43,10 +43,12 @@ namespace quoin
 
   /**
    * The order for renumber_blocks that makes the blocks of each part
-   * consecutive and leaves the order within parts.
+   * consecutive. Within parts the order stays, but blocks that @p behind marks
+   * (none, if it is empty) come behind the others.
    */
   std::vector<unsigned int>
-  order_by_part(const std::vector<unsigned int> &part_of_block);
+  order_by_part(const std::vector<unsigned int> &part_of_block,
+                const std::vector<bool> &behind = {});
 } // namespace quoin
 
 #endif

@@ -46,8 +46,10 @@ namespace quoin
   class JointOutput : public VtuSeries
   {
   public:
+    /** @p name of the series: joints, or contacts. */
     JointOutput(const std::string &output_directory,
-                const MPI_Comm communicator);
+                const MPI_Comm communicator,
+                const std::string &name = "joints");
 
     /** Collective. Writes the fields of the time @p time [s]. */
     void write(const double time, const JointFields &fields);

@@ -211,6 +211,20 @@ TEST(Parameters, DescriptionNamesEverySection)
     EXPECT_NE(text.find(part), std::string::npos) << part;
 }
 
+TEST(Parameters, RigidMaterialsNeedOnlyADensity)
+{
+  const Case it(good);
+  const Parameters p = it.read({ "Materials/rock/Law=rigid",
+                                 "Materials/rock/Young's modulus=0",
+                                 "Materials/rock/Poisson's ratio=0.5" });
+  EXPECT_FALSE(p.model.materials[0].rigid);
+  EXPECT_TRUE(p.model.materials[1].rigid);
+  EXPECT_EQ(p.model.materials[1].elastic.density, 2700.);
+  EXPECT_THROW(
+      it.read({ "Materials/rock/Law=rigid", "Materials/rock/Density=0" }),
+      InputError);
+}
+
 TEST(Parameters, OverridesReplaceAndExtend)
 {
   const Case it(good);

@@ -109,6 +109,13 @@ TEST(BlockNumbering, PartitionsWholeBlocks)
   }
 }
 
+TEST(BlockNumbering, SomeBlocksComeBehindInTheirPart)
+{
+  EXPECT_EQ(order_by_part({ 1, 0, 1, 0, 1, 0 },
+                          { true, true, false, false, false, false }),
+            std::vector<unsigned int>({ 3, 5, 1, 2, 4, 0 }));
+}
+
 TEST(BlockNumbering, PartitionsWithFewBlocks)
 {
   BlockMesh<2> mesh;

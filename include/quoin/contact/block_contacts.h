@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_contact_block_contacts_h
+#define quoin_contact_block_contacts_h
+
+#include <quoin/base/node_exchange.h>
+#include <quoin/base/state.h>
+#include <quoin/contact/contact_edges.h>
+#include <quoin/contact/contact_parameters.h>
+#include <quoin/contact/matched_joints.h>
+#include <quoin/joints/joint_parameters.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  struct EdgeEnds;
+
+  /** What contacts are made of, beside the mesh. */
+  struct ContactModel
+  {
+    ContactParameters parameters;
+    std::vector<JointSetParameters> sets;
+    std::vector<std::string> materials;
+    std::vector<unsigned int> material_of_group;
+    std::vector<bool> is_rigid; /**< for each block; empty: none is */
+    double thickness = 1.;      /**< [m] */
+  };
+
+  /**
+   * Contacts between the boundaries of blocks that move and rotate without
+   * limit.
+   *
+   * Two edges whose outward normals oppose each other touch over their
+   * overlap, the common part of their projections on the mean of their two
+   * directions. Each of its ends is a vertex of one edge against a point of
+   * the other, and bears the law at half of the overlap as tributary length:
+   * trapezoidal quadrature over the vertices of both sides, so that the
+   * lengths of a row of edges add up to the overlap of the rows, a uniform
+   * traction passes unchanged between meshes that do not match, and forces are
+   * continuous as vertices pass from edge to edge, because a pair of edges
+   * comes and goes with length zero. A matched joint (matched_joints.h) is the
+   * pair whose vertices coincide.
+   *
+   * With theta the angle by which the edges fail to be parallel, lengths are
+   * measured on the other edge (times cos theta), fading to zero near
+   * theta = 90 degrees. The normal is that of the edge which a corner touches;
+   * where two corners meet within the rounding length it turns from one edge's
+   * to the other's, and for what was a joint it is the mean of both as long as
+   * they are almost parallel. Where corners overlap sideways, by a length l
+   * less than the depth d, the depth counts as l^2 / d.
+   *
+   * Slip is measured from material anchors on both edges, so that a point at
+   * rest cannot creep; a new pair takes over slip, failure and set from the
+   * pair between the same blocks that shares a vertex with it.
+   *
+   * A pair across two ranks is computed by both from the same numbers; each
+   * then counts half of its energy.
+   */
+  class BlockContacts
+  {
+  public:
+    /**
+     * Keeps references to @p mesh and @p exchange. Throws an InputError about
+     * materials that no set for new contacts covers.
+     */
+    BlockContacts(const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                  const ContactModel &model);
+
+    /**
+     * Takes the present positions. When due, hands over joints that slipped or
+     * opened too far, and searches pairs if something moved more than half of
+     * the skin. Collective. @p dt: step to come [s]. Throws a RunError about
+     * deep overlap and runaway velocities.
+     */
+    void update(State &state, const MatchedJoints &joints, double dt);
+
+    /** Rates for stiffness-proportional damping. */
+    struct Viscous
+    {
+      const NodeVector *velocity; /**< of owned nodes [m/s] */
+      double beta;                /**< [s] */
+      NodeVector *force;          /**< of owned nodes [N] */
+    };
+
+    /**
+     * Brings the histories to the positions of update(), adds the forces to
+     * @p force of the owned nodes and books the dissipation. Collective if
+     * @p viscous is given.
+     */
+    void add_forces(ContactState &contacts, EnergyAccounts &energy,
+                    NodeVector *force, const Viscous *viscous = nullptr);
+
+    /** Recoverable energy [J] of this rank's share, after add_forces(). */
+    double stored_energy(const ContactState &contacts) const;
+
+    /** Points that press on each other, this rank's share. */
+    double n_touching(const ContactState &contacts) const;
+
+    /** Pairs looked at so far, by this rank and process. */
+    std::uint64_t n_updates() const
+    {
+      return updates;
+    }
+    /** Wall time of this rank's searches so far [s]. */
+    double search_seconds() const
+    {
+      return seconds;
+    }
+
+    const ContactEdges &contact_edges() const
+    {
+      return edges;
+    }
+
+    /** One contact as it is written to files. */
+    struct Contact
+    {
+      unsigned int set;
+      std::array<std::array<double, 2>, 2> position;  /**< of both ends [m] */
+      std::array<std::array<double, 2>, 2> reference; /**< of lower [m] */
+      std::array<double, 2> opening, slip;            /**< [m] */
+    };
+    /** Of pair @p pair at the positions of update(). */
+    bool contact(const ContactState &contacts, unsigned int pair,
+                 Contact &result) const;
+    /** Whether this rank writes the pair. */
+    bool is_own(const ContactState &contacts, unsigned int pair) const;
+
+    /** Largest stiffness of any set [Pa/m]. */
+    double largest_stiffness() const;
+
+    /** Marks of ContactState::outside. */
+    static constexpr std::uint8_t left_box = 1, removed_from_model = 2;
+
+  private:
+    /** An edge that takes part, where it is now. */
+    struct Edge
+    {
+      double x, y; /**< of its first node [m] */
+      double tangent[2];
+      double length;          /**< [m] */
+      double reference_ratio; /**< reference length by length */
+      double corner[2];       /**< see ContactEdge */
+      unsigned int nodes[2];  /**< compact */
+    };
+    struct Geometry
+    {
+      double overlap;      /**< [m] */
+      double sideways;     /**< 1: from corner to corner, 0: along a side */
+      double area;         /**< of each point [m^2] */
+      double normal[2][2]; /**< from lower to upper */
+      double lower[2], upper[2]; /**< where on the edges, 0 to 1 */
+      double opening[2];         /**< [m] */
+    };
+
+    void find_set_of_materials(const ContactModel &model);
+    void check(State &state, const MatchedJoints &joints, double dt);
+    /** Returns whether joints of this rank became general contacts. */
+    bool hand_over(State &state, const MatchedJoints &joints);
+    void search(State &state);
+    bool is_matched(const ContactState &contacts, unsigned int a,
+                    unsigned int b) const;
+    ContactPair new_pair(const EdgeEnds &a, const EdgeEnds &b) const;
+    void inherit_shifts(ContactState &contacts) const;
+    /** Counts slip from where the edges touch now. */
+    void reanchor(ContactState &contacts) const;
+    float share(const ContactPair &pair) const;
+    void bind(const ContactState &contacts);
+    void gather(const State &state);
+
+    /** False if the edges do not overlap. */
+    bool geometry(const ContactPair &pair, const Edge &a, const Edge &b,
+                  Geometry &result) const;
+    /** What of the shift of a pair is left after the slip since. */
+    static double shift_left(const ContactPair &pair, const Edge &a,
+                             const Edge &b, const double *t);
+    static double slip(const ContactPoint &point, const Edge &a, const Edge &b,
+                       const double *normal);
+    static void spread(const Edge &a, const Edge &b, double lower, double upper,
+                       const double *f, NodeVector *force);
+    void relative_velocity(const Edge &a, const Edge &b, double lower,
+                           double upper, double *rate) const;
+    /** Gives a pair a history if it touches; whether it does. */
+    bool activate(ContactState &contacts, unsigned int pair,
+                  const Geometry &geometry);
+    /**
+     * Set, history and slip (as offset) of the neighbour that a new pair goes
+     * on from; false if there is none.
+     */
+    bool find_parent(const ContactState &contacts, unsigned int pair,
+                     unsigned int &set, ContactPoint &inherited) const;
+    /** Forgets the history; returns the energy that it stored [J]. */
+    double release(ContactPair &pair) const;
+
+    void note_depth(unsigned int pair, double depth);
+    [[noreturn]] void refuse_depth(const State &state, double ratio) const;
+    [[noreturn]] void refuse_speed(const State &state, double speed,
+                                   double dt) const;
+
+    const BlockMesh<2> &mesh;
+    const NodeExchange &exchange;
+    const ContactEdges edges;
+    const ContactParameters parameters;
+    const double thickness;
+    double skin;
+    std::vector<CoulombLaw> laws;
+    bool can_dilate = false;
+    std::vector<std::string> materials;
+    std::vector<unsigned int> material_of_group;
+    std::vector<unsigned int> set_of_materials; /**< square table */
+    std::vector<unsigned int> boundary_nodes;   /**< owned, local */
+
+    // What the pairs at hand need, made again whenever they change.
+    std::uint64_t bound_search = -1;
+    std::unique_ptr<NodeExchange> reach;
+    std::vector<unsigned int> compact_owned; /**< local node of each */
+    std::vector<NodeRecord> ghost_nodes;
+    std::vector<NodeVector> ghost_velocity;
+    std::vector<std::array<unsigned int, 2>> pair_edges; /**< local */
+    std::vector<float> pair_share;          /**< of the energy that we count */
+    std::vector<double> pair_depth;         /**< that is too deep [m] */
+    std::vector<double> reference_lengths;  /**< of the local edges [m] */
+    std::vector<unsigned int> edge_numbers; /**< of the local edges */
+    std::vector<unsigned int> edge_pairs_begin, edge_pairs;
+
+    AlignedArray<NodeVector> position, compact_force, compact_velocity,
+        compact_viscous;
+    std::vector<Edge> local_edges;
+    std::vector<std::array<double, 2>> openings; /**< of the last forces */
+
+    double deepest_ratio      = 0.;
+    unsigned int deepest_pair = 0;
+    std::uint64_t updates     = 0;
+    double seconds            = 0.;
+  };
+} // namespace quoin
+
+#endif

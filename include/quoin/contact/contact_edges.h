@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_contact_contact_edges_h
+#define quoin_contact_contact_edges_h
+
+#include <quoin/mesh/block_mesh.h>
+
+#include <array>
+#include <vector>
+
+namespace quoin
+{
+  /** An edge on the boundary of a block, which is on its left. */
+  struct ContactEdge
+  {
+    std::array<unsigned int, 2> nodes; /**< vertices of the whole mesh */
+    unsigned int block;
+    unsigned int group;     /**< of the cell behind it */
+    unsigned int previous;  /**< edge that ends where this one starts */
+    unsigned int next;      /**< edge that starts where this one ends */
+    unsigned int interface; /**< of joints that it is part of, or none */
+    double length;          /**< in the reference state [m] */
+    double height;          /**< of the cell behind it, above it [m] */
+    /** At either node 1 for a corner of the block, 0 where it goes straight
+        on, in between for turns of some degrees. */
+    std::array<double, 2> corner;
+  };
+
+  /** The matched joints between two blocks, or in a crack of one. */
+  struct JointInterface
+  {
+    std::array<unsigned int, 2> blocks; /**< ascending */
+    /** A joint that ends inside a block cannot come apart. */
+    bool has_tip = false;
+  };
+
+  /**
+   * The boundaries of all blocks of the mesh, joint or not, as edges between
+   * which contacts are found. Edges are numbered by their first vertex, so
+   * that all ranks agree and those of a block are consecutive. Where the side
+   * of a rigid block is straight, it is one edge, whatever its mesh, unless it
+   * is part of a joint.
+   */
+  class ContactEdges
+  {
+  public:
+    static constexpr unsigned int none = -1;
+
+    /** @p is_rigid: for each block; empty: none is. */
+    explicit ContactEdges(const BlockMesh<2> &mesh,
+                          const std::vector<bool> &is_rigid = {});
+
+    unsigned int size() const
+    {
+      return edges.size();
+    }
+    const ContactEdge &operator[](const unsigned int edge) const
+    {
+      return edges[edge];
+    }
+    /** First edge of block @p block; of n_blocks: the end. */
+    unsigned int first_edge(const unsigned int block) const
+    {
+      return block_first_edge[block];
+    }
+    const std::vector<JointInterface> &interfaces() const
+    {
+      return joint_interfaces;
+    }
+    /** Of each joint face of the mesh. */
+    unsigned int interface_of_face(const unsigned int face) const
+    {
+      return face_interface[face];
+    }
+    /** The lower and the upper side of each joint face. */
+    const std::array<unsigned int, 2> &
+    edges_of_face(const unsigned int face) const
+    {
+      return face_edges[face];
+    }
+
+  private:
+    void link(unsigned int n_vertices);
+    void find_corners(const BlockMesh<2> &mesh);
+    void merge_straight_sides(const BlockMesh<2> &mesh,
+                              const std::vector<bool> &is_rigid);
+
+    std::vector<ContactEdge> edges;
+    std::vector<unsigned int> block_first_edge;
+    std::vector<JointInterface> joint_interfaces;
+    std::vector<unsigned int> face_interface;
+    std::vector<std::array<unsigned int, 2>> face_edges;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_contact_contact_search_h
+#define quoin_contact_contact_search_h
+
+#include <quoin/base/node_exchange.h>
+#include <quoin/base/state.h>
+#include <quoin/contact/contact_edges.h>
+
+#include <array>
+#include <vector>
+
+namespace quoin
+{
+  /** Where an edge is: its two ends [m]. */
+  struct EdgeEnds
+  {
+    unsigned int edge; /**< of ContactEdges */
+    double x[2], y[2];
+  };
+
+  /**
+   * The edges of this rank's blocks and of all blocks of other ranks whose
+   * bounding boxes come nearer to one of them than @p skin [m]; in ascending
+   * order. Blocks marked in @p left_out take no part. Collective.
+   */
+  std::vector<EdgeEnds>
+  edges_within_reach(const BlockMesh<2> &mesh, const ContactEdges &edges,
+                     const NodeExchange &exchange, const NodeRecord *nodes,
+                     const AlignedArray<std::uint8_t> &left_out, double skin);
+
+  /**
+   * All pairs of edges of @p ends nearer to each other than @p skin, given by
+   * their positions in @p ends, ascending, the smaller first: found in an
+   * R-tree, decided by the distance of the two segments. Edges that share a
+   * node are no pair, nor are those which do not face each other, that is
+   * whose outward normals enclose less than 80 degrees.
+   */
+  std::vector<std::array<unsigned int, 2>>
+  near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
+             double skin);
+} // namespace quoin
+
+#endif

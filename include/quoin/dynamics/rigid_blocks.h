@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_dynamics_rigid_blocks_h
+#define quoin_dynamics_rigid_blocks_h
+
+#include <quoin/base/state.h>
+#include <quoin/dynamics/node_update.h>
+#include <quoin/loads/node_constraint.h>
+#include <quoin/materials/material_parameters.h>
+#include <quoin/mesh/block_mesh.h>
+
+#include <array>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * For each block of @p mesh whether all of its cells are of rigid materials.
+   * Throws an InputError about a block that is rigid in part.
+   */
+  std::vector<bool>
+  find_rigid_blocks(const BlockMesh<2> &mesh,
+                    const std::vector<MaterialParameters> &materials);
+
+  /** How the rigid blocks of a rank move in a stage. */
+  struct RigidBlockStage
+  {
+    std::vector<double> mass_factor; /**< of mass scaling, for each block */
+    std::vector<bool> held;          /**< a platen moves it */
+  };
+
+  /** What a step of the rigid blocks leaves for the solver's sums. */
+  struct RigidBlockWork
+  {
+    DampingWork damping;
+    double unbalanced = 0.; /**< force and moment by radius of gyration [N] */
+  };
+
+  /**
+   * The rigid blocks of a rank: triangulated as all blocks, but moved by
+   * three freedoms each, the displacement of the centroid and the rotation
+   * (@cite ZhugeHunt2003, Eqs. 1-4),
+   * @f[ m \ddot x = \sum f_i, \quad I \ddot\theta = \sum r_i \times f_i , @f]
+   * with the mass m, the centroid and the moment of inertia I of the area, not
+   * of masses lumped to nodes, and the sums over the forces on its nodes.
+   * Rotation is a scalar in the plane, so the scheme is that of the nodes.
+   *
+   * Nodes follow exactly: u_i = d + (R - I) r_i with the arms r_i of the
+   * reference, so a block never changes its shape.
+   */
+  class RigidBlocks
+  {
+  public:
+    struct Block
+    {
+      unsigned int begin, end; /**< local nodes */
+      double mass;             /**< [kg] */
+      double inertia;          /**< moment about the centroid [kg m^2] */
+      double lumped_inertia;   /**< the same of its nodes' lumped masses */
+      double centre[2];        /**< centroid in the reference [m] */
+    };
+
+    /**
+     * Takes the blocks [first, last) of @p mesh, all of them rigid, whose
+     * nodes begin at the local node @p first_node. @p density is that of each
+     * cell group.
+     */
+    void prepare(const BlockMesh<2> &mesh, unsigned int first,
+                 unsigned int last, unsigned int first_node,
+                 const std::vector<double> &density, double thickness);
+
+    unsigned int n_blocks() const
+    {
+      return blocks.size();
+    }
+    const Block &block(const unsigned int b) const
+    {
+      return blocks[b];
+    }
+    /** Local nodes of all of them. */
+    unsigned int first_node() const
+    {
+      return node_begin;
+    }
+    unsigned int end_node() const
+    {
+      return node_begin + arms.size();
+    }
+
+    /**
+     * Largest omega^2 [1/s^2] of block @p b by itself with the stiffness
+     * @p bound, xx, yy, xy [N/m] of each local node: with the motion
+     * J = (1, 0, -r_y; 0, 1, r_x) of a node the largest eigenvalue of
+     * sum_i J^T S_i J in the metric m, m, I.
+     */
+    double
+    largest_eigenvalue(unsigned int b,
+                       const std::vector<std::array<double, 3>> &bound) const;
+
+    /**
+     * One central difference step with the forces on the nodes, which it
+     * leaves zero; damping as in advance_nodes_damped(). Blocks that are held
+     * stay where they are.
+     */
+    RigidBlockWork advance(const StepContext &step,
+                           const RigidBlockStage &stage, NodeVector *force,
+                           NodeVector *viscous, State &state) const;
+
+    /**
+     * Displacement, rotation and velocity of the blocks that are held, from
+     * what a platen gave their nodes.
+     */
+    void follow_nodes(const RigidBlockStage &stage, State &state) const;
+
+    /**
+     * Kinetic energy [J] of all blocks, 1/2 v m w, where w is @p share of the
+     * way from the velocities @p before to those of @p after.
+     */
+    double kinetic_energy(const RigidBlockStage &stage,
+                          const std::vector<RigidBlockState> &before,
+                          const std::vector<RigidBlockState> &after,
+                          double share) const;
+
+    /** Sum of mass times squared change of velocity [J]. */
+    double squared_change(const RigidBlockStage &stage,
+                          const std::vector<RigidBlockState> &before,
+                          const std::vector<RigidBlockState> &after) const;
+
+  private:
+    struct Arm
+    {
+      double x, y;  /**< from the centroid, in the reference [m] */
+      double share; /**< of the block's mass that is lumped to the node */
+    };
+
+    const Arm *arms_of(const Block &block) const
+    {
+      return &arms[block.begin - node_begin];
+    }
+
+    /** Mass, mass and moment of inertia as they act. */
+    std::array<double, 3> inertia(const RigidBlockStage &stage,
+                                  const unsigned int b) const
+    {
+      const double factor = stage.mass_factor[b];
+      return { factor * blocks[b].mass, factor * blocks[b].mass,
+               factor * blocks[b].inertia };
+    }
+
+    unsigned int node_begin = 0;
+    std::vector<Block> blocks;
+    std::vector<Arm> arms; /**< of the nodes from node_begin on */
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// The contact operator: what happens in every step. What happens between
+// searches is in block_contacts_search.cc.
+
+#include <quoin/base/exceptions.h>
+#include <quoin/contact/block_contacts.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Cosine of the angle between edges at which a contact has no area. */
+    constexpr double least_cosine = 0.02;
+  } // namespace
+
+  bool BlockContacts::geometry(const ContactPair &pair, const Edge &a,
+                               const Edge &b, Geometry &result) const
+  {
+    const double cosine
+        = -(a.tangent[0] * b.tangent[0] + a.tangent[1] * b.tangent[1]);
+    if (!(cosine > least_cosine))
+      return false;
+    // Mean direction, and the cosine of half the angle between the edges.
+    const double scale = 1. / std::sqrt(2. + 2. * cosine);
+    const double t[2]  = { scale * (a.tangent[0] - b.tangent[0]),
+                           scale * (a.tangent[1] - b.tangent[1]) };
+    const double half  = (1. + cosine) * scale;
+
+    const double x       = b.x - a.x;
+    const double y       = b.y - a.y;
+    const double along_a = half * a.length;
+    const double along_b = half * b.length;
+    const double begin_b = x * t[0] + y * t[1]; // b runs backwards from here
+    const double end_b   = begin_b - along_b;
+    const double ends[2] = { std::max(0., end_b), std::min(along_a, begin_b) };
+    const double overlap = ends[1] - ends[0];
+    if (!(overlap > 0.))
+      return false;
+    result.overlap = overlap;
+
+    // The length that counts allows for the slip at which a matched joint,
+    // whose length does not change, became this contact.
+    double length = overlap;
+    if (pair.shift != 0.)
+    {
+      const double shift = shift_left(pair, a, b, t);
+      length             = std::max(0., std::min(along_a, begin_b + shift)
+                                            - std::max(0., end_b + shift));
+    }
+    const double fade
+        = std::min(1., (cosine - least_cosine) / (1. - least_cosine));
+    result.area = 0.5 * length / half * fade * thickness * 0.5
+                  * (a.reference_ratio + b.reference_ratio);
+
+    // By how far the vertex of a lies within b at either end.
+    const double inside[2] = { -end_b, begin_b - along_a };
+    const double sine
+        = std::abs(a.tangent[0] * b.tangent[1] - a.tangent[1] * b.tangent[0]);
+    const double parallel
+        = pair.was_joint
+              ? std::clamp(1.5 - 0.5 * sine / parameters.handover, 0., 1.)
+              : 0.;
+    result.sideways = (inside[0] > 0. ? a.corner[0] : b.corner[1])
+                      * (inside[1] > 0. ? a.corner[1] : b.corner[0]);
+    const double rounding = parameters.rounding * std::min(a.length, b.length);
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      result.lower[k] = ends[k] / along_a;
+      result.upper[k] = (begin_b - ends[k]) / along_b;
+      const double dx = x + result.upper[k] * b.length * b.tangent[0]
+                        - result.lower[k] * a.length * a.tangent[0];
+      const double dy = y + result.upper[k] * b.length * b.tangent[1]
+                        - result.lower[k] * a.length * a.tangent[1];
+      // The edge that is touched gives the normal: b's where a has a corner
+      // and b goes straight on, and the reverse.
+      const double ca = a.corner[k], cb = b.corner[1 - k];
+      const double touched
+          = ca * cb * std::clamp(0.5 + 0.5 * inside[k] / rounding, 0., 1.)
+            + ca * (1. - cb) + 0.5 * (1. - ca) * (1. - cb);
+      const double of_b = 0.5 * parallel + (1. - parallel) * touched;
+      const double of_a = 1. - of_b;
+      const double norm = 1. / std::sqrt(1. - 2. * of_a * of_b * (1. - cosine));
+      double *normal    = result.normal[k];
+      normal[0]         = norm * (of_a * a.tangent[1] - of_b * b.tangent[1]);
+      normal[1]         = norm * (of_b * b.tangent[0] - of_a * a.tangent[0]);
+      result.opening[k] = dx * normal[0] + dy * normal[1];
+    }
+    return true;
+  }
+
+  double BlockContacts::shift_left(const ContactPair &pair, const Edge &a,
+                                   const Edge &b, const double *t)
+  {
+    double slipped = 0.;
+    if (pair.active)
+    {
+      const double normal[2] = { t[1], -t[0] };
+      slipped = std::abs(slip(pair.points[0], a, b, normal) - pair.shift_start);
+    }
+    return std::copysign(std::max(0., std::abs(pair.shift) - 0.5 * slipped),
+                         pair.shift);
+  }
+
+  double BlockContacts::slip(const ContactPoint &point, const Edge &a,
+                             const Edge &b, const double *normal)
+  {
+    const double la = point.anchor_lower * a.length;
+    const double lb = point.anchor_upper * b.length;
+    const double x  = b.x - a.x + lb * b.tangent[0] - la * a.tangent[0];
+    const double y  = b.y - a.y + lb * b.tangent[1] - la * a.tangent[1];
+    return point.slip_offset + x * normal[1] - y * normal[0];
+  }
+
+  void BlockContacts::gather(const State &state)
+  {
+    reach->update_ghosts(state.nodes.data(), ghost_nodes.data());
+    const auto place = [](const NodeRecord &node) {
+      return NodeVector{ { node.X[0] + node.u[0], node.X[1] + node.u[1] } };
+    };
+    NodeVector *to = position.data();
+    for (const unsigned int i : compact_owned)
+      *to++ = place(state.nodes[i]);
+    for (const NodeRecord &node : ghost_nodes)
+      *to++ = place(node);
+
+    for (unsigned int e = 0; e < local_edges.size(); ++e)
+    {
+      Edge &edge      = local_edges[e];
+      const double *p = position[edge.nodes[0]].v;
+      const double *q = position[edge.nodes[1]].v;
+      const double dx = q[0] - p[0], dy = q[1] - p[1];
+      edge.length          = std::sqrt(dx * dx + dy * dy);
+      const double inverse = 1. / edge.length;
+      edge.x               = p[0];
+      edge.y               = p[1];
+      edge.tangent[0]      = inverse * dx;
+      edge.tangent[1]      = inverse * dy;
+      edge.reference_ratio = inverse * reference_lengths[e];
+    }
+  }
+
+  void BlockContacts::add_forces(ContactState &contacts, EnergyAccounts &energy,
+                                 NodeVector *force, const Viscous *viscous)
+  {
+    if (viscous)
+    {
+      reach->update_ghosts(viscous->velocity, ghost_velocity.data());
+      NodeVector *to = compact_velocity.data();
+      for (const unsigned int i : compact_owned)
+        *to++ = viscous->velocity[i];
+      std::copy(ghost_velocity.begin(), ghost_velocity.end(), to);
+    }
+
+    double friction = 0., fracture = 0., lost = 0.;
+    const unsigned int n_pairs = contacts.pairs.size();
+    updates += n_pairs;
+    for (unsigned int i = 0; i < n_pairs; ++i)
+    {
+      ContactPair &pair = contacts.pairs[i];
+      const Edge &a     = local_edges[pair_edges[i][0]];
+      const Edge &b     = local_edges[pair_edges[i][1]];
+      Geometry g;
+      if (!geometry(pair, a, b, g))
+      {
+        if (pair.active)
+          lost += pair_share[i] * release(pair);
+        continue;
+      }
+      if (!pair.active && !activate(contacts, i, g))
+        continue;
+
+      const CoulombLaw &law = laws[pair.set];
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        ContactPoint &point  = pair.points[k];
+        const double *normal = g.normal[k];
+        if (g.opening[k] < -pair_depth[i] && g.overlap > -g.opening[k])
+          note_depth(i, -g.opening[k]);
+        double opening     = g.opening[k];
+        const double depth = point.plastic_opening - opening;
+        if (depth > g.overlap)
+          opening += g.sideways * (depth - g.overlap * g.overlap / depth);
+        const double slip_now = slip(point, a, b, normal);
+
+        const double sigma_old = point.normal_traction;
+        const double tau_old   = point.shear_traction;
+        JointPoint joint{ sigma_old, tau_old, point.plastic_slip,
+                          point.plastic_opening, point.state };
+        const double mean_area = 0.5 * (g.area + point.area) * pair_share[i];
+        if (!law.update_elastic(joint, opening, slip_now))
+        {
+          const JointDissipation gone
+              = law.update_failing(joint, opening, slip_now);
+          friction += mean_area * gone.friction;
+          fracture += mean_area * gone.fracture;
+          point.plastic_slip    = joint.plastic_slip;
+          point.plastic_opening = joint.plastic_opening;
+          // Anchors behind would turn rotation into slip.
+          point.anchor_lower = g.lower[k];
+          point.anchor_upper = g.upper[k];
+          point.slip_offset += slip_now - slip(point, a, b, normal);
+        }
+        point.normal_traction = joint.normal_traction;
+        point.shear_traction  = joint.shear_traction;
+        point.state           = joint.state;
+        // What the trapezoidal work of a spring with changing area leaves
+        // over from the change of its energy.
+        lost += 0.5 * pair_share[i] * (point.area - g.area)
+                * (sigma_old * joint.normal_traction / law.normal_stiffness
+                   + tau_old * joint.shear_traction / law.shear_stiffness);
+        point.area     = g.area;
+        openings[i][k] = opening;
+
+        const double sigma = g.area * joint.normal_traction;
+        const double tau   = g.area * joint.shear_traction;
+        const double f[2]  = { sigma * normal[0] + tau * normal[1],
+                               sigma * normal[1] - tau * normal[0] };
+        spread(a, b, g.lower[k], g.upper[k], f, compact_force.data());
+        if (viscous && joint.state != JointState::open
+            && joint.state != JointState::slipping)
+        {
+          double rate[2];
+          relative_velocity(a, b, g.lower[k], g.upper[k], rate);
+          const double wn    = viscous->beta * g.area * law.normal_stiffness;
+          const double ws    = viscous->beta * g.area * law.shear_stiffness;
+          const double vn    = wn * (rate[0] * normal[0] + rate[1] * normal[1]);
+          const double vs    = ws * (rate[0] * normal[1] - rate[1] * normal[0]);
+          const double fv[2] = { vn * normal[0] + vs * normal[1],
+                                 vn * normal[1] - vs * normal[0] };
+          spread(a, b, g.lower[k], g.upper[k], fv, compact_viscous.data());
+        }
+      }
+    }
+    energy.friction += friction;
+    energy.fracture += fracture;
+    energy.contact += lost;
+
+    const auto scatter = [&](AlignedArray<NodeVector> &from, NodeVector *to)
+    {
+      for (unsigned int j = 0; j < compact_owned.size(); ++j)
+        for (unsigned int d = 0; d < 2; ++d)
+          to[compact_owned[j]].v[d] += from[j].v[d];
+      std::fill(from.begin(), from.end(), NodeVector{ { 0., 0. } });
+    };
+    scatter(compact_force, force);
+    if (viscous)
+      scatter(compact_viscous, viscous->force);
+  }
+
+  void BlockContacts::spread(const Edge &a, const Edge &b, const double lower,
+                             const double upper, const double *f,
+                             NodeVector *force)
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      force[a.nodes[0]].v[d] += (1. - lower) * f[d];
+      force[a.nodes[1]].v[d] += lower * f[d];
+      force[b.nodes[0]].v[d] -= (1. - upper) * f[d];
+      force[b.nodes[1]].v[d] -= upper * f[d];
+    }
+  }
+
+  void BlockContacts::relative_velocity(const Edge &a, const Edge &b,
+                                        const double lower, const double upper,
+                                        double *rate) const
+  {
+    const auto &v = compact_velocity;
+    for (unsigned int d = 0; d < 2; ++d)
+      rate[d] = (1. - upper) * v[b.nodes[0]].v[d] + upper * v[b.nodes[1]].v[d]
+                - (1. - lower) * v[a.nodes[0]].v[d]
+                - lower * v[a.nodes[1]].v[d];
+  }
+
+  double BlockContacts::release(ContactPair &pair) const
+  {
+    const CoulombLaw &law = laws[pair.set];
+    double energy         = 0.;
+    for (ContactPoint &point : pair.points)
+    {
+      energy += 0.5 * point.area
+                * (point.normal_traction * point.normal_traction
+                       / law.normal_stiffness
+                   + point.shear_traction * point.shear_traction
+                         / law.shear_stiffness);
+      point = ContactPoint();
+    }
+    pair.active    = 0;
+    pair.was_joint = 0;
+    pair.shift     = 0.;
+    return energy;
+  }
+
+  bool BlockContacts::activate(ContactState &contacts, const unsigned int i,
+                               const Geometry &g)
+  {
+    const double opening = std::min(g.opening[0], g.opening[1]);
+    if (opening <= -pair_depth[i] || (opening >= 0. && !can_dilate))
+      return false;
+    ContactPair &pair = contacts.pairs[i];
+    unsigned int set  = pair.set;
+    ContactPoint inherited;
+    const bool is_heir = find_parent(contacts, i, set, inherited);
+    if (opening >= inherited.plastic_opening)
+      return false;
+
+    pair.active      = 1;
+    pair.set         = set;
+    pair.shift_start = inherited.slip_offset;
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      ContactPoint &point = pair.points[k];
+      point               = inherited;
+      point.anchor_lower  = g.lower[k];
+      point.anchor_upper  = g.upper[k];
+      // Whoever is heir to a history comes with no area, others as they are.
+      point.area = is_heir ? 0. : g.area;
+      // Such that the slip now is that of the other pair.
+      point.slip_offset = 0.;
+      point.slip_offset = inherited.slip_offset
+                          - slip(point, local_edges[pair_edges[i][0]],
+                                 local_edges[pair_edges[i][1]], g.normal[k]);
+    }
+    return true;
+  }
+
+  bool BlockContacts::find_parent(const ContactState &contacts,
+                                  const unsigned int i, unsigned int &set,
+                                  ContactPoint &inherited) const
+  {
+    // A pair between the same blocks that shares an edge with this one and a
+    // vertex of the other.
+    for (unsigned int side = 0; side < 2; ++side)
+    {
+      const unsigned int shared = pair_edges[i][side];
+      const ContactEdge &edge   = edges[edge_numbers[pair_edges[i][1 - side]]];
+      for (unsigned int j = edge_pairs_begin[shared];
+           j < edge_pairs_begin[shared + 1]; ++j)
+      {
+        const unsigned int q      = edge_pairs[j];
+        const ContactPair &parent = contacts.pairs[q];
+        if (q == i || !parent.active)
+          continue;
+        const unsigned int at    = pair_edges[q][0] == shared ? 1 : 0;
+        const unsigned int other = edge_numbers[pair_edges[q][at]];
+        if (other != edge.next && other != edge.previous)
+          continue;
+        Geometry g;
+        const Edge &a = local_edges[pair_edges[q][0]];
+        const Edge &b = local_edges[pair_edges[q][1]];
+        if (!geometry(parent, a, b, g))
+          continue;
+        const double vertex = other == edge.next ? 0. : 1.;
+        const double *place = at == 0 ? g.lower : g.upper;
+        const unsigned int k
+            = std::abs(place[0] - vertex) <= std::abs(place[1] - vertex) ? 0
+                                                                         : 1;
+        set                   = parent.set;
+        inherited             = parent.points[k];
+        inherited.slip_offset = slip(inherited, a, b, g.normal[k]);
+        return true;
+      }
+    }
+    return false;
+  }
+
+  double BlockContacts::stored_energy(const ContactState &contacts) const
+  {
+    double energy = 0.;
+    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
+    {
+      const ContactPair &pair = contacts.pairs[i];
+      if (!pair.active)
+        continue;
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const ContactPoint &point = pair.points[k];
+        energy
+            += pair_share[i] * point.area
+               * laws[pair.set].stored_energy(
+                   { point.normal_traction, point.shear_traction,
+                     point.plastic_slip, point.plastic_opening, point.state },
+                   openings[i][k]);
+      }
+    }
+    return energy;
+  }
+
+  double BlockContacts::n_touching(const ContactState &contacts) const
+  {
+    double n = 0.;
+    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
+      for (const ContactPoint &point : contacts.pairs[i].points)
+        if (contacts.pairs[i].active && point.normal_traction < 0.)
+          n += pair_share[i];
+    return n;
+  }
+
+  bool BlockContacts::contact(const ContactState &contacts,
+                              const unsigned int i, Contact &result) const
+  {
+    const ContactPair &pair = contacts.pairs[i];
+    const Edge &a           = local_edges[pair_edges[i][0]];
+    const Edge &b           = local_edges[pair_edges[i][1]];
+    Geometry g;
+    if (!pair.active || !geometry(pair, a, b, g))
+      return false;
+    result.set = pair.set;
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      const double la = g.lower[k] * a.length, lb = g.upper[k] * b.length;
+      result.position[k]
+          = { 0.5 * (a.x + la * a.tangent[0] + b.x + lb * b.tangent[0]),
+              0.5 * (a.y + la * a.tangent[1] + b.y + lb * b.tangent[1]) };
+      const auto &nodes   = edges[pair.lower].nodes;
+      const auto &p       = mesh.vertices[nodes[0]];
+      const auto &q       = mesh.vertices[nodes[1]];
+      result.reference[k] = { p[0] + g.lower[k] * (q[0] - p[0]),
+                              p[1] + g.lower[k] * (q[1] - p[1]) };
+      result.opening[k]   = g.opening[k];
+      result.slip[k]      = slip(pair.points[k], a, b, g.normal[k]);
+    }
+    return true;
+  }
+
+  bool BlockContacts::is_own(const ContactState &contacts,
+                             const unsigned int pair) const
+  {
+    return exchange.owns(edges[contacts.pairs[pair].lower].nodes[0]);
+  }
+
+  double BlockContacts::largest_stiffness() const
+  {
+    double largest = 0.;
+    for (const CoulombLaw &law : laws)
+      largest
+          = std::max({ largest, law.normal_stiffness, law.shear_stiffness });
+    return largest;
+  }
+} // namespace quoin

@@ -1,0 +1,564 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// What the contact operator does between steps: watches motions, hands over
+// joints, searches pairs and prepares for them. block_contacts.cc has the
+// forces.
+
+#include <quoin/base/exceptions.h>
+#include <quoin/contact/block_contacts.h>
+#include <quoin/contact/contact_search.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <tuple>
+
+namespace quoin
+{
+  namespace
+  {
+    constexpr unsigned int none = ContactEdges::none;
+
+    /** Most steps between two looks at the motions. */
+    constexpr double longest_interval = 50.;
+    /** Automatic skin by the median edge. */
+    constexpr double automatic_skin = 0.2;
+
+    double median_length(const ContactEdges &edges)
+    {
+      std::vector<double> lengths;
+      for (unsigned int e = 0; e < edges.size(); ++e)
+        lengths.push_back(edges[e].length);
+      const auto middle = lengths.begin() + lengths.size() / 2;
+      std::nth_element(lengths.begin(), middle, lengths.end());
+      return *middle;
+    }
+
+    std::array<unsigned int, 2> key(const ContactPair &pair)
+    {
+      return { std::min(pair.lower, pair.upper),
+               std::max(pair.lower, pair.upper) };
+    }
+  } // namespace
+
+  BlockContacts::BlockContacts(const BlockMesh<2> &mesh,
+                               const NodeExchange &exchange,
+                               const ContactModel &model)
+    : mesh(mesh), exchange(exchange), edges(mesh, model.is_rigid),
+      parameters(model.parameters), thickness(model.thickness),
+      skin(model.parameters.skin), materials(model.materials),
+      material_of_group(model.material_of_group)
+  {
+    if (skin == 0.)
+      skin = automatic_skin * median_length(edges);
+    for (const JointSetParameters &set : model.sets)
+    {
+      laws.push_back(set.law);
+      can_dilate = can_dilate || set.law.dilation != 0.;
+    }
+    find_set_of_materials(model);
+    for (unsigned int e = 0; e < edges.size(); ++e)
+      if (exchange.owns(edges[e].nodes[0]))
+        boundary_nodes.push_back(exchange.local(edges[e].nodes[0]));
+  }
+
+  void BlockContacts::find_set_of_materials(const ContactModel &model)
+  {
+    const unsigned int n = materials.size();
+    const auto find      = [&](const JointSetParameters &set,
+                          const std::string &name) -> unsigned int
+    {
+      const auto found = std::find(materials.begin(), materials.end(), name);
+      if (found != materials.end())
+        return found - materials.begin();
+      std::string known;
+      for (const auto &material : materials)
+        known += (known.empty() ? "" : ", ") + material;
+      throw InputError(
+          "section 'Joints/" + set.name + "': 'New contacts between' names '"
+          + name + "', which is no material. Materials are: " + known + ".");
+    };
+    set_of_materials.assign(n * n, none);
+    unsigned int of_all = none;
+    for (unsigned int s = 0; s < model.sets.size(); ++s)
+    {
+      const JointSetParameters &set = model.sets[s];
+      const auto twice = [&](const unsigned int first, const std::string &what)
+      {
+        throw InputError("section 'Joints/" + set.name
+                         + "': new contacts between " + what
+                         + " follow the set '" + model.sets[first].name
+                         + "' already. Name them once.");
+      };
+      if (set.all_new_contacts)
+      {
+        if (of_all != none)
+          twice(of_all, "'all'");
+        of_all = s;
+      }
+      for (const auto &[first, second] : set.new_contacts)
+      {
+        const unsigned int i = find(set, first), j = find(set, second);
+        if (set_of_materials[i * n + j] != none)
+          twice(set_of_materials[i * n + j], first + ":" + second);
+        set_of_materials[i * n + j] = set_of_materials[j * n + i] = s;
+      }
+    }
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        if (set_of_materials[i * n + j] == none)
+        {
+          if (of_all == none)
+            throw InputError(
+                "section 'Joints': with 'Contact/Displacements = large' "
+                "blocks of '"
+                + materials[i] + "' and '" + materials[j]
+                + "' may touch anew, but no set says how. Give one 'New "
+                  "contacts between = "
+                + materials[i] + ":" + materials[j] + "' or 'all'.");
+          set_of_materials[i * n + j] = of_all;
+        }
+  }
+
+  void BlockContacts::update(State &state, const MatchedJoints &joints,
+                             const double dt)
+  {
+    ContactState &contacts = state.contacts;
+    if (state.step >= contacts.next_check)
+      check(state, joints, dt);
+    if (bound_search != contacts.n_searches)
+      bind(contacts);
+    gather(state);
+  }
+
+  void BlockContacts::check(State &state, const MatchedJoints &joints,
+                            const double dt)
+  {
+    ContactState &contacts = state.contacts;
+    const bool is_first    = contacts.n_searches == 0;
+    contacts.handed_over.resize(edges.interfaces().size(), 0);
+    contacts.outside.resize(mesh.n_blocks(), 0);
+    double moved = 0., fastest = 0.;
+    for (unsigned int i = 0; i < boundary_nodes.size() && !is_first; ++i)
+    {
+      const NodeRecord &node = state.nodes[boundary_nodes[i]];
+      const double *from     = contacts.search_positions[i].v;
+      const double *v        = state.velocity[boundary_nodes[i]].v;
+      const double dx        = node.X[0] + node.u[0] - from[0];
+      const double dy        = node.X[1] + node.u[1] - from[1];
+      moved                  = std::max(moved, dx * dx + dy * dy);
+      fastest                = std::max(fastest, v[0] * v[0] + v[1] * v[1]);
+    }
+    const double changed = hand_over(state, joints);
+    double values[4]
+        = { std::sqrt(moved), std::sqrt(fastest), changed, deepest_ratio };
+    MPI_Allreduce(MPI_IN_PLACE, values, 4, MPI_DOUBLE, MPI_MAX,
+                  exchange.communicator());
+    const double step_length = values[1] * dt;
+    if (values[3] > 1.)
+      refuse_depth(state, values[3]);
+    if (step_length > skin)
+      refuse_speed(state, values[1], dt);
+
+    const double budget = 0.5 * skin;
+    // What it may move until the next look, were that as late as it can be.
+    const double ahead = 2. * step_length;
+    double left        = budget - values[0];
+    if (is_first || values[2] > 0. || left < ahead)
+    {
+      const auto start = std::chrono::steady_clock::now();
+      search(state);
+      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now()
+                                               - start)
+                     .count();
+      left = budget;
+    }
+    const double interval = ahead > 0. ? std::clamp(std::floor(left / ahead),
+                                                    1., longest_interval)
+                                       : longest_interval;
+    contacts.next_check   = state.step + static_cast<std::uint64_t>(interval);
+  }
+
+  bool BlockContacts::hand_over(State &state, const MatchedJoints &joints)
+  {
+    ContactState &contacts = state.contacts;
+    const auto interface   = [&](const unsigned int segment)
+    { return edges.interface_of_face(joints.segment(segment).face); };
+
+    bool changed = false;
+    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    {
+      if (state.joints.handed_over[i]
+          || (state.joints.state[2 * i] == JointState::intact
+              && state.joints.state[2 * i + 1] == JointState::intact)
+          || edges.interfaces()[interface(i)].has_tip)
+        continue;
+      const double limit
+          = parameters.handover
+            * edges[edges.edges_of_face(joints.segment(i).face)[0]].length;
+      const auto gaps = joints.gaps(state.nodes.data(), i);
+      for (const auto &[opening, slip] : gaps)
+        if (opening > limit || std::abs(slip) > limit)
+        {
+          contacts.handed_over[interface(i)] = 1;
+          changed                            = true;
+        }
+    }
+    if (!changed)
+      return false;
+
+    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    {
+      if (state.joints.handed_over[i] || !contacts.handed_over[interface(i)])
+        continue;
+      const auto &segment = joints.segment(i);
+      const auto gaps     = joints.gaps(state.nodes.data(), i);
+      ContactPair pair;
+      pair.lower       = edges.edges_of_face(segment.face)[0];
+      pair.upper       = edges.edges_of_face(segment.face)[1];
+      pair.set         = segment.set;
+      pair.active      = 1;
+      pair.was_joint   = 1;
+      pair.shift       = 0.5 * (gaps[0][1] + gaps[1][1]);
+      pair.shift_start = pair.shift;
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const unsigned int p  = 2 * i + k;
+        ContactPoint &point   = pair.points[k];
+        point.normal_traction = state.joints.normal_traction[p];
+        point.shear_traction  = state.joints.shear_traction[p];
+        point.plastic_slip    = state.joints.plastic_slip[p];
+        point.plastic_opening = state.joints.plastic_opening[p];
+        point.state           = state.joints.state[p];
+        point.area            = segment.area;
+        // The vertices that coincided; the upper edge runs backwards.
+        point.anchor_lower              = k;
+        point.anchor_upper              = 1. - k;
+        state.joints.normal_traction[p] = 0.;
+        state.joints.shear_traction[p]  = 0.;
+        state.joints.state[p]           = JointState::open;
+      }
+      state.joints.handed_over[i] = 1;
+      contacts.pairs.push_back(pair);
+    }
+    return true;
+  }
+
+  bool BlockContacts::is_matched(const ContactState &contacts,
+                                 const unsigned int a,
+                                 const unsigned int b) const
+  {
+    std::array<unsigned int, 2> blocks = { edges[a].block, edges[b].block };
+    std::sort(blocks.begin(), blocks.end());
+    for (const unsigned int i : { edges[a].interface, edges[b].interface })
+      if (i != none && edges.interfaces()[i].blocks == blocks
+          && !contacts.handed_over[i])
+        return true;
+    return false;
+  }
+
+  ContactPair BlockContacts::new_pair(const EdgeEnds &a,
+                                      const EdgeEnds &b) const
+  {
+    // The lower side is the one whose normal points up, or right if upright,
+    // as in the mesh.
+    const auto normal = [](const EdgeEnds &e, double *n)
+    {
+      const double dx = e.x[1] - e.x[0], dy = e.y[1] - e.y[0];
+      const double length = std::hypot(dx, dy);
+      n[0]                = dy / length;
+      n[1]                = -dx / length;
+    };
+    double na[2], nb[2];
+    normal(a, na);
+    normal(b, nb);
+    const double x = na[0] - nb[0], y = na[1] - nb[1];
+    const bool a_is_lower
+        = std::abs(y) > 1e-6 * std::hypot(x, y) ? y > 0. : x > 0.;
+    const unsigned int n = materials.size();
+    ContactPair pair;
+    pair.lower = a_is_lower ? a.edge : b.edge;
+    pair.upper = a_is_lower ? b.edge : a.edge;
+    pair.set   = set_of_materials[material_of_group[edges[a.edge].group] * n
+                                + material_of_group[edges[b.edge].group]];
+    return pair;
+  }
+
+  void BlockContacts::search(State &state)
+  {
+    ContactState &contacts = state.contacts;
+    AlignedArray<std::uint8_t> left_out(mesh.n_blocks());
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+      left_out[b] = contacts.outside[b] == removed_from_model;
+    const auto ends = edges_within_reach(mesh, edges, exchange,
+                                         state.nodes.data(), left_out, skin);
+
+    std::sort(contacts.pairs.begin(), contacts.pairs.end(),
+              [](const ContactPair &a, const ContactPair &b)
+              { return key(a) < key(b); });
+    AlignedArray<ContactPair> old;
+    old.swap(contacts.pairs);
+    auto next = old.begin();
+    // Edges within the other block may be far from its edges.
+    const auto keep_or_drop = [&](ContactPair &pair)
+    {
+      if (!pair.active)
+        return;
+      if (std::min(pair.points[0].normal_traction,
+                   pair.points[1].normal_traction)
+          < 0.)
+        contacts.pairs.push_back(pair);
+      else
+        state.energy.contact += share(pair) * release(pair);
+    };
+    for (const auto &[i, j] : near_edges(edges, ends, skin))
+    {
+      const unsigned int a = ends[i].edge, b = ends[j].edge;
+      if ((!exchange.owns(edges[a].nodes[0])
+           && !exchange.owns(edges[b].nodes[0]))
+          || is_matched(contacts, a, b))
+        continue;
+      const std::array<unsigned int, 2> found = { a, b };
+      for (; next != old.end() && key(*next) < found; ++next)
+        keep_or_drop(*next);
+      if (next != old.end() && key(*next) == found && next->active)
+        contacts.pairs.push_back(*next++);
+      else
+        contacts.pairs.push_back(new_pair(ends[i], ends[j]));
+      if (next != old.end() && key(*next) == found)
+        ++next;
+    }
+    for (; next != old.end(); ++next)
+      keep_or_drop(*next);
+
+    contacts.search_positions.clear();
+    for (const unsigned int i : boundary_nodes)
+    {
+      const NodeRecord &node = state.nodes[i];
+      contacts.search_positions.push_back(
+          { { node.X[0] + node.u[0], node.X[1] + node.u[1] } });
+    }
+    ++contacts.n_searches;
+    bind(contacts);
+    gather(state);
+    inherit_shifts(contacts);
+    reanchor(contacts);
+  }
+
+  void BlockContacts::inherit_shifts(ContactState &contacts) const
+  {
+    // A new pair beside one whose overlap allows for the slip of the matched
+    // joint that it was allows for it too, or their lengths would not add up.
+    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
+    {
+      ContactPair &pair = contacts.pairs[i];
+      if (pair.active || pair.shift != 0.)
+        continue;
+      for (unsigned int side = 0; side < 2 && pair.shift == 0.; ++side)
+      {
+        const unsigned int shared = pair_edges[i][side];
+        const ContactEdge &edge = edges[edge_numbers[pair_edges[i][1 - side]]];
+        for (unsigned int j = edge_pairs_begin[shared];
+             j < edge_pairs_begin[shared + 1]; ++j)
+        {
+          const unsigned int q      = edge_pairs[j];
+          const ContactPair &parent = contacts.pairs[q];
+          const unsigned int other
+              = edge_numbers[pair_edges[q][pair_edges[q][0] == shared ? 1 : 0]];
+          if (parent.active && parent.shift != 0.
+              && (other == edge.next || other == edge.previous))
+          {
+            pair.shift       = parent.shift;
+            pair.shift_start = parent.shift_start;
+          }
+        }
+      }
+    }
+  }
+
+  void BlockContacts::reanchor(ContactState &contacts) const
+  {
+    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
+    {
+      ContactPair &pair = contacts.pairs[i];
+      const Edge &a     = local_edges[pair_edges[i][0]];
+      const Edge &b     = local_edges[pair_edges[i][1]];
+      Geometry g;
+      if (!pair.active || pair.shift != 0. || !geometry(pair, a, b, g))
+        continue;
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        ContactPoint &point = pair.points[k];
+        const double now    = slip(point, a, b, g.normal[k]);
+        point.anchor_lower  = g.lower[k];
+        point.anchor_upper  = g.upper[k];
+        point.slip_offset += now - slip(point, a, b, g.normal[k]);
+      }
+    }
+  }
+
+  float BlockContacts::share(const ContactPair &pair) const
+  {
+    return 0.5f
+           * (exchange.owns(edges[pair.lower].nodes[0])
+              + exchange.owns(edges[pair.upper].nodes[0]));
+  }
+
+  void BlockContacts::bind(const ContactState &contacts)
+  {
+    const unsigned int n_pairs = contacts.pairs.size();
+    edge_numbers.clear();
+    for (const ContactPair &pair : contacts.pairs)
+    {
+      edge_numbers.push_back(pair.lower);
+      edge_numbers.push_back(pair.upper);
+    }
+    std::sort(edge_numbers.begin(), edge_numbers.end());
+    edge_numbers.erase(std::unique(edge_numbers.begin(), edge_numbers.end()),
+                       edge_numbers.end());
+    const auto local = [&](const unsigned int edge) -> unsigned int
+    {
+      return std::lower_bound(edge_numbers.begin(), edge_numbers.end(), edge)
+             - edge_numbers.begin();
+    };
+
+    // Nodes: owned ones first, then ghosts, both ascending.
+    std::vector<unsigned int> owned, ghosts;
+    for (const unsigned int e : edge_numbers)
+      for (const unsigned int v : edges[e].nodes)
+        (exchange.owns(v) ? owned : ghosts).push_back(v);
+    for (auto *list : { &owned, &ghosts })
+    {
+      std::sort(list->begin(), list->end());
+      list->erase(std::unique(list->begin(), list->end()), list->end());
+    }
+    reach = std::make_unique<NodeExchange>(exchange.with_ghosts(ghosts));
+    const auto compact = [&](const unsigned int v) -> unsigned int
+    {
+      return exchange.owns(v)
+                 ? std::lower_bound(owned.begin(), owned.end(), v)
+                       - owned.begin()
+                 : owned.size() + reach->local(v) - reach->n_owned();
+    };
+    compact_owned.clear();
+    for (const unsigned int v : owned)
+      compact_owned.push_back(exchange.local(v));
+    ghost_nodes.resize(ghosts.size());
+    ghost_velocity.resize(ghosts.size());
+
+    local_edges.assign(edge_numbers.size(), Edge());
+    reference_lengths.clear();
+    for (unsigned int e = 0; e < edge_numbers.size(); ++e)
+    {
+      const ContactEdge &edge = edges[edge_numbers[e]];
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        local_edges[e].nodes[k]  = compact(edge.nodes[k]);
+        local_edges[e].corner[k] = edge.corner[k];
+      }
+      reference_lengths.push_back(edge.length);
+    }
+
+    pair_edges.clear();
+    pair_share.clear();
+    pair_depth.clear();
+    edge_pairs_begin.assign(edge_numbers.size() + 1, 0);
+    for (const ContactPair &pair : contacts.pairs)
+    {
+      pair_edges.push_back({ { local(pair.lower), local(pair.upper) } });
+      pair_share.push_back(share(pair));
+      pair_depth.push_back(
+          parameters.deepest
+          * std::min(edges[pair.lower].height, edges[pair.upper].height));
+      for (const unsigned int e : pair_edges.back())
+        ++edge_pairs_begin[e + 1];
+    }
+    for (unsigned int e = 0; e < edge_numbers.size(); ++e)
+      edge_pairs_begin[e + 1] += edge_pairs_begin[e];
+    edge_pairs.resize(2 * n_pairs);
+    std::vector<unsigned int> place(edge_pairs_begin.begin(),
+                                    edge_pairs_begin.end() - 1);
+    for (unsigned int i = 0; i < n_pairs; ++i)
+      for (const unsigned int e : pair_edges[i])
+        edge_pairs[place[e]++] = i;
+
+    const unsigned int n_nodes = owned.size() + ghosts.size();
+    position.resize(n_nodes);
+    compact_velocity.resize(n_nodes);
+    compact_force.assign(n_nodes, NodeVector{ { 0., 0. } });
+    compact_viscous.assign(n_nodes, NodeVector{ { 0., 0. } });
+    openings.assign(n_pairs, {});
+    deepest_ratio = 0.;
+    bound_search  = contacts.n_searches;
+  }
+
+  void BlockContacts::note_depth(const unsigned int pair, const double depth)
+  {
+    if (depth / pair_depth[pair] > deepest_ratio)
+    {
+      deepest_ratio = depth / pair_depth[pair];
+      deepest_pair  = pair;
+    }
+  }
+
+  void BlockContacts::refuse_depth(const State &state, const double ratio) const
+  {
+    // The first rank that knows of it tells the others.
+    const unsigned int n
+        = dealii::Utilities::MPI::n_mpi_processes(exchange.communicator());
+    const unsigned int rank
+        = dealii::Utilities::MPI::this_mpi_process(exchange.communicator());
+    const unsigned int teller = dealii::Utilities::MPI::min(
+        deepest_ratio == ratio ? rank : n, exchange.communicator());
+    double told[5]{};
+    if (rank == teller)
+    {
+      const ContactPair &pair = state.contacts.pairs[deepest_pair];
+      const Edge &edge        = local_edges[pair_edges[deepest_pair][0]];
+      told[0]                 = edges[pair.lower].block;
+      told[1]                 = edges[pair.upper].block;
+      told[2]                 = edge.x;
+      told[3]                 = edge.y;
+      told[4]                 = ratio * pair_depth[deepest_pair];
+    }
+    MPI_Bcast(told, 5, MPI_DOUBLE, teller, exchange.communicator());
+    std::ostringstream message;
+    message << "blocks " << told[0] << " and " << told[1] << " overlap by "
+            << told[4] << " m near (" << told[2] << ", " << told[3]
+            << ") m, at time " << state.time << " s, step " << state.step
+            << ", more than 'Contact/Deepest overlap = " << parameters.deepest
+            << "' of the cells there. The usual causes are contacts too soft "
+               "for the load or the impact (raise 'Normal stiffness'), a time "
+               "step too long (lower 'Share of critical time step'), or "
+               "blocks that overlap in the mesh. The last checkpoint is kept.";
+    throw RunError(message.str());
+  }
+
+  void BlockContacts::refuse_speed(const State &state, const double speed,
+                                   const double dt) const
+  {
+    constexpr unsigned int nowhere = -1;
+    unsigned int first             = nowhere;
+    for (const unsigned int i : boundary_nodes)
+    {
+      const double *v = state.velocity[i].v;
+      if (std::sqrt(v[0] * v[0] + v[1] * v[1]) >= speed)
+        first = std::min(first, exchange.global(i));
+    }
+    first         = dealii::Utilities::MPI::min(first, exchange.communicator());
+    const auto &p = mesh.vertices[first == nowhere ? 0 : first];
+    std::ostringstream message;
+    message << "block " << mesh.block_of_vertex(first) << ", at rest at ("
+            << p[0] << ", " << p[1] << ") m, moves at " << speed
+            << " m/s, that is " << speed * dt << " m a step at time "
+            << state.time << " s, step " << state.step
+            << ": so fast that it would pass through others, whose skin is "
+            << skin
+            << " m. If nothing should move like that, the run is unstable: "
+               "lower 'Share of critical time step' and look at the last "
+               "fields. The last checkpoint is kept.";
+    throw RunError(message.str());
+  }
+} // namespace quoin

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/contact/contact_search.h>
+
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quoin
+{
+  namespace
+  {
+    namespace bg  = boost::geometry;
+    namespace bgi = boost::geometry::index;
+    using Point   = bg::model::d2::point_xy<double>;
+    using Box     = bg::model::box<Point>;
+    using Entry   = std::pair<Box, unsigned int>;
+    using Tree    = bgi::rtree<Entry, bgi::linear<16>>;
+
+    /** Edges whose normals enclose less than 80 degrees never meet. */
+    constexpr double facing_cosine = 0.174;
+
+    Box box_of(const EdgeEnds &ends, const double margin)
+    {
+      return { Point(std::min(ends.x[0], ends.x[1]) - margin,
+                     std::min(ends.y[0], ends.y[1]) - margin),
+               Point(std::max(ends.x[0], ends.x[1]) + margin,
+                     std::max(ends.y[0], ends.y[1]) + margin) };
+    }
+
+    double distance_to_segment(const EdgeEnds &s, const double x,
+                               const double y)
+    {
+      const double dx = s.x[1] - s.x[0], dy = s.y[1] - s.y[0];
+      const double t = std::clamp(((x - s.x[0]) * dx + (y - s.y[0]) * dy)
+                                      / (dx * dx + dy * dy),
+                                  0., 1.);
+      return std::hypot(s.x[0] + t * dx - x, s.y[0] + t * dy - y);
+    }
+
+    bool cross(const EdgeEnds &a, const EdgeEnds &b)
+    {
+      const auto side = [](const EdgeEnds &s, const double x, const double y) {
+        return (s.x[1] - s.x[0]) * (y - s.y[0])
+               - (s.y[1] - s.y[0]) * (x - s.x[0]);
+      };
+      return side(a, b.x[0], b.y[0]) * side(a, b.x[1], b.y[1]) < 0.
+             && side(b, a.x[0], a.y[0]) * side(b, a.x[1], a.y[1]) < 0.;
+    }
+
+    bool are_near(const EdgeEnds &a, const EdgeEnds &b, const double skin)
+    {
+      const double ax = a.x[1] - a.x[0], ay = a.y[1] - a.y[0];
+      const double bx = b.x[1] - b.x[0], by = b.y[1] - b.y[0];
+      if (ax * bx + ay * by
+          > facing_cosine * std::hypot(ax, ay) * std::hypot(bx, by))
+        return false;
+      for (unsigned int k = 0; k < 2; ++k)
+        if (distance_to_segment(a, b.x[k], b.y[k]) <= skin
+            || distance_to_segment(b, a.x[k], a.y[k]) <= skin)
+          return true;
+      return cross(a, b);
+    }
+
+    /** xmin, ymin, xmax, ymax of this rank's blocks, of all ranks in turn. */
+    std::vector<std::array<double, 4>>
+    boxes_of_blocks(const BlockMesh<2> &mesh, const ContactEdges &edges,
+                    const NodeExchange &exchange, const NodeRecord *nodes)
+    {
+      constexpr double far = std::numeric_limits<double>::max();
+      std::vector<double> own;
+      for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+      {
+        if (!exchange.owns(mesh.block_first_vertex[b]))
+          continue;
+        std::array<double, 4> box = { far, far, -far, -far };
+        for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1);
+             ++e)
+        {
+          const NodeRecord &node = nodes[exchange.local(edges[e].nodes[0])];
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            const double x = node.X[d] + node.u[d];
+            box[d]         = std::min(box[d], x);
+            box[2 + d]     = std::max(box[2 + d], x);
+          }
+        }
+        own.insert(own.end(), box.begin(), box.end());
+      }
+      const MPI_Comm communicator = exchange.communicator();
+      std::vector<int> counts(
+          dealii::Utilities::MPI::n_mpi_processes(communicator));
+      const int count = own.size();
+      MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT,
+                    communicator);
+      std::vector<int> begins(1, 0);
+      for (const int n : counts)
+        begins.push_back(begins.back() + n);
+      std::vector<std::array<double, 4>> all(begins.back() / 4);
+      MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(),
+                     begins.data(), MPI_DOUBLE, communicator);
+      return all;
+    }
+
+    /** Blocks of other ranks near those of this one, ascending. */
+    std::vector<unsigned int>
+    blocks_within_reach(const BlockMesh<2> &mesh, const ContactEdges &edges,
+                        const NodeExchange &exchange, const NodeRecord *nodes,
+                        const AlignedArray<std::uint8_t> &left_out,
+                        const double skin)
+    {
+      const auto boxes  = boxes_of_blocks(mesh, edges, exchange, nodes);
+      const auto box_of = [&](const unsigned int b, const double margin)
+      {
+        return Box(Point(boxes[b][0] - margin, boxes[b][1] - margin),
+                   Point(boxes[b][2] + margin, boxes[b][3] + margin));
+      };
+      const auto is_own = [&](const unsigned int b)
+      { return exchange.owns(mesh.block_first_vertex[b]); };
+      std::vector<Entry> entries;
+      for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+        if (is_own(b) && !left_out[b])
+          entries.emplace_back(box_of(b, skin), b);
+      const Tree tree(entries);
+      std::vector<unsigned int> result;
+      for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+        if (!is_own(b) && !left_out[b]
+            && tree.qbegin(bgi::intersects(box_of(b, 0.))) != tree.qend())
+          result.push_back(b);
+      return result;
+    }
+  } // namespace
+
+  std::vector<EdgeEnds>
+  edges_within_reach(const BlockMesh<2> &mesh, const ContactEdges &edges,
+                     const NodeExchange &exchange, const NodeRecord *nodes,
+                     const AlignedArray<std::uint8_t> &left_out,
+                     const double skin)
+  {
+    std::vector<unsigned int> blocks;
+    std::vector<unsigned int> ghosts;
+    if (dealii::Utilities::MPI::n_mpi_processes(exchange.communicator()) > 1)
+    {
+      blocks
+          = blocks_within_reach(mesh, edges, exchange, nodes, left_out, skin);
+      for (const unsigned int b : blocks)
+        for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1);
+             ++e)
+          ghosts.push_back(edges[e].nodes[0]);
+      std::sort(ghosts.begin(), ghosts.end());
+    }
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+      if (exchange.owns(mesh.block_first_vertex[b]) && !left_out[b])
+        blocks.push_back(b);
+    std::sort(blocks.begin(), blocks.end());
+
+    const NodeExchange reach = exchange.with_ghosts(ghosts);
+    std::vector<NodeRecord> ghost_nodes(ghosts.size());
+    reach.update_ghosts(nodes, ghost_nodes.data());
+
+    std::vector<EdgeEnds> result;
+    for (const unsigned int b : blocks)
+      for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1);
+           ++e)
+      {
+        EdgeEnds ends;
+        ends.edge = e;
+        for (unsigned int k = 0; k < 2; ++k)
+        {
+          const unsigned int i   = reach.local(edges[e].nodes[k]);
+          const NodeRecord &node = i < reach.n_owned()
+                                       ? nodes[i]
+                                       : ghost_nodes[i - reach.n_owned()];
+          ends.x[k]              = node.X[0] + node.u[0];
+          ends.y[k]              = node.X[1] + node.u[1];
+        }
+        result.push_back(ends);
+      }
+    return result;
+  }
+
+  std::vector<std::array<unsigned int, 2>>
+  near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
+             const double skin)
+  {
+    std::vector<Entry> entries;
+    entries.reserve(ends.size());
+    for (unsigned int i = 0; i < ends.size(); ++i)
+      entries.emplace_back(box_of(ends[i], 0.), i);
+    const Tree tree(entries);
+
+    std::vector<std::array<unsigned int, 2>> pairs;
+    for (unsigned int i = 0; i < ends.size(); ++i)
+    {
+      const auto &[a, b] = edges[ends[i].edge].nodes;
+      for (auto found = tree.qbegin(bgi::intersects(box_of(ends[i], skin)));
+           found != tree.qend(); ++found)
+      {
+        const unsigned int j = found->second;
+        if (j <= i)
+          continue;
+        const auto &[c, d] = edges[ends[j].edge].nodes;
+        if (a != c && a != d && b != c && b != d
+            && are_near(ends[i], ends[j], skin))
+          pairs.push_back({ { i, j } });
+      }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+  }
+} // namespace quoin

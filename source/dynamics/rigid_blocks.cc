@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/dynamics/rigid_blocks.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/symmetric_tensor.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Nodes as they move from one angle to another. */
+    struct Turn
+    {
+      double c0, s0;  /**< of the angle before */
+      double c1, s1;  /**< of the angle after */
+      double versine; /**< 1 - c1 without cancellation */
+
+      Turn(const double before, const double after)
+        : c0(std::cos(before)), s0(std::sin(before)), c1(std::cos(after)),
+          s1(std::sin(after))
+      {
+        const double half = std::sin(0.5 * after);
+        versine           = 2. * half * half;
+      }
+    };
+  } // namespace
+
+  std::vector<bool>
+  find_rigid_blocks(const BlockMesh<2> &mesh,
+                    const std::vector<MaterialParameters> &materials)
+  {
+    std::vector<bool> rigid_group;
+    for (const std::string &name : mesh.group_names)
+      rigid_group.push_back(
+          std::any_of(materials.begin(), materials.end(),
+                      [&](const MaterialParameters &material)
+                      {
+                        return material.rigid
+                               && std::find(material.groups.begin(),
+                                            material.groups.end(), name)
+                                      != material.groups.end();
+                      }));
+
+    std::vector<bool> rigid;
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+    {
+      const unsigned int first = mesh.block_first_cell[b];
+      rigid.push_back(rigid_group[mesh.cell_group[first]]);
+      for (unsigned int c = first; c < mesh.block_first_cell[b + 1]; ++c)
+      {
+        if (rigid_group[mesh.cell_group[c]] == rigid.back())
+          continue;
+        const auto &p    = mesh.vertices[mesh.cells[first][0]];
+        const auto group = [&](const unsigned int cell)
+        { return mesh.group_names[mesh.cell_group[cell]]; };
+        std::ostringstream message;
+        message << "section 'Materials': the block at (" << p[0] << ", " << p[1]
+                << ") m is made of the physical surfaces '" << group(first)
+                << "' and '" << group(c) << "', of which only '"
+                << (rigid.back() ? group(first) : group(c))
+                << "' is of a material with 'Law = rigid'. A block is rigid as "
+                   "a whole: make both rigid or neither, or part them by "
+                   "naming the line between them in 'Mesh/Joints along'.";
+        throw InputError(message.str());
+      }
+    }
+    return rigid;
+  }
+
+  void RigidBlocks::prepare(const BlockMesh<2> &mesh, const unsigned int first,
+                            const unsigned int last,
+                            const unsigned int first_node,
+                            const std::vector<double> &density,
+                            const double thickness)
+  {
+    node_begin = first_node;
+    blocks.clear();
+    arms.clear();
+    for (unsigned int b = first; b < last; ++b)
+    {
+      const unsigned int first_cell   = mesh.block_first_cell[b];
+      const unsigned int last_cell    = mesh.block_first_cell[b + 1];
+      const unsigned int first_vertex = mesh.block_first_vertex[b];
+      const unsigned int n_nodes
+          = mesh.block_first_vertex[b + 1] - first_vertex;
+
+      // Positions count from a vertex, to keep digits far from the origin.
+      const auto origin = mesh.vertices[first_vertex];
+      std::vector<double> cell_mass, node_mass(n_nodes, 0.);
+      dealii::Point<2> centre;
+      double mass = 0.;
+      for (unsigned int c = first_cell; c < last_cell; ++c)
+      {
+        const auto &[i, j, k] = mesh.cells[c];
+        const auto e1         = mesh.vertices[j] - mesh.vertices[i];
+        const auto e2         = mesh.vertices[k] - mesh.vertices[i];
+        cell_mass.push_back(0.5 * std::abs(e1[0] * e2[1] - e1[1] * e2[0])
+                            * thickness * density[mesh.cell_group[c]]);
+        mass += cell_mass.back();
+        for (const unsigned int v : mesh.cells[c])
+        {
+          centre += cell_mass.back() / 3. * (mesh.vertices[v] - origin);
+          node_mass[v - first_vertex] += cell_mass.back() / 3.;
+        }
+      }
+      centre /= mass;
+
+      double inertia = 0.;
+      for (unsigned int c = first_cell; c < last_cell; ++c)
+      {
+        double own = 0.;
+        dealii::Tensor<1, 2> mean;
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          const auto &p = mesh.vertices[mesh.cells[c][k]];
+          own += p.distance_square(mesh.vertices[mesh.cells[c][(k + 1) % 3]]);
+          mean += (p - origin - centre) / 3.;
+        }
+        inertia += cell_mass[c - first_cell] * (own / 36. + mean.norm_square());
+      }
+
+      const unsigned int begin = node_begin + arms.size();
+      double lumped            = 0.;
+      for (unsigned int v = 0; v < n_nodes; ++v)
+      {
+        const auto arm = mesh.vertices[first_vertex + v] - origin - centre;
+        arms.push_back({ arm[0], arm[1], node_mass[v] / mass });
+        lumped += node_mass[v] * arm.norm_square();
+      }
+      blocks.push_back({ begin,
+                         begin + n_nodes,
+                         mass,
+                         inertia,
+                         lumped,
+                         { origin[0] + centre[0], origin[1] + centre[1] } });
+    }
+  }
+
+  double RigidBlocks::largest_eigenvalue(
+      const unsigned int b,
+      const std::vector<std::array<double, 3>> &bound) const
+  {
+    const Block &block = blocks[b];
+    const Arm *arm     = arms_of(block);
+    dealii::SymmetricTensor<2, 3> sum;
+    for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+    {
+      const auto &[xx, yy, xy] = bound[i];
+      const double x = arm->x, y = arm->y;
+      sum[0][0] += xx;
+      sum[1][1] += yy;
+      sum[0][1] += xy;
+      sum[0][2] += xy * x - xx * y;
+      sum[1][2] += yy * x - xy * y;
+      sum[2][2] += yy * x * x - 2. * xy * x * y + xx * y * y;
+    }
+    const double metric[3] = { block.mass, block.mass, block.inertia };
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = i; j < 3; ++j)
+        sum[i][j] /= std::sqrt(metric[i] * metric[j]);
+    return std::max(0., dealii::eigenvalues(sum)[0]);
+  }
+
+  RigidBlockWork RigidBlocks::advance(const StepContext &step,
+                                      const RigidBlockStage &stage,
+                                      NodeVector *force, NodeVector *viscous,
+                                      State &state) const
+  {
+    const double a            = 0.5 * step.dt_velocity * step.mass_damping;
+    const double decay        = (1. - a) / (1. + a);
+    const double push         = step.dt_velocity / (1. + a);
+    const double inverse_push = 1. / push;
+    RigidBlockWork work;
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+    {
+      const Block &block = blocks[b];
+      const Arm *arm     = arms_of(block);
+      if (stage.held[b])
+      {
+        for (unsigned int i = block.begin; i < block.end; ++i)
+          force[i] = viscous[i] = NodeVector{ { 0., 0. } };
+        continue;
+      }
+
+      RigidBlockState &rigid = state.rigid_blocks[b];
+      const double c0 = std::cos(rigid.rotation), s0 = std::sin(rigid.rotation);
+      double f[3]{}, fv[3]{};
+      const auto add
+          = [](double(&to)[3], const double x, const double y, NodeVector &node)
+      {
+        to[0] += node.v[0];
+        to[1] += node.v[1];
+        to[2] += x * node.v[1] - y * node.v[0];
+        node = NodeVector{ { 0., 0. } };
+      };
+      for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+      {
+        const double x = c0 * arm->x - s0 * arm->y;
+        const double y = s0 * arm->x + c0 * arm->y;
+        add(f, x, y, force[i]);
+        add(fv, x, y, viscous[i]);
+      }
+
+      // As advance_nodes_damped() for a node's two freedoms.
+      const auto mass       = inertia(stage, b);
+      const double rotation = rigid.rotation;
+      DampingWork &damping  = work.damping;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double m    = mass[d];
+        const double gain = push / m;
+        const double v0   = rigid.velocity[d];
+        const double w    = decay * v0 + gain * (f[d] + fv[d]);
+        const double v1
+            = w
+              - local_damping_velocity(
+                  step.local_damping * gain * std::abs(f[d]), v0, w);
+        const double drag = fv[d]
+                            + m
+                                  * (inverse_push * (v1 - w)
+                                     - 0.5 * step.mass_damping * (v0 + v1));
+        damping.before -= 0.5 * step.dt_before * drag * v0;
+        damping.after -= 0.5 * step.dt * drag * v1;
+        damping.mass_power += 0.25 * m * (v0 + v1) * (v0 + v1);
+        damping.kinetic_change += 0.5 * m * (v1 - v0) * (v1 + v0);
+        rigid.velocity[d] = v1;
+        (d < 2 ? rigid.displacement[d] : rigid.rotation) += step.dt * v1;
+      }
+      work.unbalanced += std::hypot(f[0], f[1])
+                         + std::abs(f[2]) * std::sqrt(mass[0] / mass[2]);
+
+      const Turn turn(rotation, rigid.rotation);
+      const double half = 0.5 * rigid.velocity[2];
+      arm               = arms_of(block);
+      for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+      {
+        const double x = arm->x, y = arm->y;
+        double *u = state.nodes[i].u;
+        u[0]      = rigid.displacement[0] - turn.versine * x - turn.s1 * y;
+        u[1]      = rigid.displacement[1] + turn.s1 * x - turn.versine * y;
+        // With the mean of the arms before and after.
+        double *v = state.velocity[i].v;
+        v[0]      = rigid.velocity[0]
+               - half * ((turn.s0 + turn.s1) * x + (turn.c0 + turn.c1) * y);
+        v[1] = rigid.velocity[1]
+               + half * ((turn.c0 + turn.c1) * x - (turn.s0 + turn.s1) * y);
+      }
+    }
+    return work;
+  }
+
+  void RigidBlocks::follow_nodes(const RigidBlockStage &stage,
+                                 State &state) const
+  {
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+    {
+      if (!stage.held[b])
+        continue;
+      const Block &block     = blocks[b];
+      RigidBlockState &rigid = state.rigid_blocks[b];
+      const double before    = rigid.rotation;
+
+      // Lumped masses have the centroid of the block.
+      double d[2]{}, v[2]{};
+      const Arm *arm = arms_of(block);
+      for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+        for (unsigned int k = 0; k < 2; ++k)
+        {
+          d[k] += arm->share * state.nodes[i].u[k];
+          v[k] += arm->share * state.velocity[i].v[k];
+        }
+
+      // (R - 1) r is what nodes move beyond the centroid.
+      double sine = 0., versine = 0., second = 0.;
+      arm = arms_of(block);
+      for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+      {
+        const double x = state.nodes[i].u[0] - d[0];
+        const double y = state.nodes[i].u[1] - d[1];
+        sine += arm->share * (arm->x * y - arm->y * x);
+        versine -= arm->share * (arm->x * x + arm->y * y);
+        second += arm->share * (arm->x * arm->x + arm->y * arm->y);
+      }
+      rigid.rotation
+          = before
+            + std::remainder(std::atan2(sine, second - versine) - before,
+                             2. * dealii::numbers::PI);
+
+      const Turn turn(before, rigid.rotation);
+      const double c = 0.5 * (turn.c0 + turn.c1), s = 0.5 * (turn.s0 + turn.s1);
+      double moment = 0.;
+      arm           = arms_of(block);
+      for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+      {
+        const double x = c * arm->x - s * arm->y, y = s * arm->x + c * arm->y;
+        moment += arm->share
+                  * (x * (state.velocity[i].v[1] - v[1])
+                     - y * (state.velocity[i].v[0] - v[0]));
+      }
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        rigid.displacement[k] = d[k];
+        rigid.velocity[k]     = v[k];
+      }
+      rigid.velocity[2] = moment / ((c * c + s * s) * second);
+    }
+  }
+
+  double RigidBlocks::kinetic_energy(const RigidBlockStage &stage,
+                                     const std::vector<RigidBlockState> &before,
+                                     const std::vector<RigidBlockState> &after,
+                                     const double share) const
+  {
+    double energy = 0.;
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+    {
+      const auto mass = inertia(stage, b);
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double v0 = before[b].velocity[d];
+        energy
+            += 0.5 * mass[d] * v0 * (v0 + share * (after[b].velocity[d] - v0));
+      }
+    }
+    return energy;
+  }
+
+  double
+  RigidBlocks::squared_change(const RigidBlockStage &stage,
+                              const std::vector<RigidBlockState> &before,
+                              const std::vector<RigidBlockState> &after) const
+  {
+    double sum = 0.;
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+    {
+      const auto mass = inertia(stage, b);
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double change = after[b].velocity[d] - before[b].velocity[d];
+        sum += mass[d] * change * change;
+      }
+    }
+    return sum;
+  }
+} // namespace quoin

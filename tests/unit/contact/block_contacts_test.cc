@@ -1,0 +1,617 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../dynamics/test_models.h"
+
+#include <quoin/base/exceptions.h>
+#include <quoin/contact/block_contacts.h>
+#include <quoin/contact/contact_search.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  constexpr double kn        = 8e9;
+  constexpr double ks        = 3e9;
+  constexpr double thickness = 0.3;
+  constexpr double degree    = 3.14159265358979323846 / 180.;
+  constexpr double closing   = 1e-4; // [m]
+
+  struct Rectangle
+  {
+    double x, y, width, height; // lower left corner before it is turned
+    unsigned int nx, ny;
+    double angle = 0.; // about its lower left corner [rad]
+  };
+
+  /** Each rectangle is a block of the group "stone"; none share nodes. */
+  void make_blocks(BlockMesh<2> &mesh, const std::vector<Rectangle> &rectangles)
+  {
+    MeshData data;
+    data.group_names = { "stone" };
+    for (const Rectangle &r : rectangles)
+    {
+      const unsigned int first = data.vertices.size();
+      const double c = std::cos(r.angle), s = std::sin(r.angle);
+      for (unsigned int j = 0; j <= r.ny; ++j)
+        for (unsigned int i = 0; i <= r.nx; ++i)
+        {
+          const double x = r.width * i / r.nx, y = r.height * j / r.ny;
+          data.vertices.emplace_back(r.x + c * x - s * y, r.y + s * x + c * y);
+        }
+      for (unsigned int j = 0; j < r.ny; ++j)
+        for (unsigned int i = 0; i < r.nx; ++i)
+        {
+          const unsigned int a = first + j * (r.nx + 1) + i;
+          const unsigned int b = a + 1, d = a + r.nx + 1, e = d + 1;
+          data.triangles.push_back({ { a, b, e } });
+          data.triangles.push_back({ { a, e, d } });
+          data.triangle_group.push_back(0);
+          data.triangle_group.push_back(0);
+        }
+    }
+    split_into_blocks(data, {}, mesh);
+  }
+
+  JointSetParameters touching(const double friction = 0.5)
+  {
+    JointSetParameters set = elastic_joint(kn, ks);
+    set.name               = "touch";
+    set.curves.clear();
+    set.all_new_contacts = true;
+    set.law.peak         = { 0., friction, 0. };
+    set.law.residual     = set.law.peak;
+    return set;
+  }
+
+  ContactModel contact_model(const std::vector<JointSetParameters> &sets)
+  {
+    ContactModel model;
+    model.parameters.large_displacements = true;
+    model.sets                           = sets;
+    model.materials                      = { "stone" };
+    model.material_of_group              = { 0, 0 };
+    model.thickness                      = thickness;
+    return model;
+  }
+
+  /** Blocks, their contacts and joints, moved by hand. */
+  struct Scene
+  {
+    BlockMesh<2> mesh;
+    std::unique_ptr<NodeExchange> exchange;
+    MatchedJoints joints;
+    std::unique_ptr<BlockContacts> contacts;
+    State state;
+    AlignedArray<NodeVector> force;
+
+    Scene(const std::function<void(BlockMesh<2> &)> &make,
+          const std::vector<JointSetParameters> &sets = { touching() })
+    {
+      make(mesh);
+      exchange = std::make_unique<NodeExchange>(
+          0, mesh.n_vertices(), mesh.n_vertices(), std::vector<unsigned int>(),
+          MPI_COMM_SELF);
+      joints.prepare(mesh, *exchange, sets, thickness);
+      contacts = std::make_unique<BlockContacts>(mesh, *exchange,
+                                                 contact_model(sets));
+      state.joints.resize(joints.n_points());
+      for (const auto &p : mesh.vertices)
+        state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
+      state.velocity.assign(mesh.n_vertices(), NodeVector{ { 0., 0. } });
+    }
+
+    explicit Scene(const std::vector<Rectangle> &rectangles,
+                   const std::vector<JointSetParameters> &sets = { touching() })
+      : Scene([&](BlockMesh<2> &mesh) { make_blocks(mesh, rectangles); }, sets)
+    {
+    }
+
+    /** Block that has a vertex at the reference position. */
+    unsigned int block_at(const double x, const double y) const
+    {
+      return mesh.block_of_vertex(vertices_at(mesh, x, y).front());
+    }
+
+    void for_block(const unsigned int block,
+                   const std::function<void(unsigned int)> &act) const
+    {
+      for (unsigned int v = mesh.block_first_vertex[block];
+           v < mesh.block_first_vertex[block + 1]; ++v)
+        act(v);
+    }
+
+    void move(const unsigned int block, const double x, const double y)
+    {
+      for_block(block,
+                [&](const unsigned int v)
+                {
+                  state.nodes[v].u[0] += x;
+                  state.nodes[v].u[1] += y;
+                });
+    }
+
+    void turn(const unsigned int block, const double angle, const double x0,
+              const double y0)
+    {
+      const double c = std::cos(angle), s = std::sin(angle);
+      for_block(block,
+                [&](const unsigned int v)
+                {
+                  NodeRecord &node = state.nodes[v];
+                  const double x   = node.X[0] + node.u[0] - x0;
+                  const double y   = node.X[1] + node.u[1] - y0;
+                  node.u[0]        = x0 + c * x - s * y - node.X[0];
+                  node.u[1]        = y0 + s * x + c * y - node.X[1];
+                });
+    }
+
+    /** @p look: whether motions are looked at before. */
+    void find_forces(const bool look = true)
+    {
+      if (look)
+        state.contacts.next_check = state.step;
+      force.assign(mesh.n_vertices(), NodeVector{ { 0., 0. } });
+      joints.add_forces(state.nodes.data(), state.joints, state.energy,
+                        force.data());
+      // A look hands over: the joints' forces are those before it.
+      contacts->update(state, joints, 1e-9);
+      contacts->add_forces(state.contacts, state.energy, force.data());
+      ++state.step;
+    }
+
+    /** Force x, y on a block and moment about the origin. */
+    std::array<double, 3> total(const unsigned int block) const
+    {
+      std::array<double, 3> sum{};
+      for_block(block,
+                [&](const unsigned int v)
+                {
+                  const NodeRecord &node = state.nodes[v];
+                  sum[0] += force[v].v[0];
+                  sum[1] += force[v].v[1];
+                  sum[2] += (node.X[0] + node.u[0]) * force[v].v[1]
+                            - (node.X[1] + node.u[1]) * force[v].v[0];
+                });
+      return sum;
+    }
+  };
+
+  double pressing_area(const State &state)
+  {
+    double area = 0.;
+    for (const ContactPair &pair : state.contacts.pairs)
+      for (const ContactPoint &point : pair.points)
+        if (pair.active && point.normal_traction < -0.5 * kn * closing)
+          area += point.area;
+    return area;
+  }
+} // namespace
+
+TEST(BlockContacts, TributaryLengthsAddUpToTheOverlap)
+{
+  // 3 edges below, 7 above, neither a multiple of the other.
+  for (double x = -4.9; x < 3.; x += 0.37)
+  {
+    Scene scene({ { 0., 0., 3., 1., 3, 1 }, { x, 1., 4.9, 1., 7, 1 } });
+    const unsigned int upper = scene.block_at(x, 2.);
+    scene.move(upper, 0., -closing);
+    scene.find_forces();
+    const double overlap = std::min(3., x + 4.9) - std::max(0., x);
+    EXPECT_NEAR(pressing_area(scene.state), thickness * overlap, 1e-12);
+    EXPECT_NEAR(scene.total(upper)[1], kn * closing * thickness * overlap,
+                1e-9 * kn * closing);
+    EXPECT_NEAR(scene.total(upper)[0], 0., 2e-6 * scene.total(upper)[1]);
+    // The pressure acts at the middle of the overlap.
+    EXPECT_NEAR(scene.total(upper)[2],
+                scene.total(upper)[1] * (std::max(0., x) + 0.5 * overlap),
+                1e-5 * scene.total(upper)[1]);
+  }
+}
+
+TEST(BlockContacts, UniformPressurePassesBetweenMeshesThatDoNotMatch)
+{
+  Scene scene({ { 0., 0., 3., 1., 3, 1 }, { 0., 1., 3., 1., 7, 1 } });
+  scene.move(scene.block_at(0., 2.), 0., -closing);
+  scene.find_forces();
+  const double pressure = kn * closing * thickness;
+  for (unsigned int i = 0; i <= 3; ++i)
+  {
+    const auto below = vertices_at(scene.mesh, i, 1.);
+    for (const unsigned int v : below)
+      if (scene.mesh.block_of_vertex(v) == scene.block_at(0., 0.))
+      {
+        EXPECT_NEAR(scene.force[v].v[1],
+                    -pressure * (i == 0 || i == 3 ? 0.5 : 1.), 1e-9 * pressure);
+      }
+  }
+  for (unsigned int i = 1; i < 7; ++i)
+    for (const unsigned int v : vertices_at(scene.mesh, 3. * i / 7., 1.))
+      if (scene.mesh.block_of_vertex(v) == scene.block_at(0., 2.))
+      {
+        EXPECT_NEAR(scene.force[v].v[1], pressure * 3. / 7., 1e-9 * pressure);
+      }
+}
+
+TEST(BlockContacts, ForcesAreContinuousAsABlockSlidesOverCornersAndOff)
+{
+  // Two base blocks with flush tops; the slider passes their junction and
+  // leaves the far end.
+  Scene scene({ { 0., 0., 1., 1., 2, 1 },
+                { 1., 0., 1., 1., 3, 2 },
+                { 0.1, 1., 0.5, 0.5, 2, 1 } },
+              { touching(0.) });
+  const unsigned int slider = scene.block_at(0.1, 1.5);
+  scene.move(slider, 0., -closing);
+  const double step = 1e-4;
+  double before     = 0.;
+  for (unsigned int i = 0; i < 20500; ++i)
+  {
+    scene.find_forces(i % 10 == 0);
+    const auto now = scene.total(slider);
+    if (i > 0)
+    {
+      ASSERT_NEAR(now[1], before, 1.01 * kn * closing * thickness * step)
+          << "at " << 0.1 + i * step;
+    }
+    // Flush tops: nothing pushes sideways, but for a corner on its way off,
+    // whose penetration counts in both directions.
+    ASSERT_NEAR(now[0], 0., 1.01 * kn * thickness * closing * closing);
+    before = now[1];
+    scene.move(slider, step, 0.);
+  }
+  EXPECT_NEAR(before, 0., 1e-9 * kn * closing);
+}
+
+TEST(BlockContacts, ForcesAreContinuousAsABlockRocksAndTopples)
+{
+  // About its right corner, which stays pressed in by the same depth.
+  Scene scene({ { -5., -1., 10., 1., 4, 1 }, { -1., 0., 1., 4., 1, 2 } },
+              { touching(0.) });
+  const unsigned int block = scene.block_at(-1., 4.);
+  scene.move(block, 0., -closing);
+  const double step = -0.02 * degree;
+  std::array<double, 3> before{};
+  const double full = kn * thickness * closing;
+  for (unsigned int i = 0; i < 4400; ++i)
+  {
+    scene.find_forces(i % 5 == 0);
+    const auto now     = scene.total(block);
+    const double angle = -step * i;
+    if (i > 0)
+    {
+      for (unsigned int d = 0; d < 2; ++d)
+        // The left corner lifts off within closing / width.
+        ASSERT_NEAR(now[d], before[d],
+                    (angle < 0.02 ? 2. * full : 5. * full * std::abs(step)))
+            << "at " << angle / degree << " degrees, component " << d;
+    }
+    // A frictionless corner on a plane is pressed along the plane's normal.
+    if (angle > 0.02 && angle < 1.4)
+    {
+      ASSERT_NEAR(now[0], 0., 1e-5 * now[1]) << angle / degree;
+    }
+    before = now;
+    scene.turn(block, step, 0., -closing);
+  }
+}
+
+TEST(BlockContacts, TurnWithTheBlocks)
+{
+  std::array<double, 3> reference{};
+  for (const double angle : { 0., 25., 90., 145., 270. })
+  {
+    Scene scene({ { 0., 0., 3., 1., 3, 1 }, { 0.3, 1., 2., 1., 2, 1 } });
+    const unsigned int upper = scene.block_at(0.3, 2.);
+    scene.move(upper, 0., -closing);
+    scene.find_forces();
+    scene.move(upper, 1e-5, 0.); // sticking slip
+    scene.find_forces();
+    if (angle == 0.)
+    {
+      reference = scene.total(upper);
+      EXPECT_NEAR(reference[0], -ks * 1e-5 * 2. * thickness, 1e-3);
+      EXPECT_NEAR(reference[1], kn * closing * 2. * thickness, 1e-3);
+    }
+    for (unsigned int i = 0; i < 100; ++i)
+    {
+      for (const unsigned int block : { 0U, 1U })
+        scene.turn(block, 0.01 * angle * degree, 0.7, -0.4);
+      scene.find_forces();
+    }
+    const double c = std::cos(angle * degree), s = std::sin(angle * degree);
+    const auto now = scene.total(upper);
+    EXPECT_NEAR(now[0], c * reference[0] - s * reference[1],
+                1e-6 * reference[1]);
+    EXPECT_NEAR(now[1], s * reference[0] + c * reference[1],
+                1e-6 * reference[1]);
+  }
+}
+
+TEST(BlockContacts, FrictionStaysMobilisedFromEdgeToEdge)
+{
+  Scene scene({ { 0., 0., 4., 1., 8, 1 }, { 0., 1., 1.2, 1., 3, 1 } });
+  const unsigned int upper = scene.block_at(0., 2.);
+  scene.move(upper, 0., -closing);
+  scene.find_forces();
+  const double normal = kn * closing * 1.2 * thickness;
+  for (unsigned int i = 0; i < 2500; ++i)
+  {
+    scene.move(upper, 1e-3, 0.);
+    scene.find_forces();
+    const auto now = scene.total(upper);
+    ASSERT_NEAR(now[1], normal, 1e-9 * normal) << i;
+    ASSERT_NEAR(now[0], -0.5 * normal, 1e-9 * normal) << i;
+  }
+  // And sticks again where it stops, without a trace of what it slid.
+  for (unsigned int i = 0; i < 10; ++i)
+  {
+    scene.find_forces();
+    EXPECT_NEAR(scene.total(upper)[0], -0.5 * normal, 1e-9 * normal);
+  }
+  scene.move(upper, -1e-5, 0.);
+  scene.find_forces();
+  EXPECT_NEAR(scene.total(upper)[0],
+              -0.5 * normal + ks * 1e-5 * 1.2 * thickness, 1e-6 * normal);
+}
+
+TEST(BlockContacts, DilationIsNotForgottenFromEdgeToEdge)
+{
+  JointSetParameters set = touching();
+  set.law.dilation       = 0.1;
+  Scene scene({ { 0., 0., 4., 1., 8, 1 }, { 0., 1., 1.2, 1., 3, 1 } }, { set });
+  const unsigned int upper = scene.block_at(0., 2.);
+  scene.move(upper, 0., -closing);
+  scene.find_forces();
+  const double normal = kn * closing * 1.2 * thickness;
+  for (unsigned int i = 0; i < 8000; ++i)
+  {
+    scene.move(upper, 1e-4, 0.1e-4);
+    scene.find_forces();
+    // Rising by the dilation keeps the pressure, but for the elastic slip
+    // that comes before: 0.1 * 0.5 * kn / ks of the closing.
+    const double kept = 1. - 0.1 * 0.5 * kn / ks / (1. + 0.1 * 0.5 * kn / ks);
+    if (i > 100)
+    {
+      ASSERT_NEAR(scene.total(upper)[1], kept * normal, 0.01 * normal) << i;
+    }
+  }
+}
+
+TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
+{
+  for (const double friction : { 0.1, 0.5 })
+    for (const double angle : { 0., 0.008 })
+    {
+      JointSetParameters joint = elastic_joint(kn, ks);
+      joint.law.peak           = { 1e4, friction, 0. };
+      joint.law.residual       = { 0., friction, 0. };
+      Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); },
+                  { joint, touching(friction) });
+      const unsigned int upper = scene.block_at(0., 2.);
+      scene.move(upper, 0., -closing);
+      scene.turn(upper, angle, 3., 1.);
+      double shear = 0.;
+      while (scene.state.contacts.n_searches < 2)
+      {
+        scene.find_forces();
+        // As many as were not looked at for being matched.
+        if (scene.state.contacts.n_searches == 1)
+        {
+          EXPECT_TRUE(scene.state.contacts.handed_over[0] == 0);
+        }
+        shear += 1e-4;
+        scene.move(upper, 1e-4, 0.);
+        ASSERT_LT(shear, 0.05);
+      }
+      // The last look came at the end: put back the last motion, and find
+      // the forces with joints and with contacts at one place.
+      ASSERT_TRUE(scene.state.contacts.handed_over[0]);
+      scene.find_forces(false);
+      const auto general = scene.total(upper);
+      State matched      = scene.state;
+      std::fill(matched.joints.handed_over.begin(),
+                matched.joints.handed_over.end(), 0);
+      for (unsigned int p = 0; p < scene.joints.n_points(); ++p)
+      {
+        // The history of point k of a segment goes on in its pair.
+        const auto &segment = scene.joints.segment(p / 2);
+        const auto &face
+            = scene.contacts->contact_edges().edges_of_face(segment.face);
+        for (const ContactPair &pair : scene.state.contacts.pairs)
+          if (pair.lower == face[0] && pair.upper == face[1])
+          {
+            const ContactPoint &point         = pair.points[p % 2];
+            matched.joints.plastic_slip[p]    = point.plastic_slip;
+            matched.joints.plastic_opening[p] = point.plastic_opening;
+            matched.joints.normal_traction[p] = point.normal_traction;
+            matched.joints.shear_traction[p]  = point.shear_traction;
+            matched.joints.state[p]           = point.state;
+          }
+      }
+      scene.force.assign(scene.mesh.n_vertices(), NodeVector{ { 0., 0. } });
+      scene.joints.add_forces(scene.state.nodes.data(), matched.joints,
+                              scene.state.energy, scene.force.data());
+      const auto before = scene.total(upper);
+      const double full = std::abs(before[1]);
+      EXPECT_GT(full, 0.);
+      for (unsigned int d = 0; d < 3; ++d)
+        EXPECT_NEAR(general[d], before[d], 2e-3 * full)
+            << "component " << d << ", angle " << angle;
+      EXPECT_NEAR(
+          scene.contacts->stored_energy(scene.state.contacts),
+          scene.joints.stored_energy(scene.state.nodes.data(), matched.joints),
+          2e-3
+              * scene.joints.stored_energy(scene.state.nodes.data(),
+                                           matched.joints));
+    }
+}
+
+TEST(BlockContacts, SearchesChangeNothing)
+{
+  Scene scene({ { 0., 0., 4., 1., 8, 1 }, { 0.1, 1., 1.2, 1., 3, 1 } });
+  const unsigned int upper = scene.block_at(0.1, 2.);
+  scene.move(upper, 0., -closing);
+  scene.find_forces();
+  for (unsigned int i = 0; i < 40; ++i)
+    scene.move(upper, 1e-3, 0.), scene.find_forces();
+  scene.move(upper, -1e-5, 0.);
+  scene.find_forces(false);
+  const auto before            = scene.total(upper);
+  const std::uint64_t searches = scene.state.contacts.n_searches;
+  scene.state.contacts.search_positions.assign(
+      scene.state.contacts.search_positions.size(), NodeVector{ { 1e3, 0. } });
+  scene.find_forces();
+  EXPECT_EQ(scene.state.contacts.n_searches, searches + 1);
+  const auto after = scene.total(upper);
+  for (unsigned int d = 0; d < 3; ++d)
+    EXPECT_NEAR(after[d], before[d], 1e-9 * std::abs(before[1]));
+}
+
+TEST(BlockContacts, CornersOnCornersPushApart)
+{
+  // Squares standing on their corners, tip on tip.
+  Scene scene({ { 0., -std::sqrt(2.), 1., 1., 1, 1, 45. * degree },
+                { 0., 0., 1., 1., 1, 1, 45. * degree } },
+              { touching(0.) });
+  const unsigned int upper = scene.block_at(0., std::sqrt(2.));
+  double before            = 0.;
+  for (unsigned int i = 0; i < 100; ++i)
+  {
+    scene.move(upper, 0., -1e-4);
+    scene.find_forces();
+    const auto now = scene.total(upper);
+    EXPECT_NEAR(now[0], 0., 1e-9 * kn * closing);
+    EXPECT_GT(now[1], before);
+    before = now[1];
+  }
+}
+
+TEST(BlockContacts, DeepOverlapStopsAndNamesTheBlocks)
+{
+  Scene scene({ { 0., 0., 3., 1., 3, 1 }, { 0.3, 1., 2., 1., 2, 1 } });
+  const unsigned int upper = scene.block_at(0.3, 2.);
+  scene.find_forces();
+  try
+  {
+    for (unsigned int i = 0; i < 100; ++i)
+    {
+      scene.move(upper, 0., -0.01);
+      scene.find_forces();
+    }
+    FAIL() << "no error";
+  }
+  catch (const RunError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("blocks 0 and 1 overlap by 0.2"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(BlockContacts, EveryPairOfMaterialsNeedsASet)
+{
+  BlockMesh<2> mesh;
+  make_blocks(mesh, { { 0., 0., 1., 1., 1, 1 } });
+  const NodeExchange exchange(0, 4, 4, {}, MPI_COMM_SELF);
+  ContactModel model = contact_model({ elastic_joint(kn, ks) });
+  EXPECT_THROW(BlockContacts(mesh, exchange, model), InputError);
+  JointSetParameters set = touching();
+  set.all_new_contacts   = false;
+  set.new_contacts       = { { "stone", "stone" } };
+  model.sets             = { set };
+  EXPECT_NO_THROW(BlockContacts(mesh, exchange, model));
+  model.sets = { set, set };
+  EXPECT_THROW(BlockContacts(mesh, exchange, model), InputError);
+  set.new_contacts = { { "stone", "wood" } };
+  model.sets       = { set };
+  EXPECT_THROW(BlockContacts(mesh, exchange, model), InputError);
+}
+
+TEST(ContactSearch, FindsWhatAllPairsAgainstAllFind)
+{
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> place(0., 5.), angle(0., 6.28),
+      size(0.1, 3.);
+  std::vector<Rectangle> rectangles;
+  for (unsigned int i = 0; i < 20; ++i)
+    rectangles.push_back({ place(random), place(random), size(random),
+                           size(random), 1 + i % 4, 1 + i % 3, angle(random) });
+  BlockMesh<2> mesh;
+  make_blocks(mesh, rectangles);
+  const ContactEdges edges(mesh);
+  std::vector<EdgeEnds> ends;
+  for (unsigned int e = 0; e < edges.size(); ++e)
+  {
+    const auto &p = mesh.vertices[edges[e].nodes[0]];
+    const auto &q = mesh.vertices[edges[e].nodes[1]];
+    ends.push_back({ e, { p[0], q[0] }, { p[1], q[1] } });
+  }
+  const double skin = 0.2;
+  // Sampled segments: nearer than the skin for sure, or farther for sure.
+  const auto found = near_edges(edges, ends, skin);
+  EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
+  unsigned int checked = 0;
+  for (unsigned int i = 0; i < ends.size(); ++i)
+    for (unsigned int j = i + 1; j < ends.size(); ++j)
+    {
+      const double ax = ends[i].x[1] - ends[i].x[0],
+                   ay = ends[i].y[1] - ends[i].y[0],
+                   bx = ends[j].x[1] - ends[j].x[0],
+                   by = ends[j].y[1] - ends[j].y[0];
+      const double cosine
+          = (ax * bx + ay * by) / std::hypot(ax, ay) / std::hypot(bx, by);
+      double nearest = 1e9;
+      const int n    = 60;
+      for (int s = 0; s <= n; ++s)
+        for (int t = 0; t <= n; ++t)
+          nearest
+              = std::min(nearest, std::hypot(ends[i].x[0] + ax * s / n
+                                                 - ends[j].x[0] - bx * t / n,
+                                             ends[i].y[0] + ay * s / n
+                                                 - ends[j].y[0] - by * t / n));
+      const bool share = edges[i].nodes[0] == edges[j].nodes[1]
+                         || edges[i].nodes[1] == edges[j].nodes[0];
+      const bool is_found = std::binary_search(
+          found.begin(), found.end(), std::array<unsigned int, 2>{ { i, j } });
+      if (share || cosine > 0.18)
+        EXPECT_FALSE(is_found);
+      else if (cosine < 0.17 && (nearest < 0.19 || nearest > 0.25))
+      {
+        EXPECT_EQ(is_found, nearest < skin) << nearest;
+        ++checked;
+      }
+    }
+  EXPECT_GT(checked, 5000U);
+}
+
+TEST(ContactEdges, RunAroundTheirBlocks)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  const ContactEdges edges(mesh);
+  ASSERT_EQ(edges.size(), 20U);
+  ASSERT_EQ(edges.interfaces().size(), 1U);
+  for (unsigned int b = 0; b < 2; ++b)
+  {
+    double length = 0.;
+    for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1); ++e)
+    {
+      EXPECT_EQ(edges[e].block, b);
+      EXPECT_EQ(edges[edges[e].next].previous, e);
+      EXPECT_EQ(edges[edges[e].next].nodes[0], edges[e].nodes[1]);
+      EXPECT_NEAR(edges[e].height, 1., 1e-12);
+      length += edges[e].length;
+    }
+    EXPECT_NEAR(length, 10., 1e-12);
+  }
+  for (unsigned int f = 0; f < mesh.joint_faces.size(); ++f)
+  {
+    EXPECT_EQ(edges[edges.edges_of_face(f)[0]].nodes[0],
+              mesh.joint_faces[f].lower[0]);
+    EXPECT_EQ(edges[edges.edges_of_face(f)[1]].nodes[1],
+              mesh.joint_faces[f].upper[0]);
+    EXPECT_EQ(edges[edges.edges_of_face(f)[1]].interface, 0U);
+  }
+}
