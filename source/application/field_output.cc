@@ -7,29 +7,40 @@ namespace quoin
 {
   BlockFields block_fields(const Model &model, const State &state)
   {
+    // Blocks that were removed are left out with their nodes and cells.
     BlockFields fields;
-    const unsigned int n_nodes = model.exchange().n_owned();
-    for (unsigned int i = 0; i < n_nodes; ++i)
-    {
-      const NodeRecord &node = state.nodes[i];
-      fields.position.push_back({ { node.X[0], node.X[1] } });
-      fields.displacement.push_back({ { node.u[0], node.u[1] } });
-      fields.velocity.push_back(
-          { { state.velocity[i].v[0], state.velocity[i].v[1] } });
-    }
-    for (const auto &cell : model.cells())
-      fields.cells.push_back({ { static_cast<std::int32_t>(cell[0]),
-                                 static_cast<std::int32_t>(cell[1]),
-                                 static_cast<std::int32_t>(cell[2]) } });
-    model.blocks().stresses(state.nodes.data(), fields.stress, fields.strain);
-    fields.stress.resize(model.n_cells(), { { 0., 0., 0., 0. } }); // rigid
-    fields.strain.resize(model.n_cells(), { { 0., 0., 0. } });
+    const BlockMesh<2> &mesh = model.mesh();
+    std::vector<std::array<double, 4>> stress;
+    std::vector<PlaneTensor> strain;
+    model.blocks().stresses(state.nodes.data(), stress, strain);
+    stress.resize(model.n_cells(), { { 0., 0., 0., 0. } }); // rigid
+    strain.resize(model.n_cells(), { { 0., 0., 0. } });
     for (unsigned int b = 0; b < model.n_blocks(); ++b)
     {
       const unsigned int block = model.first_block() + b;
-      for (unsigned int c = model.mesh().block_first_cell[block];
-           c < model.mesh().block_first_cell[block + 1]; ++c)
+      if (!state.contacts.outside.empty()
+          && state.contacts.outside[block] == BlockContacts::removed_from_model)
+        continue;
+      const NodeRange range    = model.block_nodes(block);
+      const std::int32_t shift = fields.position.size() - range.begin;
+      for (std::size_t i = range.begin; i < range.end; ++i)
       {
+        const NodeRecord &node = state.nodes[i];
+        fields.position.push_back({ { node.X[0], node.X[1] } });
+        fields.displacement.push_back({ { node.u[0], node.u[1] } });
+        fields.velocity.push_back(
+            { { state.velocity[i].v[0], state.velocity[i].v[1] } });
+      }
+      for (unsigned int c = mesh.block_first_cell[block];
+           c < mesh.block_first_cell[block + 1]; ++c)
+      {
+        const unsigned int own = c - model.first_cell();
+        fields.cells.emplace_back();
+        for (unsigned int k = 0; k < 3; ++k)
+          fields.cells.back()[k]
+              = static_cast<std::int32_t>(model.cells()[own][k]) + shift;
+        fields.stress.push_back(stress[own]);
+        fields.strain.push_back(strain[own]);
         fields.block.push_back(block);
         fields.material.push_back(model.material_of_cell(c));
       }

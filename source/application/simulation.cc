@@ -109,7 +109,8 @@ namespace quoin
       std::sort(rank_of_block.begin(), rank_of_block.end());
       model  = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
                                       communicator);
-      solver = std::make_unique<ExplicitSolver>(*model, parameters.loads);
+      solver = std::make_unique<ExplicitSolver>(*model, parameters.loads,
+                                                parameters.stages);
       histories
           = std::make_unique<Histories>(parameters.histories, *model, *solver);
     }
@@ -320,6 +321,7 @@ namespace quoin
     progress.finish(progress_figures(stage));
 
     solver->check_finite(state);
+    solver->check_cells(state);
     record.stage_begun = false;
     state.stage        = index + 1;
     write_fields();
@@ -354,6 +356,7 @@ namespace quoin
     {
       throw RunError("stage '" + stage.name + "': " + error.what());
     }
+    report_blocks_outside();
     const bool over = stage_is_over(stage, balance);
     if (row_is_due || over)
     {
@@ -364,6 +367,20 @@ namespace quoin
         history_table->add_row(row);
     }
     return over;
+  }
+
+  void Simulation::report_blocks_outside()
+  {
+    for (const BlockOutside &block : solver->take_blocks_outside())
+      log.warning("block " + std::to_string(block.block) + ", at ("
+                  + number(block.position[0]) + ", " + number(block.position[1])
+                  + ") m, has left the box at time " + number(block.time) + " s"
+                  + (block.removed ? " and is deleted"
+                     : parameters.model.contact.outside
+                             == ContactParameters::Outside::remove
+                         ? "; it stays in the model, because a load moves it "
+                           "or joints tie it to a block that stays"
+                         : ""));
   }
 
   bool Simulation::stage_is_over(const StageParameters &stage,
@@ -452,6 +469,7 @@ namespace quoin
   void Simulation::save_checkpoint()
   {
     solver->check_finite(record.state);
+    solver->check_cells(record.state);
     all_or_none<RunError>(communicator,
                           [&]()
                           {
@@ -521,6 +539,14 @@ namespace quoin
             { "energy residual [J]", solver->energies().residual() },
             { "largest energy residual [J]", record.largest_residual },
             { "energy residual share", energy_residual() } };
+    if (parameters.model.contact.has_box)
+    {
+      const auto &marks         = record.state.contacts.outside;
+      summary["blocks deleted"] = std::count(marks.begin(), marks.end(),
+                                             BlockContacts::removed_from_model);
+      summary["blocks outside the box"]
+          = std::count(marks.begin(), marks.end(), BlockContacts::left_box);
+    }
     if (const BlockContacts *contacts = solver->contacts())
     {
       const double sums[3]

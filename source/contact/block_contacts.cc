@@ -16,6 +16,9 @@ namespace quoin
   {
     /** Cosine of the angle between edges at which a contact has no area. */
     constexpr double least_cosine = 0.02;
+    /** Share of the shorter edge by which edges may overlap that meet without
+        having been seen apart. */
+    constexpr double first_overlap = 1e-3;
   } // namespace
 
   bool BlockContacts::geometry(const ContactPair &pair, const Edge &a,
@@ -76,12 +79,13 @@ namespace quoin
                         - result.lower[k] * a.length * a.tangent[0];
       const double dy = y + result.upper[k] * b.length * b.tangent[1]
                         - result.lower[k] * a.length * a.tangent[1];
-      // The edge that is touched gives the normal: b's where a has a corner
-      // and b goes straight on, and the reverse.
+      // The edge that a vertex touches gives the normal. Where two vertices
+      // pass each other it turns from one edge to the other, unless one of
+      // them is no corner: then its edge's normal holds on.
       const double ca = a.corner[k], cb = b.corner[1 - k];
-      const double touched
-          = ca * cb * std::clamp(0.5 + 0.5 * inside[k] / rounding, 0., 1.)
-            + ca * (1. - cb) + 0.5 * (1. - ca) * (1. - cb);
+      const double touched = std::clamp(
+          0.5 * (1. + inside[k] / rounding + ca * (1. - cb) - cb * (1. - ca)),
+          0., 1.);
       const double of_b = 0.5 * parallel + (1. - parallel) * touched;
       const double of_a = 1. - of_b;
       const double norm = 1. / std::sqrt(1. - 2. * of_a * of_b * (1. - cosine));
@@ -157,9 +161,8 @@ namespace quoin
     }
 
     double friction = 0., fracture = 0., lost = 0.;
-    const unsigned int n_pairs = contacts.pairs.size();
-    updates += n_pairs;
-    for (unsigned int i = 0; i < n_pairs; ++i)
+    updates += watched.size();
+    for (const unsigned int i : watched)
     {
       ContactPair &pair = contacts.pairs[i];
       const Edge &a     = local_edges[pair_edges[i][0]];
@@ -169,6 +172,7 @@ namespace quoin
       {
         if (pair.active)
           lost += pair_share[i] * release(pair);
+        pair.was_open = 0;
         continue;
       }
       if (!pair.active && !activate(contacts, i, g))
@@ -298,14 +302,24 @@ namespace quoin
   bool BlockContacts::activate(ContactState &contacts, const unsigned int i,
                                const Geometry &g)
   {
+    ContactPair &pair    = contacts.pairs[i];
     const double opening = std::min(g.opening[0], g.opening[1]);
+    pair.was_open        = pair.was_open || opening >= 0.;
     if (opening <= -pair_depth[i] || (opening >= 0. && !can_dilate))
       return false;
-    ContactPair &pair = contacts.pairs[i];
-    unsigned int set  = pair.set;
+    unsigned int set = pair.set;
     ContactPoint inherited;
-    const bool is_heir = find_parent(contacts, i, set, inherited);
+    double deepest     = 0.;
+    const bool is_heir = find_parent(contacts, i, set, inherited, deepest);
     if (opening >= inherited.plastic_opening)
+      return false;
+    // Edges that overlap from behind, as those of thin wedges which lie on
+    // each other, were never apart.
+    if (!pair.was_open
+        && opening < deepest
+                         - first_overlap
+                               * std::min(local_edges[pair_edges[i][0]].length,
+                                          local_edges[pair_edges[i][1]].length))
       return false;
 
     pair.active      = 1;
@@ -330,7 +344,8 @@ namespace quoin
 
   bool BlockContacts::find_parent(const ContactState &contacts,
                                   const unsigned int i, unsigned int &set,
-                                  ContactPoint &inherited) const
+                                  ContactPoint &inherited,
+                                  double &deepest) const
   {
     // A pair between the same blocks that shares an edge with this one and a
     // vertex of the other.
@@ -359,6 +374,7 @@ namespace quoin
         const unsigned int k
             = std::abs(place[0] - vertex) <= std::abs(place[1] - vertex) ? 0
                                                                          : 1;
+        deepest               = std::min(g.opening[0], g.opening[1]);
         set                   = parent.set;
         inherited             = parent.points[k];
         inherited.slip_offset = slip(inherited, a, b, g.normal[k]);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <tuple>
 
@@ -151,7 +152,8 @@ namespace quoin
       moved                  = std::max(moved, dx * dx + dy * dy);
       fastest                = std::max(fastest, v[0] * v[0] + v[1] * v[1]);
     }
-    const double changed = hand_over(state, joints);
+    const double changed = hand_over(state, joints) || search_is_due;
+    search_is_due        = false;
     double values[4]
         = { std::sqrt(moved), std::sqrt(fastest), changed, deepest_ratio };
     MPI_Allreduce(MPI_IN_PLACE, values, 4, MPI_DOUBLE, MPI_MAX,
@@ -308,7 +310,9 @@ namespace quoin
         return;
       if (std::min(pair.points[0].normal_traction,
                    pair.points[1].normal_traction)
-          < 0.)
+              < 0.
+          && !left_out[edges[pair.lower].block]
+          && !left_out[edges[pair.upper].block])
         contacts.pairs.push_back(pair);
       else
         state.energy.contact += share(pair) * release(pair);
@@ -323,12 +327,14 @@ namespace quoin
       const std::array<unsigned int, 2> found = { a, b };
       for (; next != old.end() && key(*next) < found; ++next)
         keep_or_drop(*next);
-      if (next != old.end() && key(*next) == found && next->active)
-        contacts.pairs.push_back(*next++);
-      else
-        contacts.pairs.push_back(new_pair(ends[i], ends[j]));
-      if (next != old.end() && key(*next) == found)
+      const bool is_old = next != old.end() && key(*next) == found;
+      contacts.pairs.push_back(
+          is_old && next->active ? *next : new_pair(ends[i], ends[j]));
+      if (is_old)
+      {
+        contacts.pairs.back().was_open = next->was_open;
         ++next;
+      }
     }
     for (; next != old.end(); ++next)
       keep_or_drop(*next);
@@ -345,6 +351,30 @@ namespace quoin
     gather(state);
     inherit_shifts(contacts);
     reanchor(contacts);
+    find_distances();
+  }
+
+  void BlockContacts::find_distances()
+  {
+    const auto ends = [&](const unsigned int e)
+    {
+      const double *p = position[local_edges[e].nodes[0]].v;
+      const double *q = position[local_edges[e].nodes[1]].v;
+      return EdgeEnds{ edge_numbers[e], { p[0], q[0] }, { p[1], q[1] } };
+    };
+    pair_distance.clear();
+    for (const auto &[a, b] : pair_edges)
+      pair_distance.push_back(distance(ends(a), ends(b)));
+  }
+
+  void BlockContacts::watch(const ContactState &contacts, const double reach)
+  {
+    if (pair_distance.empty()) // of a resumed run, until the next search
+      return;
+    watched.clear();
+    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
+      if (contacts.pairs[i].active || pair_distance[i] <= 2. * reach)
+        watched.push_back(i);
   }
 
   void BlockContacts::inherit_shifts(ContactState &contacts) const
@@ -490,6 +520,9 @@ namespace quoin
     compact_force.assign(n_nodes, NodeVector{ { 0., 0. } });
     compact_viscous.assign(n_nodes, NodeVector{ { 0., 0. } });
     openings.assign(n_pairs, {});
+    pair_distance.clear();
+    watched.resize(n_pairs);
+    std::iota(watched.begin(), watched.end(), 0);
     deepest_ratio = 0.;
     bound_search  = contacts.n_searches;
   }

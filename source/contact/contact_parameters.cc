@@ -47,6 +47,9 @@ namespace quoin
     contact.has_box             = !section.text("Box").empty();
     if (contact.has_box)
     {
+      if (!contact.large_displacements)
+        section.fail("Box", "needs 'Displacements = large': with small ones "
+                            "no block goes anywhere.");
       contact.box = section.numbers<4>("Box");
       if (!(contact.box[0] < contact.box[2] && contact.box[1] < contact.box[3]))
         section.fail("Box", "must be xmin, ymin, xmax, ymax with xmin < xmax "

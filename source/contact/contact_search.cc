@@ -53,18 +53,12 @@ namespace quoin
              && side(b, a.x[0], a.y[0]) * side(b, a.x[1], a.y[1]) < 0.;
     }
 
-    bool are_near(const EdgeEnds &a, const EdgeEnds &b, const double skin)
+    bool face_each_other(const EdgeEnds &a, const EdgeEnds &b)
     {
       const double ax = a.x[1] - a.x[0], ay = a.y[1] - a.y[0];
       const double bx = b.x[1] - b.x[0], by = b.y[1] - b.y[0];
-      if (ax * bx + ay * by
-          > facing_cosine * std::hypot(ax, ay) * std::hypot(bx, by))
-        return false;
-      for (unsigned int k = 0; k < 2; ++k)
-        if (distance_to_segment(a, b.x[k], b.y[k]) <= skin
-            || distance_to_segment(b, a.x[k], a.y[k]) <= skin)
-          return true;
-      return cross(a, b);
+      return ax * bx + ay * by
+             <= facing_cosine * std::hypot(ax, ay) * std::hypot(bx, by);
     }
 
     /** xmin, ymin, xmax, ymax of this rank's blocks, of all ranks in turn. */
@@ -136,6 +130,17 @@ namespace quoin
     }
   } // namespace
 
+  double distance(const EdgeEnds &a, const EdgeEnds &b)
+  {
+    if (cross(a, b))
+      return 0.;
+    double nearest = std::numeric_limits<double>::max();
+    for (unsigned int k = 0; k < 2; ++k)
+      nearest = std::min({ nearest, distance_to_segment(a, b.x[k], b.y[k]),
+                           distance_to_segment(b, a.x[k], a.y[k]) });
+    return nearest;
+  }
+
   std::vector<EdgeEnds>
   edges_within_reach(const BlockMesh<2> &mesh, const ContactEdges &edges,
                      const NodeExchange &exchange, const NodeRecord *nodes,
@@ -206,7 +211,8 @@ namespace quoin
           continue;
         const auto &[c, d] = edges[ends[j].edge].nodes;
         if (a != c && a != d && b != c && b != d
-            && are_near(ends[i], ends[j], skin))
+            && face_each_other(ends[i], ends[j])
+            && distance(ends[i], ends[j]) <= skin)
           pairs.push_back({ { i, j } });
       }
     }

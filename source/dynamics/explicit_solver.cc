@@ -32,9 +32,10 @@ namespace quoin
   }
 
   ExplicitSolver::ExplicitSolver(const Model &model,
-                                 const std::vector<LoadParameters> &loads)
+                                 const std::vector<LoadParameters> &loads,
+                                 const std::vector<StageParameters> &stages)
     : model(model), communicator(model.exchange().communicator()),
-      mass(model.mass())
+      mass(model.mass()), box(model), all_stages(stages)
   {
     const auto &mesh       = model.mesh();
     const auto &exchange   = model.exchange();
@@ -100,6 +101,8 @@ namespace quoin
 
     state.energy += state.pending;
     state.pending = EnergyAccounts();
+    if (requests.balance && box.is_given())
+      look_at_box(state);
 
     apply_forces(state, context);
 
@@ -147,6 +150,7 @@ namespace quoin
     {
       find_ratio(state, context, applied_force, unbalanced_force);
       check_finite(state);
+      check_cells(state);
     }
 
     model.exchange().update_ghosts(state.nodes.data());
@@ -209,6 +213,9 @@ namespace quoin
     for (unsigned int i = model.exchange().n_owned();
          i < model.exchange().n_local(); ++i)
       force[i] = viscous_force[i] = NodeVector{ { 0., 0. } };
+    for (const NodeRange &range : removed_nodes)
+      std::fill(&force[range.begin], &force[range.begin] + range.size(),
+                NodeVector{ { 0., 0. } });
   }
 
   void ExplicitSolver::update_histories(State &state)
@@ -408,32 +415,6 @@ namespace quoin
     for (const NodeConstraint *constraint : constraints_on)
       sums[1] += constraint->unbalanced();
     state.unbalanced_ratio = sums[0] > 0. ? sums[1] / sums[0] : 0.;
-  }
-
-  void ExplicitSolver::check_finite(const State &state) const
-  {
-    unsigned int bad     = -1;
-    const unsigned int n = model.exchange().n_owned();
-    for (unsigned int i = 0; i < n && bad == -1U; ++i)
-      // A comparison with NaN is false.
-      if (!(std::abs(state.nodes[i].u[0]) < 1e100
-            && std::abs(state.nodes[i].u[1]) < 1e100))
-        bad = i;
-    const unsigned int first = dealii::Utilities::MPI::min(
-        bad == -1U ? bad : model.exchange().global(bad), communicator);
-    if (first == -1U)
-      return;
-    const auto &p = model.mesh().vertices[first];
-    std::ostringstream message;
-    message << "the motion is no longer finite in block "
-            << model.mesh().block_of_vertex(first) << " at (" << p[0] << ", "
-            << p[1] << ") m, found at time " << state.time << " s, step "
-            << state.step << ". The usual causes are a load that grows "
-            << "without bound, a value that is not a number in a function of "
-            << "time, or a collapse: look at the last fields, reduce 'Share "
-            << "of critical time step' or end the stage earlier. The last "
-            << "checkpoint is kept.";
-    throw RunError(message.str());
   }
 
   std::array<double, 3> ExplicitSolver::resultant(const std::string &load) const

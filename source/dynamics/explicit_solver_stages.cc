@@ -130,7 +130,7 @@ namespace quoin
       }
   }
 
-  void ExplicitSolver::collect_constrained_nodes()
+  void ExplicitSolver::collect_constrained_nodes(const State &state)
   {
     std::vector<unsigned int> nodes;
     for (const NodeConstraint *constraint : constraints_on)
@@ -179,6 +179,8 @@ namespace quoin
       inverse_mass[i] = 1. / mass[i];
     for (const unsigned int node : nodes)
       moving_mass[node] = inverse_mass[node] = 0.;
+    find_moved_blocks(state);
+    hold_removed_blocks(state);
   }
 
   void ExplicitSolver::find_held_blocks()
@@ -267,7 +269,7 @@ namespace quoin
     for (NodeConstraint *constraint : constraints_on)
       constraint->begin_stage(
           state, previous && contains(previous->loads, constraint->name()));
-    collect_constrained_nodes();
+    collect_constrained_nodes(state);
     state.stage_start      = state.time;
     state.stage_step       = 0;
     state.adaptive_damping = 0.;
@@ -283,7 +285,7 @@ namespace quoin
     for (NodeConstraint *constraint : constraints_on)
       constraint->resume_stage(state);
     state = saved;
-    collect_constrained_nodes();
+    collect_constrained_nodes(state);
   }
 
   void ExplicitSolver::check_start(const State &state) const

@@ -4,10 +4,13 @@
 """What quoin says and does when something is wrong.
 
 errors.json lists wrong inputs: exit status 1, a message with the words under
-"says", and nothing written. The functions below are the failures of a run.
+"says", and nothing written; with "status": 2 they fail in the second stage, and
+what the first one wrote is kept. The functions below are failures of other
+kinds.
 """
 import argparse
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -91,6 +94,35 @@ def wrong_input(quoin, case, folder):
     stray = set(os.listdir(folder)) - before - {"output"}
     if stray:
         raise Failure("it left behind %s" % ", ".join(sorted(stray)))
+    return printed
+
+
+def failed_run(quoin, case, folder):
+    """A run that fails in its second stage: the tables are whole, and from the
+    checkpoint it fails in the same way."""
+    prm = prepare(folder, case.get("edit"))
+    output = os.path.join(folder, "output")
+    words = [quoin, prm, "--quiet", "--output", output] + settings(case)
+    status, printed = run(words)
+    expect(status, printed, 2, case["says"])
+    for name in ("histories.csv", "energies.csv"):
+        with open(os.path.join(output, name)) as stream:
+            lines = stream.read().splitlines()
+        columns = len(lines[0].split(","))
+        for line in lines[1:]:
+            values = [float(value) for value in line.split(",")]
+            if len(values) != columns or not all(map(math.isfinite, values)):
+                raise Failure("%s has the row '%s'" % (name, line))
+        if len(lines) < 2:
+            raise Failure("%s is empty" % name)
+    with open(os.path.join(output, "summary.json")) as stream:
+        if json.load(stream)["finished"]:
+            raise Failure("summary.json says that the run has finished")
+    status, again = run(words + ["--resume"])
+    expect(status, again, 2, case["says"])
+    if again != printed:
+        raise Failure("resumed, it says:\n%s\ninstead of:\n%s"
+                      % (again.strip(), printed.strip()))
     return printed
 
 
@@ -239,10 +271,79 @@ def nothing_to_resume(quoin, folder):
     expect(status, printed, 1, ["checkpoint", "--resume"])
 
 
+LEAVING = ["Contact/Displacements=large", "Joints/bed/Curves=bed",
+           "Joints/bed/New contacts between=all", "Contact/Box=-1, -1, 2, 1.5",
+           "Loads/push/Vertical=-1e5 + if(T > 1e-3, 1e10 * (T - 1e-3), 0)",
+           "Stages/second/Duration=2e-2", "Histories/Interval=1e-4"]
+
+
+def leaving(outside):
+    return settings({"set": LEAVING + ["Contact/Outside the box=" + outside]})
+
+
+def tables(output):
+    """What histories.csv and energies.csv hold, and the summary."""
+    rows = {}
+    for name in ("histories.csv", "energies.csv"):
+        with open(os.path.join(output, name)) as stream:
+            rows[name] = [[float(value) for value in line.split(",")]
+                          for line in stream.read().splitlines()[1:]]
+    with open(os.path.join(output, "summary.json")) as stream:
+        return rows, json.load(stream)
+
+
+def reported_block(quoin, folder):
+    """A block that leaves the box is named once, and the run goes on."""
+    output = os.path.join(folder, "output")
+    status, printed = run([quoin, prepare(folder), "--output", output]
+                          + leaving("report"))
+    expect(status, printed, 0, ["Warning: block 1, at (", "left the box",
+                                "time"])
+    if printed.count("left the box") != 1:
+        raise Failure("it is not said once:\n%s" % printed)
+    if tables(output)[1]["blocks outside the box"] != 1:
+        raise Failure("summary.json does not count it")
+    return printed
+
+
+def deleted_block(quoin, folder):
+    """A block that is deleted: the energy balance holds, also on two ranks."""
+    prm = prepare(folder)
+    outputs = {name: os.path.join(folder, name)
+               for name in ("one", "two")}
+    words = [quoin, prm] + leaving("delete")
+    status, printed = run(words + ["--output", outputs["one"]])
+    expect(status, printed, 0, ["Warning: block 1, at (", "left the box",
+                                "is deleted"])
+    rows, summary = tables(outputs["one"])
+    if summary["blocks deleted"] != 1:
+        raise Failure("summary.json does not count it")
+    share = summary["largest energy residual [J]"] \
+        / max(abs(row[1]) for row in rows["energies.csv"])
+    if not share < 1e-6:
+        raise Failure("the energy residual is %g of the kinetic" % share)
+
+    if shutil.which("mpirun"):
+        status, printed = run(["mpirun", "--oversubscribe", "-np", "2"] + words
+                              + ["--output", outputs["two"]])
+        expect(status, printed, 0, ["is deleted"])
+        two = tables(outputs["two"])[0]
+        for name, table in rows.items():
+            for row, other in zip(table, two[name]):
+                for column, (a, b) in enumerate(zip(row, other)):
+                    scale = max(abs(r[column]) for r in table)
+                    if name == "energies.csv":
+                        scale = max(abs(r[1]) for r in table)
+                    if not abs(a - b) <= 1e-9 * scale:
+                        raise Failure("%s on two ranks: %r instead of %r"
+                                      % (name, b, a))
+    return printed
+
+
 FUNCTIONS = [base_case_runs, check_writes_nothing, no_arguments,
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
-             no_number_at_the_end, runaway, other_ranks, other_parameters,
+             no_number_at_the_end, runaway, reported_block, deleted_block, other_ranks, other_parameters,
              nothing_to_resume]
 
 
@@ -258,7 +359,8 @@ def main():
 
     with open(os.path.join(HERE, "errors.json")) as stream:
         tests = [(case["name"], lambda folder, case=case:
-                  wrong_input(quoin, case, folder))
+                  (failed_run if case.get("status") == 2
+                   else wrong_input)(quoin, case, folder))
                  for case in json.load(stream)]
     tests += [(function.__name__.replace("_", " "),
                lambda folder, function=function: function(quoin, folder))

@@ -76,6 +76,7 @@ namespace quoin
     void choose_time_step(const StageParameters &stage);
     /** Returns whether the stage is over. */
     bool take_step(const StageParameters &stage);
+    void report_blocks_outside();
     bool stage_is_over(const StageParameters &stage, bool balance);
     void check_start() const;
     void write_energies();

@@ -154,11 +154,12 @@ namespace quoin
   /** Two edges of blocks that touch or may soon do so. */
   struct ContactPair
   {
-    unsigned int lower      = 0; /**< edges, see ContactEdges */
-    unsigned int upper      = 0;
-    unsigned int set        = 0; /**< of joints, whose law it follows */
-    std::uint16_t active    = 0; /**< whether the points have a history */
-    std::uint16_t was_joint = 0; /**< whether it was a matched joint */
+    unsigned int lower     = 0; /**< edges, see ContactEdges */
+    unsigned int upper     = 0;
+    unsigned int set       = 0; /**< of joints, whose law it follows */
+    std::uint8_t active    = 0; /**< whether the points have a history */
+    std::uint8_t was_joint = 0; /**< whether it was a matched joint */
+    std::uint8_t was_open  = 0; /**< whether the edges were seen apart */
     /** Slip of the matched joint that became this pair [m], and what of it is
         still allowed for in the overlap. */
     double shift       = 0.;

@@ -79,6 +79,13 @@ namespace quoin
      */
     void update(State &state, const MatchedJoints &joints, double dt);
 
+    /** The next update() searches: blocks were removed. Collective. */
+    void search_anew(ContactState &contacts)
+    {
+      contacts.next_check = 0;
+      search_is_due       = true;
+    }
+
     /** Rates for stiffness-proportional damping. */
     struct Viscous
     {
@@ -171,6 +178,9 @@ namespace quoin
     void reanchor(ContactState &contacts) const;
     float share(const ContactPair &pair) const;
     void bind(const ContactState &contacts);
+    void find_distances();
+    /** Leaves out pairs too far apart if nothing moves more than @p reach. */
+    void watch(const ContactState &contacts, double reach);
     void gather(const State &state);
 
     /** False if the edges do not overlap. */
@@ -189,11 +199,12 @@ namespace quoin
     bool activate(ContactState &contacts, unsigned int pair,
                   const Geometry &geometry);
     /**
-     * Set, history and slip (as offset) of the neighbour that a new pair goes
-     * on from; false if there is none.
+     * Set, history, slip (as offset) and deepest opening [m] of the neighbour
+     * that a new pair goes on from; false if there is none.
      */
     bool find_parent(const ContactState &contacts, unsigned int pair,
-                     unsigned int &set, ContactPoint &inherited) const;
+                     unsigned int &set, ContactPoint &inherited,
+                     double &deepest) const;
     /** Forgets the history; returns the energy that it stored [J]. */
     double release(ContactPair &pair) const;
 
@@ -222,9 +233,11 @@ namespace quoin
     std::vector<NodeRecord> ghost_nodes;
     std::vector<NodeVector> ghost_velocity;
     std::vector<std::array<unsigned int, 2>> pair_edges; /**< local */
-    std::vector<float> pair_share;          /**< of the energy that we count */
-    std::vector<double> pair_depth;         /**< that is too deep [m] */
-    std::vector<double> reference_lengths;  /**< of the local edges [m] */
+    std::vector<float> pair_share;         /**< of the energy that we count */
+    std::vector<double> pair_depth;        /**< that is too deep [m] */
+    std::vector<double> reference_lengths; /**< of the local edges [m] */
+    std::vector<double> pair_distance; /**< at the last search [m] or empty */
+    std::vector<unsigned int> watched; /**< pairs that may touch by now */
     std::vector<unsigned int> edge_numbers; /**< of the local edges */
     std::vector<unsigned int> edge_pairs_begin, edge_pairs;
 
@@ -233,6 +246,7 @@ namespace quoin
     std::vector<Edge> local_edges;
     std::vector<std::array<double, 2>> openings; /**< of the last forces */
 
+    bool search_is_due        = false;
     double deepest_ratio      = 0.;
     unsigned int deepest_pair = 0;
     std::uint64_t updates     = 0;

@@ -40,6 +40,9 @@ namespace quoin
   std::vector<std::array<unsigned int, 2>>
   near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
              double skin);
+
+  /** Of two edges, 0 if they cross [m]. */
+  double distance(const EdgeEnds &a, const EdgeEnds &b);
 } // namespace quoin
 
 #endif

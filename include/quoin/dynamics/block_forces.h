@@ -58,6 +58,11 @@ namespace quoin
   {
     std::size_t begin;
     std::size_t end;
+
+    std::size_t size() const
+    {
+      return end - begin;
+    }
   };
 
   /**

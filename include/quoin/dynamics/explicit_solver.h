@@ -6,6 +6,7 @@
 
 #include <quoin/base/state.h>
 #include <quoin/dynamics/model.h>
+#include <quoin/dynamics/model_box.h>
 #include <quoin/dynamics/node_update.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/loads/nodal_load.h>
@@ -14,6 +15,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quoin
@@ -49,15 +51,22 @@ namespace quoin
   class ExplicitSolver
   {
   public:
-    /** Keeps references to @p model. @p loads: all loads of the run. */
-    ExplicitSolver(const Model &model,
-                   const std::vector<LoadParameters> &loads);
+    /**
+     * Keeps references to @p model. @p loads: all loads of the run;
+     * @p stages: all stages, as State::stage counts them, so that no block is
+     * removed that a later one moves. Throws an InputError about a block
+     * outside the box.
+     */
+    ExplicitSolver(const Model &model, const std::vector<LoadParameters> &loads,
+                   const std::vector<StageParameters> &stages = {});
 
     /** What is due at the time of a step; see step(). */
     struct Requests
     {
       bool energies = false;
-      bool balance  = false; /**< unbalanced ratio and a look for NaN */
+      /** Unbalanced ratio and a look for NaN, spoilt cells and blocks that
+          have left the box. */
+      bool balance = false;
     };
 
     /**
@@ -94,7 +103,7 @@ namespace quoin
     /**
      * Advances @p state from t to t + dt. Joint histories are then those of
      * t; energies(), reactions and the unbalanced ratio are those of t too.
-     * Throws a RunError if the state is no longer finite.
+     * Throws a RunError if the state is no longer sound.
      */
     void step(State &state, const Requests &requests);
 
@@ -106,6 +115,14 @@ namespace quoin
 
     /** Throws a RunError if the state is no longer finite; collective. */
     void check_finite(const State &state) const;
+    /** The same if a cell has turned inside out; collective. */
+    void check_cells(const State &state) const;
+
+    /** Blocks found outside the box since the last call. */
+    std::vector<BlockOutside> take_blocks_outside()
+    {
+      return std::exchange(blocks_outside, {});
+    }
 
     /** As of the last step with Requests::energies; collective then. */
     const Energies &energies() const
@@ -138,7 +155,11 @@ namespace quoin
   private:
     void activate(const StageParameters &stage);
     void scale_masses(const StageParameters &stage, State &state);
-    void collect_constrained_nodes();
+    void collect_constrained_nodes(const State &state);
+    /** Blocks of this rank that loads of this or a later stage move. */
+    void find_moved_blocks(const State &state);
+    /** Makes removed blocks stay where they are. */
+    void hold_removed_blocks(const State &state);
     /**
      * Finds the rigid blocks that platens move. Throws an InputError about
      * one that is held in part or by something else.
@@ -146,6 +167,12 @@ namespace quoin
     void find_held_blocks();
     /** Throws an InputError if two platens of the stage share a node. */
     void refuse_shared_platens() const;
+    void look_at_box(State &state);
+    /**
+     * Leaves blocks at rest and without strain, and books what energy they
+     * had as done from outside.
+     */
+    void remove_blocks(const std::vector<BlockOutside> &found, State &state);
     void apply_forces(State &state, const StepContext &context);
     void advance_blocks(State &state, const StepContext &context,
                         const Requests &requests);
@@ -179,6 +206,12 @@ namespace quoin
     double time_step     = 0.;
 
     RigidBlockStage rigid_stage;
+
+    const ModelBox box;
+    std::vector<StageParameters> all_stages;
+    std::vector<bool> moved_blocks;       /**< of this rank, by loads */
+    std::vector<NodeRange> removed_nodes; /**< of removed blocks */
+    std::vector<BlockOutside> blocks_outside;
 
     std::vector<CapturedNode> captured; /**< ascending nodes */
     /** Of each tile, and of the rigid blocks. */

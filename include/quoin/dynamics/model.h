@@ -61,6 +61,10 @@ namespace quoin
 
     /** What BlockContacts needs, for large displacements. */
     ContactModel contact_model() const;
+    const ContactParameters &contact_parameters() const
+    {
+      return parameters.contact;
+    }
 
     /** Positions at rest, initial joint tractions. */
     State initial_state() const;
@@ -127,6 +131,13 @@ namespace quoin
     unsigned int n_blocks() const
     {
       return block_end - block_begin;
+    }
+    /** Local nodes of @p block of the whole mesh, which this rank owns. */
+    NodeRange block_nodes(const unsigned int block) const
+    {
+      const auto &first = block_mesh.block_first_vertex;
+      return { first[block] - first[block_begin],
+               first[block + 1] - first[block_begin] };
     }
     unsigned int first_cell() const
     {

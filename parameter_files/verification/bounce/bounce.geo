@@ -1,11 +1,11 @@
-// Block of 2 m x 1 m, 0.1 m above a base.
+// Block of 1 m x 1.5 m, 0.1 m above a base.
 h = 0.1;
 n = 4;
 
 Point(1) = {0, h, 0};
-Point(2) = {2, h, 0};
-Point(3) = {2, 1 + h, 0};
-Point(4) = {0, 1 + h, 0};
+Point(2) = {1, h, 0};
+Point(3) = {1, 1.5 + h, 0};
+Point(4) = {0, 1.5 + h, 0};
 Point(5) = {-1, -1, 0};
 Point(6) = {3, -1, 0};
 Point(7) = {3, 0, 0};

@@ -3,8 +3,9 @@
 # Copyright (C) 2026 The quoin authors
 """Normal forces under a block that is pushed over the junction of two others.
 
-Statics of a rigid block on springs, at the ends of its overlap with either
-block at half of the overlap each (the trapezoidal rule of the contact). The
+Statics of a rigid block on springs, at its vertices and at the ends of its
+overlap with either block at half of the length between them each (the
+trapezoidal rule of the contact). The
 push acts at mid-height, friction mu W at the foot: the resultant lies
 mu height/2 ahead of the centre. With the rotation held the traction is uniform
 and the shares are those of the overlaps.
@@ -19,20 +20,19 @@ WEIGHT = 2000.0 * 10 * L * HEIGHT
 MU = np.tan(np.radians(30))
 
 
-def forces(travel, held):
-    """On the left and on the right block; the slider is on the table."""
+def forces(travel, held, edges):
+    """On the left and on the right block; the slider, with so many edges at
+    its foot, is on the table."""
     a = START + travel
     b = min(a + L, END)
-    parts = [(a, min(b, 0)), (max(a, 0), b)]
     centre = a + L / 2
-    points, weights = [], []
-    for start, end in parts:
-        length = max(end - start, 0)
-        points += [start - centre, end - centre]
-        weights += [length / 2] * 2
-    points, weights = np.array(points), np.array(weights)
+    cuts = np.unique(np.clip(np.append(a + np.arange(edges + 1) * L / edges,
+                                       0), a, b))
+    points = np.column_stack([cuts[:-1], cuts[1:]]).ravel() - centre
+    weights = np.repeat(np.diff(cuts) / 2, 2)
+    on_left = np.repeat(cuts[1:] <= 0, 2)
     if held:
-        pressure = np.full(4, WEIGHT / weights.sum())
+        pressure = np.full(len(weights), WEIGHT / weights.sum())
     else:
         # pressure = u + t x with the resultant W at mu height/2
         matrix = [[weights.sum(), weights @ points],
@@ -41,14 +41,15 @@ def forces(travel, held):
         pressure = u + t * points
         assert np.all(pressure[weights > 0] > 0), "lifts off"
     n = pressure * weights
-    return n[0] + n[1], n[2] + n[3]
+    return n[on_left].sum(), n[~on_left].sum()
 
 
 if __name__ == "__main__":
-    for name, held, last in (("reference.csv", False, 1.9),
-                             ("reference_held.csv", True, 2.2)):
+    for name, held, last, edges in (("reference.csv", False, 1.9, 1),
+                                    ("reference_fine.csv", False, 1.8, 3),
+                                    ("reference_held.csv", True, 2.2, 1)):
         travel = np.arange(0, last + 1e-9, 5e-3)
-        rows = np.array([forces(d, held) for d in travel])
+        rows = np.array([forces(d, held, edges) for d in travel])
         np.savetxt(os.path.join(HERE, name),
                    np.column_stack([travel, rows]), delimiter=",",
                    fmt="%.9g", comments="",

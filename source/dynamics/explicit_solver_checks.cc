@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// Where ExplicitSolver looks at the state from time to time: whether it is
+// still sound, and whether blocks have left the box.
+
+#include <quoin/base/exceptions.h>
+#include <quoin/dynamics/explicit_solver.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace quoin
+{
+  void ExplicitSolver::check_finite(const State &state) const
+  {
+    unsigned int bad     = -1;
+    const unsigned int n = model.exchange().n_owned();
+    for (unsigned int i = 0; i < n && bad == -1U; ++i)
+      // A comparison with NaN is false.
+      if (!(std::abs(state.nodes[i].u[0]) < 1e100
+            && std::abs(state.nodes[i].u[1]) < 1e100))
+        bad = i;
+    const unsigned int first = dealii::Utilities::MPI::min(
+        bad == -1U ? bad : model.exchange().global(bad), communicator);
+    if (first == -1U)
+      return;
+    const auto &p = model.mesh().vertices[first];
+    std::ostringstream message;
+    message << "the motion is no longer finite in block "
+            << model.mesh().block_of_vertex(first) << " at (" << p[0] << ", "
+            << p[1] << ") m, found at time " << state.time << " s, step "
+            << state.step << ". The usual causes are a load that grows "
+            << "without bound, a value that is not a number in a function of "
+            << "time, or a collapse: look at the last fields, reduce 'Share "
+            << "of critical time step' or end the stage earlier. The last "
+            << "checkpoint is kept.";
+    throw RunError(message.str());
+  }
+
+  void ExplicitSolver::check_cells(const State &state) const
+  {
+    constexpr unsigned int none = -1;
+    const BlockMesh<2> &mesh    = model.mesh();
+    const auto twice_the_area   = [&](const unsigned int cell)
+    {
+      const auto &[a, b, c] = model.cells()[cell];
+      const auto edge       = [&](const unsigned int to, const unsigned int d)
+      {
+        return state.nodes[to].X[d] - state.nodes[a].X[d]
+               + (state.nodes[to].u[d] - state.nodes[a].u[d]);
+      };
+      return edge(b, 0) * edge(c, 1) - edge(b, 1) * edge(c, 0);
+    };
+    unsigned int bad     = none;
+    const unsigned int n = model.n_deformable_cells();
+    for (unsigned int cell = 0; cell < n && bad == none; ++cell)
+      if (!(twice_the_area(cell) > 0.)) // cells run anticlockwise
+        bad = model.first_cell() + cell;
+    const unsigned int first = dealii::Utilities::MPI::min(bad, communicator);
+    if (first == none)
+      return;
+
+    // The rank that has the cell tells where it is now.
+    double at[4]{};
+    for (const unsigned int v : mesh.cells[first])
+    {
+      const bool is_own = model.exchange().owns(v);
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        at[d] += mesh.vertices[v][d] / 3.;
+        if (is_own)
+          at[2 + d] += (mesh.vertices[v][d]
+                        + state.nodes[model.exchange().local(v)].u[d])
+                       / 3.;
+      }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, at + 2, 2, MPI_DOUBLE, MPI_SUM, communicator);
+    std::ostringstream message;
+    message << "a cell of block " << mesh.block_of_vertex(mesh.cells[first][0])
+            << " has turned inside out; it was at (" << at[0] << ", " << at[1]
+            << ") m and is now at (" << at[2] << ", " << at[3]
+            << ") m, found at time " << state.time << " s, step " << state.step
+            << ". The usual causes are a load or an impact that crushes the "
+               "block, whose law is elastic (check the units of the load, "
+               "'Density' and 'Young's modulus'), a cell that is thin where "
+               "the load acts (refine the mesh there), joints or contacts so "
+               "soft that blocks run into each other (raise 'Normal "
+               "stiffness'), or a time step too long (lower 'Share of "
+               "critical time step'). The last checkpoint is kept.";
+    throw RunError(message.str());
+  }
+
+  void ExplicitSolver::find_moved_blocks(const State &state)
+  {
+    std::vector<const NodeConstraint *> moving(constraints_on.begin(),
+                                               constraints_on.end());
+    for (std::size_t i = state.stage; i < all_stages.size(); ++i)
+      for (const auto &constraint : all_constraints)
+        if (std::find(all_stages[i].loads.begin(), all_stages[i].loads.end(),
+                      constraint->name())
+            != all_stages[i].loads.end())
+          moving.push_back(constraint.get());
+    moved_blocks.assign(model.n_blocks(), false);
+    for (const NodeConstraint *constraint : moving)
+      for (const unsigned int node : constraint->nodes())
+        moved_blocks[model.mesh().block_of_vertex(model.exchange().global(node))
+                     - model.first_block()]
+            = true;
+  }
+
+  void ExplicitSolver::hold_removed_blocks(const State &state)
+  {
+    removed_nodes.clear();
+    if (state.contacts.outside.empty())
+      return;
+    const unsigned int n_deformable
+        = model.n_blocks() - model.rigid_blocks().n_blocks();
+    for (unsigned int i = 0; i < model.n_blocks(); ++i)
+    {
+      const unsigned int b = model.first_block() + i;
+      if (state.contacts.outside[b] != BlockContacts::removed_from_model)
+        continue;
+      removed_nodes.push_back(model.block_nodes(b));
+      const NodeRange &range = removed_nodes.back();
+      for (std::size_t node = range.begin; node < range.end; ++node)
+        moving_mass[node] = inverse_mass[node] = 0.;
+      if (i >= n_deformable)
+        rigid_stage.held[i - n_deformable] = true;
+    }
+  }
+
+  void ExplicitSolver::look_at_box(State &state)
+  {
+    const auto found = box.look(state, moved_blocks);
+    if (found.empty())
+      return;
+    blocks_outside.insert(blocks_outside.end(), found.begin(), found.end());
+    if (std::any_of(found.begin(), found.end(),
+                    [](const BlockOutside &block) { return block.removed; }))
+      remove_blocks(found, state);
+  }
+
+  void ExplicitSolver::remove_blocks(const std::vector<BlockOutside> &found,
+                                     State &state)
+  {
+    // The forces at the present positions have not worked over the last half
+    // step yet. Those of loads and damping never will, for the block is gone;
+    // those of the cells change its strain energy by as much as its kinetic
+    // energy, so both are taken as they would be after that half step.
+    const double dt = state.previous_time_step;
+    double energy
+        = model.joints().stored_energy(state.nodes.data(), state.joints)
+          + model.blocks().strain_energy(state.nodes.data());
+    const auto is_removed = [&](const unsigned int block) {
+      return state.contacts.outside[block] == BlockContacts::removed_from_model;
+    };
+    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    {
+      const JointFace &face
+          = model.mesh().joint_faces[model.joints().segment(i).face];
+      // What a removed block is still tied to was removed with it.
+      if (!is_removed(model.mesh().block_of_vertex(face.lower[0])))
+        continue;
+      state.joints.handed_over[i] = 1;
+      for (const unsigned int p : { 2 * i, 2 * i + 1 })
+      {
+        state.joints.normal_traction[p] = state.joints.shear_traction[p] = 0.;
+        state.joints.state[p] = JointState::open;
+      }
+    }
+
+    const RigidBlocks &rigid = model.rigid_blocks();
+    const auto rigid_0       = state.rigid_blocks;
+    for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
+      model.blocks().add_forces(tile, state.nodes.data(), force.data());
+    for (const BlockOutside &block : found)
+    {
+      if (!block.removed || block.block < model.first_block()
+          || block.block >= model.first_block() + model.n_blocks())
+        continue;
+      const NodeRange range = model.block_nodes(block.block);
+      const bool is_rigid   = model.is_rigid()[block.block];
+      double mean[2]{};
+      for (std::size_t i = range.begin; i < range.end; ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          double &v = state.velocity[i].v[d];
+          mean[d] += state.nodes[i].u[d] / range.size();
+          if (!is_rigid)
+            energy += 0.5 * (mass[i] * v + dt * force[i].v[d]) * v;
+          v = 0.;
+        }
+      if (!is_rigid)
+        for (std::size_t i = range.begin; i < range.end; ++i)
+          std::copy(mean, mean + 2, state.nodes[i].u);
+    }
+    std::fill(force.begin(), force.end(), NodeVector{ { 0., 0. } });
+    for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+      if (is_removed(model.first_block() + model.n_blocks() - rigid.n_blocks()
+                     + b))
+        std::fill_n(state.rigid_blocks[b].velocity, 3, 0.);
+
+    energy += rigid.kinetic_energy(rigid_stage, rigid_0, rigid_0, 1.)
+              - rigid.kinetic_energy(rigid_stage, state.rigid_blocks,
+                                     state.rigid_blocks, 1.)
+              - model.joints().stored_energy(state.nodes.data(), state.joints)
+              - model.blocks().strain_energy(state.nodes.data());
+    state.energy.external -= energy;
+    hold_removed_blocks(state);
+    model.exchange().update_ghosts(state.nodes.data());
+    block_contacts->search_anew(state.contacts);
+  }
+} // namespace quoin

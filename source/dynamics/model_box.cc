@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/dynamics/model_box.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    bool is_inside(const std::array<double, 4> &box, const double x,
+                   const double y)
+    {
+      return x >= box[0] && x <= box[2] && y >= box[1] && y <= box[3];
+    }
+
+    std::string text(const std::array<double, 4> &box)
+    {
+      std::ostringstream out;
+      out << "'Box = " << box[0] << ", " << box[1] << ", " << box[2] << ", "
+          << box[3] << "'";
+      return out.str();
+    }
+
+    /** The largest of all ranks, entry by entry. */
+    void reduce(std::vector<std::uint8_t> &flags, const MPI_Comm communicator)
+    {
+      MPI_Allreduce(MPI_IN_PLACE, flags.data(), flags.size(), MPI_UINT8_T,
+                    MPI_MAX, communicator);
+    }
+  } // namespace
+
+  ModelBox::ModelBox(const Model &model)
+    : model(model), parameters(model.contact_parameters())
+  {
+    if (!is_given())
+      return;
+    const BlockMesh<2> &mesh = model.mesh();
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+    {
+      const auto first = mesh.vertices.begin() + mesh.block_first_vertex[b];
+      const auto last  = mesh.vertices.begin() + mesh.block_first_vertex[b + 1];
+      if (std::any_of(first, last,
+                      [&](const auto &p)
+                      { return is_inside(parameters.box, p[0], p[1]); }))
+        continue;
+      std::ostringstream message;
+      message << "section 'Contact': " << text(parameters.box)
+              << ", but before anything moves the block at (" << (*first)[0]
+              << ", " << (*first)[1]
+              << ") m is outside. Give a box around the whole model, in "
+                 "metres.";
+      throw InputError(message.str());
+    }
+  }
+
+  bool ModelBox::is_outside(const unsigned int block, const State &state) const
+  {
+    const NodeRange range = model.block_nodes(block);
+    return std::none_of(
+        &state.nodes[range.begin], &state.nodes[range.begin] + range.size(),
+        [&](const NodeRecord &node)
+        {
+          return is_inside(parameters.box, node.X[0] + node.u[0],
+                           node.X[1] + node.u[1]);
+        });
+  }
+
+  std::vector<BlockOutside> ModelBox::look(State &state,
+                                           const std::vector<bool> &moved) const
+  {
+    using Outside               = ContactParameters::Outside;
+    const MPI_Comm communicator = model.exchange().communicator();
+    const unsigned int n        = model.mesh().n_blocks();
+    const bool removes          = parameters.outside == Outside::remove;
+    auto &marks                 = state.contacts.outside;
+    marks.resize(n, 0);
+
+    // Blocks that are reported may be free to go only later.
+    std::vector<std::uint8_t> outside(n, 0), stays(n, 0);
+    bool is_news = false;
+    for (unsigned int i = 0; i < model.n_blocks(); ++i)
+    {
+      const unsigned int b = model.first_block() + i;
+      outside[b]           = marks[b] != BlockContacts::removed_from_model
+                   && is_outside(b, state);
+      stays[b] = !outside[b] || !removes || moved[i];
+      is_news |= outside[b] && (marks[b] == 0 || !stays[b]);
+    }
+    if (dealii::Utilities::MPI::max(is_news ? 1U : 0U, communicator) == 0)
+      return {};
+    reduce(outside, communicator);
+    reduce(stays, communicator);
+    if (removes)
+      spread_along_joints(stays, state);
+
+    std::vector<BlockOutside> found;
+    for (unsigned int b = 0; b < n; ++b)
+      if (outside[b] && (marks[b] == 0 || !stays[b]))
+      {
+        found.push_back({ b, { { 0., 0. } }, state.time, !stays[b] });
+        marks[b] = stays[b] ? BlockContacts::left_box
+                            : BlockContacts::removed_from_model;
+      }
+    find_positions(found, state);
+    if (parameters.outside == Outside::stop && !found.empty())
+    {
+      const BlockOutside &first = found.front();
+      std::ostringstream message;
+      message << "block " << first.block << ", now at (" << first.position[0]
+              << ", " << first.position[1] << ") m, has left "
+              << text(parameters.box) << " of the section 'Contact', found at "
+              << "time " << state.time << " s, step " << state.step
+              << ". If it may leave, make the box larger or set 'Outside the "
+                 "box' to report or delete; if not, look at the last fields. "
+                 "The last checkpoint is kept.";
+      throw RunError(message.str());
+    }
+    return found;
+  }
+
+  void ModelBox::spread_along_joints(std::vector<std::uint8_t> &stays,
+                                     const State &state) const
+  {
+    const BlockMesh<2> &mesh    = model.mesh();
+    const MatchedJoints &joints = model.joints();
+    std::vector<std::array<unsigned int, 2>> tied;
+    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+      if (!state.joints.handed_over[i])
+      {
+        const JointFace &face = mesh.joint_faces[joints.segment(i).face];
+        tied.push_back({ { mesh.block_of_vertex(face.lower[0]),
+                           mesh.block_of_vertex(face.upper[0]) } });
+      }
+    std::sort(tied.begin(), tied.end());
+    tied.erase(std::unique(tied.begin(), tied.end()), tied.end());
+
+    // A tie across ranks is known to both.
+    unsigned int changed = 1;
+    while (changed)
+    {
+      changed = 0;
+      for (const auto &[a, b] : tied)
+        if (stays[a] != stays[b])
+          stays[a] = stays[b] = changed = 1;
+      changed = dealii::Utilities::MPI::max(changed,
+                                            model.exchange().communicator());
+      if (changed)
+        reduce(stays, model.exchange().communicator());
+    }
+  }
+
+  void ModelBox::find_positions(std::vector<BlockOutside> &found,
+                                const State &state) const
+  {
+    std::vector<double> sums(2 * found.size(), 0.);
+    for (unsigned int k = 0; k < found.size(); ++k)
+    {
+      const unsigned int b = found[k].block;
+      if (b < model.first_block()
+          || b >= model.first_block() + model.n_blocks())
+        continue;
+      const NodeRange range = model.block_nodes(b);
+      for (std::size_t i = range.begin; i < range.end; ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+          sums[2 * k + d]
+              += (state.nodes[i].X[d] + state.nodes[i].u[d]) / range.size();
+    }
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM,
+                  model.exchange().communicator());
+    for (unsigned int k = 0; k < found.size(); ++k)
+      found[k].position = { { sums[2 * k], sums[2 * k + 1] } };
+  }
+} // namespace quoin
