@@ -57,8 +57,8 @@ namespace quoin
     }
     const double fade
         = std::min(1., (cosine - least_cosine) / (1. - least_cosine));
-    result.area = 0.5 * length / half * fade * thickness * 0.5
-                  * (a.reference_ratio + b.reference_ratio);
+    const double area = 0.5 * length / half * fade * thickness * 0.5
+                        * (a.reference_ratio + b.reference_ratio);
 
     // By how far the vertex of a lies within b at either end.
     const double inside[2] = { -end_b, begin_b - along_a };
@@ -93,8 +93,30 @@ namespace quoin
       normal[0]         = norm * (of_a * a.tangent[1] - of_b * b.tangent[1]);
       normal[1]         = norm * (of_b * b.tangent[0] - of_a * a.tangent[0]);
       result.opening[k] = dx * normal[0] + dy * normal[1];
+
+      result.area[k] = area;
+      if (cosine < 1. - 1e-7)
+      {
+        const double by_a
+            = std::clamp(0.5 + 0.5 * inside[k] / rounding, 0., 1.);
+        result.area[k]
+            *= by_a * recession(cosine, local_edges[a.neighbours[k]], b)
+               + (1. - by_a)
+                     * recession(cosine, local_edges[b.neighbours[1 - k]], a);
+      }
     }
     return true;
+  }
+
+  double BlockContacts::recession(const double cosine, const Edge &neighbour,
+                                  const Edge &touched)
+  {
+    const double of_neighbour = -(neighbour.tangent[0] * touched.tangent[0]
+                                  + neighbour.tangent[1] * touched.tangent[1]);
+    if (of_neighbour <= cosine)
+      return 1.;
+    const double ratio = cosine / of_neighbour;
+    return ratio * ratio * ratio * ratio * ratio * ratio;
   }
 
   double BlockContacts::shift_left(const ContactPair &pair, const Edge &a,
@@ -195,7 +217,7 @@ namespace quoin
         const double tau_old   = point.shear_traction;
         JointPoint joint{ sigma_old, tau_old, point.plastic_slip,
                           point.plastic_opening, point.state };
-        const double mean_area = 0.5 * (g.area + point.area) * pair_share[i];
+        const double mean_area = 0.5 * (g.area[k] + point.area) * pair_share[i];
         if (!law.update_elastic(joint, opening, slip_now))
         {
           const JointDissipation gone
@@ -214,14 +236,14 @@ namespace quoin
         point.state           = joint.state;
         // What the trapezoidal work of a spring with changing area leaves
         // over from the change of its energy.
-        lost += 0.5 * pair_share[i] * (point.area - g.area)
+        lost += 0.5 * pair_share[i] * (point.area - g.area[k])
                 * (sigma_old * joint.normal_traction / law.normal_stiffness
                    + tau_old * joint.shear_traction / law.shear_stiffness);
-        point.area     = g.area;
+        point.area     = g.area[k];
         openings[i][k] = opening;
 
-        const double sigma = g.area * joint.normal_traction;
-        const double tau   = g.area * joint.shear_traction;
+        const double sigma = g.area[k] * joint.normal_traction;
+        const double tau   = g.area[k] * joint.shear_traction;
         const double f[2]  = { sigma * normal[0] + tau * normal[1],
                                sigma * normal[1] - tau * normal[0] };
         spread(a, b, g.lower[k], g.upper[k], f, compact_force.data());
@@ -230,8 +252,8 @@ namespace quoin
         {
           double rate[2];
           relative_velocity(a, b, g.lower[k], g.upper[k], rate);
-          const double wn    = viscous->beta * g.area * law.normal_stiffness;
-          const double ws    = viscous->beta * g.area * law.shear_stiffness;
+          const double wn    = viscous->beta * g.area[k] * law.normal_stiffness;
+          const double ws    = viscous->beta * g.area[k] * law.shear_stiffness;
           const double vn    = wn * (rate[0] * normal[0] + rate[1] * normal[1]);
           const double vs    = ws * (rate[0] * normal[1] - rate[1] * normal[0]);
           const double fv[2] = { vn * normal[0] + vs * normal[1],
@@ -332,7 +354,7 @@ namespace quoin
       point.anchor_lower  = g.lower[k];
       point.anchor_upper  = g.upper[k];
       // Whoever is heir to a history comes with no area, others as they are.
-      point.area = is_heir ? 0. : g.area;
+      point.area = is_heir ? 0. : g.area[k];
       // Such that the slip now is that of the other pair.
       point.slip_offset = 0.;
       point.slip_offset = inherited.slip_offset

@@ -441,10 +441,10 @@ namespace quoin
     const unsigned int n_pairs = contacts.pairs.size();
     edge_numbers.clear();
     for (const ContactPair &pair : contacts.pairs)
-    {
-      edge_numbers.push_back(pair.lower);
-      edge_numbers.push_back(pair.upper);
-    }
+      for (const unsigned int e : { pair.lower, pair.upper })
+        for (const unsigned int used : { e, edges[e].previous, edges[e].next })
+          if (used != none)
+            edge_numbers.push_back(used);
     std::sort(edge_numbers.begin(), edge_numbers.end());
     edge_numbers.erase(std::unique(edge_numbers.begin(), edge_numbers.end()),
                        edge_numbers.end());
@@ -487,6 +487,14 @@ namespace quoin
       {
         local_edges[e].nodes[k]  = compact(edge.nodes[k]);
         local_edges[e].corner[k] = edge.corner[k];
+        // The neighbours of mere neighbours are not needed.
+        const unsigned int next = k == 0 ? edge.previous : edge.next;
+        local_edges[e].neighbours[k]
+            = next != none
+                      && std::binary_search(edge_numbers.begin(),
+                                            edge_numbers.end(), next)
+                  ? local(next)
+                  : e;
       }
       reference_lengths.push_back(edge.length);
     }

@@ -33,7 +33,10 @@ namespace quoin
                       "not leave; empty: none [m]");
     prm.declare_entry("Outside the box", "report",
                       Selection("report|delete|stop"),
-                      "What happens to a block that has left the box.");
+                      "What happens to a block that has left the box with all "
+                      "of its nodes. delete: it is gone, with its energy, "
+                      "unless a load of this or a later stage moves it, or "
+                      "matched joints tie it to a block that stays.");
   }
 
   ContactParameters ContactParameters::read(const ParameterSection &section)

@@ -48,7 +48,8 @@ namespace quoin
    *
    * With theta the angle by which the edges fail to be parallel, lengths are
    * measured on the other edge (times cos theta), fading to zero near
-   * theta = 90 degrees. The normal is that of the edge which a corner touches;
+   * theta = 90 degrees, and where the next edge beyond a corner lies flatter on
+   * the other block. The normal is that of the edge which a corner touches;
    * where two corners meet within the rounding length it turns from one edge's
    * to the other's, and for what was a joint it is the mean of both as long as
    * they are almost parallel. Where corners overlap sideways, by a length l
@@ -150,16 +151,17 @@ namespace quoin
     {
       double x, y; /**< of its first node [m] */
       double tangent[2];
-      double length;          /**< [m] */
-      double reference_ratio; /**< reference length by length */
-      double corner[2];       /**< see ContactEdge */
-      unsigned int nodes[2];  /**< compact */
+      double length;              /**< [m] */
+      double reference_ratio;     /**< reference length by length */
+      double corner[2];           /**< see ContactEdge */
+      unsigned int nodes[2];      /**< compact */
+      unsigned int neighbours[2]; /**< edges before and after, or itself */
     };
     struct Geometry
     {
       double overlap;      /**< [m] */
       double sideways;     /**< 1: from corner to corner, 0: along a side */
-      double area;         /**< of each point [m^2] */
+      double area[2];      /**< of each point [m^2] */
       double normal[2][2]; /**< from lower to upper */
       double lower[2], upper[2]; /**< where on the edges, 0 to 1 */
       double opening[2];         /**< [m] */
@@ -186,6 +188,13 @@ namespace quoin
     /** False if the edges do not overlap. */
     bool geometry(const ContactPair &pair, const Edge &a, const Edge &b,
                   Geometry &result) const;
+    /**
+     * Factor on the area at a corner of an edge that makes an angle of
+     * @p cosine with the edge @p touched, less than 1 if its @p neighbour
+     * there lies flatter on that: then the corner belongs to the neighbour.
+     */
+    static double recession(double cosine, const Edge &neighbour,
+                            const Edge &touched);
     /** What of the shift of a pair is left after the slip since. */
     static double shift_left(const ContactPair &pair, const Edge &a,
                              const Edge &b, const double *t);
