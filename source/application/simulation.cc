@@ -124,14 +124,16 @@ namespace quoin
   void Simulation::report_model()
   {
     log.message(parameters.title.empty() ? parameters.file : parameters.title);
+    // What touches without matching is in contact if displacements are large.
+    if (parameters.model.contact.large_displacements)
+      mesh_report.unmatched_length = 0.;
     log.message(mesh_report.to_text());
     const auto &rigid          = model->is_rigid();
     const unsigned int n_rigid = std::count(rigid.begin(), rigid.end(), true);
     if (n_rigid > 0)
       log.message(std::to_string(n_rigid) + " of the blocks "
                   + (n_rigid == 1 ? "is rigid" : "are rigid"));
-    if (mesh_report.unmatched_length > 0.
-        && !parameters.model.contact.large_displacements)
+    if (mesh_report.unmatched_length > 0.)
       log.warning("outer edges lie on each other over "
                   + number(mesh_report.unmatched_length)
                   + " m without matching nodes, the first near ("

@@ -184,21 +184,21 @@ namespace quoin
 
     double friction = 0., fracture = 0., lost = 0.;
     updates += watched.size();
+    begin_contacts(contacts);
     for (const unsigned int i : watched)
     {
       ContactPair &pair = contacts.pairs[i];
-      const Edge &a     = local_edges[pair_edges[i][0]];
-      const Edge &b     = local_edges[pair_edges[i][1]];
+      if (!pair.active)
+        continue;
+      const Edge &a = local_edges[pair_edges[i][0]];
+      const Edge &b = local_edges[pair_edges[i][1]];
       Geometry g;
       if (!geometry(pair, a, b, g))
       {
-        if (pair.active)
-          lost += pair_share[i] * release(pair);
+        lost += pair_share[i] * release(pair);
         pair.was_open = 0;
         continue;
       }
-      if (!pair.active && !activate(contacts, i, g))
-        continue;
 
       const CoulombLaw &law = laws[pair.set];
       for (unsigned int k = 0; k < 2; ++k)
@@ -321,8 +321,29 @@ namespace quoin
     return energy;
   }
 
-  bool BlockContacts::activate(ContactState &contacts, const unsigned int i,
-                               const Geometry &g)
+  void BlockContacts::begin_contacts(ContactState &contacts)
+  {
+    // Before any pair is brought to the present, so that heirs go on from the
+    // same past as those they follow, whatever the order of the pairs.
+    new_contacts.clear();
+    for (const unsigned int i : watched)
+    {
+      ContactPair &pair = contacts.pairs[i];
+      if (pair.active)
+        continue;
+      Geometry g;
+      if (!geometry(pair, local_edges[pair_edges[i][0]],
+                    local_edges[pair_edges[i][1]], g))
+        pair.was_open = 0;
+      else if (begin_contact(contacts, i, g))
+        new_contacts.push_back(i);
+    }
+    for (const unsigned int i : new_contacts)
+      contacts.pairs[i].active = 1;
+  }
+
+  bool BlockContacts::begin_contact(ContactState &contacts,
+                                    const unsigned int i, const Geometry &g)
   {
     ContactPair &pair    = contacts.pairs[i];
     const double opening = std::min(g.opening[0], g.opening[1]);
@@ -344,7 +365,6 @@ namespace quoin
                                           local_edges[pair_edges[i][1]].length))
       return false;
 
-    pair.active      = 1;
     pair.set         = set;
     pair.shift_start = inherited.slip_offset;
     for (unsigned int k = 0; k < 2; ++k)

@@ -1,14 +1,16 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
-"""A run that is killed and resumed writes the same histories, bit by bit.
+"""A run that is killed and resumed writes the same files, bit by bit.
 
 The run is killed (SIGKILL) several times, at random moments after the first
-checkpoint, resumed each time, and its histories and energies are compared with
-those of an uninterrupted one as bytes.
+checkpoint, resumed each time, and its histories, energies and fields are
+compared with those of an uninterrupted one as bytes. So are the histories of a
+run that writes no fields: to write them must change nothing.
 """
 import os
 import random
+import signal
 import subprocess
 import sys
 import tempfile
@@ -17,6 +19,22 @@ import time
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import common  # noqa: E402
 from common import Failure  # noqa: E402
+
+TABLES = ("histories.csv", "energies.csv")
+# name: parameter file, overrides, ranks, kills
+CASES = {
+    # friction and two stages: much history
+    "crack": (os.path.join(common.VERIFICATION, "slipping_crack", "case.prm"),
+              ["Output/Checkpoint interval=0.1", "Histories/Interval=1e-5",
+               "Histories/Names=displacement, force, ratio",
+               "Histories/ratio/Quantity=unbalanced ratio",
+               "Time stepping/Share of critical time step=0.3"], 1, 3),
+    # contacts searched, handed over and taken up in between
+    "sled": (common.SLED, ["Output/Checkpoint interval=0.02",
+                           "Output/Field interval=2e-3"], 1, 4),
+    "sled on 2 ranks": (common.SLED, ["Output/Checkpoint interval=0.05",
+                                      "Output/Field interval=2e-3"], 2, 2),
+}
 
 
 def read(output, name):
@@ -32,6 +50,37 @@ def written(checkpoint):
         return 0
 
 
+def descendants(pid):
+    """Processes started by @p pid, directly or not."""
+    try:
+        with open("/proc/%d/task/%d/children" % (pid, pid)) as stream:
+            children = [int(word) for word in stream.read().split()]
+    except FileNotFoundError:
+        return []
+    return children + [d for child in children for d in descendants(child)]
+
+
+def is_running(pid):
+    try:
+        with open("/proc/%d/stat" % pid) as stream:
+            return stream.read().rpartition(")")[2].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+def kill_all(process):
+    """Kills mpirun and its ranks, which must not write on."""
+    pids = [process.pid] + descendants(process.pid)
+    for pid in pids:
+        try:
+            os.kill(pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+    process.wait()
+    while any(is_running(pid) for pid in pids[1:]):
+        time.sleep(0.005)
+
+
 def kill(words, checkpoint, delay):
     """Starts a run and kills it some time after its first new checkpoint;
     returns False if it finished before."""
@@ -42,14 +91,13 @@ def kill(words, checkpoint, delay):
                                    stdout=screen, stderr=screen)
         while process.poll() is None and written(checkpoint) == before:
             if time.monotonic() > deadline:
-                process.kill()
+                kill_all(process)
                 raise Failure("no checkpoint within 60 s")
             time.sleep(0.005)
         try:
             process.wait(timeout=delay)
         except subprocess.TimeoutExpired:
-            process.kill()
-            process.wait()
+            kill_all(process)
             return True
         if process.returncode != 0:
             screen.seek(0)
@@ -58,53 +106,73 @@ def kill(words, checkpoint, delay):
     return False
 
 
+def compare_tables(what, one, other):
+    for name in TABLES:
+        a, b = read(one, name), read(other, name)
+        if a != b:
+            rows = list(zip(a.splitlines(), b.splitlines()))
+            row = next((i for i, (x, y) in enumerate(rows) if x != y),
+                       len(rows))
+            raise Failure(
+                "%s: %s differs from row %d on (%d and %d bytes)\n  %s\n  %s"
+                % (what, name, row, len(a), len(b),
+                   a.splitlines()[row:row + 1], b.splitlines()[row:row + 1]))
+
+
+def compare_fields(what, one, other):
+    names = sorted(os.listdir(os.path.join(one, "fields")))
+    if names != sorted(os.listdir(os.path.join(other, "fields"))):
+        raise Failure("%s: the field files are not the same ones" % what)
+    for name in names:
+        name = os.path.join("fields", name)
+        if read(one, name) != read(other, name):
+            raise Failure("%s: %s differs" % (what, name))
+
+
 def body():
     parser = common.arguments(__doc__.splitlines()[0])
-    parser.add_argument("--kills", type=int, default=3)
+    parser.add_argument("--kills", type=int, help="how often in each case")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", help="the case whose name begins so")
     options = parser.parse_args()
     random.seed(options.seed)
-    # friction and two stages: the case with the most history
-    prm = os.path.join(common.VERIFICATION, "slipping_crack", "case.prm")
-    sets = ["Output/Checkpoint interval=0.1", "Histories/Interval=1e-5",
-            "Histories/Names=displacement, force, ratio",
-            "Histories/ratio/Quantity=unbalanced ratio",
-            "Time stepping/Share of critical time step=0.3"]
     start = time.monotonic()
-    with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
-        whole = os.path.join(scratch, "whole")
-        broken = os.path.join(scratch, "broken")
-        seconds = common.run(options.quoin, prm, whole, sets)
-        words = common.command(options.quoin, prm, broken, sets)
-        killed = 0
-        for attempt in range(options.kills):
-            delay = random.random() * seconds / (options.kills + 1)
-            extra = ["--resume"] if attempt else []
-            if not kill(words + extra, os.path.join(
-                    broken, "checkpoint", "latest"), delay):
-                break
-            killed += 1
-            print("  killed %.2f s after a checkpoint" % delay)
-        if killed == 0:
-            raise Failure("the run finished before it could be killed")
-        common.run(options.quoin, prm, broken, sets, extra=["--resume"])
-        for name in ("histories.csv", "energies.csv"):
-            a, b = read(whole, name), read(broken, name)
-            if a != b:
-                rows = list(zip(a.splitlines(), b.splitlines()))
-                row = next((i for i, (x, y) in enumerate(rows) if x != y),
-                           len(rows))
-                raise Failure(
-                    "%s differs from row %d on (%d and %d bytes)\n  %s\n  %s"
-                    % (name, row, len(a), len(b),
-                       a.splitlines()[row:row + 1],
-                       b.splitlines()[row:row + 1]))
+    killed_in_all = 0
+    for name, (prm, sets, ranks, kills) in CASES.items():
+        if options.only and not name.startswith(options.only):
+            continue
+        kills = options.kills or kills
+        with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
+            whole = os.path.join(scratch, "whole")
+            broken = os.path.join(scratch, "broken")
+            seconds = common.run(options.quoin, prm, whole, sets, ranks)
+            if any(value.startswith("Output/Field") for value in sets):
+                bare = os.path.join(scratch, "bare")
+                common.run(options.quoin, prm, bare,
+                           sets + ["Output/Field interval=0"], ranks)
+                compare_tables(name + ", without fields", whole, bare)
+            checkpoint = os.path.join(broken, "checkpoint", "latest")
+            killed = 0
+            for attempt in range(kills):
+                delay = random.random() * seconds / (kills + 1)
+                words = common.command(options.quoin, prm, broken, sets, ranks,
+                                       ["--resume"] if attempt else [])
+                if not kill(words, checkpoint, delay):
+                    break
+                killed += 1
+                print("  %s: killed %.2f s after a checkpoint" % (name, delay))
+            if killed == 0:
+                raise Failure("%s finished before it could be killed" % name)
+            common.run(options.quoin, prm, broken, sets, ranks, ["--resume"])
+            compare_tables(name, whole, broken)
+            compare_fields(name, whole, broken)
+        killed_in_all += killed
     common.write_result(
         common.results_folder(options), "resume",
-        title="killed %d times and resumed" % killed,
+        title="killed %d times and resumed" % killed_in_all,
         reference="uninterrupted run, bitwise", error=0.0, tolerance=0.0,
         seconds=round(time.monotonic() - start, 2), passed=True)
-    print("passed: resume: bitwise equal after %d kills" % killed)
+    print("passed: resume: bitwise equal after %d kills" % killed_in_all)
 
 
 if __name__ == "__main__":

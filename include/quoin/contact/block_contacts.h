@@ -204,9 +204,11 @@ namespace quoin
                        const double *f, NodeVector *force);
     void relative_velocity(const Edge &a, const Edge &b, double lower,
                            double upper, double *rate) const;
+    /** Makes pairs active that touch by now. */
+    void begin_contacts(ContactState &contacts);
     /** Gives a pair a history if it touches; whether it does. */
-    bool activate(ContactState &contacts, unsigned int pair,
-                  const Geometry &geometry);
+    bool begin_contact(ContactState &contacts, unsigned int pair,
+                       const Geometry &geometry);
     /**
      * Set, history, slip (as offset) and deepest opening [m] of the neighbour
      * that a new pair goes on from; false if there is none.
@@ -254,6 +256,7 @@ namespace quoin
         compact_viscous;
     std::vector<Edge> local_edges;
     std::vector<std::array<double, 2>> openings; /**< of the last forces */
+    std::vector<unsigned int> new_contacts;      /**< pairs, of this step */
 
     bool search_is_due        = false;
     double deepest_ratio      = 0.;

@@ -287,10 +287,11 @@ TEST(BlockContacts, ForcesAreContinuousAsABlockRocksAndTopples)
                     (angle < 0.02 ? 2. * full : 5. * full * std::abs(step)))
             << "at " << angle / degree << " degrees, component " << d;
     }
-    // A frictionless corner on a plane is pressed along the plane's normal.
+    // A frictionless corner on a plane is pressed along the plane's normal; a
+    // node of the plane right under it may turn that a little.
     if (angle > 0.02 && angle < 1.4)
     {
-      ASSERT_NEAR(now[0], 0., 1e-5 * now[1]) << angle / degree;
+      ASSERT_NEAR(now[0], 0., 1e-4 * now[1]) << angle / degree;
     }
     before = now;
     scene.turn(block, step, 0., -closing);
