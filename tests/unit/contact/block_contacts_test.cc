@@ -282,9 +282,11 @@ TEST(BlockContacts, ForcesAreContinuousAsABlockRocksAndTopples)
     if (i > 0)
     {
       for (unsigned int d = 0; d < 2; ++d)
-        // The left corner lifts off within closing / width.
+        // The left corner lifts off within closing / width; at 45 degrees
+        // the side takes over: its half edge, 1 m, times cos theta times
+        // d/dtheta tan^6 theta = 12 makes 8.5, and its cosine 0.7 more.
         ASSERT_NEAR(now[d], before[d],
-                    (angle < 0.02 ? 2. * full : 5. * full * std::abs(step)))
+                    (angle < 0.02 ? 2. * full : 10. * full * std::abs(step)))
             << "at " << angle / degree << " degrees, component " << d;
     }
     // A frictionless corner on a plane is pressed along the plane's normal.
