@@ -588,5 +588,14 @@ namespace quoin
                 + duration_text(record.wall_time) + ", " + number(updates / 1e6)
                 + " million element updates a second, energy residual "
                 + number(energy_residual()) + " of what went through");
+    if (solver->contacts())
+      log.message(
+          "contacts: "
+          + number(summary["contact updates per second"].get<double>() / 1e6)
+          + " million updates a second, "
+          + std::to_string(record.state.contacts.n_searches)
+          + " searches that took "
+          + number(100. * summary["contact search share"].get<double>())
+          + " % of the time");
   }
 } // namespace quoin
