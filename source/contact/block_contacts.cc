@@ -357,12 +357,14 @@ namespace quoin
     if (opening >= inherited.plastic_opening)
       return false;
     // Edges that overlap from behind, as those of thin wedges which lie on
-    // each other, were never apart.
+    // each other, were never apart, and their vertices lie outside.
+    const unsigned int deeper = g.opening[0] <= g.opening[1] ? 0 : 1;
     if (!pair.was_open
         && opening < deepest
                          - first_overlap
                                * std::min(local_edges[pair_edges[i][0]].length,
-                                          local_edges[pair_edges[i][1]].length))
+                                          local_edges[pair_edges[i][1]].length)
+        && !vertex_is_inside(i, g, deeper))
       return false;
 
     pair.set         = set;
@@ -380,6 +382,31 @@ namespace quoin
       point.slip_offset = inherited.slip_offset
                           - slip(point, local_edges[pair_edges[i][0]],
                                  local_edges[pair_edges[i][1]], g.normal[k]);
+    }
+    return true;
+  }
+
+  bool BlockContacts::vertex_is_inside(const unsigned int i, const Geometry &g,
+                                       const unsigned int k) const
+  {
+    const Edge &a        = local_edges[pair_edges[i][0]];
+    const Edge &b        = local_edges[pair_edges[i][1]];
+    const bool is_of_a   = g.lower[k] == k;
+    const Edge &touched  = is_of_a ? b : a;
+    const double *vertex = position[is_of_a ? a.nodes[k] : b.nodes[1 - k]].v;
+    for (const unsigned int e : touched.neighbours)
+    {
+      const Edge &next     = local_edges[e];
+      const bool is_before = &next == &local_edges[touched.neighbours[0]];
+      const double turn    = next.tangent[0] * touched.tangent[1]
+                          - next.tangent[1] * touched.tangent[0];
+      // Beyond an inward corner the block goes on.
+      if ((is_before ? turn : -turn) <= 0.)
+        continue;
+      const double side = next.tangent[0] * (vertex[1] - next.y)
+                          - next.tangent[1] * (vertex[0] - next.x);
+      if (side < 0.)
+        return false;
     }
     return true;
   }

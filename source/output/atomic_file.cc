@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -178,7 +179,7 @@ namespace quoin
       if (n >= static_cast<std::streamsize>(buffer.size()))
         return write_all(data, n) ? n : 0;
     }
-    std::memcpy(pptr(), data, n);
+    std::copy_n(data, n, pptr()); // memcpy refuses the null of an empty array
     pbump(static_cast<int>(n));
     return n;
   }

@@ -209,6 +209,10 @@ namespace quoin
     /** Gives a pair a history if it touches; whether it does. */
     bool begin_contact(ContactState &contacts, unsigned int pair,
                        const Geometry &geometry);
+    /** Whether the vertex at end @p k of a pair lies within the edges before
+        and after the one that it touches. */
+    bool vertex_is_inside(unsigned int pair, const Geometry &geometry,
+                          unsigned int k) const;
     /**
      * Set, history, slip (as offset) and deepest opening [m] of the neighbour
      * that a new pair goes on from; false if there is none.
