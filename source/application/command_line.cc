@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/application/boundary_simulation.h>
 #include <quoin/application/command_line.h>
 #include <quoin/application/parameters.h>
 #include <quoin/application/simulation.h>
@@ -89,7 +90,10 @@ namespace quoin
           = read_parameters(arguments.file, arguments.overrides);
       if (!arguments.output.empty())
         parameters.output_directory = arguments.output;
-      Simulation(parameters, arguments.run, MPI_COMM_WORLD).run();
+      if (parameters.is_boundary_model)
+        BoundarySimulation(parameters, arguments.run, MPI_COMM_WORLD).run();
+      else
+        Simulation(parameters, arguments.run, MPI_COMM_WORLD).run();
       return 0;
     }
     catch (const InputError &error)
@@ -102,7 +106,7 @@ namespace quoin
     }
     catch (const std::bad_alloc &)
     {
-      return report("not enough memory for this mesh. Coarsen it or use "
+      return report("not enough memory for this model. Coarsen it or use "
                     "more machines.",
                     2);
     }

@@ -117,6 +117,8 @@ namespace quoin
     case HistoryQuantity::kinetic_share:
     case HistoryQuantity::contacts:
       return;
+    default: // of boundary elements
+      throw InputError(section + "'Quantity' is not one of blocks.");
     }
 
     // The nearest of all ranks, the first of them if there is a tie.

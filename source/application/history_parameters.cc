@@ -18,37 +18,48 @@ namespace quoin
 
     const std::map<std::string, Kind> &kinds()
     {
-      using Q = HistoryQuantity;
-      static const std::map<std::string, Kind> table
-          = { { "displacement x", { Q::displacement, 0, "m" } },
-              { "displacement y", { Q::displacement, 1, "m" } },
-              { "velocity x", { Q::velocity, 0, "m/s" } },
-              { "velocity y", { Q::velocity, 1, "m/s" } },
-              { "stress xx", { Q::stress, 0, "Pa" } },
-              { "stress yy", { Q::stress, 1, "Pa" } },
-              { "stress xy", { Q::stress, 2, "Pa" } },
-              { "stress zz", { Q::stress, 3, "Pa" } },
-              { "stress 1", { Q::stress, 4, "Pa" } },
-              { "stress 2", { Q::stress, 5, "Pa" } },
-              { "rotation", { Q::rotation, 0, "deg" } },
-              { "joint opening", { Q::joint, 0, "m" } },
-              { "joint slip", { Q::joint, 1, "m" } },
-              { "joint normal traction", { Q::joint, 2, "Pa" } },
-              { "joint shear traction", { Q::joint, 3, "Pa" } },
-              { "joint state", { Q::joint, 4, "-" } },
-              { "reaction x", { Q::reaction, 0, "N" } },
-              { "reaction y", { Q::reaction, 1, "N" } },
-              { "reaction moment", { Q::reaction, 2, "N m" } },
-              { "platen displacement x", { Q::platen_displacement, 0, "m" } },
-              { "platen displacement y", { Q::platen_displacement, 1, "m" } },
-              { "platen displacement rotation",
-                { Q::platen_displacement, 2, "deg" } },
-              { "platen force x", { Q::platen_force, 0, "N" } },
-              { "platen force y", { Q::platen_force, 1, "N" } },
-              { "platen force moment", { Q::platen_force, 2, "N m" } },
-              { "unbalanced ratio", { Q::unbalanced_ratio, 0, "-" } },
-              { "kinetic energy share", { Q::kinetic_share, 0, "-" } },
-              { "contacts", { Q::contacts, 0, "-" } } };
+      using Q                                        = HistoryQuantity;
+      static const std::map<std::string, Kind> table = {
+        { "displacement x", { Q::displacement, 0, "m" } },
+        { "displacement y", { Q::displacement, 1, "m" } },
+        { "velocity x", { Q::velocity, 0, "m/s" } },
+        { "velocity y", { Q::velocity, 1, "m/s" } },
+        { "stress xx", { Q::stress, 0, "Pa" } },
+        { "stress yy", { Q::stress, 1, "Pa" } },
+        { "stress xy", { Q::stress, 2, "Pa" } },
+        { "stress zz", { Q::stress, 3, "Pa" } },
+        { "stress 1", { Q::stress, 4, "Pa" } },
+        { "stress 2", { Q::stress, 5, "Pa" } },
+        { "rotation", { Q::rotation, 0, "deg" } },
+        { "joint opening", { Q::joint, 0, "m" } },
+        { "joint slip", { Q::joint, 1, "m" } },
+        { "joint normal traction", { Q::joint, 2, "Pa" } },
+        { "joint shear traction", { Q::joint, 3, "Pa" } },
+        { "joint state", { Q::joint, 4, "-" } },
+        { "reaction x", { Q::reaction, 0, "N" } },
+        { "reaction y", { Q::reaction, 1, "N" } },
+        { "reaction moment", { Q::reaction, 2, "N m" } },
+        { "platen displacement x", { Q::platen_displacement, 0, "m" } },
+        { "platen displacement y", { Q::platen_displacement, 1, "m" } },
+        { "platen displacement rotation",
+          { Q::platen_displacement, 2, "deg" } },
+        { "platen force x", { Q::platen_force, 0, "N" } },
+        { "platen force y", { Q::platen_force, 1, "N" } },
+        { "platen force moment", { Q::platen_force, 2, "N m" } },
+        { "unbalanced ratio", { Q::unbalanced_ratio, 0, "-" } },
+        { "kinetic energy share", { Q::kinetic_share, 0, "-" } },
+        { "contacts", { Q::contacts, 0, "-" } },
+        { "boundary displacement x", { Q::boundary_displacement, 0, "m" } },
+        { "boundary displacement y", { Q::boundary_displacement, 1, "m" } },
+        { "boundary velocity x", { Q::boundary_velocity, 0, "m/s" } },
+        { "boundary velocity y", { Q::boundary_velocity, 1, "m/s" } },
+        { "boundary traction x", { Q::boundary_traction, 0, "Pa" } },
+        { "boundary traction y", { Q::boundary_traction, 1, "Pa" } },
+        { "boundary hoop stress", { Q::boundary_hoop_stress, 0, "Pa" } },
+        { "boundary force x", { Q::boundary_force, 0, "N" } },
+        { "boundary force y", { Q::boundary_force, 1, "N" } },
+        { "boundary moment", { Q::boundary_force, 2, "N m" } }
+      };
       return table;
     }
 
@@ -74,15 +85,25 @@ namespace quoin
                       "joints apart; 'rotation' is that of the nearest rigid "
                       "block, full turns counted, or of the nearest cell, "
                       "from -180 to 180, anticlockwise. Rigid blocks have no "
-                      "stress: it is written as 0.");
+                      "stress: it is written as 0. Those of a 'boundary' are "
+                      "for 'Model = boundary elements', like displacements and "
+                      "velocities, which are then those in the domain; there "
+                      "velocities and tractions are means over the time step "
+                      "that ends. 'boundary hoop stress' is the normal stress "
+                      "along the boundary, 'boundary force' that on the "
+                      "domain.");
     prm.declare_entry("Point", "0, 0", Anything(),
                       "x, y of the point whose nearest node, cell or joint "
-                      "point is recorded [m]");
+                      "point, or boundary element, is recorded; of boundary "
+                      "elements: the point in the domain, and the point about "
+                      "which the moment is taken [m]");
     prm.declare_entry("Load", "", Anything(),
                       "Load whose reaction or platen is recorded.");
     prm.declare_entry("Curve", "", Anything(),
                       "Joint quantities: physical curve on which to look for "
-                      "the nearest joint point; empty: all.");
+                      "the nearest joint point; empty: all. Boundary force, "
+                      "moment: the boundary, by its name in 'Boundary "
+                      "elements'.");
   }
 
   HistoryParameters HistoryParameters::read(const ParameterSection &section,
@@ -103,6 +124,9 @@ namespace quoin
           || kind.quantity == HistoryQuantity::platen_force;
     if (of_load && history.load.empty())
       section.fail("Load", "must name the load to be recorded.");
+    if (kind.quantity == HistoryQuantity::boundary_force
+        && history.curve.empty())
+      section.fail("Curve", "must name the boundary on which the force acts.");
     return history;
   }
 } // namespace quoin

@@ -36,6 +36,8 @@ namespace quoin
               { "Joints", JointSetParameters::declare },
               { "Loads", LoadParameters::declare },
               { "Stages", StageParameters::declare },
+              { "Boundary elements", BoundaryCurveParameters::declare },
+              { "Incident waves", IncidentWaveParameters::declare },
               { "Histories", HistoryParameters::declare } };
       return sections;
     }
@@ -54,6 +56,10 @@ namespace quoin
     void declare_fixed(ParameterHandler &prm)
     {
       prm.declare_entry("Title", "", Anything(), "For figures and logs.");
+      prm.declare_entry("Model", "blocks",
+                        Selection("blocks|boundary elements"),
+                        "Blocks on joints; or a domain with boundary elements "
+                        "alone, which needs no mesh, joints, loads or stages.");
       prm.declare_entry("Plane assumption", "plane strain",
                         Selection("plane strain|plane stress"),
                         "Of all blocks.");
@@ -79,6 +85,14 @@ namespace quoin
 
       prm.enter_subsection("Contact");
       ContactParameters::declare(prm);
+      prm.leave_subsection();
+
+      prm.enter_subsection("Boundary elements");
+      BoundaryElementParameters::declare(prm);
+      prm.leave_subsection();
+
+      prm.enter_subsection("Sampled field");
+      SampledFieldParameters::declare(prm);
       prm.leave_subsection();
 
       prm.enter_subsection("Time stepping");
@@ -328,6 +342,112 @@ namespace quoin
       parameters.measure_bandwidth = section.flag("Measure bandwidth");
     }
 
+    /** Sections of one kind of model in a file of the other. */
+    void refuse_names(const ParameterSection &top, const std::string &name,
+                      const std::string &model)
+    {
+      const ParameterSection section(top, name);
+      if (!section.list("Names").empty())
+        section.fail("Names", "has no meaning with 'Model = " + model
+                                  + "': remove it, or change 'Model'.");
+    }
+
+    /** That of the boundary elements' domain; null if there is none. */
+    const MaterialParameters *find_material(const Parameters &parameters)
+    {
+      for (const MaterialParameters &material : parameters.model.materials)
+        if (material.name == parameters.boundary.material)
+          return &material;
+      return nullptr;
+    }
+
+    void check_boundary_histories(const ParameterSection &top,
+                                  const Parameters &parameters)
+    {
+      const ParameterSection section(top, "Histories");
+      const BoundaryElementParameters &boundary = parameters.boundary;
+      for (const HistoryParameters &history : parameters.histories)
+      {
+        const ParameterSection subsection(section, history.name);
+        const bool interior = history.is_of_interior();
+        if (!interior && !history.is_of_boundary())
+          subsection.fail("Quantity",
+                          "is one of blocks: with 'Model = boundary "
+                          "elements' take a displacement, a "
+                          "velocity or a boundary quantity.");
+        if (history.quantity == HistoryQuantity::boundary_force
+            && std::none_of(boundary.boundaries.begin(),
+                            boundary.boundaries.end(),
+                            [&](const BoundaryCurveParameters &curve)
+                            { return curve.name == history.curve; }))
+          subsection.fail("Curve", "is no boundary of section 'Boundary "
+                                   "elements': name one of its 'Names'.");
+        if (interior
+            && boundary.formulation == Formulation::convolution_quadrature)
+          subsection.fail("Quantity", "is one of the domain, which is computed "
+                                      "with Galerkin and collocation only: "
+                                      "change 'Formulation', or take a "
+                                      "boundary quantity.");
+      }
+    }
+
+    void read_boundary_model(const ParameterSection &top,
+                             Parameters &parameters)
+    {
+      for (const std::string name : { "Joints", "Loads", "Stages" })
+        refuse_names(top, name, "boundary elements");
+      if (parameters.model.plane != PlaneAssumption::plane_strain)
+        top.fail("Plane assumption", "does not go with boundary elements: "
+                                     "their kernels are those of plane "
+                                     "strain.");
+      BoundaryElementParameters &boundary = parameters.boundary;
+      boundary                            = BoundaryElementParameters::read(
+                                     ParameterSection(top, "Boundary elements"));
+      boundary.boundaries
+          = read_named<BoundaryCurveParameters>(top, "Boundary elements");
+      boundary.waves
+          = read_named<IncidentWaveParameters>(top, "Incident waves");
+      boundary.sampled_field = SampledFieldParameters::read(
+          ParameterSection(top, "Sampled field"));
+      if (std::any_of(boundary.boundaries.begin(), boundary.boundaries.end(),
+                      [](const BoundaryCurveParameters &curve)
+                      { return curve.shape == BoundaryShape::mesh; }))
+        read_mesh(top, parameters);
+
+      const auto &materials = parameters.model.materials;
+      if (boundary.material.empty() && materials.size() == 1)
+        boundary.material = materials.front().name;
+      {
+        const ParameterSection section(top, "Boundary elements");
+        if (boundary.boundaries.empty())
+          section.fail("Names", "must list at least one boundary.");
+        for (const BoundaryCurveParameters &curve : boundary.boundaries)
+          if (curve.shape != BoundaryShape::mesh && curve.n_elements == 0
+              && curve.element_length == 0. && boundary.element_length == 0.)
+            ParameterSection(section, curve.name)
+                .fail("Elements", "leaves the size of the elements open: give "
+                                  "their number or an 'Element length'.");
+        const MaterialParameters *material = find_material(parameters);
+        if (material == nullptr)
+          section.fail("Material", "is no material: name one of the 'Names' of "
+                                   "section 'Materials'.");
+        if (material->rigid)
+          section.fail("Material", "leads to '" + material->name
+                                       + "', which is rigid: boundary elements "
+                                         "need 'Law = linear elastic'.");
+      }
+      if (boundary.is_static && !boundary.waves.empty())
+        ParameterSection(top, "Incident waves")
+            .fail("Names", "needs 'Analysis = dynamic': statics has no waves.");
+      if (boundary.sampled_field.has_box
+          && boundary.formulation == Formulation::convolution_quadrature)
+        ParameterSection(top, "Sampled field")
+            .fail("Box", "asks for the field in the domain, which is computed "
+                         "with Galerkin and collocation only: leave it empty, "
+                         "or change 'Formulation'.");
+      check_boundary_histories(top, parameters);
+    }
+
     std::string join(const std::set<std::string> &names)
     {
       std::string text;
@@ -356,6 +476,30 @@ namespace quoin
           throw InputError(parameters.file + ", section 'Loads/" + load.name
                            + "': no stage uses this load. Name it in the "
                              "'Loads' of a stage or remove it.");
+    }
+
+    void read_block_model(const ParameterSection &top, Parameters &parameters)
+    {
+      for (const std::string name : { "Boundary elements", "Incident waves" })
+        refuse_names(top, name, "blocks");
+      {
+        const ParameterSection section(top, "Histories");
+        for (const HistoryParameters &history : parameters.histories)
+          if (history.is_of_boundary())
+            ParameterSection(section, history.name)
+                .fail("Quantity", "needs 'Model = boundary elements'.");
+      }
+      parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
+      parameters.model.contact
+          = ContactParameters::read(ParameterSection(top, "Contact"));
+      parameters.model.large_displacements
+          = parameters.model.contact.large_displacements;
+      parameters.loads = read_named<LoadParameters>(top, "Loads");
+      for (const LoadParameters &load : parameters.loads)
+        if (load.type == LoadType::initial_stress)
+          parameters.model.initial_stresses.push_back(load);
+      read_stages(top, parameters);
+      check_loads(parameters);
     }
   } // namespace
 
@@ -406,26 +550,21 @@ namespace quoin
         "Plane assumption",
         { { "plane strain", PlaneAssumption::plane_strain },
                { "plane stress", PlaneAssumption::plane_stress } });
-    read_mesh(top, parameters);
+    parameters.is_boundary_model = top.text("Model") == "boundary elements";
+    if (!parameters.is_boundary_model)
+      read_mesh(top, parameters);
     parameters.model.materials
         = read_named<MaterialParameters>(top, "Materials");
     if (parameters.model.materials.empty())
       throw InputError(file
                        + ", section 'Materials': 'Names' must list at "
                          "least one material.");
-    parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
-    parameters.model.contact
-        = ContactParameters::read(ParameterSection(top, "Contact"));
-    parameters.model.large_displacements
-        = parameters.model.contact.large_displacements;
-    parameters.loads = read_named<LoadParameters>(top, "Loads");
-    for (const LoadParameters &load : parameters.loads)
-      if (load.type == LoadType::initial_stress)
-        parameters.model.initial_stresses.push_back(load);
-    read_stages(top, parameters);
-    check_loads(parameters);
     parameters.histories = read_named<HistoryParameters>(top, "Histories");
     read_output(top, parameters);
+    if (parameters.is_boundary_model)
+      read_boundary_model(top, parameters);
+    else
+      read_block_model(top, parameters);
 
     std::ostringstream effective;
     prm.print_parameters(effective, ParameterHandler::ShortPRM);

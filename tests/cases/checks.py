@@ -596,3 +596,141 @@ def pile(case, folder, output, histories):
             float(np.max(np.abs(table["residual"])) / peak_energy(table)),
             1e-3),
     }
+
+
+def amplitude(t, values, omega, periods=1):
+    """Of a harmonic part, fitted over the last periods beside a straight line.
+
+    The line takes what is left of the beginning, which fades slowly in a plane.
+    """
+    keep = t > t[-1] - periods * 2 * np.pi / omega
+    t = t[keep] - t[-1]
+    basis = np.column_stack([np.cos(omega * t), np.sin(omega * t),
+                             np.ones_like(t), t])
+    fit = np.linalg.lstsq(basis, values[keep], rcond=None)[0]
+    return float(np.hypot(fit[0], fit[1]))
+
+
+def reference_module(folder):
+    """make_reference.py of a case, imported."""
+    import importlib.util
+    spec = importlib.util.spec_from_file_location(
+        "make_reference", os.path.join(folder, "make_reference.py"))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def finite_bar_bem(case, folder, output, histories):
+    """The whole run against d'Alembert: error and bounds of the last period."""
+    bar = reference_module(folder)
+    histories = strictly_increasing(histories)
+    t = histories["time"]
+    dt = t[1] - t[0]
+    period, peak = 4 * bar.L / bar.C, 2 * bar.LOAD * bar.L / bar.E
+    last = t > t[-1] - period
+    error = (histories["end"] - bar.displacement(bar.L, t)) / peak
+    # forces are means over the steps
+    force = histories["base_force"] / (2 * bar.LOAD * bar.HEIGHT)
+    exact = bar.base_force(t - dt / 2) / (2 * bar.LOAD * bar.HEIGHT)
+    for p in (1, 2, 5, 10, 20):
+        part = (t > (p - 1) * period) & (t <= p * period)
+        if np.any(part):
+            print("  period %2d: displacement max %.4f rms %.4f; base force rms "
+                  "%.4f; across %.1e"
+                  % (p, np.max(np.abs(error[part])),
+                     np.sqrt(np.mean(error[part]**2)),
+                     np.sqrt(np.mean((force - exact)[part]**2)),
+                     np.max(np.abs(histories["end_across"][part])) / peak))
+    first = (t > 0) & (t <= period)
+    return {
+        "rms error, last period": (
+            float(np.sqrt(np.mean(error[last]**2))), case["last rms"]),
+        "rms error of the force, first period": (
+            float(np.sqrt(np.mean((force - exact)[first]**2))),
+            case["first force"]),
+        "peak by the exact one, last period": (
+            float(abs(np.max(histories["end"][last]) / peak - 1)),
+            case["last peak"]),
+        "motion across / peak": (
+            float(np.max(np.abs(histories["end_across"])) / peak), 0.01),
+    }
+
+
+def cavity_harmonic(case, folder, output, histories):
+    """Amplitudes on the wall against the series."""
+    histories = strictly_increasing(histories)
+    t = histories["time"]
+    ratio, speed, incident = case["ratio"], 1000.0, 1e-3
+    omega = ratio * speed
+    table, _ = read_table(os.path.join(folder, "wall_%g.csv" % ratio))
+
+    def exact(name, angle):
+        return table[name][np.argmin(np.abs(table["angle"] - angle))]
+
+    stress = 2000.0 * speed * omega * incident
+    result = {}
+    for angle in (0, 90, 180):
+        found = amplitude(t, histories["hoop_%d" % angle], omega) / stress
+        wanted = exact("hoop stress", angle)
+        print("  hoop stress at %3d deg: %.4f, series %.4f"
+              % (angle, found, wanted))
+        result["hoop stress at %d" % angle] = (
+            abs(found - wanted) / exact("hoop stress", 90), 0.01)
+    for name, angle, part in (("front", 180, "radial"), ("back", 0, "radial"),
+                              ("side", 90, "tangential")):
+        found = amplitude(t, histories[name], omega) / incident
+        wanted = exact(part, angle)
+        print("  displacement, %-5s: %.4f, series %.4f" % (name, found, wanted))
+        result["displacement, " + name] = (abs(found / wanted - 1), 0.01)
+    return result
+
+
+def rigid_strip(case, folder, output, histories):
+    """Force by displacement at some frequencies, against the impedance."""
+    strip = reference_module(folder)
+    histories = strictly_increasing(histories)
+    t = histories["time"][1:]
+    dt = t[1] - t[0]
+    quantity = case["quantity"]
+    force = (histories[quantity + "_right"]
+             + histories[quantity + "_left"])[1:]
+    motion = strip.pulse(t)
+    table, _ = read_table(os.path.join(folder, "impedance.csv"))
+    worst = 0.0
+    for i, a0 in enumerate(table["a0"]):
+        omega = a0 * strip.SPEED / strip.HALF_WIDTH
+        # forces are means over the steps
+        mean = np.sinc(omega * dt / 2 / np.pi)
+        found = (np.sum(force * np.exp(-1j * omega * (t - dt / 2))) / mean
+                 / np.sum(motion * np.exp(-1j * omega * t)))
+        found /= strip.SHEAR_MODULUS
+        wanted = (table[case["motion"] + " real"][i]
+                  + 1j * table[case["motion"] + " imaginary"][i])
+        print("  a0 %.1f: %.4f%+.4fi, exact %.4f%+.4fi"
+              % (a0, found.real, found.imag, wanted.real, wanted.imag))
+        worst = max(worst, abs(found / wanted - 1))
+    return {"impedance": (float(worst), case["tolerance"])}
+
+
+def canyon(case, folder, output, histories):
+    """Amplitudes on the surface by that of the incident wave."""
+    histories = strictly_increasing(histories)
+    table, _ = read_table(os.path.join(folder, case["amplitudes"]))
+    result = {}
+    worst = {"x": [0.0, 0.0], "y": [0.0, 0.0]}
+    for place in sorted({float(n[2:]) for n in histories if n[0] in "xy"}):
+        row = np.argmin(np.abs(table["x/a"] - place))
+        rim = abs(abs(place) - 1) < 0.1
+        for component in "xy":
+            found = amplitude(histories["time"],
+                              histories["%s_%g" % (component, place)],
+                              1000 * np.pi) / 1e-3
+            error = found - table["|u_%s|" % component][row]
+            print("  x/a %5.2f |u_%s| %.3f, table %.3f"
+                  % (place, component, found, found - error))
+            worst[component][rim] = max(worst[component][rim], abs(error))
+    for component, (away, rim) in worst.items():
+        result["|u_%s|" % component] = (away, case["tolerance"])
+        result["|u_%s| at the rim" % component] = (rim, case["rim tolerance"])
+    return result

@@ -41,8 +41,8 @@ def run(words, **more):
 
 
 def prepare(folder, edit=None):
-    """Copies the base case; returns the parameter file."""
-    for name in ("base.geo", "crack.geo"):
+    """Copies the base cases; returns the parameter file of blocks."""
+    for name in ("base.geo", "crack.geo", "boundary.prm"):
         shutil.copy(os.path.join(HERE, name), folder)
     with open(os.path.join(HERE, "base.prm")) as stream:
         text = stream.read()
@@ -135,6 +135,22 @@ def base_case_runs(quoin, folder):
     expect(status, printed, 0, [])
     if not os.path.exists(os.path.join(folder, "output", "histories.csv")):
         raise Failure("no output/histories.csv beside the parameter file")
+
+
+def boundary_case_runs(quoin, folder):
+    """The base case of boundary elements likewise; it ends where it should,
+    and a value that is no number ends it earlier."""
+    prepare(folder)
+    words = [quoin, os.path.join(folder, "boundary.prm"), "--quiet"]
+    status, printed = run(words)
+    expect(status, printed, 0, [])
+    for name in ("histories.csv", "boundary.pvd", "field.pvd",
+                 "summary.json"):
+        if not os.path.exists(os.path.join(folder, "output", name)):
+            raise Failure("no output/%s" % name)
+    status, printed = run(words + [
+        "--set", "Boundary elements/hole/Pressure=sqrt(0.5e-3 - t)"])
+    expect(status, printed, 2, ["hole", "time", "finite"])
 
 
 def check_writes_nothing(quoin, folder):
@@ -340,7 +356,7 @@ def deleted_block(quoin, folder):
     return printed
 
 
-FUNCTIONS = [base_case_runs, check_writes_nothing, no_arguments,
+FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing, no_arguments,
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
              no_number_at_the_end, runaway, reported_block, deleted_block, other_ranks, other_parameters,

@@ -23,7 +23,12 @@ namespace quoin
     platen_force,
     unbalanced_ratio,
     kinetic_share,
-    contacts
+    contacts,
+    boundary_displacement,
+    boundary_traction,
+    boundary_velocity,
+    boundary_hoop_stress,
+    boundary_force
   };
 
   /** One column of histories.csv: a subsection of 'Histories'. */
@@ -36,6 +41,18 @@ namespace quoin
     std::array<double, 2> point{}; /**< [m] */
     std::string load;
     std::string curve;
+
+    /** Of a run of boundary elements: on the boundary. */
+    bool is_of_boundary() const
+    {
+      return quantity >= HistoryQuantity::boundary_displacement;
+    }
+    /** Of blocks, or in the domain of boundary elements. */
+    bool is_of_interior() const
+    {
+      return quantity == HistoryQuantity::displacement
+             || quantity == HistoryQuantity::velocity;
+    }
 
     static void declare(dealii::ParameterHandler &prm);
     static HistoryParameters read(const ParameterSection &section,

@@ -4,6 +4,7 @@
 #ifndef quoin_application_parameters_h
 #define quoin_application_parameters_h
 
+#include <quoin/application/boundary_parameters.h>
 #include <quoin/application/history_parameters.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/stage_parameters.h>
@@ -20,6 +21,10 @@ namespace quoin
     std::string file; /**< the parameter file */
     std::string title;
     std::string output_directory; /**< relative to the working directory */
+
+    /** A run of boundary elements alone; if not, one of blocks. */
+    bool is_boundary_model = false;
+    BoundaryElementParameters boundary;
 
     std::string mesh_file; /**< relative to the working directory */
     SplitOptions split;

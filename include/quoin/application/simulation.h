@@ -6,6 +6,7 @@
 
 #include <quoin/application/histories.h>
 #include <quoin/application/parameters.h>
+#include <quoin/application/run_options.h>
 #include <quoin/base/time_control.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/model.h>
@@ -23,14 +24,6 @@
 
 namespace quoin
 {
-  /** What the command line adds to the parameter file. */
-  struct RunOptions
-  {
-    bool resume = false;
-    bool check  = false; /**< report and stop before the first step */
-    bool quiet  = false;
-  };
-
   /**
    * One run: reads mesh and parameters, takes the model through its stages
    * and writes the results. Owns all modules; reading run() gives the

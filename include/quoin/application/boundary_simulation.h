@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_application_boundary_simulation_h
+#define quoin_application_boundary_simulation_h
+
+#include <quoin/application/boundary_geometry.h>
+#include <quoin/application/boundary_histories.h>
+#include <quoin/application/given_values.h>
+#include <quoin/application/parameters.h>
+#include <quoin/application/run_options.h>
+#include <quoin/base/time_control.h>
+#include <quoin/output/boundary_output.h>
+#include <quoin/output/csv_table.h>
+#include <quoin/output/log.h>
+#include <quoin/output/progress.h>
+#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/tdbem/interior_points.h>
+#include <quoin/tdbem/passivity.h>
+#include <quoin/tdbem/plane_wave.h>
+#include <quoin/tdbem/tangential_stress.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * One run of boundary elements alone. The equations are solved for the
+   * scattered field, that is, the total one without the incident waves; given
+   * values and results are those of the total field. What happens in the
+   * domain is computed at the end, from the record of the whole run on the
+   * boundary. All ranks march alike; they share the history and the points in
+   * the domain.
+   */
+  class BoundarySimulation
+  {
+  public:
+    BoundarySimulation(const Parameters &parameters, const RunOptions &options,
+                       MPI_Comm communicator);
+
+    /** Throws InputError or RunError. */
+    void run();
+
+  private:
+    /** What a checkpoint holds. */
+    struct Record
+    {
+      std::uint64_t step = 0;      /**< steps taken */
+      std::vector<double> history; /**< what BoundaryHistory::save() gives */
+      std::vector<double> u, p;    /**< scattered, of the last step */
+      std::vector<double> all_u;   /**< of all steps, one unknown after the */
+      std::vector<double> all_p;   /**< other, if the domain is asked for */
+      std::vector<double> rows;    /**< of histories.csv that still lack */
+                                   /**< what happens in the domain */
+      std::uint64_t histories_bytes = 0;
+      BoundaryOutput boundary_output;
+      double wall_time = 0.; /**< of the time loop [s] */
+      bool finished    = false;
+
+      template <typename Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &step &history &u &p &all_u &all_p &rows &histories_bytes
+            &boundary_output &wall_time &finished;
+      }
+    };
+
+    void make_boundary();
+    void make_sampled_points();
+    void choose_time_step();
+    void check_waves() const;
+    void report();
+    void report_passivity();
+    void open_outputs();
+    void make_march();
+    void solve_static();
+    void take_step();
+    void write_boundary(double time, const BoundaryState &state);
+    void write_row(double time, const BoundaryState &state);
+    void write_domain();
+    void write_histories(const BoundaryRecord &all);
+    void write_sampled_fields(const BoundaryRecord &all);
+    void write_sampled_field(double time, const Eigen::VectorXd &displacement,
+                             const Eigen::VectorXd &velocity);
+    void checkpoint_if_due();
+    void save_checkpoint();
+    void write_summary();
+
+    bool needs_record() const;
+    bool row_is_due(std::uint64_t step) const;
+    bool fields_are_due(std::uint64_t step) const;
+    FormulationOptions formulation_options() const;
+    Eigen::VectorXd incident_displacements(double time) const;
+    Eigen::VectorXd incident_tractions(double begin, double end) const;
+    /** Of points in the domain at the ends of some steps, total field. */
+    Eigen::MatrixXd
+    domain_displacements(const BoundaryRecord &all,
+                         const std::vector<Eigen::Vector2d> &points,
+                         const std::vector<unsigned int> &steps) const;
+    ProgressFigures progress_figures() const;
+
+    const Parameters parameters;
+    const BoundaryElementParameters &settings;
+    const RunOptions options;
+    const MPI_Comm communicator;
+    const bool is_first_rank;
+    const std::string output;
+
+    Log log;
+    Progress progress;
+    ElasticMedium medium{};
+    BoundaryGeometry geometry;
+    std::vector<PlaneWave> waves;
+    SampledFields sampled; /**< places and triangles */
+    std::vector<Eigen::Vector2d> sampled_points;
+
+    std::unique_ptr<BoundaryHistories> histories;
+    std::unique_ptr<TangentialStress> hoop_stress;
+    std::unique_ptr<GivenValues> given;
+    std::unique_ptr<LagKernel> kernel;
+    std::unique_ptr<BoundaryHistory> history;
+    std::unique_ptr<BoundaryMarch> march;
+    std::unique_ptr<CsvTable> history_table;
+    SampledFieldOutput field_output;
+    TimeControl history_control, field_control;
+    Record record;
+
+    double dt             = 0.; /**< [s] */
+    std::uint64_t n_steps = 0;
+    std::unique_ptr<PassivityReport> passivity;
+    Eigen::VectorXd last_displacement; /**< total [m] */
+    std::uint64_t steps_done = 0;      /**< by this process */
+    double seconds_done      = 0.;
+    std::chrono::steady_clock::time_point last_checkpoint;
+  };
+} // namespace quoin
+
+#endif

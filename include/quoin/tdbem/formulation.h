@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_tdbem_formulation_h
+#define quoin_tdbem_formulation_h
+
+#include <quoin/tdbem/boundary.h>
+#include <quoin/tdbem/boundary_history.h>
+#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/tdbem/laplace_kernels.h>
+
+#include <mpi.h>
+
+#include <memory>
+
+namespace quoin
+{
+  /** The ways to discretise the boundary integral equation. */
+  enum class Formulation
+  {
+    galerkin,              /**< LagMatrices, in the mean over each element */
+    collocation,           /**< LagMatrices, at the middles of the elements */
+    convolution_quadrature /**< ConvolutionQuadrature, in the mean */
+  };
+
+  /** What a formulation needs to know beside boundary and medium. */
+  struct FormulationOptions
+  {
+    Formulation formulation = Formulation::galerkin;
+    double time_step        = 0.; /**< [s] */
+
+    /** Of LagMatrices [1/s]; not for convolution quadrature. */
+    double decay = 0.;
+    /** For convolution quadrature only. */
+    RayleighDamping damping = {};
+
+    /** Whether the history is summed directly, at growing cost. */
+    bool direct_history = false;
+    /** Of the compressed history, relative. */
+    double tolerance = 1e-6;
+    /** The most steps that will be taken. */
+    unsigned long n_steps = 1000000;
+  };
+
+  /** The kernel of @p options. Throws InputError about wrong options. */
+  std::unique_ptr<LagKernel> make_lag_kernel(const Boundary &boundary,
+                                             const ElasticMedium &medium,
+                                             const FormulationOptions &options);
+
+  /**
+   * The history of @p options. The rows of a compressed one are shared by the
+   * ranks of @p communicator. @p kernel must be of the same boundary, medium
+   * and options and must outlive a direct history.
+   */
+  std::unique_ptr<BoundaryHistory>
+  make_history(const LagKernel &kernel, const Boundary &boundary,
+               const ElasticMedium &medium, const FormulationOptions &options,
+               MPI_Comm communicator);
+} // namespace quoin
+
+#endif

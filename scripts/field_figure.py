@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Pictures of a run of boundary elements for scripts/render: the field in the
+domain, if it was sampled, and the boundary."""
+
+import os
+
+import numpy as np
+
+import vtu
+import matplotlib.pyplot as plt
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+
+COLOURS = "magma_r"
+UNITS = {"velocity": "m/s", "displacement": "m"}
+
+
+def is_field_run(output):
+    """Whether there are boundary elements and no blocks."""
+    return (os.path.exists(os.path.join(output, "boundary.pvd"))
+            and not os.path.exists(os.path.join(output, "blocks.pvd")))
+
+
+class FieldFrame:
+    """Field and boundary at one moment; the field may be None."""
+
+    def __init__(self, output, time):
+        def series(name):
+            path = os.path.join(output, name)
+            return vtu.read_at(path, time) if os.path.exists(path) else None
+
+        self.boundary = series("boundary.pvd")
+        if self.boundary is None:
+            raise ValueError("no field was written to boundary.pvd")
+        self.time = self.boundary.time
+        self.field = series("field.pvd")
+        if self.field is not None and self.field.time != self.time:
+            self.field = None
+
+    def magnitude(self, name):
+        """Of the field at its points, or of the boundary on its elements."""
+        data = (self.boundary.cell_data if self.field is None
+                else self.field.point_data)
+        return np.linalg.norm(data[name][:, :2], axis=1)
+
+
+class FieldPicture:
+    """Draws frames with one view and one range of colours."""
+
+    def __init__(self, options, frames):
+        self.options = options
+        self.name = ("displacement" if options.colour == "displacement"
+                     else "velocity")
+        if options.view:
+            self.low, self.high = np.reshape(options.view, (2, 2))
+        else:
+            places = [(f.field or f.boundary).points for f in frames]
+            self.low = np.min([p.min(axis=0) for p in places], axis=0)
+            self.high = np.max([p.max(axis=0) for p in places], axis=0)
+        self.extent = np.maximum(self.high - self.low,
+                                 0.1 * (self.high - self.low).max())
+        # A few points at the source must not make all others pale.
+        largest = max(np.quantile(f.magnitude(self.name), 0.995)
+                      for f in frames)
+        self.values = Normalize(0.0, largest or 1.0, clip=True)
+
+    def draw(self, axes, frame, with_count):
+        """One moment; there is no legend."""
+        axes.grid(False)
+        lines = frame.boundary.points[frame.boundary.cells]
+        value = frame.magnitude(self.name)
+        if frame.field is not None:
+            x, y = frame.field.points.T
+            axes.tripcolor(x, y, frame.field.cells, value, norm=self.values,
+                           cmap=COLOURS, shading="gouraud", rasterized=True)
+            axes.add_collection(LineCollection(lines, colors="0.1",
+                                               linewidths=1.0))
+        else:
+            axes.add_collection(LineCollection(
+                lines, colors=plt.get_cmap(COLOURS)(self.values(value)),
+                linewidths=2.0))
+        margin = 0.0 if self.options.view else 0.04 * self.extent.max()
+        axes.set_xlim(self.low[0] - margin, self.high[0] + margin)
+        axes.set_ylim(self.low[1] - margin, self.high[1] + margin)
+        axes.set_aspect("equal")
+        return []
+
+    def title(self, frame, digits="3g"):
+        for factor, unit in ((1.0, "s"), (1e3, "ms")):
+            if frame.time * factor >= 0.1:
+                break
+        return f"t = {frame.time * factor:.{digits}} {unit}"
+
+    def colour_bar(self, figure, cax_of=None, **where):
+        if cax_of is not None:
+            where["cax"] = cax_of.inset_axes([1.03, 0, 0.03, 1])
+        figure.colorbar(ScalarMappable(self.values, plt.get_cmap(COLOURS)),
+                        label=f"{self.name} [{UNITS[self.name]}]", **where)

@@ -1,0 +1,394 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/application/boundary_parameters.h>
+#include <quoin/base/exceptions.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    using dealii::Patterns::Anything;
+    using dealii::Patterns::Double;
+    using dealii::Patterns::Integer;
+    using dealii::Patterns::Selection;
+
+    constexpr double degree = dealii::numbers::PI / 180.;
+
+    SpaceTimeFunction function(const ParameterSection &section,
+                               const std::string &name, const std::string &text)
+    {
+      try
+      {
+        return SpaceTimeFunction(text, section.folder());
+      }
+      catch (const InputError &error)
+      {
+        section.fail(name, error.what());
+      }
+    }
+
+    /** "traction EXPRESSION" or "displacement EXPRESSION". */
+    void read_condition(const ParameterSection &section,
+                        const std::string &name, bool &traction_is_given,
+                        SpaceTimeFunction &value)
+    {
+      const std::string text = section.text(name);
+      for (const std::string word : { "traction", "displacement" })
+        if (text.rfind(word + " ", 0) == 0)
+        {
+          traction_is_given = word == "traction";
+          value             = function(section, name, text.substr(word.size()));
+          return;
+        }
+      section.fail(name, "must begin with 'traction' or 'displacement', before "
+                         "an expression of x, y and t.");
+    }
+
+    /** "x, y; x, y; ..." */
+    std::vector<std::array<double, 2>> points(const ParameterSection &section,
+                                              const std::string &name)
+    {
+      std::vector<std::array<double, 2>> result;
+      const auto pairs
+          = dealii::Utilities::split_string_list(section.text(name), ';');
+      for (const std::string &pair : pairs)
+      {
+        const auto words = dealii::Utilities::split_string_list(pair, ',');
+        std::vector<double> values;
+        try
+        {
+          values = dealii::Utilities::string_to_double(words);
+        }
+        catch (const std::exception &)
+        {
+          values.clear();
+        }
+        if (values.size() != 2 || !std::isfinite(values[0])
+            || !std::isfinite(values[1]))
+          section.fail(name, "has '" + pair
+                                 + "' for a point: give two numbers, as in "
+                                   "0, 0; 1, 0; 1, 2.");
+        if (!result.empty() && result.back()[0] == values[0]
+            && result.back()[1] == values[1])
+          section.fail(name, "repeats the point '" + pair + "': give it once.");
+        result.push_back({ { values[0], values[1] } });
+      }
+      return result;
+    }
+
+    const std::vector<std::pair<std::string, BoundaryShape>> shapes
+        = { { "circle", BoundaryShape::circle },
+            { "polygon", BoundaryShape::polygon },
+            { "line", BoundaryShape::line },
+            { "arc", BoundaryShape::arc },
+            { "mesh", BoundaryShape::mesh } };
+
+    void read_shape(const ParameterSection &section,
+                    BoundaryCurveParameters &boundary)
+    {
+      using Shape    = BoundaryShape;
+      boundary.shape = section.choice<Shape>("Shape", shapes);
+      switch (boundary.shape)
+      {
+      case Shape::circle:
+      case Shape::arc:
+        boundary.centre = section.numbers<2>("Centre");
+        boundary.radius = section.positive("Radius");
+        boundary.angles = section.numbers<2>("Angles");
+        if (boundary.shape == Shape::arc)
+        {
+          const double span = std::abs(boundary.angles[1] - boundary.angles[0]);
+          if (!(span > 0. && span < 360.))
+            section.fail("Angles", "must differ by more than 0 and less than "
+                                   "360 degrees: an arc has two ends.");
+        }
+        for (double &angle : boundary.angles)
+          angle *= degree;
+        break;
+      case Shape::polygon:
+      case Shape::line:
+      {
+        boundary.points         = points(section, "Points");
+        const bool closed       = boundary.shape == Shape::polygon;
+        const std::size_t least = closed ? 3 : 2;
+        if (closed && boundary.points.size() > 1
+            && boundary.points.front() == boundary.points.back())
+          section.fail("Points", "ends where it begins: a polygon is closed by "
+                                 "itself, leave the last point out.");
+        if (boundary.points.size() < least)
+          section.fail("Points",
+                       closed ? "must list at least three corners of a polygon."
+                              : "must list at least two points of a line.");
+        break;
+      }
+      case Shape::mesh:
+        boundary.curves = section.list("Curves");
+        if (boundary.curves.empty())
+          section.fail("Curves",
+                       "must name physical curves of the file in section "
+                       "'Mesh'.");
+        break;
+      }
+
+      boundary.domain = section.choice<DomainSide>(
+          "Domain", { { "inside", DomainSide::inside },
+                      { "outside", DomainSide::outside },
+                      { "left", DomainSide::left },
+                      { "right", DomainSide::right } });
+      const bool by_direction = boundary.domain == DomainSide::left
+                                || boundary.domain == DomainSide::right;
+      if (by_direction
+          && (boundary.shape == Shape::circle
+              || boundary.shape == Shape::polygon))
+        section.fail("Domain", "is for open boundaries: a closed one takes "
+                               "'inside' or 'outside'.");
+      if (!by_direction
+          && (boundary.shape == Shape::line || boundary.shape == Shape::arc))
+        section.fail("Domain", "is for closed boundaries: an open one takes "
+                               "'left' or 'right' of its direction.");
+    }
+  } // namespace
+
+  void BoundaryCurveParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Shape", "circle",
+                      Selection("circle|polygon|line|arc|mesh"),
+                      "Closed: circle, polygon. Open: line (through several "
+                      "points), arc. Mesh: curves of the mesh file, closed or "
+                      "open.");
+    prm.declare_entry("Centre", "0, 0", Anything(),
+                      "Circle, arc: x, y of the centre [m]");
+    prm.declare_entry("Radius", "0", Double(), "Circle, arc [m]");
+    prm.declare_entry("Angles", "0, 360", Anything(),
+                      "Arc: from, to, anticlockwise from the x axis; its "
+                      "direction is from the first to the second. Circle: the "
+                      "first is the place of a vertex [deg]");
+    prm.declare_entry("Points", "", Anything(),
+                      "Polygon: its corners; line: its points, in its "
+                      "direction; as x, y; x, y; ... [m]");
+    prm.declare_entry("Curves", "", Anything(),
+                      "Mesh: physical curves, joined end to end; the first one "
+                      "gives the direction.");
+    prm.declare_entry("Domain", "outside",
+                      Selection("inside|outside|left|right"),
+                      "Where the domain is: inside or outside a closed "
+                      "boundary, left or right of the direction of an open "
+                      "one.");
+    prm.declare_entry("Elements", "0", Integer(0, 1000000),
+                      "Number of elements; 0: from the element length.");
+    prm.declare_entry("Element length", "0", Double(),
+                      "No element is longer; if they are graded, of the "
+                      "shortest; 0: that of the section, and if that is 0, "
+                      "too, the edges of the mesh [m]");
+    prm.declare_entry("Grading", "1", Double(),
+                      "Arc, line with two points: length of the last element "
+                      "by that of the first one [-]");
+    prm.declare_entry("Area", "polygon",
+                      Selection("polygon|equal|equal perimeter"),
+                      "Circle: a polygon with vertices on the circle, with "
+                      "the area of the circle, or, most exact, with its "
+                      "perimeter.");
+    for (const std::string direction : { "Horizontal", "Vertical" })
+      prm.declare_entry(direction, "traction 0", Anything(),
+                        "What is given: 'traction' [Pa] or 'displacement' [m] "
+                        "and an expression of x, y, t [m, s], 'table FILE', or "
+                        "'table FILE times EXPRESSION'.");
+    prm.declare_entry("Pressure", "0", Anything(),
+                      "Expression as above; pushes on the domain and adds to "
+                      "given tractions [Pa]");
+  }
+
+  BoundaryCurveParameters
+  BoundaryCurveParameters::read(const ParameterSection &section,
+                                const std::string &name)
+  {
+    BoundaryCurveParameters boundary;
+    boundary.name = name;
+    read_shape(section, boundary);
+    boundary.n_elements     = section.integer("Elements");
+    boundary.element_length = section.nonnegative("Element length");
+    boundary.grading        = section.positive("Grading");
+    if (boundary.grading != 1. && boundary.shape != BoundaryShape::arc
+        && !(boundary.shape == BoundaryShape::line
+             && boundary.points.size() == 2))
+      section.fail("Grading", "is for arcs and for lines with two points: "
+                              "leave it at 1, or make several lines that meet "
+                              "end to end.");
+    boundary.polygon = section.choice<CirclePolygon>(
+        "Area", { { "polygon", CirclePolygon::inscribed },
+                  { "equal", CirclePolygon::equal_area },
+                  { "equal perimeter", CirclePolygon::equal_perimeter } });
+    if (boundary.polygon != CirclePolygon::inscribed
+        && boundary.shape != BoundaryShape::circle)
+      section.fail("Area", "is for circles only: leave it at 'polygon'.");
+    if (boundary.shape == BoundaryShape::circle && boundary.n_elements > 0
+        && boundary.n_elements < 3)
+      section.fail("Elements", "must be at least 3 on a circle.");
+    read_condition(section, "Horizontal", boundary.traction_is_given[0],
+                   boundary.value[0]);
+    read_condition(section, "Vertical", boundary.traction_is_given[1],
+                   boundary.value[1]);
+    boundary.pressure = function(section, "Pressure", section.text("Pressure"));
+    const bool has_pressure = section.text("Pressure") != "0";
+    if (has_pressure && !boundary.traction_is_given[0]
+        && !boundary.traction_is_given[1])
+      section.fail("Pressure", "has nothing to act on where both displacements "
+                               "are given: remove it, or give a traction.");
+    return boundary;
+  }
+
+  void IncidentWaveParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Type", "plane P", Selection("plane P|plane SV"),
+                      "P: along the direction of propagation. SV: across it.");
+    prm.declare_entry("Space", "full plane", Selection("full plane|half-plane"),
+                      "Half-plane: the medium is below y = 0, where the wave "
+                      "is reflected; no boundary may be above.");
+    prm.declare_entry("Angle", "0", Double(),
+                      "Direction of propagation, from the upward vertical "
+                      "towards +x [deg]");
+    prm.declare_entry("Displacement", "0", Anything(),
+                      "Of the incident wave at the origin as a function of t "
+                      "[s], or 'table FILE'; 0 before the wave's start [m]");
+  }
+
+  IncidentWaveParameters
+  IncidentWaveParameters::read(const ParameterSection &section,
+                               const std::string &name)
+  {
+    IncidentWaveParameters wave;
+    wave.name          = name;
+    wave.is_shear      = section.text("Type") == "plane SV";
+    wave.half_plane    = section.text("Space") == "half-plane";
+    const double limit = wave.half_plane ? 89. : 360.;
+    wave.angle         = section.within("Angle", -limit, limit) * degree;
+    try
+    {
+      wave.displacement
+          = TimeFunction(section.text("Displacement"), section.folder());
+    }
+    catch (const InputError &error)
+    {
+      section.fail("Displacement", error.what());
+    }
+    return wave;
+  }
+
+  void SampledFieldParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Box", "", Anything(),
+                      "xmin, ymin, xmax, ymax of the rectangle in which the "
+                      "field is computed, at the end of the run, for "
+                      "field.pvd; empty: nowhere [m]");
+    prm.declare_entry("Spacing", "0", Double(), "Of its points [m]");
+  }
+
+  SampledFieldParameters
+  SampledFieldParameters::read(const ParameterSection &section)
+  {
+    SampledFieldParameters field;
+    field.has_box = !section.text("Box").empty();
+    if (!field.has_box)
+      return field;
+    field.box = section.numbers<4>("Box");
+    if (!(field.box[0] < field.box[2] && field.box[1] < field.box[3]))
+      section.fail("Box", "must be xmin, ymin, xmax, ymax with xmin < xmax and "
+                          "ymin < ymax.");
+    field.spacing = section.positive("Spacing");
+    const double n_points
+        = (1. + (field.box[2] - field.box[0]) / field.spacing)
+          * (1. + (field.box[3] - field.box[1]) / field.spacing);
+    if (n_points > 1e6)
+    {
+      std::ostringstream why;
+      why << "makes " << n_points
+          << " points, more than a million: give a larger one.";
+      section.fail("Spacing", why.str());
+    }
+    return field;
+  }
+
+  void BoundaryElementParameters::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Material", "", Anything(),
+                      "Of the domain; empty: the only one there is.");
+    prm.declare_entry(
+        "Formulation", "Galerkin",
+        Selection("Galerkin|collocation|convolution quadrature"),
+        "Of the integral equation: in the mean over each element or at its "
+        "middle, with tractions and velocities constant in each time step; or "
+        "in the mean by convolution quadrature.");
+    prm.declare_entry("Analysis", "dynamic", Selection("dynamic|static"),
+                      "Static: one solution, with the given values at t = "
+                      "'Duration'.");
+    prm.declare_entry("Element length", "0", Double(),
+                      "Of boundaries that have none of their own [m]");
+    prm.declare_entry("Step ratio", "1", Double(),
+                      "c_1 times time step by length of the shortest element; "
+                      "used if 'Time step' is 0 [-]");
+    prm.declare_entry("Time step", "0", Double(),
+                      "0: as the ratio says. It is shortened until the run "
+                      "ends at a step [s]");
+    prm.declare_entry("Duration", "0", Double(), "Of the run [s]");
+    prm.declare_entry("Decay", "0", Double(),
+                      "Rate of the decay of both kernels of Galerkin and "
+                      "collocation [1/s]");
+    prm.declare_entry("Mass damping", "0", Double(),
+                      "Rayleigh damping, convolution quadrature only [1/s]");
+    prm.declare_entry("Stiffness damping", "0", Double(),
+                      "Rayleigh damping, convolution quadrature only [s]");
+    prm.declare_entry("History", "compressed", Selection("compressed|direct"),
+                      "How past steps are summed: at bounded cost, or as they "
+                      "are written, at growing cost.");
+    prm.declare_entry("Tolerance", "1e-6", Double(),
+                      "Of the compressed history [-]");
+    prm.declare_entry("Passivity frequencies", "64", Integer(0, 100000),
+                      "Number of frequencies at which is looked, before the "
+                      "run, whether the boundary can create energy; 0: not "
+                      "at all.");
+  }
+
+  BoundaryElementParameters
+  BoundaryElementParameters::read(const ParameterSection &section)
+  {
+    BoundaryElementParameters parameters;
+    parameters.material    = section.text("Material");
+    parameters.formulation = section.choice<Formulation>(
+        "Formulation",
+        { { "Galerkin", Formulation::galerkin },
+          { "collocation", Formulation::collocation },
+          { "convolution quadrature", Formulation::convolution_quadrature } });
+    const bool quadrature
+        = parameters.formulation == Formulation::convolution_quadrature;
+    parameters.is_static      = section.text("Analysis") == "static";
+    parameters.element_length = section.nonnegative("Element length");
+    parameters.step_ratio     = section.positive("Step ratio");
+    parameters.time_step      = section.nonnegative("Time step");
+    parameters.duration = parameters.is_static ? section.nonnegative("Duration")
+                                               : section.positive("Duration");
+    parameters.decay    = section.nonnegative("Decay");
+    if (quadrature && parameters.decay > 0.)
+      section.fail("Decay", "is not for convolution quadrature: use 'Mass "
+                            "damping' and 'Stiffness damping'.");
+    parameters.damping.mass      = section.nonnegative("Mass damping");
+    parameters.damping.stiffness = section.nonnegative("Stiffness damping");
+    for (const std::string name : { "Mass damping", "Stiffness damping" })
+      if (!quadrature && section.number(name) > 0.)
+        section.fail(name, "needs 'Formulation = convolution quadrature'; "
+                           "other formulations take 'Decay'.");
+    if (parameters.is_static && quadrature)
+      section.fail("Formulation", "has no statics: use Galerkin or "
+                                  "collocation.");
+    parameters.direct_history = section.text("History") == "direct";
+    parameters.tolerance      = section.within("Tolerance", 1e-12, 1e-2);
+    parameters.n_frequencies  = section.integer("Passivity frequencies");
+    return parameters;
+  }
+} // namespace quoin

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/tdbem/boundary_march.h>
+
+#include <quoin/base/exceptions.h>
+
+namespace quoin
+{
+  BoundaryMarch::BoundaryMarch(const LagKernel &kernel,
+                               BoundaryHistory &history,
+                               const std::vector<bool> &traction_is_given)
+    : history(history), traction_is_given(traction_is_given),
+      displacement(Eigen::VectorXd::Zero(kernel.size())),
+      traction(Eigen::VectorXd::Zero(kernel.size()))
+  {
+    kernel.lag(0, G0, H0);
+    traction_scale         = H0.norm() / G0.norm();
+    Eigen::MatrixXd matrix = H0;
+    for (Eigen::Index k = 0; k < matrix.cols(); ++k)
+      if (!traction_is_given[k])
+        matrix.col(k) = -traction_scale * G0.col(k);
+    solver.compute(matrix);
+    if (!(solver.rcond() > 1e-14))
+      throw InputError("Boundary elements: the equations are singular. Look "
+                       "for elements that coincide.");
+  }
+
+  Eigen::VectorXd BoundaryMarch::solve(const Eigen::VectorXd &given,
+                                       const Eigen::VectorXd &past) const
+  {
+    Eigen::VectorXd u = Eigen::VectorXd::Zero(given.size());
+    Eigen::VectorXd p = u;
+    for (Eigen::Index k = 0; k < given.size(); ++k)
+      (traction_is_given[k] ? p : u)[k] = given[k];
+    return solver.solve(past + G0 * p - H0 * u);
+  }
+
+  void BoundaryMarch::step(const Eigen::VectorXd &given)
+  {
+    const Eigen::VectorXd solution = solve(given, history.predict());
+    for (Eigen::Index k = 0; k < given.size(); ++k)
+    {
+      const bool is_traction = traction_is_given[k];
+      displacement[k]        = is_traction ? solution[k] : given[k];
+      traction[k] = is_traction ? given[k] : traction_scale * solution[k];
+    }
+    history.push(displacement, traction);
+  }
+
+  Eigen::MatrixXd
+  BoundaryMarch::condensed_matrix(const std::vector<unsigned> &interface) const
+  {
+    const Eigen::MatrixXd columns = H0(Eigen::all, interface);
+    return -traction_scale * solver.solve(columns)(interface, Eigen::all);
+  }
+
+  Eigen::VectorXd
+  BoundaryMarch::condensed_load(const std::vector<unsigned> &interface,
+                                const Eigen::VectorXd &given)
+  {
+    Eigen::VectorXd rest = given;
+    rest(interface) = Eigen::VectorXd::Zero(Eigen::Index(interface.size()));
+    const Eigen::VectorXd solution = solve(rest, history.predict());
+    return traction_scale * solution(interface);
+  }
+
+  void BoundaryMarch::restore(const Eigen::VectorXd &u,
+                              const Eigen::VectorXd &p)
+  {
+    displacement = u;
+    traction     = p;
+  }
+} // namespace quoin

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/tdbem/formulation.h>
+
+#include <quoin/base/exceptions.h>
+#include <quoin/tdbem/clustered_history.h>
+#include <quoin/tdbem/convolution_quadrature.h>
+#include <quoin/tdbem/direct_history.h>
+#include <quoin/tdbem/lag_matrices.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  std::unique_ptr<LagKernel> make_lag_kernel(const Boundary &boundary,
+                                             const ElasticMedium &medium,
+                                             const FormulationOptions &options)
+  {
+    if (options.formulation == Formulation::convolution_quadrature)
+    {
+      if (options.decay != 0.)
+        throw InputError("Boundary elements: decay is not for convolution "
+                         "quadrature. Use Rayleigh damping.");
+      {
+        // Lags of the compressed history and one to compare the rest with.
+        const unsigned long n_lags
+            = options.direct_history
+                  ? options.n_steps
+                  : ConvolutionQuadrature::decaying_lag(
+                        medium, options.time_step, boundary.diameter(),
+                        ClusteredHistory::Options().share)
+                        + 2;
+        return std::make_unique<ConvolutionQuadrature>(
+            boundary, medium, options.time_step, unsigned(n_lags),
+            Projection::galerkin, options.damping);
+      }
+    }
+    if (options.damping.mass != 0. || options.damping.stiffness != 0.)
+      throw InputError("Boundary elements: Rayleigh damping needs the "
+                       "formulation convolution quadrature.");
+    LagMatrices::Options lag_options;
+    lag_options.projection = options.formulation == Formulation::galerkin
+                                 ? Projection::galerkin
+                                 : Projection::collocation;
+    lag_options.decay      = options.decay;
+    return std::make_unique<LagMatrices>(boundary, medium, options.time_step,
+                                         lag_options);
+  }
+
+  std::unique_ptr<BoundaryHistory>
+  make_history(const LagKernel &kernel, const Boundary &boundary,
+               const ElasticMedium &, const FormulationOptions &options,
+               MPI_Comm communicator)
+  {
+    if (options.direct_history)
+      return std::make_unique<DirectHistory>(kernel);
+    ClusteredHistory::Options history_options;
+    history_options.tolerance = options.tolerance;
+    history_options.n_steps   = options.n_steps;
+    return std::make_unique<ClusteredHistory>(kernel, boundary, history_options,
+                                              communicator);
+  }
+} // namespace quoin

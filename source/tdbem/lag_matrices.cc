@@ -1,0 +1,370 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/tdbem/cut_kernels.h>
+#include <quoin/tdbem/element_integrals.h>
+#include <quoin/tdbem/graded_rule.h>
+#include <quoin/tdbem/lag_matrices.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "wave_fronts.h"
+
+namespace quoin
+{
+  namespace
+  {
+    using Eigen::Matrix2d;
+    using Eigen::Vector2d;
+
+    /** In units of the longer element. */
+    constexpr double far_distance = 1.5;
+
+    double distance_to_segment(const Vector2d &point, const Vector2d &a,
+                               const Vector2d &b)
+    {
+      const Vector2d edge = b - a;
+      const double s
+          = std::clamp(edge.dot(point - a) / edge.squaredNorm(), 0., 1.);
+      return (point - a - s * edge).norm();
+    }
+
+    bool same(const Vector2d &a, const Vector2d &b, const double length)
+    {
+      return (a - b).norm() < 1e-10 * length;
+    }
+  } // namespace
+
+  LagMatrices::LagMatrices(const Boundary &boundary,
+                           const ElasticMedium &medium, const double time_step)
+    : LagMatrices(boundary, medium, time_step, Options())
+  {
+  }
+
+  LagMatrices::LagMatrices(const Boundary &boundary,
+                           const ElasticMedium &medium, const double time_step,
+                           const Options &options)
+    : boundary(boundary), medium(medium), dt(time_step), options(options)
+  {
+    for (const BoundaryElement &e : boundary.elements)
+      elements.push_back({ e, e.a, e.b, e.tangent(), e.normal(), e.length() });
+  }
+
+  unsigned LagMatrices::size() const
+  {
+    return 2 * elements.size();
+  }
+
+  double LagMatrices::time_step() const
+  {
+    return dt;
+  }
+
+  void LagMatrices::lag(const unsigned n, Eigen::MatrixXd &G,
+                        Eigen::MatrixXd &H) const
+  {
+    const Integrals &present = at_step(n);
+    G                        = present.A;
+    H                        = present.B;
+    if (n > 0)
+    {
+      const Integrals &last = at_step(n - 1);
+      G -= last.A;
+      H -= 2. * last.B;
+    }
+    if (n > 1)
+      H += at_step(n - 2).B;
+    H /= dt;
+    if (n == 0)
+      H.diagonal().array() += 0.5;
+    if (options.decay != 0.)
+    {
+      const double factor = std::exp(-options.decay * n * dt);
+      G *= factor;
+      H *= factor;
+    }
+  }
+
+  const LagMatrices::Integrals &LagMatrices::at_step(const unsigned step) const
+  {
+    Recent &entry = recent[step % recent.size()];
+    if (!entry.integrals || entry.step != step)
+      entry = { step,
+                std::make_unique<const Integrals>(integrals((step + 1) * dt)) };
+    return *entry.integrals;
+  }
+
+  LagMatrices::Integrals LagMatrices::integrals(const double time) const
+  {
+    Integrals result{ Eigen::MatrixXd::Zero(size(), size()),
+                      Eigen::MatrixXd::Zero(size(), size()) };
+    const bool mutual = options.projection == Projection::galerkin;
+    for (unsigned e = 0; e < elements.size(); ++e)
+      for (unsigned f = 0; f < (mutual ? e + 1 : elements.size()); ++f)
+      {
+        const PairIntegrals part           = integrate(pair(e, f), time);
+        result.A.block<2, 2>(2 * e, 2 * f) = part.A_ef;
+        result.B.block<2, 2>(2 * e, 2 * f) = part.B_ef;
+        if (!mutual)
+          continue;
+        result.A.block<2, 2>(2 * f, 2 * e) = part.A_fe;
+        result.B.block<2, 2>(2 * f, 2 * e) = part.B_fe;
+      }
+    return result;
+  }
+
+  void LagMatrices::blocks(const ElementRange &rows,
+                           const ElementRange &columns, const unsigned begin,
+                           const unsigned end, Eigen::MatrixXd &G,
+                           Eigen::MatrixXd &H) const
+  {
+    G.setZero(2 * rows.size(), 2 * columns.size() * (end - begin));
+    H.setZero(2 * rows.size(), 2 * columns.size() * (end - begin));
+    for (unsigned e = 0; e < rows.size(); ++e)
+      for (unsigned f = 0; f < columns.size(); ++f)
+      {
+        const Pair ef       = pair(rows.begin + e, columns.begin + f);
+        Matrix2d A          = Matrix2d::Zero(); // of the step before
+        Matrix2d B          = Matrix2d::Zero();
+        Matrix2d growth     = Matrix2d::Zero(); // of B, in the step before
+        const unsigned from = begin > 2 ? begin - 2 : 0;
+        for (unsigned n = from; n < end; ++n)
+        {
+          const PairIntegrals present = integrate(ef, (n + 1) * dt);
+          const Matrix2d change       = present.B_ef - B;
+          if (n >= begin)
+          {
+            const unsigned column = 2 * ((n - begin) * columns.size() + f);
+            const double factor   = std::exp(-options.decay * n * dt);
+            G.block<2, 2>(2 * e, column) = factor * (present.A_ef - A);
+            H.block<2, 2>(2 * e, column) = factor / dt * (change - growth);
+          }
+          A      = present.A_ef;
+          B      = present.B_ef;
+          growth = change;
+        }
+        if (begin == 0 && rows.begin + e == columns.begin + f)
+          H.block<2, 2>(2 * e, 2 * f) += 0.5 * Matrix2d::Identity();
+      }
+  }
+
+  unsigned LagMatrices::first_lag(const ElementRange &, const ElementRange &,
+                                  const double distance) const
+  {
+    return unsigned(distance / (medium.c1 * dt));
+  }
+
+  unsigned LagMatrices::first_decaying_lag(const double distance,
+                                           const double share) const
+  {
+    // The displacements' shape in time reaches one step back.
+    return unsigned(std::ceil((1. + share) * distance / (medium.c2 * dt))) + 1;
+  }
+
+  void LagMatrices::cut_blocks(const ElementRange &rows,
+                               const ElementRange &columns, const double lambda,
+                               Eigen::MatrixXd &G, Eigen::MatrixXd &H) const
+  {
+    CutKernels(medium, lambda)
+        .integrate(boundary, rows, columns, options.projection, G, H);
+  }
+
+  DecayFactors LagMatrices::decay_factors(const double lambda) const
+  {
+    // Integrals over the step and over the hat function of two steps.
+    const double x    = lambda * dt;
+    const double half = std::sinh(0.5 * x);
+    return { std::exp(-x - options.decay * dt), -std::expm1(-x) / lambda,
+             4. * half * half / (x * lambda) };
+  }
+
+  TimeKernels LagMatrices::near_integral(const Element &outer,
+                                         const Element &inner,
+                                         const double time,
+                                         const bool close) const
+  {
+    static const GaussRule graded        = graded_rule(12);
+    static const GaussRule strong_graded = strongly_graded_rule(24);
+    const GaussRule &rule                = close ? strong_graded : graded;
+
+    std::array<double, 16> cuts;
+    unsigned n_cuts    = 0;
+    const double ends  = 1e-9 * outer.length;
+    const auto add_cut = [&](const double s)
+    {
+      if (s > ends && s < outer.length - ends)
+        cuts[n_cuts++] = s;
+    };
+    cuts[n_cuts++] = 0.;
+    for (const Vector2d &end : { inner.a, inner.b })
+    {
+      const double foot   = (end - outer.a).dot(outer.tangent);
+      const double height = (end - outer.a).dot(outer.normal);
+      if (close)
+        add_cut(foot);
+      for (const double c : { medium.c1, medium.c2 })
+        if (c * time > std::abs(height))
+        {
+          const double half
+              = std::sqrt((c * time - height) * (c * time + height));
+          add_cut(foot - half);
+          add_cut(foot + half);
+        }
+    }
+    // Where the front is tangent to the inner element.
+    const double slope  = outer.tangent.dot(inner.normal);
+    const double offset = (outer.a - inner.a).dot(inner.normal);
+    if (std::abs(slope) > 1e-12)
+      for (const double c : { medium.c1, medium.c2 })
+      {
+        add_cut((c * time - offset) / slope);
+        add_cut((-c * time - offset) / slope);
+      }
+    std::sort(cuts.begin(), cuts.begin() + n_cuts);
+
+    TimeKernels sum{ Matrix2d::Zero(), Matrix2d::Zero() };
+    for (unsigned k = 0; k < n_cuts; ++k)
+    {
+      const double begin = cuts[k];
+      const double end   = k + 1 < n_cuts ? cuts[k + 1] : outer.length;
+      const double share = (end - begin) / outer.length;
+      if (share < 1e-12)
+        continue;
+      for (std::size_t i = 0; i < rule.points.size(); ++i)
+      {
+        const double s          = begin + (end - begin) * rule.points[i];
+        const TimeKernels value = element_integrals(
+            medium, time, outer.a + s * outer.tangent, inner.shape);
+        sum.A += share * rule.weights[i] * value.A;
+        sum.B += share * rule.weights[i] * value.B;
+      }
+    }
+    return sum;
+  }
+
+  LagMatrices::Pair LagMatrices::pair(const unsigned e, const unsigned f) const
+  {
+    const Element &E = elements[e], &F = elements[f];
+    const double length = std::max(E.length, F.length);
+    const bool touching = e == f || same(E.a, F.b, length)
+                          || same(E.b, F.a, length) || same(E.a, F.a, length)
+                          || same(E.b, F.b, length);
+    const double nearest
+        = touching ? 0.
+                   : std::min({ distance_to_segment(E.a, F.a, F.b),
+                                distance_to_segment(E.b, F.a, F.b),
+                                distance_to_segment(F.a, E.a, E.b),
+                                distance_to_segment(F.b, E.a, E.b) });
+    const double farthest
+        = std::max({ (E.a - F.a).norm(), (E.a - F.b).norm(), (E.b - F.a).norm(),
+                     (E.b - F.b).norm() });
+    return { E, F, nearest, farthest };
+  }
+
+  LagMatrices::PairIntegrals LagMatrices::integrate(const Pair &pair,
+                                                    const double time) const
+  {
+    const Element &E = pair.e, &F = pair.f;
+    PairIntegrals result{ Matrix2d::Zero(), Matrix2d::Zero(), Matrix2d::Zero(),
+                          Matrix2d::Zero() };
+    if (medium.c1 * time <= pair.nearest)
+      return result;
+    if (options.projection == Projection::collocation)
+    {
+      const TimeKernels part
+          = element_integrals(medium, time, E.shape.middle(), F.shape);
+      result.A_ef = part.A.transpose();
+      result.B_ef = part.B.transpose();
+      return result;
+    }
+    if (&E == &F)
+    {
+      // B is odd in the distance along the element and averages to zero.
+      result.A_ef = result.A_fe = near_integral(E, E, time, true).A;
+      return result;
+    }
+
+    // Distance from the singularities at the source and at the fronts. A
+    // wave that has not arrived yet does not contribute.
+    const double length = std::max(E.length, F.length);
+    double smoothness   = pair.nearest;
+    for (const double c : { medium.c1, medium.c2 })
+      if (c * time > pair.nearest)
+        smoothness = std::min(smoothness, c * time - pair.farthest);
+    smoothness /= length;
+    if (smoothness > far_distance)
+      return far_integrals(pair, time,
+                           smoothness > 16.  ? 2
+                           : smoothness > 5. ? 3
+                                             : 4);
+
+    const bool close     = pair.nearest < 0.5 * length;
+    const TimeKernels ef = near_integral(E, F, time, close);
+    const TimeKernels fe = near_integral(F, E, time, close);
+    result = { ef.A.transpose(), ef.B.transpose(), fe.A.transpose(),
+               fe.B.transpose() };
+    if (options.symmetrise)
+    {
+      const Matrix2d mean
+          = 0.5 * (E.length * ef.A + F.length * fe.A.transpose());
+      result.A_ef = mean.transpose() / E.length;
+      result.A_fe = mean / F.length;
+    }
+    return result;
+  }
+
+  LagMatrices::PairIntegrals
+  LagMatrices::far_integrals(const Pair &pair, const double time,
+                             const unsigned n_points) const
+  {
+    const GaussRule &rule = gauss_legendre(n_points);
+    const Element &E = pair.e, &F = pair.f;
+
+    // Sums of the terms of RadialTerms; those of B without the normal, which
+    // serve both the normal on F, seen from E, and that on E, seen from F.
+    double a_cos = 0., a_sin = 0., b = 0.;
+    double yx = 0., yy = 0., zx = 0., zy = 0.;
+    double xxx = 0., xxy = 0., xyy = 0., yyy = 0.;
+    for (unsigned k = 0; k < n_points; ++k)
+    {
+      const Vector2d source = E.a + E.length * rule.points[k] * E.tangent;
+      for (unsigned l = 0; l < n_points; ++l)
+      {
+        const double weight = rule.weights[k] * rule.weights[l];
+        const Vector2d distance
+            = F.a + F.length * rule.points[l] * F.tangent - source;
+        const double r = distance.norm();
+        const double x = distance.x() / r, y = distance.y() / r;
+        const RadialTerms terms(medium, time, r);
+        a_cos += weight * terms.a * (x * x - y * y);
+        a_sin += weight * terms.a * 2. * x * y;
+        b += weight * terms.b;
+        yx += weight * terms.y * x;
+        yy += weight * terms.y * y;
+        zx += weight * terms.z * x;
+        zy += weight * terms.z * y;
+        xxx += weight * terms.x * x * x * x;
+        xxy += weight * terms.x * x * x * y;
+        xyy += weight * terms.x * x * y * y;
+        yyy += weight * terms.x * y * y * y;
+      }
+    }
+
+    Matrix2d A;
+    A << b + a_cos, a_sin, a_sin, b - a_cos;
+    A /= 4. * M_PI * medium.density;
+    const auto B = [&](const Vector2d &n) -> Matrix2d
+    {
+      const Vector2d y(yx, yy), z(zx, zy);
+      Matrix2d cubic;
+      cubic << xxx * n.x() + xxy * n.y(), xxy * n.x() + xyy * n.y(),
+          xxy * n.x() + xyy * n.y(), xyy * n.x() + yyy * n.y();
+      return (cubic + y.dot(n) * Matrix2d::Identity() + y * n.transpose()
+              + n * z.transpose())
+             / (4. * M_PI);
+    };
+    return { F.length * A, F.length * B(F.normal).transpose(), E.length * A,
+             -E.length * B(E.normal).transpose() };
+  }
+} // namespace quoin
