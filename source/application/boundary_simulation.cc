@@ -7,7 +7,6 @@
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/collective.h>
 #include <quoin/output/json_file.h>
-#include <quoin/tdbem/convolution_quadrature.h>
 #include <quoin/tdbem/static_solver.h>
 
 #include <nlohmann/json.hpp>
@@ -30,6 +29,11 @@ namespace quoin
 
     /** Steps between looks at the clock for a checkpoint. */
     constexpr std::uint64_t clock_interval = 16;
+    /**
+     * c_2 dt / L from which no growth has been seen in 1e5 steps where
+     * tractions are given (long runs, theory).
+     */
+    constexpr double stable_shear_ratio = 0.55;
     /** Points of the sampled field that are computed at a time. */
     constexpr std::size_t batch_size = 256;
 
@@ -110,6 +114,8 @@ namespace quoin
   {
     naming(parameters.file, [&]() { make_boundary(); });
     report();
+    if (!settings.is_static)
+      naming(parameters.file, [&]() { make_operators(); });
     if (options.check)
       return;
     open_outputs();
@@ -370,45 +376,60 @@ namespace quoin
                   + number(2e-6 * double(sizeof(double)) * double(n_steps)
                            * double(geometry.boundary.n_unknowns()))
                   + " MB");
-    naming(parameters.file, [&]() { report_passivity(); });
+  }
+
+  void BoundarySimulation::make_operators()
+  {
+    const FormulationOptions formulation = formulation_options();
+    kernel = make_lag_kernel(geometry.boundary, medium, formulation);
+    history
+        = make_history(*kernel, geometry.boundary, formulation, communicator);
+    report_passivity();
+    report_stability();
   }
 
   void BoundarySimulation::report_passivity()
   {
     if (settings.n_frequencies == 0)
       return;
-    const FormulationOptions formulation = formulation_options();
-    // As wide as the scan needs to miss nothing.
-    const double radius
-        = 1. - std::min(0.1, 3. / double(settings.n_frequencies));
-    ZTransform transform;
-    if (settings.formulation == Formulation::convolution_quadrature)
-      transform = [this](const std::complex<double> w, Eigen::MatrixXcd &G,
-                         Eigen::MatrixXcd &H)
-      {
-        const LaplaceMatrices matrices
-            = laplace_matrices(geometry.boundary, medium, bdf2_symbol(w) / dt,
-                               Projection::galerkin, settings.damping);
-        G = matrices.G;
-        H = matrices.H;
-      };
-    else
-      transform = z_transform(
-          *make_lag_kernel(geometry.boundary, medium, formulation),
-          unsigned(20. / (1. - radius)));
+    // As wide as the scan needs to miss little: what rings at a frequency is
+    // seen from the next one.
+    const double radius = 1. - 0.5 / double(settings.n_frequencies);
+    const ZTransform transform
+        = make_transform(*kernel, *history, geometry.boundary, medium,
+                         formulation_options(), communicator);
     passivity = std::make_unique<PassivityReport>(
         scan_passivity(transform, geometry.boundary, medium, dt,
                        settings.n_frequencies, radius));
     log.message(passivity->advice());
   }
 
+  void BoundarySimulation::report_stability()
+  {
+    const auto &of_traction = given->traction_is_given();
+    if (settings.formulation == Formulation::convolution_quadrature
+        || std::none_of(of_traction.begin(), of_traction.end(),
+                        [](const bool given) { return given; }))
+      return;
+    const double ratio
+        = medium.c2 * dt / geometry.boundary.lengths().maxCoeff();
+    if (settings.formulation == Formulation::galerkin
+        && ratio >= stable_shear_ratio)
+      return;
+    log.message(
+        "Tractions are given and c2 dt / L is " + number(ratio)
+        + (settings.formulation == Formulation::galerkin
+               ? " on the longest element: below " + number(stable_shear_ratio)
+                     + ", motion may grow slowly after some thousand steps. "
+                       "For long runs take longer steps or elements of more "
+                       "equal length, or convolution quadrature."
+               : ": with collocation motion may grow without end. Take "
+                 "Galerkin or convolution quadrature."));
+  }
+
   void BoundarySimulation::make_march()
   {
-    const FormulationOptions formulation = formulation_options();
-    kernel  = make_lag_kernel(geometry.boundary, medium, formulation);
-    history = make_history(*kernel, geometry.boundary, medium, formulation,
-                           communicator);
-    march   = std::make_unique<BoundaryMarch>(*kernel, *history,
+    march                  = std::make_unique<BoundaryMarch>(*kernel, *history,
                                             given->traction_is_given());
     const std::size_t size = geometry.boundary.n_unknowns();
     if (record.step > 0)

@@ -527,39 +527,54 @@ namespace quoin
       H.setZero(n, n);
       for (const Pair &pair : pairs)
       {
-        const Cluster &row      = clusters[pair.row];
-        const Cluster &column   = clusters[pair.column];
-        const unsigned n_values = column.n_values();
-        const auto add
-            = [&](const std::complex<double> factor, const auto &matrix)
+        const Cluster &row       = clusters[pair.row];
+        const Cluster &column    = clusters[pair.column];
+        const Eigen::Index m     = 2 * row.elements.size(),
+                           width = column.n_values(),
+                           rank  = row.row_basis.cols();
+        // Matrices side by side, each seen as a column: what the factors, real
+        // and imaginary, make of them is one product.
+        const auto combination
+            = [](const MatrixXd &matrices, const Eigen::Index n_rows,
+                 const Eigen::VectorXcd &factors)
         {
-          const Eigen::Index i     = 2 * row.elements.begin,
-                             j     = 2 * column.elements.begin,
-                             width = n_values / 2;
-          G.block(i, j, matrix.rows(), width)
-              += factor / traction_scale * matrix.leftCols(width);
-          H.block(i, j, matrix.rows(), width)
-              -= factor * matrix.rightCols(width);
+          MatrixXd parts(factors.size(), 2);
+          parts << factors.real(), factors.imag();
+          const MatrixXd sums
+              = Eigen::Map<const MatrixXd>(matrices.data(),
+                                           matrices.size() / factors.size(),
+                                           factors.size())
+                * parts;
+          Eigen::MatrixXcd result(n_rows, sums.rows() / n_rows);
+          result.real() = MatrixXd::Map(&sums(0, 0), n_rows, result.cols());
+          result.imag() = MatrixXd::Map(&sums(0, 1), n_rows, result.cols());
+          return result;
+        };
+        const auto add = [&](const Eigen::MatrixXcd &matrix)
+        {
+          const Eigen::Index i = 2 * row.elements.begin,
+                             j = 2 * column.elements.begin;
+          G.block(i, j, m, width / 2)
+              += matrix.leftCols(width / 2) / traction_scale;
+          H.block(i, j, m, width / 2) -= matrix.rightCols(width / 2);
         };
         std::complex<double> power = std::pow(w, double(pair.begin));
-        for (unsigned lag = pair.begin; lag < pair.end; ++lag)
+        if (pair.end > pair.begin)
         {
-          add(power, pair.matrices.middleCols(n_values * (pair.end - 1 - lag),
-                                              n_values));
-          power *= w;
+          Eigen::VectorXcd powers(pair.end - pair.begin);
+          for (Eigen::Index k = powers.size(); k-- > 0; power *= w)
+            powers(k) = power;
+          add(combination(pair.matrices, m, powers));
         }
-        Eigen::MatrixXcd coupling
-            = Eigen::MatrixXcd::Zero(row.row_basis.cols(), column.n_moments());
+        if (pair.n_rates == 0 || pair.mixtures.cols() == 0 || rank == 0
+            || column.n_moments() == 0)
+          continue;
         Eigen::VectorXcd sums(pair.n_rates);
         for (unsigned k = 0; k < pair.n_rates; ++k)
           sums(k) = power / (1. - rates[k].factors.ratio * w);
-        const Eigen::VectorXcd factors = pair.mixtures.transpose() * sums;
-        for (unsigned k = 0; k < factors.size(); ++k)
-          coupling += factors(k)
-                      * pair.decaying.middleCols(column.n_moments() * k,
-                                                 column.n_moments());
-        add(1., Eigen::MatrixXcd(row.row_basis * coupling
-                                 * column.column_basis.transpose()));
+        const Eigen::MatrixXcd coupling = combination(
+            pair.decaying, rank, pair.mixtures.transpose() * sums);
+        add(row.row_basis * coupling * column.column_basis.transpose());
       }
       for (Eigen::MatrixXcd *matrix : { &G, &H })
         MPI_Allreduce(MPI_IN_PLACE, matrix->data(), int(matrix->size()),

@@ -8,12 +8,25 @@
 #include <quoin/tdbem/convolution_quadrature.h>
 #include <quoin/tdbem/direct_history.h>
 #include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/laplace_matrices.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace quoin
 {
+  namespace
+  {
+    ClusteredHistory::Options
+    clustered_options(const FormulationOptions &options)
+    {
+      ClusteredHistory::Options result;
+      result.tolerance = options.tolerance;
+      result.n_steps   = options.n_steps;
+      return result;
+    }
+  } // namespace
+
   std::unique_ptr<LagKernel> make_lag_kernel(const Boundary &boundary,
                                              const ElasticMedium &medium,
                                              const FormulationOptions &options)
@@ -51,15 +64,38 @@ namespace quoin
 
   std::unique_ptr<BoundaryHistory>
   make_history(const LagKernel &kernel, const Boundary &boundary,
-               const ElasticMedium &, const FormulationOptions &options,
-               MPI_Comm communicator)
+               const FormulationOptions &options, MPI_Comm communicator)
   {
     if (options.direct_history)
       return std::make_unique<DirectHistory>(kernel);
-    ClusteredHistory::Options history_options;
-    history_options.tolerance = options.tolerance;
-    history_options.n_steps   = options.n_steps;
-    return std::make_unique<ClusteredHistory>(kernel, boundary, history_options,
-                                              communicator);
+    return std::make_unique<ClusteredHistory>(
+        kernel, boundary, clustered_options(options), communicator);
+  }
+
+  ZTransform
+  make_transform(const LagKernel &kernel, const BoundaryHistory &history,
+                 const Boundary &boundary, const ElasticMedium &medium,
+                 const FormulationOptions &options, MPI_Comm communicator)
+  {
+    if (options.formulation == Formulation::convolution_quadrature)
+      return
+          [&boundary, &medium, dt = options.time_step,
+           damping = options.damping](const std::complex<double> w,
+                                      Eigen::MatrixXcd &G, Eigen::MatrixXcd &H)
+      {
+        LaplaceMatrices matrices
+            = laplace_matrices(boundary, medium, bdf2_symbol(w) / dt,
+                               Projection::galerkin, damping);
+        G.swap(matrices.G);
+        H.swap(matrices.H);
+      };
+    if (const auto clustered = dynamic_cast<const ClusteredHistory *>(&history))
+      return clustered->transform(kernel);
+    // The direct sum has no end to its lags.
+    const auto clustered = std::make_shared<ClusteredHistory>(
+        kernel, boundary, clustered_options(options), communicator);
+    return [clustered, transform = clustered->transform(kernel)](
+               const std::complex<double> w, Eigen::MatrixXcd &G,
+               Eigen::MatrixXcd &H) { transform(w, G, H); };
   }
 } // namespace quoin

@@ -192,7 +192,7 @@ namespace quoin
 
     // Then where it is lowest, down to the width of the bands.
     const double resolution = 0.5 * (1. - radius);
-    for (unsigned k = 0; k < n_frequencies; ++k)
+    for (unsigned k = 0; k < n_frequencies / 2; ++k)
     {
       std::size_t lowest = samples.size();
       const auto value   = [&](const std::size_t interval)

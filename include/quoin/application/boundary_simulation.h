@@ -74,7 +74,9 @@ namespace quoin
     void choose_time_step();
     void check_waves() const;
     void report();
+    void make_operators();
     void report_passivity();
+    void report_stability();
     void open_outputs();
     void make_march();
     void solve_static();

@@ -9,6 +9,7 @@
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/lag_kernel.h>
 #include <quoin/tdbem/laplace_kernels.h>
+#include <quoin/tdbem/passivity.h>
 
 #include <mpi.h>
 
@@ -55,8 +56,17 @@ namespace quoin
    */
   std::unique_ptr<BoundaryHistory>
   make_history(const LagKernel &kernel, const Boundary &boundary,
-               const ElasticMedium &medium, const FormulationOptions &options,
-               MPI_Comm communicator);
+               const FormulationOptions &options, MPI_Comm communicator);
+
+  /**
+   * G(w) and H(w) over all lags without end, for scan_passivity(). @p kernel
+   * and @p history must be of the same boundary, medium and options and
+   * outlive the result. Collective, as its calls are.
+   */
+  ZTransform
+  make_transform(const LagKernel &kernel, const BoundaryHistory &history,
+                 const Boundary &boundary, const ElasticMedium &medium,
+                 const FormulationOptions &options, MPI_Comm communicator);
 } // namespace quoin
 
 #endif

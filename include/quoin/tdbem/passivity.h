@@ -69,14 +69,14 @@ namespace quoin
    *
    * The scan first takes @p n_frequencies equally spaced ones on |w| = @p
    * radius from near zero to the highest that the step @p time_step [s]
-   * represents, then up to as many again, each in the middle of that interval
-   * which is next to the lowest value and still wider than half a band. What
-   * is not passive comes in bands at the eigenfrequencies of the complement of
-   * the domain. They are at least as wide as 1 - radius, in radians per step,
-   * and have shallow slopes: a band between two of the first frequencies is
-   * found if it shows there, as a value below most others. To see every band,
-   * take 3 / (1 - radius) frequencies. Energy that is created more slowly than
-   * by the factor 1 / radius in a step is not seen at all.
+   * represents, then up to half as many again, each in the middle of that
+   * interval which is next to the lowest value and still wider than half a
+   * band. What is not passive comes in bands at the eigenfrequencies of the
+   * complement of the domain. They are at least as wide as 1 - radius, in
+   * radians per step, and have shallow slopes: a band between two of the first
+   * frequencies is found if it shows there, as a value below most others. To
+   * see every band, take 3 / (1 - radius) frequencies. Energy that is created
+   * more slowly than by the factor 1 / radius in a step is not seen at all.
    *
    * Each frequency costs @p transform, one factorisation of a complex matrix of
    * size 2N and, by Lanczos' method, about a hundred solutions with it. The

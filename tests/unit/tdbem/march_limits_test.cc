@@ -61,7 +61,7 @@ namespace
       options.time_step   = beta * boundary.elements[0].length() / medium.c1;
       options.n_steps     = n_steps;
       kernel              = make_lag_kernel(boundary, medium, options);
-      history = make_history(*kernel, boundary, medium, options, MPI_COMM_SELF);
+      history = make_history(*kernel, boundary, options, MPI_COMM_SELF);
       march   = std::make_unique<BoundaryMarch>(
           *kernel, *history,
           std::vector<bool>(boundary.n_unknowns(), traction_given));
