@@ -194,6 +194,20 @@ namespace quoin
     Curve chain(const BoundaryCurveParameters &parameters, const MeshData &mesh)
     {
       using Edge = std::array<unsigned int, 2>;
+      // Blocks that touch without sharing vertices are passed without a gap.
+      double size = 0.;
+      for (const auto &vertex : mesh.vertices)
+        size = std::max({ size, std::abs(vertex[0]), std::abs(vertex[1]) });
+      std::map<std::array<long long, 2>, unsigned int> vertex_at;
+      const auto one_at = [&](const unsigned int v)
+      {
+        const double scale = 1e9 / size;
+        return vertex_at
+            .insert({ { { std::llround(mesh.vertices[v][0] * scale),
+                          std::llround(mesh.vertices[v][1] * scale) } },
+                      v })
+            .first->second;
+      };
       std::vector<Edge> edges; // those of the first curve are the first ones
       for (const std::string &name : parameters.curves)
       {
@@ -203,7 +217,8 @@ namespace quoin
         const std::size_t before  = edges.size();
         for (std::size_t l = 0; l < mesh.lines.size(); ++l)
           if (mesh.line_name[l] == number)
-            edges.push_back(mesh.lines[l]);
+            edges.push_back(
+                { { one_at(mesh.lines[l][0]), one_at(mesh.lines[l][1]) } });
         if (edges.size() == before)
         {
           std::string known;
@@ -289,6 +304,76 @@ namespace quoin
       return result;
     }
 
+    /**
+     * Leaves out points so that the edges are about as long as wanted; corners
+     * of more than 20 degrees stay.
+     */
+    Curve with_whole_edges(const Curve &curve,
+                           const BoundaryCurveParameters &parameters,
+                           double element_length)
+    {
+      const double corner      = std::cos(20. * M_PI / 180.);
+      const std::size_t n      = curve.points.size();
+      const std::size_t n_edge = curve.n_edges();
+      double total             = 0.;
+      for (std::size_t k = 0; k < n_edge; ++k)
+        total += (curve.end(k) - curve.points[k]).norm();
+      if (parameters.n_elements > 0)
+        element_length = total / parameters.n_elements;
+
+      // Begin at a corner, if a closed curve has one.
+      const auto is_corner = [&](const std::size_t k)
+      {
+        if (!curve.closed && (k == 0 || k + 1 == n))
+          return true;
+        const Vector2d before = curve.points[k] - curve.points[(k + n - 1) % n];
+        const Vector2d after  = curve.end(k) - curve.points[k];
+        return before.dot(after) < corner * before.norm() * after.norm();
+      };
+      std::size_t first = 0;
+      while (first + 1 < n && !is_corner(first))
+        ++first;
+      if (!is_corner(first))
+        first = 0;
+
+      Curve result;
+      result.closed = curve.closed;
+      for (std::size_t k = 0; k < n_edge;)
+      {
+        // A piece from corner to corner, cut where its points are nearest to
+        // equal parts.
+        std::vector<double> place = { 0. };
+        std::size_t end           = k;
+        do
+        {
+          const std::size_t edge = (first + end) % n;
+          place.push_back(place.back()
+                          + (curve.end(edge) - curve.points[edge]).norm());
+          ++end;
+        } while (end < n_edge && !is_corner((first + end) % n));
+        const std::size_t n_parts = std::clamp<std::size_t>(
+            std::size_t(std::lround(place.back() / element_length)), 1,
+            end - k);
+        std::size_t at = 0;
+        for (std::size_t part = 0; part < n_parts; ++part)
+        {
+          result.points.push_back(curve.points[(first + k + at) % n]);
+          const double wanted = place.back() * double(part + 1) / n_parts;
+          // At least one edge for this element and each one to come.
+          const std::size_t last = end - k - (n_parts - part - 1);
+          ++at;
+          while (at < last
+                 && std::abs(place[at + 1] - wanted)
+                        <= std::abs(place[at] - wanted))
+            ++at;
+        }
+        k = end;
+      }
+      if (!curve.closed)
+        result.points.push_back(curve.points.back());
+      return result;
+    }
+
     Curve make_curve(const BoundaryCurveParameters &parameters,
                      const double default_length, const MeshData &mesh)
     {
@@ -320,6 +405,7 @@ namespace quoin
           curve = cut(curve, parameters, length);
         break;
       case BoundaryShape::mesh:
+      case BoundaryShape::interface:
       {
         curve           = chain(parameters, mesh);
         const bool side = parameters.domain == DomainSide::left
@@ -334,8 +420,16 @@ namespace quoin
                          + text(curve.points.front()) + " to "
                          + text(curve.points.back())
                          + ". Use left or right of that direction.");
-        if (parameters.n_elements > 0 || length > 0.)
-          curve = cut(without_straight_points(curve), parameters, length);
+        if (parameters.n_elements == 0 && length == 0.)
+          break;
+        curve
+            = parameters.shape == BoundaryShape::interface ? with_whole_edges(
+                  curve, parameters, length)
+                                                           : cut(
+                                                               without_straight_points(
+                                                                   curve),
+                                                               parameters,
+                                                               length);
         break;
       }
       }

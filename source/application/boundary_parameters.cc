@@ -88,7 +88,8 @@ namespace quoin
             { "polygon", BoundaryShape::polygon },
             { "line", BoundaryShape::line },
             { "arc", BoundaryShape::arc },
-            { "mesh", BoundaryShape::mesh } };
+            { "mesh", BoundaryShape::mesh },
+            { "interface", BoundaryShape::interface } };
 
     void read_shape(const ParameterSection &section,
                     BoundaryCurveParameters &boundary)
@@ -129,6 +130,7 @@ namespace quoin
         break;
       }
       case Shape::mesh:
+      case Shape::interface:
         boundary.curves = section.list("Curves");
         if (boundary.curves.empty())
           section.fail("Curves",
@@ -159,10 +161,12 @@ namespace quoin
   void BoundaryCurveParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry("Shape", "circle",
-                      Selection("circle|polygon|line|arc|mesh"),
+                      Selection("circle|polygon|line|arc|mesh|interface"),
                       "Closed: circle, polygon. Open: line (through several "
                       "points), arc. Mesh: curves of the mesh file, closed or "
-                      "open.");
+                      "open. Interface: the same, along blocks that move with "
+                      "the boundary elements; each element spans whole edges "
+                      "of blocks.");
     prm.declare_entry("Centre", "0, 0", Anything(),
                       "Circle, arc: x, y of the centre [m]");
     prm.declare_entry("Radius", "0", Double(), "Circle, arc [m]");
@@ -173,9 +177,11 @@ namespace quoin
     prm.declare_entry("Points", "", Anything(),
                       "Polygon: its corners; line: its points, in its "
                       "direction; as x, y; x, y; ... [m]");
-    prm.declare_entry("Curves", "", Anything(),
-                      "Mesh: physical curves, joined end to end; the first one "
-                      "gives the direction.");
+    prm.declare_entry(
+        "Curves", "", Anything(),
+        "Mesh, interface: physical curves, joined end to end; the "
+        "first one "
+        "gives the direction.");
     prm.declare_entry("Domain", "outside",
                       Selection("inside|outside|left|right"),
                       "Where the domain is: inside or outside a closed "
@@ -236,6 +242,14 @@ namespace quoin
     read_condition(section, "Vertical", boundary.traction_is_given[1],
                    boundary.value[1]);
     boundary.pressure = function(section, "Pressure", section.text("Pressure"));
+    if (boundary.shape == BoundaryShape::interface)
+    {
+      for (const std::string name : { "Horizontal", "Vertical", "Pressure" })
+        if (section.text(name) != (name == "Pressure" ? "0" : "traction 0"))
+          section.fail(name, "is given, but the blocks move an interface: "
+                             "remove it.");
+      boundary.traction_is_given = { { false, false } };
+    }
     const bool has_pressure = section.text("Pressure") != "0";
     if (has_pressure && !boundary.traction_is_given[0]
         && !boundary.traction_is_given[1])
@@ -337,6 +351,12 @@ namespace quoin
                       "0: as the ratio says. It is shortened until the run "
                       "ends at a step [s]");
     prm.declare_entry("Duration", "0", Double(), "Of the run [s]");
+    prm.declare_entry("Coupling", "implicit", Selection("implicit|staggered"),
+                      "With blocks. Implicit: the newest impedance acts on "
+                      "each block step, on the nodes of the interface "
+                      "implicitly; keeps the critical step. Staggered: by "
+                      "extrapolated displacements, as Jin, Wang & Zhang do; "
+                      "often unstable.");
     prm.declare_entry("Decay", "0", Double(),
                       "Rate of the decay of both kernels of Galerkin and "
                       "collocation [1/s]");
@@ -356,7 +376,8 @@ namespace quoin
   }
 
   BoundaryElementParameters
-  BoundaryElementParameters::read(const ParameterSection &section)
+  BoundaryElementParameters::read(const ParameterSection &section,
+                                  const bool coupled)
   {
     BoundaryElementParameters parameters;
     parameters.material    = section.text("Material");
@@ -371,9 +392,19 @@ namespace quoin
     parameters.element_length = section.nonnegative("Element length");
     parameters.step_ratio     = section.positive("Step ratio");
     parameters.time_step      = section.nonnegative("Time step");
-    parameters.duration = parameters.is_static ? section.nonnegative("Duration")
-                                               : section.positive("Duration");
-    parameters.decay    = section.nonnegative("Decay");
+    parameters.duration       = parameters.is_static || coupled
+                                    ? section.nonnegative("Duration")
+                                    : section.positive("Duration");
+    parameters.coupling       = section.choice<CouplingScheme>(
+        "Coupling", { { "implicit", CouplingScheme::implicit },
+                            { "staggered", CouplingScheme::staggered } });
+    if (coupled && parameters.is_static)
+      section.fail("Analysis", "is that of a domain without blocks: leave it "
+                               "at 'dynamic'.");
+    if (coupled && parameters.duration > 0.)
+      section.fail("Duration", "has no meaning here: the stages say how long "
+                               "the run takes. Remove it.");
+    parameters.decay = section.nonnegative("Decay");
     if (quadrature && parameters.decay > 0.)
       section.fail("Decay", "is not for convolution quadrature: use 'Mass "
                             "damping' and 'Stiffness damping'.");

@@ -391,18 +391,13 @@ namespace quoin
       }
     }
 
-    void read_boundary_model(const ParameterSection &top,
-                             Parameters &parameters)
+    /** Sections 'Boundary elements', 'Incident waves', 'Sampled field'. */
+    void read_boundary_elements(const ParameterSection &top,
+                                Parameters &parameters, const bool coupled)
     {
-      for (const std::string name : { "Joints", "Loads", "Stages" })
-        refuse_names(top, name, "boundary elements");
-      if (parameters.model.plane != PlaneAssumption::plane_strain)
-        top.fail("Plane assumption", "does not go with boundary elements: "
-                                     "their kernels are those of plane "
-                                     "strain.");
       BoundaryElementParameters &boundary = parameters.boundary;
       boundary                            = BoundaryElementParameters::read(
-                                     ParameterSection(top, "Boundary elements"));
+                                     ParameterSection(top, "Boundary elements"), coupled);
       boundary.boundaries
           = read_named<BoundaryCurveParameters>(top, "Boundary elements");
       boundary.waves
@@ -411,7 +406,8 @@ namespace quoin
           ParameterSection(top, "Sampled field"));
       if (std::any_of(boundary.boundaries.begin(), boundary.boundaries.end(),
                       [](const BoundaryCurveParameters &curve)
-                      { return curve.shape == BoundaryShape::mesh; }))
+                      { return curve.shape == BoundaryShape::mesh; })
+          && !coupled)
         read_mesh(top, parameters);
 
       const auto &materials = parameters.model.materials;
@@ -422,7 +418,9 @@ namespace quoin
         if (boundary.boundaries.empty())
           section.fail("Names", "must list at least one boundary.");
         for (const BoundaryCurveParameters &curve : boundary.boundaries)
-          if (curve.shape != BoundaryShape::mesh && curve.n_elements == 0
+          if (curve.shape != BoundaryShape::mesh
+              && curve.shape
+                     != BoundaryShape::interface && curve.n_elements == 0
               && curve.element_length == 0. && boundary.element_length == 0.)
             ParameterSection(section, curve.name)
                 .fail("Elements", "leaves the size of the elements open: give "
@@ -436,6 +434,25 @@ namespace quoin
                                        + "', which is rigid: boundary elements "
                                          "need 'Law = linear elastic'.");
       }
+    }
+
+    void read_boundary_model(const ParameterSection &top,
+                             Parameters &parameters)
+    {
+      for (const std::string name : { "Joints", "Loads", "Stages" })
+        refuse_names(top, name, "boundary elements");
+      if (parameters.model.plane != PlaneAssumption::plane_strain)
+        top.fail("Plane assumption", "does not go with boundary elements: "
+                                     "their kernels are those of plane "
+                                     "strain.");
+      read_boundary_elements(top, parameters, false);
+      const BoundaryElementParameters &boundary = parameters.boundary;
+      if (std::any_of(boundary.boundaries.begin(), boundary.boundaries.end(),
+                      [](const BoundaryCurveParameters &curve)
+                      { return curve.shape == BoundaryShape::interface; }))
+        ParameterSection(top, "Boundary elements")
+            .fail("Names", "has a boundary with 'Shape = interface', but there "
+                           "are no blocks: take 'Shape = mesh'.");
       if (boundary.is_static && !boundary.waves.empty())
         ParameterSection(top, "Incident waves")
             .fail("Names", "needs 'Analysis = dynamic': statics has no waves.");
@@ -478,10 +495,49 @@ namespace quoin
                              "'Loads' of a stage or remove it.");
     }
 
+    /** Boundary elements beyond the blocks. */
+    void read_far_field(const ParameterSection &top, Parameters &parameters)
+    {
+      std::vector<const LoadParameters *> loads;
+      for (const LoadParameters &load : parameters.loads)
+        if (load.type == LoadType::boundary_elements)
+          loads.push_back(&load);
+      if (loads.empty())
+      {
+        for (const std::string name : { "Boundary elements", "Incident waves" })
+          if (!ParameterSection(top, name).list("Names").empty())
+            ParameterSection(top, name).fail(
+                "Names", "has no meaning without a load of 'Type = "
+                         "boundary elements', or 'Model = boundary "
+                         "elements': add one, or remove the names.");
+        return;
+      }
+      if (loads.size() > 1)
+        ParameterSection(ParameterSection(top, "Loads"), loads[1]->name)
+            .fail("Type", "is 'boundary elements', as that of '"
+                              + loads[0]->name
+                              + "' is: there can be one such load, with all "
+                                "interfaces among the boundaries of section "
+                                "'Boundary elements'.");
+      if (parameters.model.plane != PlaneAssumption::plane_strain)
+        top.fail("Plane assumption", "does not go with boundary elements: "
+                                     "their kernels are those of plane "
+                                     "strain.");
+      read_boundary_elements(top, parameters, true);
+      const auto &boundaries = parameters.boundary.boundaries;
+      if (std::none_of(boundaries.begin(), boundaries.end(),
+                       [](const BoundaryCurveParameters &curve)
+                       { return curve.shape == BoundaryShape::interface; }))
+        ParameterSection(top, "Boundary elements")
+            .fail("Names", "has no boundary with 'Shape = interface': nothing "
+                           "is coupled to the blocks.");
+      if (parameters.boundary.sampled_field.has_box)
+        ParameterSection(top, "Sampled field")
+            .fail("Box", "needs 'Model = boundary elements': leave it empty.");
+    }
+
     void read_block_model(const ParameterSection &top, Parameters &parameters)
     {
-      for (const std::string name : { "Boundary elements", "Incident waves" })
-        refuse_names(top, name, "blocks");
       {
         const ParameterSection section(top, "Histories");
         for (const HistoryParameters &history : parameters.histories)
@@ -498,6 +554,7 @@ namespace quoin
       for (const LoadParameters &load : parameters.loads)
         if (load.type == LoadType::initial_stress)
           parameters.model.initial_stresses.push_back(load);
+      read_far_field(top, parameters);
       read_stages(top, parameters);
       check_loads(parameters);
     }

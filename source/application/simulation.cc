@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/bandwidth.h>
+#include <quoin/application/far_field_setup.h>
 #include <quoin/application/field_output.h>
 #include <quoin/application/simulation.h>
 #include <quoin/base/exceptions.h>
@@ -11,6 +12,8 @@
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/collective.h>
 #include <quoin/output/json_file.h>
+#include <quoin/tdbem/passivity.h>
+#include <quoin/tdbem/tangential_stress.h>
 
 #include <nlohmann/json.hpp>
 
@@ -69,7 +72,8 @@ namespace quoin
               BlockOutput(parameters.output_directory, communicator),
               JointOutput(parameters.output_directory, communicator),
               JointOutput(parameters.output_directory, communicator,
-                          "contacts") }
+                          "contacts"),
+              BoundaryOutput(parameters.output_directory, MPI_COMM_SELF) }
   {
   }
 
@@ -93,8 +97,8 @@ namespace quoin
 
   void Simulation::make_model()
   {
-    split_into_blocks(read_gmsh(parameters.mesh_file, communicator),
-                      parameters.split, mesh);
+    const MeshData as_read = read_gmsh(parameters.mesh_file, communicator);
+    split_into_blocks(as_read, parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 
     // Whole blocks to ranks: blocks share no nodes, only joints cross ranks.
@@ -109,8 +113,9 @@ namespace quoin
       std::sort(rank_of_block.begin(), rank_of_block.end());
       model  = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
                                       communicator);
-      solver = std::make_unique<ExplicitSolver>(*model, parameters.loads,
-                                                parameters.stages);
+      solver = std::make_unique<ExplicitSolver>(
+          *model, parameters.loads, parameters.stages,
+          make_far_field(parameters, as_read, *model, boundary_geometry));
       histories
           = std::make_unique<Histories>(parameters.histories, *model, *solver);
     }
@@ -196,10 +201,16 @@ namespace quoin
                                                histories->column_names());
     energy_table  = std::make_unique<CsvTable>(
         output + "/energies.csv",
-        std::vector<std::string>{ "time [s]", "kinetic [J]", "strain [J]",
-                                   "joint [J]", "friction [J]", "fracture [J]",
-                                   "damping [J]", "viscous [J]", "contact [J]",
-                                   "external [J]", "residual [J]" });
+        std::vector<std::string>{
+             "time [s]", "kinetic [J]", "strain [J]", "joint [J]",
+             "friction [J]", "fracture [J]", "damping [J]", "viscous [J]",
+             "contact [J]", "radiated [J]", "external [J]", "residual [J]" });
+    if (solver->far_field())
+      far_field_table = std::make_unique<CsvTable>(
+          output + "/far_field.csv",
+          std::vector<std::string>{ "time [s]", "steps [-]", "radiated [J]",
+                                    "substeps [J]", "incident [J]",
+                                    "mismatch [-]" });
     if (options.resume)
     {
       const CheckpointInfo info
@@ -224,12 +235,19 @@ namespace quoin
           {
             history_table->resume(record.histories_bytes);
             energy_table->resume(record.energies_bytes);
+            if (far_field_table)
+              far_field_table->resume(record.far_field_bytes);
           }
           else
           {
             std::filesystem::remove_all(output + "/checkpoint");
             history_table->start();
             energy_table->start();
+            if (far_field_table)
+            {
+              far_field_table->start();
+              record.boundary_output.start();
+            }
           }
           std::ofstream used(output + "/used_parameters.prm");
           used << parameters.effective;
@@ -269,13 +287,89 @@ namespace quoin
                   ? std::min(parameters.share_of_critical_step, cautious_share)
                   : parameters.share_of_critical_step);
     steps_of_stage = 0;
-    if (stage.end == StageEnd::time)
+    if (solver->far_field_acts())
+      dt = choose_far_field_step(stage, dt);
+    else if (stage.end == StageEnd::time)
     {
       // The stage ends at a step, not near one.
       steps_of_stage = std::ceil(stage.duration / dt * (1. - 1e-12));
       dt             = stage.duration / steps_of_stage;
     }
     solver->set_time_step(dt);
+  }
+
+  double Simulation::choose_far_field_step(const StageParameters &stage,
+                                           const double dt)
+  {
+    FarField &far                             = *solver->far_field();
+    const BoundaryElementParameters &settings = parameters.boundary;
+    const auto steps = [](const double duration, const double step)
+    { return std::max(1., std::ceil(duration / step * (1. - 1e-12))); };
+    double step      = far.time_step();
+    const bool first = step == 0.;
+    if (first)
+    {
+      step = settings.time_step > 0.
+                 ? settings.time_step
+                 : settings.step_ratio
+                       * far.domain().boundary.lengths().minCoeff()
+                       / far.domain().medium.c1;
+      if (stage.end == StageEnd::time)
+        step = stage.duration / steps(stage.duration, step);
+    }
+    const double n_substeps = steps(step, dt);
+    double n_steps          = 0.;
+    for (const StageParameters &s : parameters.stages)
+      n_steps += s.end == StageEnd::time ? steps(s.duration, step)
+                                         : s.maximum_steps / n_substeps + 1.;
+    try
+    {
+      far.set_time_step(step, static_cast<unsigned int>(n_substeps),
+                        static_cast<unsigned long>(std::min(n_steps, 1e7)));
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(parameters.file + ", " + error.what());
+    }
+    if (first)
+      report_far_field();
+    // Whole steps of the boundary elements: up to one more than asked for.
+    if (stage.end == StageEnd::time)
+      steps_of_stage = std::uint64_t(steps(stage.duration, step) * n_substeps);
+    return step / n_substeps;
+  }
+
+  void Simulation::report_far_field()
+  {
+    const FarField &far    = *solver->far_field();
+    const Boundary &domain = far.domain().boundary;
+    const auto lengths     = domain.lengths();
+    const double low
+        = far.domain().medium.c1 * far.time_step() / lengths.maxCoeff();
+    const double high
+        = far.domain().medium.c1 * far.time_step() / lengths.minCoeff();
+    log.message("boundary elements: " + std::to_string(domain.n_elements())
+                + ", " + std::to_string(far.domain().interface.size())
+                + " of them along blocks, from " + number(lengths.minCoeff())
+                + " to " + number(lengths.maxCoeff()) + " m; S waves of up to "
+                + number(far.domain().medium.c2 / (8. * lengths.maxCoeff()))
+                + " Hz have eight of them");
+    log.message("boundary elements: time step " + number(far.time_step())
+                + " s, " + std::to_string(far.n_substeps())
+                + " block steps, c1 dt / L "
+                + (high - low < 1e-6 * high
+                       ? number(high)
+                       : "from " + number(low) + " to " + number(high)));
+    if (parameters.boundary.n_frequencies == 0)
+      return;
+    const unsigned int n       = parameters.boundary.n_frequencies;
+    const ZTransform transform = make_transform(
+        far.lag_kernel(), far.boundary_history(), domain, far.domain().medium,
+        far.domain().formulation, communicator);
+    passivity = std::make_unique<PassivityReport>(
+        scan_passivity(transform, domain, far.domain().medium, far.time_step(),
+                       n, 1. - 0.5 / double(n)));
+    log.message(passivity->advice());
   }
 
   void Simulation::check_start() const
@@ -304,6 +398,7 @@ namespace quoin
       record.stage_begun = true;
     }
     choose_time_step(stage);
+    state.far_field.history.clear();
 
     progress.start(progress_figures(stage));
     bool over
@@ -367,6 +462,7 @@ namespace quoin
       write_energies();
       if (is_first_rank)
         history_table->add_row(row);
+      write_far_field_row();
     }
     return over;
   }
@@ -396,6 +492,7 @@ namespace quoin
         && record.state.time - record.state.stage_start
                >= stage.minimum_duration
         && record.state.stage_step > balance_interval
+        && (!solver->far_field_acts() || record.state.far_field.substep == 0)
         && record.state.unbalanced_ratio <= stage.static_ratio)
       return true;
     if (record.state.stage_step >= stage.maximum_steps)
@@ -423,11 +520,12 @@ namespace quoin
     record.largest_residual
         = std::max(record.largest_residual, std::abs(energies.residual()));
     if (is_first_rank)
-      energy_table->add_row(
-          { record.state.time - solver->get_time_step(), energies.kinetic,
-            energies.strain, energies.joint, accounts.friction,
-            accounts.fracture, accounts.damping, accounts.viscous,
-            accounts.contact, accounts.external, energies.residual() });
+      energy_table->add_row({ record.state.time - solver->get_time_step(),
+                              energies.kinetic, energies.strain, energies.joint,
+                              accounts.friction, accounts.fracture,
+                              accounts.damping, accounts.viscous,
+                              accounts.contact, accounts.radiated,
+                              accounts.external, energies.residual() });
   }
 
   void Simulation::write_fields()
@@ -444,6 +542,8 @@ namespace quoin
     if (solver->contacts())
       record.contact_output.write(state.time,
                                   contact_fields(*solver->contacts(), now));
+    if (solver->far_field())
+      write_boundary();
     all_or_none<RunError>(communicator,
                           [&]()
                           {
@@ -451,8 +551,54 @@ namespace quoin
                             {
                               history_table->flush();
                               energy_table->flush();
+                              if (far_field_table)
+                                far_field_table->flush();
                             }
                           });
+  }
+
+  void Simulation::write_far_field_row()
+  {
+    const FarField *far = solver->far_field();
+    if (!far || !is_first_rank)
+      return;
+    const FarField::Ledger ledger = far->ledger(record.state);
+    far_field_table->add_row(
+        { record.state.time, double(record.state.far_field.n_steps),
+          ledger.radiated, ledger.substeps, ledger.incident, ledger.mismatch });
+  }
+
+  void Simulation::write_boundary()
+  {
+    const FarField &far = *solver->far_field();
+    if (!record.state.far_field.active)
+      return;
+    const Boundary &domain  = boundary_geometry.boundary;
+    const Eigen::VectorXd u = far.displacement(record.state),
+                          v = far.velocity(record.state),
+                          p = far.traction(record.state);
+    const Eigen::VectorXd hoop
+        = TangentialStress(domain, far.domain().medium)(u, p);
+    all_or_none<RunError>(
+        communicator,
+        [&]()
+        {
+          if (!is_first_rank)
+            return;
+          BoundaryFields fields;
+          for (unsigned int e = 0; e < domain.n_elements(); ++e)
+          {
+            const BoundaryElement &element = domain.elements[e];
+            fields.a.push_back({ { element.a.x(), element.a.y() } });
+            fields.b.push_back({ { element.b.x(), element.b.y() } });
+            fields.boundary.push_back(std::int32_t(boundary_geometry.owner[e]));
+            fields.displacement.push_back({ { u[2 * e], u[2 * e + 1] } });
+            fields.velocity.push_back({ { v[2 * e], v[2 * e + 1] } });
+            fields.traction.push_back({ { p[2 * e], p[2 * e + 1] } });
+            fields.hoop_stress.push_back(hoop[e]);
+          }
+          record.boundary_output.write(record.state.time, fields);
+        });
   }
 
   void Simulation::checkpoint_if_due()
@@ -472,6 +618,7 @@ namespace quoin
   {
     solver->check_finite(record.state);
     solver->check_cells(record.state);
+    solver->save(record.state);
     all_or_none<RunError>(communicator,
                           [&]()
                           {
@@ -479,6 +626,12 @@ namespace quoin
                             {
                               history_table->sync();
                               energy_table->sync();
+                              if (far_field_table)
+                              {
+                                far_field_table->sync();
+                                record.far_field_bytes
+                                    = far_field_table->size();
+                              }
                               record.histories_bytes = history_table->size();
                               record.energies_bytes  = energy_table->size();
                             }
@@ -489,6 +642,7 @@ namespace quoin
     info.version    = QUOIN_VERSION;
     info.parameters = fingerprint(parameters.effective);
     quoin::save_checkpoint(output, communicator, info, record);
+    record.state.far_field.history.clear();
     last_checkpoint = Clock::now();
   }
 

@@ -28,12 +28,14 @@ namespace quoin
   {
     return std::max({ std::abs(accounts.external), kinetic + strain + joint,
                       accounts.friction + accounts.fracture + accounts.damping
-                          + accounts.viscous + accounts.contact });
+                          + accounts.viscous + accounts.contact
+                          + accounts.radiated });
   }
 
   ExplicitSolver::ExplicitSolver(const Model &model,
                                  const std::vector<LoadParameters> &loads,
-                                 const std::vector<StageParameters> &stages)
+                                 const std::vector<StageParameters> &stages,
+                                 std::unique_ptr<FarField> far_field)
     : model(model), communicator(model.exchange().communicator()),
       mass(model.mass()), box(model), all_stages(stages)
   {
@@ -61,6 +63,10 @@ namespace quoin
       case LoadType::gravity:
         all_loads.emplace_back(load, mesh, exchange, model.mass(),
                                model.thickness());
+        break;
+      case LoadType::boundary_elements:
+        far = far_field.get();
+        all_constraints.push_back(std::move(far_field));
         break;
       case LoadType::initial_stress:
         break;
@@ -369,16 +375,17 @@ namespace quoin
   void ExplicitSolver::find_energies(State &state, const double strain,
                                      const double joint, const double kinetic)
   {
-    double values[9] = { kinetic,
-                         strain,
-                         joint,
-                         state.energy.external,
-                         state.energy.friction,
-                         state.energy.fracture,
-                         state.energy.damping,
-                         state.energy.viscous,
-                         state.energy.contact };
-    MPI_Allreduce(MPI_IN_PLACE, values, 9, MPI_DOUBLE, MPI_SUM, communicator);
+    double values[10] = { kinetic,
+                          strain,
+                          joint,
+                          state.energy.external,
+                          state.energy.friction,
+                          state.energy.fracture,
+                          state.energy.damping,
+                          state.energy.viscous,
+                          state.energy.contact,
+                          state.energy.radiated };
+    MPI_Allreduce(MPI_IN_PLACE, values, 10, MPI_DOUBLE, MPI_SUM, communicator);
     last_energies.kinetic           = values[0];
     last_energies.strain            = values[1] - strain_at_start;
     last_energies.joint             = values[2] - joint_at_start;
@@ -388,6 +395,7 @@ namespace quoin
     last_energies.accounts.damping  = values[6];
     last_energies.accounts.viscous  = values[7];
     last_energies.accounts.contact  = values[8];
+    last_energies.accounts.radiated = values[9];
   }
 
   void ExplicitSolver::find_ratio(State &state, const StepContext &context,

@@ -288,6 +288,17 @@ namespace quoin
     collect_constrained_nodes(state);
   }
 
+  bool ExplicitSolver::far_field_acts() const
+  {
+    return far && contains(stage.loads, far->name());
+  }
+
+  void ExplicitSolver::save(State &state) const
+  {
+    for (const auto &constraint : all_constraints)
+      constraint->save(state);
+  }
+
   void ExplicitSolver::check_start(const State &state) const
   {
     for (const NodeConstraint *constraint : constraints_on)

@@ -121,8 +121,9 @@ namespace quoin
     prm.declare_entry(
         "Type", "traction",
         dealii::Patterns::Selection("prescribed motion|traction|viscous "
-                                    "boundary|platen|gravity|initial stress"),
-        "What the load is.");
+                                    "boundary|platen|gravity|initial stress|"
+                                    "boundary elements"),
+        "What the load is. Boundary elements: as their section says.");
     prm.declare_entry("Boundary", "", Anything(),
                       "Physical curves on which it acts.");
     prm.declare_entry("Group", "", Anything(),
@@ -169,7 +170,8 @@ namespace quoin
                   { "viscous boundary", LoadType::viscous_boundary },
                   { "platen", LoadType::platen },
                   { "gravity", LoadType::gravity },
-                  { "initial stress", LoadType::initial_stress } });
+                  { "initial stress", LoadType::initial_stress },
+                  { "boundary elements", LoadType::boundary_elements } });
     load.boundaries = section.list("Boundary");
 
     switch (load.type)
@@ -209,6 +211,11 @@ namespace quoin
       load.groups          = section.list("Groups");
       load.stress          = section.numbers<3>("Stress");
       load.stress_gradient = section.numbers<3>("Stress gradient");
+      break;
+    case LoadType::boundary_elements:
+      if (!load.boundaries.empty())
+        section.fail("Boundary", "has no meaning here: section 'Boundary "
+                                 "elements' names the curves. Remove it.");
       break;
     }
     if ((load.type == LoadType::prescribed_motion

@@ -26,9 +26,11 @@ namespace quoin
                        "for elements that coincide.");
   }
 
-  Eigen::VectorXd BoundaryMarch::solve(const Eigen::VectorXd &given,
-                                       const Eigen::VectorXd &past) const
+  Eigen::VectorXd BoundaryMarch::solve(const Eigen::VectorXd &given)
   {
+    if (!has_past)
+      past = history.predict();
+    has_past          = true;
     Eigen::VectorXd u = Eigen::VectorXd::Zero(given.size());
     Eigen::VectorXd p = u;
     for (Eigen::Index k = 0; k < given.size(); ++k)
@@ -38,14 +40,27 @@ namespace quoin
 
   void BoundaryMarch::step(const Eigen::VectorXd &given)
   {
-    const Eigen::VectorXd solution = solve(given, history.predict());
+    begin_step(given);
+    finish_step();
+  }
+
+  void BoundaryMarch::begin_step(const Eigen::VectorXd &given)
+  {
+    const Eigen::VectorXd solution = solve(given);
     for (Eigen::Index k = 0; k < given.size(); ++k)
     {
       const bool is_traction = traction_is_given[k];
       displacement[k]        = is_traction ? solution[k] : given[k];
       traction[k] = is_traction ? given[k] : traction_scale * solution[k];
     }
+  }
+
+  void BoundaryMarch::finish_step(const std::vector<unsigned> &replaced,
+                                  const Eigen::VectorXd &values)
+  {
+    traction(replaced) = values;
     history.push(displacement, traction);
+    has_past = false;
   }
 
   Eigen::MatrixXd
@@ -61,7 +76,7 @@ namespace quoin
   {
     Eigen::VectorXd rest = given;
     rest(interface) = Eigen::VectorXd::Zero(Eigen::Index(interface.size()));
-    const Eigen::VectorXd solution = solve(rest, history.predict());
+    const Eigen::VectorXd solution = solve(rest);
     return traction_scale * solution(interface);
   }
 
@@ -70,5 +85,6 @@ namespace quoin
   {
     displacement = u;
     traction     = p;
+    has_past     = false;
   }
 } // namespace quoin

@@ -156,7 +156,8 @@ namespace quoin
               points,
               (digits + 0.25 * wave_number_ * size * (ellipse + 1. / ellipse))
                   / (2. * std::log(ellipse)));
-        return gauss_legendre(std::max(2u, unsigned(std::ceil(points))));
+        // Far away nothing is left to integrate.
+        return gauss_legendre(unsigned(std::max(2., std::ceil(points))));
       }
 
       void integrate_apart(const Segment &e, const Segment &f,

@@ -6,6 +6,7 @@
 
 #include <quoin/application/space_time_function.h>
 #include <quoin/base/parameter_section.h>
+#include <quoin/coupling/far_field.h>
 #include <quoin/loads/time_function.h>
 #include <quoin/tdbem/formulation.h>
 
@@ -21,7 +22,8 @@ namespace quoin
     polygon,
     line,
     arc,
-    mesh /**< physical curves of the mesh file */
+    mesh,     /**< physical curves of the mesh file */
+    interface /**< the same, with blocks on the other side */
   };
 
   /** Which polygon stands for a circle. */
@@ -106,6 +108,7 @@ namespace quoin
     double duration         = 0.; /**< [s] */
     double decay            = 0.; /**< [1/s] */
     RayleighDamping damping;
+    CouplingScheme coupling    = CouplingScheme::implicit;
     bool direct_history        = false;
     double tolerance           = 1e-6;
     unsigned int n_frequencies = 64; /**< of the passivity scan */
@@ -118,9 +121,10 @@ namespace quoin
     static void declare(dealii::ParameterHandler &prm);
     /**
      * All but the named subsections and other sections. @p section:
-     * 'Boundary elements'.
+     * 'Boundary elements'; @p coupled: to blocks, which say how long.
      */
-    static BoundaryElementParameters read(const ParameterSection &section);
+    static BoundaryElementParameters read(const ParameterSection &section,
+                                          bool coupled = false);
   };
 } // namespace quoin
 

@@ -4,6 +4,7 @@
 #ifndef quoin_application_simulation_h
 #define quoin_application_simulation_h
 
+#include <quoin/application/boundary_geometry.h>
 #include <quoin/application/histories.h>
 #include <quoin/application/parameters.h>
 #include <quoin/application/run_options.h>
@@ -13,10 +14,12 @@
 #include <quoin/mesh/block_mesh.h>
 #include <quoin/mesh/mesh_report.h>
 #include <quoin/output/block_output.h>
+#include <quoin/output/boundary_output.h>
 #include <quoin/output/csv_table.h>
 #include <quoin/output/joint_output.h>
 #include <quoin/output/log.h>
 #include <quoin/output/progress.h>
+#include <quoin/tdbem/passivity.h>
 
 #include <chrono>
 #include <memory>
@@ -48,17 +51,19 @@ namespace quoin
       BlockOutput block_output;
       JointOutput joint_output;
       JointOutput contact_output;
-      double wall_time        = 0.;  /**< of the time loop [s] */
-      double largest_residual = 0.;  /**< of the energy balance */
-      double fields_time      = -1.; /**< of the last VTU files [s] */
-      bool stage_begun        = false;
+      BoundaryOutput boundary_output;
+      std::uint64_t far_field_bytes = 0;
+      double wall_time              = 0.;  /**< of the time loop [s] */
+      double largest_residual       = 0.;  /**< of the energy balance */
+      double fields_time            = -1.; /**< of the last VTU files [s] */
+      bool stage_begun              = false;
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
       {
         archive &state &histories_bytes &energies_bytes &block_output
-            &joint_output &contact_output &wall_time &largest_residual
-                &fields_time &stage_begun;
+            &joint_output &contact_output &boundary_output &far_field_bytes
+                &wall_time &largest_residual &fields_time &stage_begun;
       }
     };
 
@@ -67,6 +72,14 @@ namespace quoin
     void open_outputs();
     void run_stage(unsigned int index);
     void choose_time_step(const StageParameters &stage);
+    /**
+     * Makes a step of the boundary elements a whole number of block steps not
+     * longer than @p dt; returns these.
+     */
+    double choose_far_field_step(const StageParameters &stage, double dt);
+    void report_far_field();
+    void write_far_field_row();
+    void write_boundary();
     /** Returns whether the stage is over. */
     bool take_step(const StageParameters &stage);
     void report_blocks_outside();
@@ -91,9 +104,11 @@ namespace quoin
     BlockMesh<2> mesh;
     MeshReport mesh_report;
     std::unique_ptr<Model> model;
+    BoundaryGeometry boundary_geometry;
     std::unique_ptr<ExplicitSolver> solver;
     std::unique_ptr<Histories> histories;
-    std::unique_ptr<CsvTable> history_table, energy_table;
+    std::unique_ptr<CsvTable> history_table, energy_table, far_field_table;
+    std::unique_ptr<PassivityReport> passivity;
     TimeControl history_control, field_control;
     Record record;
 

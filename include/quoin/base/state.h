@@ -118,6 +118,7 @@ namespace quoin
     double damping  = 0.; /**< taken by local, adaptive, Rayleigh damping */
     double viscous  = 0.; /**< left through viscous boundaries */
     double contact  = 0.; /**< lost as contacts changed their length */
+    double radiated = 0.; /**< given to boundary elements */
 
     EnergyAccounts &operator+=(const EnergyAccounts &other)
     {
@@ -127,13 +128,15 @@ namespace quoin
       damping += other.damping;
       viscous += other.viscous;
       contact += other.contact;
+      radiated += other.radiated;
       return *this;
     }
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &external &friction &fracture &damping &viscous &contact;
+      archive &external &friction &fracture &damping &viscous &contact
+          &radiated;
     }
   };
 
@@ -205,6 +208,38 @@ namespace quoin
     }
   };
 
+  /** Boundary elements coupled to the blocks; see FarField. */
+  struct FarFieldState
+  {
+    bool active           = false;    /**< whether it has begun */
+    std::uint64_t n_steps = 0;        /**< of the boundary elements, done */
+    unsigned int substep  = 0;        /**< block steps done in the next */
+    std::vector<double> held;         /**< forces on its nodes [N] */
+    std::vector<double> last_motion;  /**< of elements, interface [m] */
+    std::vector<double> origin;       /**< the same when it began [m] */
+    std::vector<double> frozen;       /**< p_h of the step under way [Pa] */
+    std::vector<double> velocity_sum; /**< over block steps [m] */
+    std::vector<double> traction_sum; /**< over block steps [Pa] */
+    double duration    = 0.;          /**< of those block steps [s] */
+    double square_sum  = 0.;          /**< of v Z0 v over block steps [J] */
+    double radiated    = 0.;          /**< as FarField::Ledger [J] */
+    double substep_sum = 0.;
+    double incident    = 0.;
+    double mismatch    = 0.;
+    /** Of all boundary elements in the last step, scattered. */
+    std::vector<double> displacement, velocity, traction;
+    std::vector<double> history; /**< in checkpoints */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &n_steps &substep &held &last_motion &origin &frozen
+          &velocity_sum &traction_sum &duration &square_sum &radiated
+              &substep_sum &incident &mismatch &displacement &velocity &traction
+                  &history;
+    }
+  };
+
   /** A rigid block: freedoms x [m], y [m], rotation [rad, anticlockwise]. */
   struct RigidBlockState
   {
@@ -240,9 +275,10 @@ namespace quoin
     ContactState contacts;            /**< empty if displacements are small */
     std::vector<PlatenState> platens; /**< in the order of the loads */
     std::vector<RigidBlockState> rigid_blocks; /**< of this rank */
-    double adaptive_damping   = 0.;            /**< [1/s] */
-    double previous_time_step = 0.;            /**< [s] */
-    double unbalanced_ratio   = 1.;            /**< as last measured [-] */
+    FarFieldState far_field;
+    double adaptive_damping   = 0.; /**< [1/s] */
+    double previous_time_step = 0.; /**< [s] */
+    double unbalanced_ratio   = 1.; /**< as last measured [-] */
 
     /** Complete at time, and what the step under way adds for time + dt/2. */
     EnergyAccounts energy, pending;
@@ -251,7 +287,7 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &time &step &stage &stage_start &stage_step &nodes &velocity
-          &joints &contacts &platens &rigid_blocks &adaptive_damping
+          &joints &contacts &platens &rigid_blocks &far_field &adaptive_damping
               &previous_time_step &unbalanced_ratio &energy &pending;
     }
   };

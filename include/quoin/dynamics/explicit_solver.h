@@ -5,6 +5,7 @@
 #define quoin_dynamics_explicit_solver_h
 
 #include <quoin/base/state.h>
+#include <quoin/coupling/far_field.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/model_box.h>
 #include <quoin/dynamics/node_update.h>
@@ -33,7 +34,7 @@ namespace quoin
     {
       return kinetic + strain + joint + accounts.friction + accounts.fracture
              + accounts.damping + accounts.viscous + accounts.contact
-             - accounts.external;
+             + accounts.radiated - accounts.external;
     }
 
     /** All energy that went through the model, to judge the residual by. */
@@ -54,11 +55,13 @@ namespace quoin
     /**
      * Keeps references to @p model. @p loads: all loads of the run;
      * @p stages: all stages, as State::stage counts them, so that no block is
-     * removed that a later one moves. Throws an InputError about a block
+     * removed that a later one moves; @p far_field: of the load that is of the
+     * type 'boundary elements', or null. Throws an InputError about a block
      * outside the box.
      */
     ExplicitSolver(const Model &model, const std::vector<LoadParameters> &loads,
-                   const std::vector<StageParameters> &stages = {});
+                   const std::vector<StageParameters> &stages = {},
+                   std::unique_ptr<FarField> far_field        = nullptr);
 
     /** What is due at the time of a step; see step(). */
     struct Requests
@@ -140,6 +143,17 @@ namespace quoin
     /** Force x, y [N] and moment [N m] of a load; collective. */
     std::array<double, 3> resultant(const std::string &load) const;
 
+    /** Null if there is none. */
+    FarField *far_field() const
+    {
+      return far;
+    }
+    /** Whether it acts in the stage that has begun. */
+    bool far_field_acts() const;
+
+    /** Called before a checkpoint: completes @p state. */
+    void save(State &state) const;
+
     /** Null if displacements are small. */
     const BlockContacts *contacts() const
     {
@@ -191,6 +205,7 @@ namespace quoin
 
     std::unique_ptr<BlockContacts> block_contacts;
     std::vector<std::unique_ptr<NodeConstraint>> all_constraints;
+    FarField *far = nullptr; /**< one of them */
     std::vector<NodalLoad> all_loads;
     std::vector<std::string> known_loads;
 

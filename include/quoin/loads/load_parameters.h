@@ -20,7 +20,8 @@ namespace quoin
     viscous_boundary,
     platen,
     gravity,
-    initial_stress
+    initial_stress,
+    boundary_elements /**< as section 'Boundary elements' says */
   };
 
   /** What a time function of a load stands for. */

@@ -97,6 +97,11 @@ namespace quoin
     {
     }
 
+    /** Called before a checkpoint: what is not in the state goes there. */
+    virtual void save(State &) const
+    {
+    }
+
     virtual void correct(const StepContext &step,
                          const std::vector<CapturedNode> &captured,
                          State &state)

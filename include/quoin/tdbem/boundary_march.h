@@ -42,6 +42,16 @@ namespace quoin
      */
     void step(const Eigen::VectorXd &given);
 
+    /** The same without adding the step to the history: see finish_step(). */
+    void begin_step(const Eigen::VectorXd &given);
+
+    /**
+     * Adds the step to the history, the tractions on the unknowns
+     * @p replaced, if any, with other @p values [Pa].
+     */
+    void finish_step(const std::vector<unsigned> &replaced = {},
+                     const Eigen::VectorXd &values         = {});
+
     /** Displacements [m] after the last step. */
     const Eigen::VectorXd &u() const
     {
@@ -74,8 +84,7 @@ namespace quoin
     void restore(const Eigen::VectorXd &u, const Eigen::VectorXd &p);
 
   private:
-    Eigen::VectorXd solve(const Eigen::VectorXd &given,
-                          const Eigen::VectorXd &history) const;
+    Eigen::VectorXd solve(const Eigen::VectorXd &given);
 
     BoundaryHistory &history;
     std::vector<bool> traction_is_given;
@@ -83,6 +92,8 @@ namespace quoin
     double traction_scale; /**< brings the columns to a similar size [Pa/m] */
     Eigen::PartialPivLU<Eigen::MatrixXd> solver;
     Eigen::VectorXd displacement, traction;
+    Eigen::VectorXd past; /**< the history's prediction for the next step */
+    bool has_past = false;
   };
 } // namespace quoin
 

@@ -225,3 +225,17 @@ TEST(LaplaceMatrices, refuse_crossing_elements)
                                 medium, 1., Projection::collocation),
                InputError);
 }
+
+// Nothing but its own element is left of a kernel that decays at once.
+TEST(LaplaceMatrices, far_elements_at_high_rates)
+{
+  const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 16, true);
+  for (const Complex s : { Complex(300., 0.), Complex(200., 200.) })
+  {
+    const auto matrices
+        = laplace_matrices(boundary, medium, s, Projection::galerkin);
+    EXPECT_TRUE(matrices.G.allFinite() && matrices.H.allFinite());
+    EXPECT_LT(matrices.G.col(0).segment(8, 16).norm(),
+              1e-12 * std::abs(matrices.G(0, 0)));
+  }
+}

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_application_far_field_setup_h
+#define quoin_application_far_field_setup_h
+
+#include <quoin/application/boundary_geometry.h>
+#include <quoin/application/parameters.h>
+#include <quoin/coupling/far_field.h>
+#include <quoin/dynamics/model.h>
+#include <quoin/mesh/mesh_data.h>
+
+#include <memory>
+
+namespace quoin
+{
+  /**
+   * The boundary elements of a model of blocks. Null if no load is of the type
+   * 'boundary elements'. @p parameters and @p geometry, which is filled, must
+   * outlive the result. @p mesh is the mesh as read. Throws an InputError that
+   * begins with the section.
+   */
+  std::unique_ptr<FarField> make_far_field(const Parameters &parameters,
+                                           const MeshData &mesh,
+                                           const Model &model,
+                                           BoundaryGeometry &geometry);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_coupling_far_field_h
+#define quoin_coupling_far_field_h
+
+#include <quoin/coupling/interface_transfer.h>
+#include <quoin/loads/node_constraint.h>
+#include <quoin/tdbem/boundary.h>
+#include <quoin/tdbem/boundary_history.h>
+#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/tdbem/formulation.h>
+
+#include <Eigen/Dense>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** How the forces of the boundary elements follow the nodes in a step. */
+  enum class CouplingScheme
+  {
+    /**
+     * The impedance of the newest step acts on the mean velocity of each
+     * block step, implicitly on the nodes of the interface alone; the history
+     * is frozen. Does not lower the critical step, and creates no energy if
+     * the boundary elements are passive.
+     */
+    implicit,
+    /**
+     * Eqs. 17 and 18 of @cite JinWangZhang1998: the displacement at the end
+     * of the boundary elements' step is extrapolated from that of the block
+     * step; their traction is the mean of those that acted. Unstable in most
+     * uses.
+     */
+    staggered
+  };
+
+  /** What is beyond the interface. */
+  struct FarFieldDomain
+  {
+    Boundary boundary;
+    ElasticMedium medium{};
+    /** Of @p boundary: the elements along the blocks. */
+    std::vector<unsigned int> interface;
+    /** Of each unknown not on the interface. */
+    std::vector<bool> traction_is_given;
+
+    FormulationOptions formulation; /**< without time step and n_steps */
+    CouplingScheme scheme = CouplingScheme::implicit;
+
+    /**
+     * Given values of the step from begin to end [s], total fields; those on
+     * the interface are not looked at. Null: zero.
+     */
+    std::function<Eigen::VectorXd(double begin, double end)> given;
+    /** Of the field that comes in; null: none. At a time [m]. */
+    std::function<Eigen::VectorXd(double time)> incident_displacement;
+    /** In the mean over a step [Pa]. */
+    std::function<Eigen::VectorXd(double begin, double end)> incident_traction;
+  };
+
+  /**
+   * Boundary elements beyond the outer boundary of blocks, from which waves
+   * come in and into which they leave (@cite JinWangZhang1998, Eqs. 14-18).
+   *
+   * The elements take steps of several block steps each, K. In step M their
+   * tractions on the interface are p = p_h + Z0 (v - v_in), v the mean
+   * velocity over each element: Z0, the lag-0 impedance condensed to the
+   * interface, times a velocity, and p_h, which follows from the history, the
+   * given values and the field that comes in, and is frozen during the step.
+   *
+   * Time of the boundary elements begins when it first acts. What forces are
+   * unbalanced on the interface then are held from there on: so reactions of a
+   * static stage, or an initial stress, do not set anything in motion.
+   */
+  class FarField : public NodeConstraint
+  {
+  public:
+    /** What has happened to energy in the steps finished so far [J]. */
+    struct Ledger
+    {
+      /** Work of the scattered tractions on the scattered motion. */
+      double radiated = 0.;
+      /** Lost in the block steps of a boundary element step: not negative. */
+      double substeps = 0.;
+      /** Brought in by the incident field. */
+      double incident = 0.;
+      /** Largest |p - (p_h + Z0 v)| by the largest p: rounding. */
+      double mismatch = 0.;
+    };
+
+    /**
+     * @p faces: outer edges of @p mesh, indices into boundary_faces, along the
+     * interface. Throws an InputError that begins with the section.
+     */
+    FarField(const std::string &name, FarFieldDomain domain,
+             const BlockMesh<2> &mesh, const std::vector<unsigned int> &faces,
+             const NodeExchange &exchange, double thickness);
+    ~FarField() override;
+
+    /**
+     * Must be called before a stage begins: the step of the boundary elements
+     * [s], always the same, @p n_substeps block steps, and the most steps that
+     * there will be. Makes the operators when called first; collective.
+     */
+    void set_time_step(double time_step, unsigned int n_substeps,
+                       unsigned long n_steps);
+
+    /** 0 before set_time_step() [s]. */
+    double time_step() const
+    {
+      return dt;
+    }
+    unsigned int n_substeps() const
+    {
+      return substeps;
+    }
+
+    const FarFieldDomain &domain() const
+    {
+      return problem;
+    }
+    const LagKernel &lag_kernel() const
+    {
+      return *kernel;
+    }
+    const BoundaryHistory &boundary_history() const
+    {
+      return *history;
+    }
+
+    Ledger ledger(const State &state) const;
+
+    /** Total fields on the boundary after the last step [m], [m/s], [Pa]. */
+    Eigen::VectorXd displacement(const State &state) const;
+    Eigen::VectorXd velocity(const State &state) const;
+    Eigen::VectorXd traction(const State &state) const;
+
+    void begin_stage(State &state, bool continues) override;
+    void resume_stage(const State &state) override;
+    void save(State &state) const override;
+    void correct(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
+    void account(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
+    std::array<double, 3> values(const TimePoint &) const override
+    {
+      return {};
+    }
+    std::array<bool, 3> holds() const override
+    {
+      return { { false, false, false } };
+    }
+
+  private:
+    void start(const std::vector<CapturedNode> &captured, State &state);
+    void prepare(const StepContext &step,
+                 const std::vector<CapturedNode> &captured);
+    void find_incident(const FarFieldState &far);
+    void begin_element_step(State &state);
+    void finish_element_step(State &state);
+    /** All over the boundary. */
+    Eigen::VectorXd incident_tractions(double begin, double end) const;
+    Eigen::VectorXd scattered_values(double begin, double end) const;
+
+    FarFieldDomain problem;
+    InterfaceTransfer transfer;
+    double thickness;
+    MPI_Comm communicator;
+    bool is_first_rank;
+    std::vector<unsigned int> unknowns; /**< of the interface */
+    std::vector<double> areas;          /**< of these [m^2] */
+
+    double dt             = 0.;
+    unsigned int substeps = 0;
+    std::unique_ptr<LagKernel> kernel;
+    std::unique_ptr<BoundaryHistory> history;
+    std::unique_ptr<BoundaryMarch> march;
+    Eigen::MatrixXd stiffness; /**< dp/du of one step [Pa/m] */
+    Eigen::MatrixXd impedance; /**< Z0 [Pa s/m] */
+
+    /** For the block steps, as long as these are the same; 0: not made. */
+    double prepared_step = 0., prepared_damping = 0.;
+    /** Staggered: the step that begins at rest belongs to no other. */
+    bool from_rest = false;
+    std::vector<double> gain;     /**< velocity by force, of the nodes */
+    Eigen::MatrixXd mobility;     /**< v of elements by their p [m/(Pa s)] */
+    Eigen::MatrixXd from_history; /**< p by p_h */
+    Eigen::MatrixXd from_motion;  /**< p by velocities before and free */
+
+    /** Of this step: tractions [Pa], velocities [m/s] of the elements. */
+    Eigen::VectorXd p, v_before, v_free, v_after;
+    Eigen::VectorXd last_u; /**< of the elements since the start [m] */
+    /** Of the step of the boundary elements under way. */
+    Eigen::VectorXd frozen, incident_u, incident_velocity, incident_p;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,21 @@
+// Three blocks of 10 m x 10 m on top of each other; a fourth one, above, is
+// made of boundary elements.
+h = 1.25;
+For i In {0:3}
+  Point(2 * i + 1) = {0, 10 * i, 0, h};
+  Point(2 * i + 2) = {10, 10 * i, 0, h};
+  Line(10 * i + 1) = {2 * i + 1, 2 * i + 2};
+  Transfinite Curve{10 * i + 1} = 10 / h + 1;
+EndFor
+For i In {0:2}
+  Line(10 * i + 2) = {2 * i + 2, 2 * i + 4};
+  Line(10 * i + 4) = {2 * i + 1, 2 * i + 3};
+  Transfinite Curve{10 * i + 2, 10 * i + 4} = 10 / h + 1;
+  Curve Loop(i + 1) = {10 * i + 1, 10 * i + 2, -(10 * i + 11), -(10 * i + 4)};
+  Plane Surface(i + 1) = {i + 1};
+  Transfinite Surface{i + 1} Alternate;
+EndFor
+Physical Curve("bed") = {11, 21};
+Physical Curve("interface") = {31};
+Physical Surface("base") = {1};
+Physical Surface("rock") = {2, 3};
