@@ -7,6 +7,9 @@
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/collective.h>
 #include <quoin/output/json_file.h>
+#include <quoin/tdbem/line_source.h>
+#include <quoin/tdbem/plane_wave.h>
+#include <quoin/tdbem/rayleigh_wave.h>
 #include <quoin/tdbem/static_solver.h>
 
 #include <nlohmann/json.hpp>
@@ -172,27 +175,12 @@ namespace quoin
         parameters.histories, geometry, settings, parameters.model.thickness);
     hoop_stress = std::make_unique<TangentialStress>(geometry.boundary, medium);
     given       = std::make_unique<GivenValues>(geometry, settings);
-    for (const IncidentWaveParameters &wave : settings.waves)
-      try
-      {
-        waves.emplace_back(
-            medium, wave.is_shear ? PlaneWave::Type::SV : PlaneWave::Type::P,
-            wave.half_plane, wave.angle,
-            [f = wave.displacement](const double t) {
-              return f({ t, t });
-            });
-      }
-      catch (const InputError &error)
-      {
-        throw InputError("section 'Incident waves/" + wave.name
-                         + "': " + error.what());
-      }
     make_sampled_points();
     if (settings.is_static)
       return;
     choose_time_step();
     given->check_start();
-    check_waves();
+    make_waves();
   }
 
   void BoundarySimulation::make_sampled_points()
@@ -280,38 +268,135 @@ namespace quoin
     dt      = settings.duration / steps;
   }
 
-  void BoundarySimulation::check_waves() const
+  void BoundarySimulation::make_waves()
   {
-    for (std::size_t w = 0; w < waves.size(); ++w)
+    // The farthest point from the origin that a wave passes earlier or later,
+    // and how much: no wave is slower than 0.85 c2, or little.
+    double reach = 0.;
+    for (const BoundaryElement &element : geometry.boundary.elements)
+      reach = std::max({ reach, element.a.norm(), element.b.norm() });
+    for (const auto *points :
+         { &sampled_points, &histories->interior_points() })
+      for (const Vector2d &x : *points)
+        reach = std::max(reach, x.norm());
+    const double delay = reach / (0.85 * medium.c2);
+    const SignalRange range{ -delay, settings.duration + delay, 0.5 * dt };
+
+    for (const IncidentWaveParameters &wave : settings.waves)
     {
-      const IncidentWaveParameters &wave = settings.waves[w];
-      const std::string section
-          = "section 'Incident waves/" + wave.name + "': ";
-      if (wave.half_plane)
-        for (const BoundaryElement &element : geometry.boundary.elements)
+      using Type = IncidentWaveType;
+      check_place(wave);
+      // Analytic signals want the signal for as long again.
+      const auto signal
+          = wave.function(0., 2. * range.end - range.begin, range.step);
+      try
+      {
+        switch (wave.type)
         {
-          const double slack = 1e-9 * element.length();
-          if (element.a.y() > slack || element.b.y() > slack)
-            throw InputError(section
-                             + "'Space = half-plane' is the medium below y = "
-                               "0, but the boundary comes above it. Move it "
-                               "down.");
+        case Type::plane_p:
+        case Type::plane_sv:
+          waves.push_back(std::make_unique<PlaneWave>(
+              medium,
+              wave.type == Type::plane_p ? PlaneWave::Type::P
+                                         : PlaneWave::Type::SV,
+              wave.half_plane, wave.angle, signal, range));
+          break;
+        case Type::rayleigh:
+          waves.push_back(std::make_unique<RayleighWave>(
+              medium, wave.angle > 0., signal, range));
+          break;
+        case Type::line_source:
+          waves.push_back(std::make_unique<LineSource>(
+              medium, Vector2d(wave.position[0], wave.position[1]), signal,
+              SignalRange{ 0., settings.duration, 0.25 * dt }));
+          break;
         }
-      double peak = 0.;
-      for (std::uint64_t step = 0; step <= n_steps; ++step)
-        peak = std::max(peak,
-                        std::abs(wave.displacement({ step * dt, step * dt })));
-      const double start = waves[w]
-                               .displacements(geometry.boundary, 0.)
-                               .lpNorm<Eigen::Infinity>();
-      if (!(start <= 1e-3 * peak))
-        throw InputError(section
-                         + "'Displacement': at t = 0 the wave moves "
-                           "the boundary by "
-                         + number(start)
-                         + " m already. Everything must be at rest then: let "
-                           "it start later, and be 0 before.");
+      }
+      catch (const InputError &error)
+      {
+        throw InputError("section 'Incident waves/" + wave.name
+                         + "': " + error.what());
+      }
+      check_start(wave, *waves.back(), signal);
+      if (!wave.signal.report.empty())
+        wave_reports.push_back("incident wave " + wave.name + ": "
+                               + wave.signal.report);
     }
+  }
+
+  void BoundarySimulation::check_place(const IncidentWaveParameters &wave) const
+  {
+    const std::string section = "section 'Incident waves/" + wave.name + "': ";
+    if (wave.half_plane)
+      for (const BoundaryElement &element : geometry.boundary.elements)
+      {
+        const double slack = 1e-9 * element.length();
+        if (element.a.y() > slack || element.b.y() > slack)
+          throw InputError(section
+                           + "'Space = half-plane' is the medium below y = "
+                             "0, but the boundary comes above it. Move it "
+                             "down.");
+      }
+    if (wave.type != IncidentWaveType::line_source)
+      return;
+    const Vector2d source(wave.position[0], wave.position[1]);
+    const std::string position
+        = "'Position = " + number(source.x()) + ", " + number(source.y()) + "'";
+    const NearestElement nearest = nearest_element(geometry.boundary, source);
+    const double length = geometry.boundary.elements[nearest.element].length();
+    if (!nearest.inside_domain || nearest.distance < length)
+      throw InputError(section + position
+                       + " is not in the domain, or less than an element, "
+                       + number(length)
+                       + " m, away from the boundary. Move the source, or give "
+                         "shorter elements.");
+    for (const auto *points :
+         { &sampled_points, &histories->interior_points() })
+      for (const Vector2d &x : *points)
+        if ((x - source).norm() < 1e-6 * length)
+          throw InputError(section + position
+                           + " is a point where the field is asked for, by "
+                             "'Histories' or the 'Sampled field': the field "
+                             "has no value there. Move one of them.");
+  }
+
+  void
+  BoundarySimulation::check_start(const IncidentWaveParameters &wave,
+                                  const IncidentField &field,
+                                  const std::function<double(double)> &signal)
+  {
+    const std::string section = "section 'Incident waves/" + wave.name + "': '"
+                                + wave.signal_entry + "': ";
+    double peak = 0.;
+    for (std::uint64_t step = 0; step <= n_steps; ++step)
+      peak = std::max(peak, std::abs(signal(double(step) * dt)));
+    if (wave.type == IncidentWaveType::line_source)
+    {
+      if (!(std::abs(signal(0.)) <= 1e-3 * peak))
+        throw InputError(section + "the moment is " + number(signal(0.))
+                         + " N at t = 0 already. Let it begin at 0.");
+      return;
+    }
+    const double start
+        = field.displacements(geometry.boundary, 0.).lpNorm<Eigen::Infinity>();
+    if (!(start <= 1e-3 * peak))
+      throw InputError(
+          section + "at t = 0 the wave moves the boundary by " + number(start)
+          + " m already"
+          + (field.has_precursors()
+                 ? ", more than a thousandth of the peak, " + number(peak)
+                       + " m. Its displacement contains the Hilbert transform "
+                         "of the signal, which precedes the wave, far ahead if "
+                         "the signal has a mean. Let it start later, or take "
+                         "one without a mean, such as 'wavelet Ricker'."
+                 : std::string(". Everything must be at rest then: let it "
+                               "start later, and be 0 before.")));
+    if (field.has_precursors() && peak > 0.)
+      wave_reports.push_back(
+          "incident wave " + wave.name
+          + ": its displacement contains the Hilbert transform of the signal; "
+            "at t = 0 the boundary has "
+          + number(start / peak) + " of the peak");
   }
 
   FormulationOptions BoundarySimulation::formulation_options() const
@@ -371,6 +456,8 @@ namespace quoin
                        ? number(high)
                        : "from " + number(low) + " to " + number(high))
                 + ", " + std::to_string(n_steps) + " steps");
+    for (const std::string &text : wave_reports)
+      log.message(text);
     if (needs_record())
       log.message("record of the boundary: "
                   + number(2e-6 * double(sizeof(double)) * double(n_steps)
@@ -516,8 +603,8 @@ namespace quoin
   VectorXd BoundarySimulation::incident_displacements(const double time) const
   {
     VectorXd sum = VectorXd::Zero(Eigen::Index(geometry.boundary.n_unknowns()));
-    for (const PlaneWave &wave : waves)
-      sum += wave.displacements(geometry.boundary, time);
+    for (const auto &wave : waves)
+      sum += wave->displacements(geometry.boundary, time);
     return sum;
   }
 
@@ -531,8 +618,9 @@ namespace quoin
               ? 0.5 * (end - begin)
               : 0.;
     VectorXd sum = VectorXd::Zero(Eigen::Index(geometry.boundary.n_unknowns()));
-    for (const PlaneWave &wave : waves)
-      sum += wave.mean_tractions(geometry.boundary, begin + shift, end + shift);
+    for (const auto &wave : waves)
+      sum += wave->mean_tractions(geometry.boundary, begin + shift,
+                                  end + shift);
     return sum;
   }
 
@@ -750,9 +838,9 @@ namespace quoin
                                                points, steps, communicator);
     for (std::size_t k = 0; k < points.size(); ++k)
       for (std::size_t l = 0; l < steps.size(); ++l)
-        for (const PlaneWave &wave : waves)
+        for (const auto &wave : waves)
           u.block<2, 1>(2 * k, l)
-              += wave.displacement(points[k], steps[l] * dt);
+              += wave->displacement(points[k], steps[l] * dt);
     return u;
   }
 

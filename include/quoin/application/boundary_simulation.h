@@ -16,12 +16,13 @@
 #include <quoin/output/progress.h>
 #include <quoin/tdbem/boundary_march.h>
 #include <quoin/tdbem/elastic_medium.h>
+#include <quoin/tdbem/incident_field.h>
 #include <quoin/tdbem/interior_points.h>
 #include <quoin/tdbem/passivity.h>
-#include <quoin/tdbem/plane_wave.h>
 #include <quoin/tdbem/tangential_stress.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -72,7 +73,11 @@ namespace quoin
     void make_boundary();
     void make_sampled_points();
     void choose_time_step();
-    void check_waves() const;
+    void make_waves();
+    void check_place(const IncidentWaveParameters &wave) const;
+    void check_start(const IncidentWaveParameters &wave,
+                     const IncidentField &field,
+                     const std::function<double(double)> &signal);
     void report();
     void make_operators();
     void report_passivity();
@@ -116,7 +121,8 @@ namespace quoin
     Progress progress;
     ElasticMedium medium{};
     BoundaryGeometry geometry;
-    std::vector<PlaneWave> waves;
+    std::vector<std::unique_ptr<IncidentField>> waves;
+    std::vector<std::string> wave_reports;
     SampledFields sampled; /**< places and triangles */
     std::vector<Eigen::Vector2d> sampled_points;
 
