@@ -198,8 +198,8 @@ namespace quoin
     for (const std::string direction : { "Horizontal", "Vertical" })
       prm.declare_entry(direction, "traction 0", Anything(),
                         "What is given: 'traction' [Pa] or 'displacement' [m] "
-                        "and an expression of x, y, t [m, s], 'table FILE', or "
-                        "'table FILE times EXPRESSION'.");
+                        "and an expression of x, y, t [m, s]; or 'table FILE' "
+                        "or a signal, alone or 'times EXPRESSION'.");
     prm.declare_entry("Pressure", "0", Anything(),
                       "Expression as above; pushes on the domain and adds to "
                       "given tractions [Pa]");

@@ -268,6 +268,13 @@ namespace quoin
     dt      = settings.duration / steps;
   }
 
+  std::vector<Vector2d> BoundarySimulation::points_in_domain() const
+  {
+    std::vector<Vector2d> points = histories->interior_points();
+    points.insert(points.end(), sampled_points.begin(), sampled_points.end());
+    return points;
+  }
+
   void BoundarySimulation::make_waves()
   {
     // The farthest point from the origin that a wave passes earlier or later,
@@ -275,12 +282,12 @@ namespace quoin
     double reach = 0.;
     for (const BoundaryElement &element : geometry.boundary.elements)
       reach = std::max({ reach, element.a.norm(), element.b.norm() });
-    for (const auto *points :
-         { &sampled_points, &histories->interior_points() })
-      for (const Vector2d &x : *points)
-        reach = std::max(reach, x.norm());
+    for (const Vector2d &x : points_in_domain())
+      reach = std::max(reach, x.norm());
     const double delay = reach / (0.85 * medium.c2);
-    const SignalRange range{ -delay, settings.duration + delay, 0.5 * dt };
+    // Tractions of convolution quadrature are asked for half a step later.
+    const double end = settings.duration + dt;
+    const SignalRange range{ -delay, end + delay, 0.5 * dt };
 
     for (const IncidentWaveParameters &wave : settings.waves)
     {
@@ -308,7 +315,7 @@ namespace quoin
         case Type::line_source:
           waves.push_back(std::make_unique<LineSource>(
               medium, Vector2d(wave.position[0], wave.position[1]), signal,
-              SignalRange{ 0., settings.duration, 0.25 * dt }));
+              SignalRange{ 0., end, 0.25 * dt }));
           break;
         }
       }
@@ -350,14 +357,12 @@ namespace quoin
                        + number(length)
                        + " m, away from the boundary. Move the source, or give "
                          "shorter elements.");
-    for (const auto *points :
-         { &sampled_points, &histories->interior_points() })
-      for (const Vector2d &x : *points)
-        if ((x - source).norm() < 1e-6 * length)
-          throw InputError(section + position
-                           + " is a point where the field is asked for, by "
-                             "'Histories' or the 'Sampled field': the field "
-                             "has no value there. Move one of them.");
+    for (const Vector2d &x : points_in_domain())
+      if ((x - source).norm() < 1e-6 * length)
+        throw InputError(section + position
+                         + " is a point where the field is asked for, by "
+                           "'Histories' or the 'Sampled field': the field "
+                           "has no value there. Move one of them.");
   }
 
   void

@@ -98,6 +98,8 @@ namespace quoin
     void write_summary();
 
     bool needs_record() const;
+    /** Of histories and the sampled field. */
+    std::vector<Eigen::Vector2d> points_in_domain() const;
     bool row_is_due(std::uint64_t step) const;
     bool fields_are_due(std::uint64_t step) const;
     FormulationOptions formulation_options() const;
@@ -122,8 +124,8 @@ namespace quoin
     ElasticMedium medium{};
     BoundaryGeometry geometry;
     std::vector<std::unique_ptr<IncidentField>> waves;
-    std::vector<std::string> wave_reports;
-    SampledFields sampled; /**< places and triangles */
+    std::vector<std::string> wave_reports; /**< for the log */
+    SampledFields sampled;                 /**< places and triangles */
     std::vector<Eigen::Vector2d> sampled_points;
 
     std::unique_ptr<BoundaryHistories> histories;

@@ -226,6 +226,5 @@ TEST(BoundaryParameters, IncidentWaves)
   EXPECT_NE(refused({ "Type=line source" }).find("full plane"),
             std::string::npos);
   EXPECT_NE(refused({ "Signal=t" }).find("one of them"), std::string::npos);
-  EXPECT_NE(refused({ "Motion=velocity" }).find("'Signal'"),
-            std::string::npos);
+  EXPECT_NE(refused({ "Motion=velocity" }).find("'Signal'"), std::string::npos);
 }
