@@ -277,8 +277,8 @@ namespace quoin
 
   void BoundarySimulation::make_waves()
   {
-    // The farthest point from the origin that a wave passes earlier or later,
-    // and how much: no wave is slower than 0.85 c2, or little.
+    // How much earlier or later than at the origin a wave can pass: hardly any
+    // is slower than 0.85 c2, and signals are correct beyond their range, too.
     double reach = 0.;
     for (const BoundaryElement &element : geometry.boundary.elements)
       reach = std::max({ reach, element.a.norm(), element.b.norm() });
