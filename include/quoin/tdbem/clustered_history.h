@@ -130,7 +130,7 @@ namespace quoin
     {
       unsigned row = 0, column = 0; /**< clusters */
       unsigned begin = 0, end = 0;  /**< lags that are kept */
-      double surplus = 0.;      /**< time since the S wave, at the end [s] */
+      double surplus = 0.; /**< time since the S wave, at the end [s] */
       /** Of the lags end - 1 to begin, side by side. */
       Eigen::MatrixXd matrices;
       unsigned n_rates = 0; /**< the slowest ones */
