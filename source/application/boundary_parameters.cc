@@ -204,8 +204,8 @@ namespace quoin
     for (const std::string direction : { "Horizontal", "Vertical" })
       prm.declare_entry(direction, "traction 0", Anything(),
                         "What is given: 'traction' [Pa] or 'displacement' [m] "
-                        "and an expression of x, y, t [m, s], 'table FILE', or "
-                        "'table FILE times EXPRESSION'.");
+                        "and an expression of x, y, t [m, s]; or 'table FILE' "
+                        "or a signal, alone or 'times EXPRESSION'.");
     prm.declare_entry("Pressure", "0", Anything(),
                       "Expression as above; pushes on the domain and adds to "
                       "given tractions [Pa]");
@@ -260,39 +260,108 @@ namespace quoin
 
   void IncidentWaveParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Type", "plane P", Selection("plane P|plane SV"),
-                      "P: along the direction of propagation. SV: across it.");
+    prm.declare_entry("Type", "plane P",
+                      Selection("plane P|plane SV|Rayleigh|line source"),
+                      "Plane P: motion along the direction of propagation; "
+                      "plane SV: across it; Rayleigh: along the free surface; "
+                      "line source: an explosion in the domain.");
     prm.declare_entry("Space", "full plane", Selection("full plane|half-plane"),
                       "Half-plane: the medium is below y = 0, where the wave "
-                      "is reflected; no boundary may be above.");
+                      "is reflected; no boundary may be above. Rayleigh waves "
+                      "need it, line sources must not have it.");
     prm.declare_entry("Angle", "0", Double(),
                       "Direction of propagation, from the upward vertical "
-                      "towards +x [deg]");
+                      "towards +x; Rayleigh: 90 or -90 [deg]");
+    prm.declare_entry("Position", "0, 0", Anything(), "Line source: x, y [m]");
+    prm.declare_entry("Signal", "", Anything(),
+                      "Function of t [s]: motion of the incident wave at the "
+                      "origin, vertical if it is a Rayleigh wave; moment per "
+                      "length of a line source. Expression, table, wavelet, "
+                      "pulse, record or synthetic; 0 before the wave's start.");
+    prm.declare_entry("Motion", "displacement",
+                      Selection("displacement|velocity|acceleration"),
+                      "What 'Signal' is; integrated from t = 0 on, or in "
+                      "closed form. A moment is not integrated.");
+    prm.declare_entry("Amplitude", "1", Double(),
+                      "Factor of the signal [m, m/s, m/s^2; line source: N]");
     prm.declare_entry("Displacement", "0", Anything(),
-                      "Of the incident wave at the origin as a function of t "
-                      "[s], or 'table FILE'; 0 before the wave's start [m]");
+                      "Instead of 'Signal', for 'Motion = displacement' [m]");
   }
 
   IncidentWaveParameters
   IncidentWaveParameters::read(const ParameterSection &section,
                                const std::string &name)
   {
+    using Type = IncidentWaveType;
     IncidentWaveParameters wave;
-    wave.name          = name;
-    wave.is_shear      = section.text("Type") == "plane SV";
-    wave.half_plane    = section.text("Space") == "half-plane";
-    const double limit = wave.half_plane ? 89. : 360.;
-    wave.angle         = section.within("Angle", -limit, limit) * degree;
+    wave.name       = name;
+    wave.type       = section.choice<Type>("Type",
+                                     { { "plane P", Type::plane_p },
+                                             { "plane SV", Type::plane_sv },
+                                             { "Rayleigh", Type::rayleigh },
+                                             { "line source", Type::line_source } });
+    wave.half_plane = section.text("Space") == "half-plane";
+    if (wave.type == Type::rayleigh)
+    {
+      if (!wave.half_plane)
+        section.fail("Space", "has no surface for a Rayleigh wave: it needs "
+                              "'half-plane'.");
+      wave.angle = section.number("Angle");
+      if (std::abs(wave.angle) != 90.)
+        section.fail("Angle", "must be 90 or -90 for a Rayleigh wave, which "
+                              "travels along the surface to +x or -x.");
+    }
+    else
+    {
+      const double limit = wave.half_plane ? 89. : 360.;
+      wave.angle         = section.within("Angle", -limit, limit);
+    }
+    wave.angle *= degree;
+    wave.n_integrations = section.choice<unsigned int>(
+        "Motion",
+        { { "displacement", 0 }, { "velocity", 1 }, { "acceleration", 2 } });
+    const bool has_signal = !section.text("Signal").empty();
+    wave.signal_entry     = has_signal ? "Signal" : "Displacement";
+    if (has_signal && section.text("Displacement") != "0")
+      section.fail("Displacement", "is given beside 'Signal': give one of "
+                                   "them.");
+    if (!has_signal && wave.n_integrations > 0)
+      section.fail("Motion", "is for 'Signal': give that, and no "
+                             "'Displacement'.");
+    if (wave.type == Type::line_source)
+    {
+      wave.position = section.numbers<2>("Position");
+      if (wave.half_plane)
+        section.fail("Space", "is not for a line source, whose field is that "
+                              "of the full plane: leave it at 'full plane' and "
+                              "make the free surface a boundary.");
+      if (!has_signal)
+        section.fail("Signal", "must give the moment of the line source, by a "
+                               "factor 'Amplitude'.");
+      if (wave.n_integrations > 0)
+        section.fail("Motion", "is not for a line source: its 'Signal' is the "
+                               "moment. Leave it at 'displacement'.");
+    }
+    wave.amplitude = section.number("Amplitude");
     try
     {
-      wave.displacement
-          = TimeFunction(section.text("Displacement"), section.folder());
+      wave.signal
+          = TimeFunction(section.text(wave.signal_entry), section.folder())
+                .signal();
     }
     catch (const InputError &error)
     {
-      section.fail("Displacement", error.what());
+      section.fail(wave.signal_entry, error.what());
     }
     return wave;
+  }
+
+  std::function<double(double)>
+  IncidentWaveParameters::function(const double begin, const double end,
+                                   const double step) const
+  {
+    return [f      = integrated(signal, n_integrations, begin, end, step),
+            factor = amplitude](const double t) { return factor * f(t); };
   }
 
   void SampledFieldParameters::declare(dealii::ParameterHandler &prm)

@@ -177,27 +177,14 @@ namespace quoin
         parameters.histories, geometry, settings, parameters.model.thickness);
     hoop_stress = std::make_unique<TangentialStress>(geometry.boundary, medium);
     given       = std::make_unique<GivenValues>(geometry, settings);
-    for (const IncidentWaveParameters &wave : settings.waves)
-      try
-      {
-        waves.emplace_back(
-            medium, wave.is_shear ? PlaneWave::Type::SV : PlaneWave::Type::P,
-            wave.half_plane, wave.angle,
-            [f = wave.displacement](const double t) {
-              return f({ t, t });
-            });
-      }
-      catch (const InputError &error)
-      {
-        throw InputError("section 'Incident waves/" + wave.name
-                         + "': " + error.what());
-      }
     make_sampled_points();
     if (settings.is_static)
       return;
     choose_time_step();
     given->check_start();
-    check_waves();
+    waves = std::make_unique<IncidentWaves>(settings, medium, geometry.boundary,
+                                            points_in_domain(),
+                                            settings.duration, dt);
   }
 
   void BoundarySimulation::make_sampled_points()
@@ -285,38 +272,11 @@ namespace quoin
     dt      = settings.duration / steps;
   }
 
-  void BoundarySimulation::check_waves() const
+  std::vector<Vector2d> BoundarySimulation::points_in_domain() const
   {
-    for (std::size_t w = 0; w < waves.size(); ++w)
-    {
-      const IncidentWaveParameters &wave = settings.waves[w];
-      const std::string section
-          = "section 'Incident waves/" + wave.name + "': ";
-      if (wave.half_plane)
-        for (const BoundaryElement &element : geometry.boundary.elements)
-        {
-          const double slack = 1e-9 * element.length();
-          if (element.a.y() > slack || element.b.y() > slack)
-            throw InputError(section
-                             + "'Space = half-plane' is the medium below y = "
-                               "0, but the boundary comes above it. Move it "
-                               "down.");
-        }
-      double peak = 0.;
-      for (std::uint64_t step = 0; step <= n_steps; ++step)
-        peak = std::max(peak,
-                        std::abs(wave.displacement({ step * dt, step * dt })));
-      const double start = waves[w]
-                               .displacements(geometry.boundary, 0.)
-                               .lpNorm<Eigen::Infinity>();
-      if (!(start <= 1e-3 * peak))
-        throw InputError(section
-                         + "'Displacement': at t = 0 the wave moves "
-                           "the boundary by "
-                         + number(start)
-                         + " m already. Everything must be at rest then: let "
-                           "it start later, and be 0 before.");
-    }
+    std::vector<Vector2d> points = histories->interior_points();
+    points.insert(points.end(), sampled_points.begin(), sampled_points.end());
+    return points;
   }
 
   FormulationOptions BoundarySimulation::formulation_options() const
@@ -376,6 +336,8 @@ namespace quoin
                        ? number(high)
                        : "from " + number(low) + " to " + number(high))
                 + ", " + std::to_string(n_steps) + " steps");
+    for (const std::string &text : waves->reports())
+      log.message(text);
     if (needs_record())
       log.message("record of the boundary: "
                   + number(2e-6 * double(sizeof(double)) * double(n_steps)
@@ -440,7 +402,7 @@ namespace quoin
     {
       history->restore(record.history);
       march->restore(to_eigen(record.u), to_eigen(record.p));
-      last_displacement = march->u() + incident_displacements(record.step * dt);
+      last_displacement = march->u() + waves->displacements(record.step * dt);
       return;
     }
     last_displacement = VectorXd::Zero(Eigen::Index(size));
@@ -517,29 +479,6 @@ namespace quoin
 
   // -- the time loop --------------------------------------------------------
 
-  VectorXd BoundarySimulation::incident_displacements(const double time) const
-  {
-    VectorXd sum = VectorXd::Zero(Eigen::Index(geometry.boundary.n_unknowns()));
-    for (const PlaneWave &wave : waves)
-      sum += wave.displacements(geometry.boundary, time);
-    return sum;
-  }
-
-  VectorXd BoundarySimulation::incident_tractions(const double begin,
-                                                  const double end) const
-  {
-    // Convolution quadrature wants the value at the end, of which a mean
-    // about it is one of second order.
-    const double shift
-        = settings.formulation == Formulation::convolution_quadrature
-              ? 0.5 * (end - begin)
-              : 0.;
-    VectorXd sum = VectorXd::Zero(Eigen::Index(geometry.boundary.n_unknowns()));
-    for (const PlaneWave &wave : waves)
-      sum += wave.mean_tractions(geometry.boundary, begin + shift, end + shift);
-    return sum;
-  }
-
   bool BoundarySimulation::row_is_due(const std::uint64_t step) const
   {
     return step == n_steps || history_control.is_due(step * dt, dt);
@@ -555,8 +494,8 @@ namespace quoin
     const auto start         = Clock::now();
     const std::uint64_t step = record.step + 1;
     const double begin = record.step * dt, end = step * dt;
-    const VectorXd u_incident = incident_displacements(end);
-    const VectorXd p_incident = incident_tractions(begin, end);
+    const VectorXd u_incident = waves->displacements(end);
+    const VectorXd p_incident = waves->tractions(begin, end);
     VectorXd values           = (*given)(begin, end);
     const auto &of_traction   = given->traction_is_given();
     for (Eigen::Index k = 0; k < values.size(); ++k)
@@ -754,9 +693,8 @@ namespace quoin
                                                points, steps, communicator);
     for (std::size_t k = 0; k < points.size(); ++k)
       for (std::size_t l = 0; l < steps.size(); ++l)
-        for (const PlaneWave &wave : waves)
-          u.block<2, 1>(2 * k, l)
-              += wave.displacement(points[k], steps[l] * dt);
+        u.block<2, 1>(2 * k, l)
+            += waves->displacement(points[k], steps[l] * dt);
     return u;
   }
 

@@ -5,40 +5,11 @@
 #include <quoin/application/given_values.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/tdbem/plane_wave.h>
 
 #include <algorithm>
 
 namespace quoin
 {
-  namespace
-  {
-    using Eigen::VectorXd;
-
-    std::shared_ptr<std::vector<PlaneWave>>
-    make_waves(const BoundaryElementParameters &settings,
-               const ElasticMedium &medium)
-    {
-      auto waves = std::make_shared<std::vector<PlaneWave>>();
-      for (const IncidentWaveParameters &wave : settings.waves)
-        try
-        {
-          waves->emplace_back(
-              medium, wave.is_shear ? PlaneWave::Type::SV : PlaneWave::Type::P,
-              wave.half_plane, wave.angle,
-              [f = wave.displacement](const double t) {
-                return f({ t, t });
-              });
-        }
-        catch (const InputError &error)
-        {
-          throw InputError("section 'Incident waves/" + wave.name
-                           + "': " + error.what());
-        }
-      return waves;
-    }
-  } // namespace
-
   std::unique_ptr<FarField> make_far_field(const Parameters &parameters,
                                            const MeshData &mesh,
                                            const Model &model,
@@ -82,27 +53,6 @@ namespace quoin
     domain.traction_is_given = given->traction_is_given();
     domain.given             = [given](const double begin, const double end)
     { return (*given)(begin, end); };
-    if (!settings.waves.empty())
-    {
-      const auto waves             = make_waves(settings, domain.medium);
-      domain.incident_displacement = [waves, &geometry](const double time)
-      {
-        VectorXd sum
-            = VectorXd::Zero(Eigen::Index(geometry.boundary.n_unknowns()));
-        for (const PlaneWave &wave : *waves)
-          sum += wave.displacements(geometry.boundary, time);
-        return sum;
-      };
-      domain.incident_traction
-          = [waves, &geometry](const double begin, const double end)
-      {
-        VectorXd sum
-            = VectorXd::Zero(Eigen::Index(geometry.boundary.n_unknowns()));
-        for (const PlaneWave &wave : *waves)
-          sum += wave.mean_tractions(geometry.boundary, begin, end);
-        return sum;
-      };
-    }
     try
     {
       return std::make_unique<FarField>(

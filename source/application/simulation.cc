@@ -324,6 +324,8 @@ namespace quoin
                                          : s.maximum_steps / n_substeps + 1.;
     try
     {
+      if (first && !settings.waves.empty())
+        make_waves(step);
       far.set_time_step(step, static_cast<unsigned int>(n_substeps),
                         static_cast<unsigned long>(std::min(n_steps, 1e7)));
     }
@@ -337,6 +339,35 @@ namespace quoin
     if (stage.end == StageEnd::time)
       steps_of_stage = std::uint64_t(steps(stage.duration, step) * n_substeps);
     return step / n_substeps;
+  }
+
+  void Simulation::make_waves(const double step)
+  {
+    FarField &far   = *solver->far_field();
+    double duration = 0.;
+    for (const StageParameters &stage : parameters.stages)
+    {
+      if (std::find(stage.loads.begin(), stage.loads.end(), far.name())
+          == stage.loads.end())
+        continue;
+      if (stage.end != StageEnd::time)
+        throw InputError("section 'Stages/" + stage.name
+                         + "': 'End' is not 'time', but waves come in through "
+                           "the boundary elements of load '"
+                         + far.name()
+                         + "': nobody can say when. Let that load act from a "
+                           "later stage on.");
+      duration += stage.duration + step;
+    }
+    waves = std::make_unique<IncidentWaves>(
+        parameters.boundary, far.domain().medium, far.domain().boundary,
+        std::vector<Eigen::Vector2d>(), duration, step);
+    far.set_incident_field([this](const double time)
+                           { return waves->displacements(time); },
+                           [this](const double begin, const double end)
+                           { return waves->tractions(begin, end); });
+    for (const std::string &text : waves->reports())
+      log.message(text);
   }
 
   void Simulation::report_far_field()

@@ -29,12 +29,12 @@ namespace quoin
     std::string text = dealii::Utilities::trim(given);
     if (text.empty())
       throw InputError("lacks an expression of x, y and t.");
-    TimeFunction table;
-    const bool has_table = text.rfind("table ", 0) == 0;
-    if (has_table)
+    TimeFunction named; // a table or a signal
+    const bool is_named = TimeFunction::is_named(text);
+    if (is_named)
     {
       const std::size_t times = text.find(" times ");
-      table                   = TimeFunction(text.substr(0, times), folder);
+      named                   = TimeFunction(text.substr(0, times), folder);
       text    = times == std::string::npos ? "1" : text.substr(times + 7);
       on_time = true;
     }
@@ -55,10 +55,10 @@ namespace quoin
     on_time  = on_time || mentions(text, "t");
     evaluate = [parser](const Eigen::Vector2d &x, const double t)
     { return parser->value(dealii::Point<3>(x.x(), x.y(), t)); };
-    if (has_table)
-      evaluate = [table, factor = evaluate](const Eigen::Vector2d &x,
+    if (is_named)
+      evaluate = [named, factor = evaluate](const Eigen::Vector2d &x,
                                             const double t) {
-        return table({ t, t }) * factor(x, t);
+        return named({ t, t }) * factor(x, t);
       };
   }
 } // namespace quoin

@@ -163,25 +163,13 @@ namespace quoin
     const double begin = double(far.n_steps) * dt, end = begin + dt;
     const VectorXd none = VectorXd::Zero(Eigen::Index(unknowns.size()));
     incident_u = incident_velocity = incident_p = none;
-    if (problem.incident_displacement)
+    if (incident_displacement)
     {
-      incident_u = part(problem.incident_displacement(end));
+      incident_u = part(incident_displacement(end));
       incident_velocity
-          = (incident_u - part(problem.incident_displacement(begin))) / dt;
-      incident_p = part(incident_tractions(begin, end));
+          = (incident_u - part(incident_displacement(begin))) / dt;
+      incident_p = part(incident_traction(begin, end));
     }
-  }
-
-  VectorXd FarField::incident_tractions(const double begin,
-                                        const double end) const
-  {
-    // Convolution quadrature wants the value at the end, of which a mean about
-    // it is one of second order.
-    const double shift
-        = problem.formulation.formulation == Formulation::convolution_quadrature
-              ? 0.5 * (end - begin)
-              : 0.;
-    return problem.incident_traction(begin + shift, end + shift);
   }
 
   VectorXd FarField::scattered_values(const double begin,
@@ -190,10 +178,10 @@ namespace quoin
     const auto n    = Eigen::Index(problem.boundary.n_unknowns());
     VectorXd values = problem.given ? problem.given(begin, end)
                                     : VectorXd(VectorXd::Zero(n));
-    if (!problem.incident_displacement)
+    if (!incident_displacement)
       return values;
-    const VectorXd u = problem.incident_displacement(end),
-                   t = incident_tractions(begin, end);
+    const VectorXd u = incident_displacement(end),
+                   t = incident_traction(begin, end);
     for (Eigen::Index k = 0; k < n; ++k)
       values[k] -= problem.traction_is_given[k] ? t[k] : u[k];
     return values;
@@ -416,8 +404,8 @@ namespace quoin
   VectorXd FarField::displacement(const State &state) const
   {
     VectorXd u = to_eigen(state.far_field.displacement);
-    if (problem.incident_displacement)
-      u += problem.incident_displacement(double(state.far_field.n_steps) * dt);
+    if (incident_displacement)
+      u += incident_displacement(double(state.far_field.n_steps) * dt);
     return u;
   }
 
@@ -425,9 +413,9 @@ namespace quoin
   {
     VectorXd v         = to_eigen(state.far_field.velocity);
     const auto n_steps = double(state.far_field.n_steps);
-    if (problem.incident_displacement && n_steps > 0.)
-      v += (problem.incident_displacement(n_steps * dt)
-            - problem.incident_displacement((n_steps - 1.) * dt))
+    if (incident_displacement && n_steps > 0.)
+      v += (incident_displacement(n_steps * dt)
+            - incident_displacement((n_steps - 1.) * dt))
            / dt;
     return v;
   }
@@ -436,8 +424,8 @@ namespace quoin
   {
     VectorXd t         = to_eigen(state.far_field.traction);
     const auto n_steps = double(state.far_field.n_steps);
-    if (problem.incident_displacement && n_steps > 0.)
-      t += incident_tractions((n_steps - 1.) * dt, n_steps * dt);
+    if (incident_displacement && n_steps > 0.)
+      t += incident_traction((n_steps - 1.) * dt, n_steps * dt);
     return t;
   }
 } // namespace quoin

@@ -139,10 +139,10 @@ namespace quoin
     for (const std::string direction : { "Horizontal", "Vertical" })
       prm.declare_entry(direction, "free", Anything(),
                         "Function of t (time in the stage) and T (total "
-                        "time) [s], 'table FILE' or 'free'. Traction [Pa], "
-                        "gravity [m/s^2], motion [m/s] or [m]; for a platen "
-                        "preceded by 'velocity' [m/s], 'displacement' [m] or "
-                        "'force' [N].");
+                        "time) [s], 'table FILE', a signal or 'free'. Traction "
+                        "[Pa], gravity [m/s^2], motion [m/s] or [m]; for a "
+                        "platen preceded by 'velocity' [m/s], 'displacement' "
+                        "[m] or 'force' [N].");
     prm.declare_entry("Rotation", "free", Anything(),
                       "Platen, anticlockwise: 'velocity' [deg/s], "
                       "'displacement' [deg] or 'moment' [N m] and a "

@@ -2,85 +2,47 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/loads/signal_text.h>
 #include <quoin/loads/time_function.h>
+#include <quoin/loads/time_table.h>
 
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
-#include <fstream>
 #include <memory>
 #include <sstream>
-#include <vector>
 
 namespace quoin
 {
-  namespace
-  {
-    using Table = std::vector<std::pair<double, double>>;
-
-    Table read_table(const std::string &name)
-    {
-      std::ifstream file(name);
-      if (!file)
-        throw InputError("the table '" + name + "' cannot be read.");
-      Table table;
-      std::string line;
-      unsigned int number = 0;
-      while (std::getline(file, line))
-      {
-        ++number;
-        std::replace(line.begin(), line.end(), ',', ' ');
-        line = line.substr(0, line.find('#'));
-        std::istringstream words(line);
-        double time, value;
-        std::string rest;
-        if (words >> time >> value && !(words >> rest))
-        {
-          if (!table.empty() && time <= table.back().first)
-            throw InputError("the table '" + name
-                             + "' goes back in time "
-                               "in line "
-                             + std::to_string(number) + ".");
-          table.emplace_back(time, value);
-        }
-        else if (!table.empty()
-                 && line.find_first_not_of(" \t\r") != std::string::npos)
-          throw InputError("line " + std::to_string(number) + " of the table '"
-                           + name + "' is not a time and a value.");
-      }
-      if (table.empty())
-        throw InputError("the table '" + name + "' has no rows.");
-      return table;
-    }
-
-    double interpolate(const Table &table, const double time)
-    {
-      const auto after = std::upper_bound(table.begin(), table.end(),
-                                          std::make_pair(time, 1e300));
-      if (after == table.begin())
-        return table.front().second;
-      if (after == table.end())
-        return table.back().second;
-      const auto &[t0, v0] = *(after - 1);
-      const auto &[t1, v1] = *after;
-      return v0 + (v1 - v0) * (time - t0) / (t1 - t0);
-    }
-  } // namespace
-
   TimeFunction::TimeFunction(const std::string &given,
                              const std::string &folder)
   {
-    const std::string text = dealii::Utilities::trim(given);
-    if (text.rfind("table ", 0) == 0)
+    std::string text    = dealii::Utilities::trim(given);
+    const bool is_named = TimeFunction::is_named(text);
+    if (is_named)
     {
-      std::string name = text.substr(6);
-      name.erase(0, name.find_first_not_of(' '));
-      const auto table = std::make_shared<const Table>(
-          read_table(name.front() == '/' ? name : folder + name));
-      evaluate = [table](const TimePoint &time)
-      { return interpolate(*table, time.stage); };
-      return;
+      const std::size_t times = text.find(" times ");
+      const std::string named = text.substr(0, times);
+      if (is_signal_text(named))
+      {
+        const Signal signal = read_signal(named, folder);
+        evaluate            = [value = signal.value](const TimePoint &time)
+        { return value(time.stage); };
+        if (times == std::string::npos)
+          known = signal;
+      }
+      else
+      {
+        std::string name = named.substr(6);
+        name.erase(0, name.find_first_not_of(' '));
+        const auto table = std::make_shared<const TimeTable>(
+            read_time_table(name.front() == '/' ? name : folder + name));
+        evaluate = [table](const TimePoint &time)
+        { return interpolate(*table, time.stage); };
+      }
+      if (times == std::string::npos)
+        return;
+      text = text.substr(times + 7);
     }
 
     const auto parser = std::make_shared<dealii::FunctionParser<2>>(1);
@@ -95,7 +57,26 @@ namespace quoin
       error.print_info(reason);
       throw InputError("is no expression of t and T: " + reason.str());
     }
-    evaluate = [parser](const TimePoint &time)
+    const auto expression = [parser](const TimePoint &time)
     { return parser->value(dealii::Point<2>(time.stage, time.total)); };
+    if (is_named)
+      evaluate = [named = evaluate, expression](const TimePoint &time)
+      { return named(time) * expression(time); };
+    else
+      evaluate = expression;
+  }
+
+  bool TimeFunction::is_named(const std::string &text)
+  {
+    return text.rfind("table ", 0) == 0 || is_signal_text(text);
+  }
+
+  Signal TimeFunction::signal() const
+  {
+    if (known.value)
+      return known;
+    Signal result;
+    result.value = [f = evaluate](const double t) { return f({ t, t }); };
+    return result;
   }
 } // namespace quoin

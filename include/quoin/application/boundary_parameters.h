@@ -11,6 +11,7 @@
 #include <quoin/tdbem/formulation.h>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -71,14 +72,33 @@ namespace quoin
                                         const std::string &name);
   };
 
+  enum class IncidentWaveType
+  {
+    plane_p,
+    plane_sv,
+    rayleigh,
+    line_source
+  };
+
   /** One incident wave: a subsection of 'Incident waves'. */
   struct IncidentWaveParameters
   {
     std::string name;
-    bool is_shear   = false;   /**< SV, or else P */
-    bool half_plane = false;   /**< reflected at the free surface y = 0 */
-    double angle    = 0.;      /**< from the upward vertical towards +x [rad] */
-    TimeFunction displacement; /**< at the origin [m] */
+    IncidentWaveType type = IncidentWaveType::plane_p;
+    bool half_plane       = false; /**< reflected at the free surface y = 0 */
+    double angle = 0.; /**< from the upward vertical towards +x [rad] */
+    std::array<double, 2> position{}; /**< of a line source [m] */
+    unsigned int n_integrations = 0;  /**< from the signal to displacement */
+    double amplitude            = 1.; /**< factor of the signal */
+    Signal signal;
+    std::string signal_entry; /**< 'Signal' or 'Displacement' */
+
+    /**
+     * Displacement at the origin [m] or moment [N] as a function of time
+     * @param begin, end, step of what is integrated numerically [s]
+     */
+    std::function<double(double)> function(double begin, double end,
+                                           double step) const;
 
     static void declare(dealii::ParameterHandler &prm);
     static IncidentWaveParameters read(const ParameterSection &section,

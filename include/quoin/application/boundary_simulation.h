@@ -7,6 +7,7 @@
 #include <quoin/application/boundary_geometry.h>
 #include <quoin/application/boundary_histories.h>
 #include <quoin/application/given_values.h>
+#include <quoin/application/incident_waves.h>
 #include <quoin/application/parameters.h>
 #include <quoin/application/run_options.h>
 #include <quoin/base/time_control.h>
@@ -18,10 +19,10 @@
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/interior_points.h>
 #include <quoin/tdbem/passivity.h>
-#include <quoin/tdbem/plane_wave.h>
 #include <quoin/tdbem/tangential_stress.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -72,7 +73,6 @@ namespace quoin
     void make_boundary();
     void make_sampled_points();
     void choose_time_step();
-    void check_waves() const;
     void report();
     void make_operators();
     void report_passivity();
@@ -93,11 +93,11 @@ namespace quoin
     void write_summary();
 
     bool needs_record() const;
+    /** Of histories and the sampled field. */
+    std::vector<Eigen::Vector2d> points_in_domain() const;
     bool row_is_due(std::uint64_t step) const;
     bool fields_are_due(std::uint64_t step) const;
     FormulationOptions formulation_options() const;
-    Eigen::VectorXd incident_displacements(double time) const;
-    Eigen::VectorXd incident_tractions(double begin, double end) const;
     /** Of points in the domain at the ends of some steps, total field. */
     Eigen::MatrixXd
     domain_displacements(const BoundaryRecord &all,
@@ -116,7 +116,7 @@ namespace quoin
     Progress progress;
     ElasticMedium medium{};
     BoundaryGeometry geometry;
-    std::vector<PlaneWave> waves;
+    std::unique_ptr<IncidentWaves> waves;
     SampledFields sampled; /**< places and triangles */
     std::vector<Eigen::Vector2d> sampled_points;
 

@@ -6,6 +6,7 @@
 
 #include <quoin/application/boundary_geometry.h>
 #include <quoin/application/histories.h>
+#include <quoin/application/incident_waves.h>
 #include <quoin/application/parameters.h>
 #include <quoin/application/run_options.h>
 #include <quoin/base/time_control.h>
@@ -77,6 +78,7 @@ namespace quoin
      * longer than @p dt; returns these.
      */
     double choose_far_field_step(const StageParameters &stage, double dt);
+    void make_waves(double step);
     void report_far_field();
     void write_far_field_row();
     void write_boundary();
@@ -105,6 +107,7 @@ namespace quoin
     MeshReport mesh_report;
     std::unique_ptr<Model> model;
     BoundaryGeometry boundary_geometry;
+    std::unique_ptr<IncidentWaves> waves;
     std::unique_ptr<ExplicitSolver> solver;
     std::unique_ptr<Histories> histories;
     std::unique_ptr<CsvTable> history_table, energy_table, far_field_table;

@@ -14,8 +14,9 @@ namespace quoin
   /**
    * A value that depends on place and time: an expression of x, y [m] and t
    * [s], with pi and the functions of muParser, if(condition, a, b) among
-   * them; or "table FILE", a CSV file of times [s] and values as in
-   * TimeFunction; or "table FILE times EXPRESSION", the product of the two.
+   * them; or "table FILE" or a signal, such as "pulse triangular 1e-3 5e-3",
+   * as in TimeFunction; or one of these and "times EXPRESSION", the product of
+   * the two.
    */
   class SpaceTimeFunction
   {

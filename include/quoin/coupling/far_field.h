@@ -58,10 +58,6 @@ namespace quoin
      * the interface are not looked at. Null: zero.
      */
     std::function<Eigen::VectorXd(double begin, double end)> given;
-    /** Of the field that comes in; null: none. At a time [m]. */
-    std::function<Eigen::VectorXd(double time)> incident_displacement;
-    /** In the mean over a step [Pa]. */
-    std::function<Eigen::VectorXd(double begin, double end)> incident_traction;
   };
 
   /**
@@ -110,6 +106,19 @@ namespace quoin
      */
     void set_time_step(double time_step, unsigned int n_substeps,
                        unsigned long n_steps);
+
+    /**
+     * The field that comes in, all over the boundary: displacements at a time
+     * [m], and the tractions of the step from begin to end [Pa]. Must be
+     * called before it first acts.
+     */
+    void set_incident_field(
+        std::function<Eigen::VectorXd(double time)> displacement,
+        std::function<Eigen::VectorXd(double begin, double end)> traction)
+    {
+      incident_displacement = std::move(displacement);
+      incident_traction     = std::move(traction);
+    }
 
     /** 0 before set_time_step() [s]. */
     double time_step() const
@@ -167,11 +176,13 @@ namespace quoin
     void begin_element_step(State &state);
     void finish_element_step(State &state);
     /** All over the boundary. */
-    Eigen::VectorXd incident_tractions(double begin, double end) const;
     Eigen::VectorXd scattered_values(double begin, double end) const;
 
     FarFieldDomain problem;
     InterfaceTransfer transfer;
+    std::function<Eigen::VectorXd(double)>
+        incident_displacement; /**< or null */
+    std::function<Eigen::VectorXd(double, double)> incident_traction;
     double thickness;
     MPI_Comm communicator;
     bool is_first_rank;

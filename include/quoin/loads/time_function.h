@@ -4,6 +4,8 @@
 #ifndef quoin_loads_time_function_h
 #define quoin_loads_time_function_h
 
+#include <quoin/loads/signal.h>
+
 #include <functional>
 #include <string>
 
@@ -20,7 +22,9 @@ namespace quoin
    * A value that depends on time alone: an expression of t (time in the
    * stage) and T (total time), with pi and the functions of muParser,
    * if(condition, a, b) among them; or "table FILE", a CSV file of times [s] in
-   * the stage and values, linear in between and constant beyond its ends.
+   * the stage and values, linear in between and constant beyond its ends; or a
+   * signal of the time in the stage, such as "wavelet Ricker 5" (see
+   * read_signal()). "times EXPRESSION" after a table or a signal multiplies it.
    */
   class TimeFunction
   {
@@ -33,14 +37,21 @@ namespace quoin
      */
     TimeFunction(const std::string &text, const std::string &folder);
 
+    /** Whether @p text begins like a table or a signal. */
+    static bool is_named(const std::string &text);
+
     double operator()(const TimePoint &time) const
     {
       return evaluate(time);
     }
 
+    /** As a function of the time since the run began, which has one stage. */
+    Signal signal() const;
+
   private:
     std::function<double(const TimePoint &)> evaluate
         = [](const TimePoint &) { return 0.; };
+    Signal known; /**< has no value if it is not a signal alone */
   };
 } // namespace quoin
 

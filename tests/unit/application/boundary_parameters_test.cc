@@ -122,7 +122,7 @@ TEST(BoundaryParameters, All)
   EXPECT_FALSE(surface.value[1].depends_on_time());
 
   ASSERT_EQ(boundary.waves.size(), 1u);
-  EXPECT_TRUE(boundary.waves[0].is_shear);
+  EXPECT_EQ(boundary.waves[0].type, IncidentWaveType::plane_sv);
   EXPECT_TRUE(boundary.waves[0].half_plane);
   EXPECT_NEAR(boundary.waves[0].angle, M_PI / 6., 1e-15);
 }
@@ -182,4 +182,49 @@ TEST(BoundaryParameters, BlocksAreUntouched)
   EXPECT_THROW(files.read({ "Model=blocks" }), InputError);
   EXPECT_THROW(files.read({ "Stages/Names=first" }), InputError);
   EXPECT_THROW(files.read({ "Plane assumption=plane stress" }), InputError);
+}
+
+TEST(BoundaryParameters, IncidentWaves)
+{
+  const Case files(good);
+  const auto read = [&](std::vector<std::string> settings)
+  {
+    for (std::string &setting : settings)
+      setting = "Incident waves/sv/" + setting;
+    return files.read(settings).boundary.waves.at(0);
+  };
+  const auto refused = [&](const std::vector<std::string> &settings)
+  { return message_of<InputError>([&] { read(settings); }); };
+
+  const IncidentWaveParameters plain = read({ "Amplitude=2" });
+  EXPECT_NEAR(plain.function(0., 1., 0.01)(0.5), 1e-3, 1e-15);
+
+  // From acceleration to displacement, in closed form and not.
+  for (const std::string signal :
+       { "wavelet Ricker 5 0.4", "wavelet Ricker 5 0.4 times 1" })
+  {
+    const IncidentWaveParameters wave
+        = read({ "Displacement=0", "Signal=" + signal, "Motion=acceleration",
+                 "Amplitude=3" });
+    const double a = M_PI * 5.;
+    EXPECT_NEAR(wave.function(0., 2., 1e-3)(0.4), -1.5 / (a * a), 1e-7);
+  }
+
+  const IncidentWaveParameters rayleigh
+      = read({ "Type=Rayleigh", "Angle=-90" });
+  EXPECT_EQ(rayleigh.type, IncidentWaveType::rayleigh);
+  EXPECT_LT(rayleigh.angle, 0.);
+
+  const IncidentWaveParameters source
+      = read({ "Type=line source", "Space=full plane", "Position=3, -4",
+               "Displacement=0", "Signal=pulse exponential 1e-3 1e-2",
+               "Amplitude=1e8" });
+  EXPECT_EQ(source.position[1], -4.);
+  EXPECT_NEAR(source.function(0., 1., 0.1)(1e-3), 1e8, 1e-4);
+
+  EXPECT_NE(refused({ "Type=Rayleigh" }).find("90 or -90"), std::string::npos);
+  EXPECT_NE(refused({ "Type=line source" }).find("full plane"),
+            std::string::npos);
+  EXPECT_NE(refused({ "Signal=t" }).find("one of them"), std::string::npos);
+  EXPECT_NE(refused({ "Motion=velocity" }).find("'Signal'"), std::string::npos);
 }

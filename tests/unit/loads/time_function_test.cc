@@ -124,3 +124,31 @@ TEST(TimeFunction, BadTables)
       [] { TimeFunction("table not_there.csv", "some/folder/"); });
   expect("t.csv: " + message, "some/folder/not_there.csv' cannot be read");
 }
+
+TEST(TimeFunction, Signals)
+{
+  EXPECT_EQ(at("pulse triangular 1 2", 0.5, 9.), 0.5);
+  EXPECT_EQ(at("  wavelet Ricker 2 1", 1.), 1.);
+  EXPECT_DOUBLE_EQ(at("pulse triangular 1 2 times 1e6 * T", 0.5, 3.), 1.5e6);
+  const TemporaryDirectory directory;
+  write(directory / "t.csv", "0, 0\n1, 5\n");
+  const std::string folder = directory.path() + "/";
+  EXPECT_DOUBLE_EQ(at("table t.csv times t", 0.5, 0., folder), 1.25);
+  EXPECT_DOUBLE_EQ(at("record t.csv integrated once", 1., 0., folder), 2.5);
+
+  // Integrals in closed form, unless something is multiplied.
+  EXPECT_TRUE(TimeFunction("wavelet Ricker 2", "./").signal().integral);
+  const Signal product
+      = TimeFunction("wavelet Ricker 2 1 times 3", "./").signal();
+  EXPECT_FALSE(product.integral);
+  EXPECT_EQ(product.value(1.), 3.);
+  EXPECT_EQ(TimeFunction("t + T", "./").signal().value(2.), 4.);
+
+  EXPECT_NE(message_of<InputError>([] { TimeFunction("pulse", "./"); })
+                .find("pulse half-sine"),
+            std::string::npos);
+  EXPECT_NE(message_of<InputError>(
+                [] { TimeFunction("wavelet Ricker 2 times x", "./"); })
+                .find("is no expression of t and T"),
+            std::string::npos);
+}
