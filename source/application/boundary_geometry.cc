@@ -75,6 +75,24 @@ namespace quoin
       return result;
     }
 
+    /** More would not fit into any memory: lags need the square of it. */
+    constexpr double most_elements = 20000.;
+
+    /** @p n elements that a length asks for; refuses too many. */
+    unsigned int checked(const BoundaryCurveParameters &parameters,
+                         const double n, const double element_length)
+    {
+      if (!(n <= most_elements))
+      {
+        std::ostringstream why;
+        why << "'Element length = " << element_length << "' makes " << n
+            << " elements, more than " << most_elements
+            << ". Give a longer one.";
+        fail(parameters.name, why.str());
+      }
+      return static_cast<unsigned int>(n);
+    }
+
     /** Cuts the edges of a curve into equal elements. */
     Curve cut(const Curve &curve, const BoundaryCurveParameters &parameters,
               const double element_length)
@@ -97,8 +115,11 @@ namespace quoin
       else
         for (std::size_t k = 0; k < lengths.size(); ++k)
           // A quotient that should be whole is not rounded up.
-          numbers[k] = std::max(
-              1., std::ceil(lengths[k] / element_length * (1. - 1e-9)));
+          numbers[k]
+              = checked(parameters,
+                        std::max(1., std::ceil(lengths[k] / element_length
+                                               * (1. - 1e-9))),
+                        element_length);
       Curve result;
       result.closed = curve.closed;
       for (std::size_t k = 0; k < lengths.size(); ++k)
@@ -137,7 +158,7 @@ namespace quoin
       };
       unsigned int most = 1;
       while (shortest(most) > wanted)
-        most *= 2;
+        most = checked(parameters, 2. * most, element_length);
       unsigned int least = most / 2; // too few
       while (most - least > 1)
       {
@@ -153,8 +174,11 @@ namespace quoin
       const unsigned int n
           = parameters.n_elements > 0
                 ? parameters.n_elements
-                : std::max(3., std::ceil(2. * M_PI * parameters.radius
-                                         / element_length * (1. - 1e-9)));
+                : checked(
+                    parameters,
+                    std::max(3., std::ceil(2. * M_PI * parameters.radius
+                                           / element_length * (1. - 1e-9))),
+                    element_length);
       const double part = M_PI / n;
       double radius     = parameters.radius;
       if (parameters.polygon == CirclePolygon::equal_area)
@@ -502,6 +526,32 @@ namespace quoin
     }
   } // namespace
 
+  /** What closed curves enclose must be on the domain's side of others. */
+  static void check_sides(const std::vector<Curve> &curves,
+                          const BoundaryGeometry &geometry,
+                          const BoundaryElementParameters &parameters)
+  {
+    for (std::size_t k = 0; k < curves.size(); ++k)
+    {
+      if (!curves[k].closed)
+        continue;
+      Boundary alone;
+      alone.add_curve(curves[k].points, true);
+      for (std::size_t e = 0; e < geometry.owner.size(); ++e)
+        if (geometry.owner[e] != k
+            && !nearest_element(alone, geometry.boundary.elements[e].middle())
+                    .inside_domain)
+        {
+          const auto &name  = parameters.boundaries[k].name;
+          const auto &other = parameters.boundaries[geometry.owner[e]].name;
+          fail(name, "'Domain': the boundary '" + other
+                         + "' is not on the side of '" + name
+                         + "' where the domain is. Change 'Domain' of one of "
+                           "them, or move it.");
+        }
+    }
+  }
+
   bool segments_meet(const Vector2d &a, const Vector2d &b, const Vector2d &c,
                      const Vector2d &d)
   {
@@ -554,6 +604,7 @@ namespace quoin
       geometry.owner.resize(geometry.boundary.n_elements(), k);
     }
     check_elements(geometry, parameters);
+    check_sides(curves, geometry, parameters);
     return geometry;
   }
 

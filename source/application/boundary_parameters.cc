@@ -467,6 +467,11 @@ namespace quoin
     parameters.coupling       = section.choice<CouplingScheme>(
         "Coupling", { { "implicit", CouplingScheme::implicit },
                             { "staggered", CouplingScheme::staggered } });
+    if (!coupled && parameters.coupling != CouplingScheme::implicit)
+      section.fail("Coupling", "has no meaning without blocks: remove it.");
+    if (parameters.is_static && section.number("Decay") > 0.)
+      section.fail("Decay", "has no meaning with 'Analysis = static': remove "
+                            "it.");
     if (coupled && parameters.is_static)
       section.fail("Analysis", "is that of a domain without blocks: leave it "
                                "at 'dynamic'.");

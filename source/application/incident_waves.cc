@@ -135,7 +135,13 @@ namespace quoin
                                 + wave.signal_entry + "': ";
     double peak = 0.;
     for (double t = 0.; t <= duration; t += time_step)
+    {
+      if (!std::isfinite(signal(t)))
+        throw InputError(section + "it is not finite at t = " + number(t)
+                         + " s. Change the expression so that it has a value "
+                           "at all times of the run.");
       peak = std::max(peak, std::abs(signal(t)));
+    }
     if (wave.type == IncidentWaveType::line_source)
     {
       if (!(std::abs(signal(0.)) <= 1e-3 * peak))

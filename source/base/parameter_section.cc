@@ -6,6 +6,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -107,7 +108,10 @@ namespace quoin
     {
       values.clear();
     }
-    if (values.size() != size)
+    if (values.size() != size
+        || !std::all_of(values.begin(), values.end(),
+                        [](const double value)
+                        { return std::isfinite(value); }))
       fail(name,
            "must be " + std::to_string(size) + " numbers separated by commas.");
     return values;

@@ -22,8 +22,8 @@ namespace quoin
         matrix.col(k) = -traction_scale * G0.col(k);
     solver.compute(matrix);
     if (!(solver.rcond() > 1e-14))
-      throw InputError("Boundary elements: the equations are singular. Look "
-                       "for elements that coincide.");
+      throw InputError("section 'Boundary elements': the equations are "
+                       "singular. Look for elements that coincide.");
   }
 
   Eigen::VectorXd BoundaryMarch::solve(const Eigen::VectorXd &given)

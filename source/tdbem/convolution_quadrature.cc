@@ -127,8 +127,8 @@ namespace quoin
   {
     // The accuracy of the matrices themselves.
     constexpr double negligible = 1e-9;
-    const unsigned arrival      = std::min(
-             unsigned(distance / (medium_.c1 * time_step_)), unsigned(G_.cols()));
+    const unsigned arrival      = unsigned(
+        std::min(distance / (medium_.c1 * time_step_), double(G_.cols())));
     Eigen::MatrixXd G, H;
     blocks(rows, columns, 0, arrival, G, H);
     const double G_least = negligible * G_.lpNorm<Eigen::Infinity>();
@@ -146,13 +146,22 @@ namespace quoin
   unsigned ConvolutionQuadrature::decaying_lag(const ElasticMedium &medium,
                                                const double time_step,
                                                const double distance,
-                                               const double share)
+                                               const double share,
+                                               const double stiffness_damping)
   {
     // The second pole of decay_factors() has lost its power by 3 a step.
     constexpr double least = 24.;
     const double travel    = distance / (medium.c2 * time_step);
-    return unsigned(std::ceil(
-        least + travel + std::max(share * travel, 4. * std::sqrt(travel))));
+    double after           = std::max(share * travel, 4. * std::sqrt(travel));
+    // Stiffness damping b spreads a front over sqrt(b travel). The part of the
+    // density that is left out, and what grows with the distance in it, decay
+    // by the time s after the front like exp(-s^2/(2 b travel)) or exp(-s/b).
+    if (share > 0.)
+    {
+      const double b = stiffness_damping / time_step;
+      after = std::max({ after, std::sqrt(45. * b * travel), 25. * b });
+    }
+    return unsigned(std::min(most_lags, std::ceil(least + travel + after)));
   }
 
   void ConvolutionQuadrature::cut_blocks(const ElementRange &rows,

@@ -12,11 +12,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
+#include <string>
 
 namespace quoin
 {
   namespace
   {
+    /** Far more than travelling times of boundaries that fit into memory. */
+    constexpr unsigned long most_compressed_lags = 20000;
+
+    std::string text(const double value)
+    {
+      std::ostringstream stream;
+      stream << value;
+      return stream.str();
+    }
+
     ClusteredHistory::Options
     clustered_options(const FormulationOptions &options)
     {
@@ -36,19 +48,26 @@ namespace quoin
       if (options.decay != 0.)
         throw InputError("Boundary elements: decay is not for convolution "
                          "quadrature. Use Rayleigh damping.");
-      {
-        // Lags of the compressed history and one to compare the rest with.
-        const unsigned long n_lags
-            = options.direct_history
-                  ? options.n_steps
-                  : ConvolutionQuadrature::decaying_lag(
-                        medium, options.time_step, boundary.diameter(),
-                        ClusteredHistory::Options().share)
-                        + 2;
-        return std::make_unique<ConvolutionQuadrature>(
-            boundary, medium, options.time_step, unsigned(n_lags),
-            Projection::galerkin, options.damping);
-      }
+      // Lags of the compressed history and one to compare the rest with.
+      const unsigned long n_lags
+          = options.direct_history
+                ? options.n_steps
+                : std::min(ConvolutionQuadrature::decaying_lag(
+                               medium, options.time_step, boundary.diameter(),
+                               ClusteredHistory::Options().share,
+                               options.damping.stiffness),
+                           ClusteredHistory::lags_wanted(options.n_steps))
+                      + 2;
+      if (!options.direct_history && n_lags > most_compressed_lags)
+        throw InputError(
+            "section 'Boundary elements': 'Stiffness damping = "
+            + text(options.damping.stiffness) + "' spreads waves so far that "
+            + std::to_string(n_lags)
+            + " lags would have to be kept. Give less, longer time steps, or, "
+              "for a short run, 'History = direct'.");
+      return std::make_unique<ConvolutionQuadrature>(
+          boundary, medium, options.time_step, unsigned(n_lags),
+          Projection::galerkin, options.damping);
     }
     if (options.damping.mass != 0. || options.damping.stiffness != 0.)
       throw InputError("Boundary elements: Rayleigh damping needs the "

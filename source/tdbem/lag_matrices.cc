@@ -152,14 +152,15 @@ namespace quoin
   unsigned LagMatrices::first_lag(const ElementRange &, const ElementRange &,
                                   const double distance) const
   {
-    return unsigned(distance / (medium.c1 * dt));
+    return unsigned(std::min(most_lags, distance / (medium.c1 * dt)));
   }
 
   unsigned LagMatrices::first_decaying_lag(const double distance,
                                            const double share) const
   {
     // The displacements' shape in time reaches one step back.
-    return unsigned(std::ceil((1. + share) * distance / (medium.c2 * dt))) + 1;
+    return unsigned(std::min(
+        most_lags, std::ceil((1. + share) * distance / (medium.c2 * dt)) + 1.));
   }
 
   void LagMatrices::cut_blocks(const ElementRange &rows,

@@ -122,17 +122,15 @@ namespace quoin
     text << "is not passive: the smallest eigenvalue of its Hermitian part is "
          << smallest_eigenvalue << " rho c2 at " << frequency << " Hz, "
          << frequency / nyquist << " of the highest frequency. ";
+    text << "That is about motion given everywhere, as blocks give it. ";
     if (smallest_eigenvalue > -1.)
-      text << "The radiation of other modes, damping and friction of the "
-              "blocks usually outweigh this. Watch the work of the boundary "
-              "elements; if it becomes negative, ";
+      text << "The radiation of other modes and what blocks dissipate usually "
+              "outweigh this; watch the energy radiated in a long run. ";
     else
-      text << "This may make a coupled run unstable: ";
-    text << "use the Galerkin formulation with a step of 1 to 1.5 times the "
-            "element length over c1 (1.2 to 1.5 if Poisson's ratio is above "
-            "0.35), or convolution quadrature, or put viscous dashpots of "
-         << -smallest_eigenvalue
-         << " rho c2 on the interface, which make up for it exactly.";
+      text << "It may make a run unstable. ";
+    text << "Remedies: Galerkin with a step of 1 to 1.5 times the element "
+            "length over c1 (1.2 to 1.5 if Poisson's ratio is above 0.35); "
+            "convolution quadrature.";
     return text.str();
   }
 

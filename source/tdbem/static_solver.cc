@@ -31,8 +31,9 @@ namespace quoin
             = std::max(from_identity, (sum - x).lpNorm<Eigen::Infinity>());
       }
       if (std::min(from_zero, from_identity) > 1e-6)
-        throw InputError("Static boundary elements: the boundary is not made "
-                         "of closed curves with the domain on their left.");
+        throw InputError("section 'Boundary elements': 'Analysis = static' "
+                         "needs closed boundaries, all with the domain on the "
+                         "same side. Close open ones, or change 'Domain'.");
       return from_zero < from_identity;
     }
 
@@ -131,14 +132,15 @@ namespace quoin
               ? (motions.transpose() * known_force).lpNorm<Eigen::Infinity>()
               : 0.;
     if (imbalance > 1e-3 * known_force.lpNorm<1>())
-      throw InputError("Static boundary elements: the body may move freely and "
-                       "the tractions on it are not in balance. Fix more "
-                       "displacements or correct the tractions.");
+      throw InputError("section 'Boundary elements': with 'Analysis = static' "
+                       "the body may move freely and the tractions on it are "
+                       "not in balance. Give more displacements, or tractions "
+                       "whose resultant is zero.");
 
     const Eigen::PartialPivLU<Eigen::MatrixXd> factors(system);
     if (!(factors.rcond() > 1e-13))
-      throw InputError("Static boundary elements: the equations are singular. "
-                       "Look for elements that coincide.");
+      throw InputError("section 'Boundary elements': the static equations are "
+                       "singular. Look for elements that coincide.");
     const Eigen::VectorXd x = factors.solve(rhs);
 
     StaticSolution solution{ Eigen::VectorXd(n), Eigen::VectorXd(n),

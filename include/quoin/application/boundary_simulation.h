@@ -19,6 +19,7 @@
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/interior_points.h>
 #include <quoin/tdbem/passivity.h>
+#include <quoin/tdbem/static_solver.h>
 #include <quoin/tdbem/tangential_stress.h>
 
 #include <chrono>
@@ -77,9 +78,12 @@ namespace quoin
     void make_operators();
     void report_passivity();
     void report_stability();
+    /** Also a half-plane, whose surface is discretised to a distance. */
+    bool is_bounded() const;
     void open_outputs();
     void make_march();
     void solve_static();
+    void write_static();
     void take_step();
     void write_boundary(double time, const BoundaryState &state);
     void write_row(double time, const BoundaryState &state);
@@ -134,6 +138,7 @@ namespace quoin
     double dt             = 0.; /**< [s] */
     std::uint64_t n_steps = 0;
     std::unique_ptr<PassivityReport> passivity;
+    std::unique_ptr<StaticSolution> static_solution;
     Eigen::VectorXd last_displacement; /**< total [m] */
     std::uint64_t steps_done = 0;      /**< by this process */
     double seconds_done      = 0.;

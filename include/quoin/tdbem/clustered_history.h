@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <vector>
 
 namespace quoin
@@ -59,6 +60,12 @@ namespace quoin
        */
       double share = 0.25;
     };
+
+    /** The most lags that a run of @p n_steps needs. */
+    static unsigned lags_wanted(const unsigned long n_steps)
+    {
+      return unsigned(std::clamp<double>(double(n_steps), 64., most_lags));
+    }
 
     /** Needs the kernel only here. Collective. */
     ClusteredHistory(const LagKernel &kernel, const Boundary &boundary,

@@ -91,12 +91,14 @@ namespace quoin
      */
     unsigned first_decaying_lag(double distance, double share) const override
     {
-      return decaying_lag(medium_, time_step_, distance, share);
+      return decaying_lag(medium_, time_step_, distance, share,
+                          damping_.stiffness);
     }
 
     /** The same before there is an object, to know how many lags it needs. */
     static unsigned decaying_lag(const ElasticMedium &medium, double time_step,
-                                 double distance, double share);
+                                 double distance, double share,
+                                 double stiffness_damping);
 
     void cut_blocks(const ElementRange &rows, const ElementRange &columns,
                     double lambda, Eigen::MatrixXd &G,

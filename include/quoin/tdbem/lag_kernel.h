@@ -11,6 +11,9 @@
 
 namespace quoin
 {
+  /** More lags than anybody can keep. */
+  constexpr double most_lags = 1e9;
+
   /** Elements begin to end - 1 of a boundary. */
   struct ElementRange
   {

@@ -80,9 +80,6 @@ TEST(ClusteredHistory, time_domain)
         EXPECT_LT(error, tolerance);
         EXPECT_LT(history.decay_error(kernel), 20. * tolerance);
         EXPECT_GT(250, 2 * history.n_lags());
-        std::cout << tolerance << ' ' << error << ' '
-                  << history.decay_error(kernel) << ' ' << history.n_rates()
-                  << ' ' << history.n_lags() << '\n';
       }
     }
 }
@@ -102,8 +99,6 @@ TEST(ClusteredHistory, convolution_quadrature)
     DirectHistory direct(kernel);
     const double error = difference(history, direct, kernel.size(), 250);
     EXPECT_LT(error, 1e-6);
-    std::cout << error << ' ' << history.decay_error(kernel) << ' '
-              << history.n_rates() << ' ' << history.n_lags() << '\n';
   }
 }
 
@@ -155,4 +150,34 @@ TEST(ClusteredHistory, transform)
     EXPECT_LT((G1 - G2).cwiseAbs().maxCoeff(), 1e-6 * G2.cwiseAbs().maxCoeff());
     EXPECT_LT((H1 - H2).cwiseAbs().maxCoeff(), 1e-6 * H2.cwiseAbs().maxCoeff());
   }
+}
+
+/** Damping that spreads the fronts over more than the usual lags. */
+TEST(ClusteredHistory, stiffness_damping)
+{
+  const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 12, true);
+  for (const double stiffness : { 0.3, 3. })
+  {
+    const ConvolutionQuadrature kernel(boundary, medium, 0.3, 500,
+                                       Projection::galerkin,
+                                       RayleighDamping{ 0., stiffness });
+    ClusteredHistory::Options compression;
+    compression.n_steps = 1000;
+    ClusteredHistory history(kernel, boundary, compression, MPI_COMM_SELF);
+    DirectHistory direct(kernel);
+    EXPECT_LT(difference(history, direct, kernel.size(), 500), 1e-6);
+  }
+}
+
+/** Fewer steps than a wave takes: no more lags than steps, and all are kept. */
+TEST(ClusteredHistory, short_run)
+{
+  const Boundary boundary = two_holes();
+  const LagMatrices kernel(boundary, medium, 0.005);
+  ClusteredHistory::Options compression;
+  compression.n_steps = 20;
+  ClusteredHistory history(kernel, boundary, compression, MPI_COMM_SELF);
+  DirectHistory direct(kernel);
+  EXPECT_LE(history.n_lags(), 64u);
+  EXPECT_LT(difference(history, direct, kernel.size(), 20), 1e-12);
 }
