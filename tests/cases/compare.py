@@ -72,7 +72,8 @@ def run_case(case, options):
     folder = os.path.join(common.VERIFICATION, case["folder"])
     with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
         output = options.keep or scratch
-        seconds = common.run(options.quoin, os.path.join(folder, "case.prm"),
+        prm = os.path.join(folder, case.get("prm", "case.prm"))
+        seconds = common.run(options.quoin, prm,
                              output, case.get("set", []))
         histories, units = common.read_table(
             os.path.join(output, "histories.csv"))
