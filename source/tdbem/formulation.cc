@@ -96,6 +96,8 @@ namespace quoin
                  const Boundary &boundary, const ElasticMedium &medium,
                  const FormulationOptions &options, MPI_Comm communicator)
   {
+    if (const auto clustered = dynamic_cast<const ClusteredHistory *>(&history))
+      return clustered->transform(kernel);
     if (options.formulation == Formulation::convolution_quadrature)
       return
           [&boundary, &medium, dt = options.time_step,
@@ -108,8 +110,6 @@ namespace quoin
         G.swap(matrices.G);
         H.swap(matrices.H);
       };
-    if (const auto clustered = dynamic_cast<const ClusteredHistory *>(&history))
-      return clustered->transform(kernel);
     // The direct sum has no end to its lags.
     const auto clustered = std::make_shared<ClusteredHistory>(
         kernel, boundary, clustered_options(options), communicator);

@@ -3,6 +3,8 @@
 
 #include <quoin/tdbem/graded_rule.h>
 
+#include <boost/math/special_functions/beta.hpp>
+
 namespace quoin
 {
   GaussRule graded_rule(const unsigned n)
@@ -23,8 +25,8 @@ namespace quoin
     for (unsigned k = 0; k < n; ++k)
     {
       const double t = rule.points[k];
-      rule.points[k] = t * t * t * (10. - 15. * t + 6. * t * t);
-      rule.weights[k] *= 30. * t * t * (1. - t) * (1. - t);
+      rule.points[k] = boost::math::ibeta(8., 8., t);
+      rule.weights[k] *= boost::math::ibeta_derivative(8., 8., t);
     }
     return rule;
   }

@@ -18,8 +18,10 @@ namespace quoin
     using Eigen::Matrix2d;
     using Eigen::Vector2d;
 
-    /** In units of the longer element. */
+    /** From the source and the fronts, in units of the longer element. */
     constexpr double far_distance = 1.5;
+    /** Between elements; nearer ones are nearly singular at all times. */
+    constexpr double near_distance = 1.6;
 
     double distance_to_segment(const Vector2d &point, const Vector2d &a,
                                const Vector2d &b)
@@ -185,8 +187,8 @@ namespace quoin
                                          const double time,
                                          const bool close) const
   {
-    static const GaussRule graded        = graded_rule(12);
-    static const GaussRule strong_graded = strongly_graded_rule(24);
+    static const GaussRule graded        = graded_rule(16);
+    static const GaussRule strong_graded = strongly_graded_rule(32);
     const GaussRule &rule                = close ? strong_graded : graded;
 
     std::array<double, 16> cuts;
@@ -294,7 +296,7 @@ namespace quoin
       if (c * time > pair.nearest)
         smoothness = std::min(smoothness, c * time - pair.farthest);
     smoothness /= length;
-    if (smoothness > far_distance)
+    if (smoothness > far_distance && pair.nearest > near_distance * length)
       return far_integrals(pair, time,
                            smoothness > 16.  ? 2
                            : smoothness > 5. ? 3

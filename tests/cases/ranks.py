@@ -29,7 +29,11 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                           "Loads/base/Type=traction"]),
             "sled": (common.SLED, []),
             "cavity": (os.path.join(common.VERIFICATION, "cavity_step",
-                                    "case.prm"), ["Sampled field/Box="])}
+                                    "case.prm"), ["Sampled field/Box="]),
+            "hybrid": (os.path.join(common.VERIFICATION, "hybrid_hole",
+                                    "case.prm"),
+                       ["Boundary elements/Element length=0.5",
+                        "Boundary elements/Passivity frequencies=0"])}
 TOLERANCE = 1e-10
 
 

@@ -46,6 +46,12 @@ CASES = {
          "Output/Field interval=5e-3", "Histories/Interval=1e-4",
          "Boundary elements/Duration=0.1",
          "Boundary elements/Passivity frequencies=0"], 2, 1),
+    # blocks with boundary elements beyond, stopped within a step of these
+    "hybrid": (os.path.join(common.VERIFICATION, "hybrid_hole", "case.prm"),
+               ["Output/Checkpoint interval=0.05", "Histories/Interval=1e-4",
+                "Output/Field interval=2e-2", "Stages/pulse/Duration=0.1",
+                "Boundary elements/Element length=0.5",
+                "Boundary elements/Passivity frequencies=0"], 1, 3),
 }
 
 

@@ -16,8 +16,8 @@ namespace quoin
   GaussRule graded_rule(unsigned n);
 
   /**
-   * The same with x = 10 t^3 - 15 t^4 + 6 t^5, for functions that are
-   * logarithmic at an end.
+   * The same with the regularised incomplete beta function x = I_t(8, 8),
+   * which begins like t^8, for functions that are logarithmic at an end.
    */
   GaussRule strongly_graded_rule(unsigned n);
 } // namespace quoin
