@@ -10,6 +10,7 @@ run that writes no fields: to write them must change nothing.
 """
 import os
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -99,9 +100,11 @@ def kill_all(process):
         time.sleep(0.005)
 
 
-def kill(words, checkpoint, delay):
-    """Starts a run and kills it some time after its first new checkpoint;
-    returns False if it finished before."""
+def run_and_kill(words, checkpoint, delay=None):
+    """Starts a run and kills it @p delay [s] after its first new checkpoint.
+
+    Returns None if it was killed; if it finished before, or without @p delay,
+    the seconds from the checkpoint to its end."""
     before = written(checkpoint)
     deadline = time.monotonic() + 60
     with tempfile.TemporaryFile(mode="w+") as screen:
@@ -112,16 +115,18 @@ def kill(words, checkpoint, delay):
                 kill_all(process)
                 raise Failure("no checkpoint within 60 s")
             time.sleep(0.005)
+        seen = time.monotonic()
         try:
             process.wait(timeout=delay)
         except subprocess.TimeoutExpired:
             kill_all(process)
-            return True
+            return None
+        lasted = time.monotonic() - seen
         if process.returncode != 0:
             screen.seek(0)
             raise Failure("the run ended with exit status %d:\n%s"
                           % (process.returncode, screen.read()[-1500:]))
-    return False
+    return lasted
 
 
 def compare_tables(what, one, other):
@@ -165,7 +170,14 @@ def body():
         with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
             whole = os.path.join(scratch, "whole")
             broken = os.path.join(scratch, "broken")
-            seconds = common.run(options.quoin, prm, whole, sets, ranks)
+            # what a run takes after its first checkpoint: its set-up may
+            # take longer than all its steps
+            checkpoint = os.path.join(whole, "checkpoint", "latest")
+            lasting = run_and_kill(
+                common.command(options.quoin, prm, whole, sets, ranks, []),
+                checkpoint)
+            if not written(checkpoint):
+                raise Failure("%s wrote no checkpoint" % name)
             if any(value.startswith("Output/Field") for value in sets):
                 bare = os.path.join(scratch, "bare")
                 common.run(options.quoin, prm, bare,
@@ -173,14 +185,20 @@ def body():
                 compare_tables(name + ", without fields", whole, bare)
             checkpoint = os.path.join(broken, "checkpoint", "latest")
             killed = 0
-            for attempt in range(kills):
-                delay = random.random() * seconds / (kills + 1)
+            for attempt in range(kills + 10):
+                delay = random.random() * lasting / (kills + 1)
                 words = common.command(options.quoin, prm, broken, sets, ranks,
-                                       ["--resume"] if attempt else [])
-                if not kill(words, checkpoint, delay):
-                    break
+                                       ["--resume"] if killed else [])
+                if run_and_kill(words, checkpoint, delay) is not None:
+                    # a machine that is quicker now than it was: once more
+                    lasting /= 2
+                    shutil.rmtree(broken)
+                    killed = 0
+                    continue
                 killed += 1
                 print("  %s: killed %.2f s after a checkpoint" % (name, delay))
+                if killed == kills:
+                    break
             if killed == 0:
                 raise Failure("%s finished before it could be killed" % name)
             common.run(options.quoin, prm, broken, sets, ranks, ["--resume"])

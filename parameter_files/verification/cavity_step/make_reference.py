@@ -24,6 +24,7 @@ MU = YOUNG / (2 * (1 + NU))
 C1 = (2 * MU * (1 - NU) / (1 - 2 * NU) / DENSITY) ** 0.5
 KAPPA = (1 - NU) / (1 - 2 * NU)
 STEPS = 102  # of the case with 32 elements, up to c1 t/a = 20
+STEPS_64 = 272  # of the one with 64 elements and c1 dt/L = 0.75
 
 
 def bessel_k(z):
@@ -92,9 +93,11 @@ def main():
     known = [[0.315403, 0.087203], [1.191099, 1.254799], [1.003758, 1.005011]]
     assert np.abs(check - known).max() < 1e-6, check
 
-    tau = 20.0 * np.arange(1, STEPS + 1) / STEPS
-    for name, pressure in (("reference.csv", step),
-                           ("reference_decay.csv", decaying)):
+    for name, pressure, steps in (
+            ("reference.csv", step, STEPS),
+            ("reference_decay.csv", decaying, STEPS),
+            ("reference_decay_64.csv", decaying, STEPS_64)):
+        tau = 20.0 * np.arange(1, steps + 1) / steps
         wall = quantities(pressure, 1.0, tau)
         inside = quantities(pressure, 2.0, tau)
         write(name, header, tau * RADIUS / C1, displacement * wall[:, 0],
@@ -111,7 +114,9 @@ def main():
     write("wall_motion.csv", "time [s],displacement [m]", tau * RADIUS / C1,
           displacement * wall[:, 0])
     tau = 20.0 * np.arange(1, STEPS + 1) / STEPS
-    write("reference_motion.csv", "time [s],traction [Pa]", tau * RADIUS / C1,
+    wall = quantities(step, 1.0, tau)
+    write("reference_motion.csv", "time [s],u_wall [m],hoop [Pa],traction [Pa]",
+          tau * RADIUS / C1, displacement * wall[:, 0], PRESSURE * wall[:, 1],
           np.full(STEPS, PRESSURE))
 
 
