@@ -26,6 +26,28 @@ namespace quoin
       return { values.data(), values.data() + values.size() };
     }
 
+    /**
+     * Without what is below rounding beside the largest of its row: the newest
+     * step reaches few elements, so that little is left.
+     */
+    Eigen::SparseMatrix<double, Eigen::RowMajor>
+    without_rounding(const MatrixXd &matrix)
+    {
+      constexpr double smallest = 1e-17;
+      std::vector<Eigen::Triplet<double>> entries;
+      for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+      {
+        const double threshold = smallest * matrix.row(i).cwiseAbs().maxCoeff();
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+          if (std::abs(matrix(i, j)) > threshold)
+            entries.emplace_back(i, j, matrix(i, j));
+      }
+      Eigen::SparseMatrix<double, Eigen::RowMajor> result(matrix.rows(),
+                                                          matrix.cols());
+      result.setFromTriplets(entries.begin(), entries.end());
+      return result;
+    }
+
     /** @p matrix acts on both components of the elements alike. */
     MatrixXd on_components(const MatrixXd &matrix)
     {
@@ -56,8 +78,9 @@ namespace quoin
     problem.traction_is_given.resize(problem.boundary.n_unknowns(), true);
     for (const unsigned int k : unknowns)
       problem.traction_is_given[k] = false;
-    for (const double length : transfer.lengths())
-      areas.insert(areas.end(), 2, length * thickness);
+    area.resize(Eigen::Index(unknowns.size()));
+    for (unsigned int e = 0; e < transfer.n_elements(); ++e)
+      area.segment<2>(2 * e).setConstant(transfer.lengths()[e] * thickness);
   }
 
   FarField::~FarField() = default;
@@ -80,7 +103,7 @@ namespace quoin
     stiffness = march->condensed_matrix(unknowns);
     impedance = dt * stiffness;
     // What is implicit must dissipate, or the blocks' step is not stable.
-    const VectorXd root = to_eigen(areas).cwiseSqrt();
+    const VectorXd root = area.cwiseSqrt();
     const MatrixXd power
         = root.asDiagonal() * impedance * root.cwiseInverse().asDiagonal();
     const double smallest
@@ -125,7 +148,8 @@ namespace quoin
       return;
     history->restore(far.history);
     march->restore(to_eigen(far.displacement), to_eigen(far.traction));
-    frozen = to_eigen(far.frozen);
+    frozen              = to_eigen(far.frozen);
+    p_of_history_is_due = true;
     find_incident(far);
   }
 
@@ -196,7 +220,8 @@ namespace quoin
         = march->condensed_load(unknowns, scattered_values(begin, begin + dt));
     frozen = rest + stiffness * (to_eigen(far.last_motion) - incident_u)
              + incident_p;
-    far.frozen = to_vector(frozen);
+    far.frozen          = to_vector(frozen);
+    p_of_history_is_due = true;
     std::fill(far.velocity_sum.begin(), far.velocity_sum.end(), 0.);
     std::fill(far.traction_sum.begin(), far.traction_sum.end(), 0.);
     far.duration = far.square_sum = 0.;
@@ -217,7 +242,6 @@ namespace quoin
 
     const VectorXd mean      = (motion - last) / dt;
     const VectorXd total     = march->p()(unknowns) + incident_p;
-    const VectorXd area      = to_eigen(areas);
     const VectorXd scattered = total - incident_p;
     const auto work = [&](const VectorXd &traction, const VectorXd &velocity)
     { return dt * traction.cwiseProduct(area).dot(velocity); };
@@ -261,15 +285,16 @@ namespace quoin
     gain.clear();
     const double a = 0.5 * step.dt_velocity * step.mass_damping;
     for (const unsigned int c : captured_positions)
-    {
       gain.push_back(step.dt_velocity / (captured[c].mass * (1. + a)));
-    }
-    mobility             = thickness * on_components(transfer.congruence(gain));
-    const Eigen::Index n = mobility.rows();
+    const MatrixXd v_by_p
+        = thickness * on_components(transfer.congruence(gain));
+    const Eigen::Index n = v_by_p.rows();
     const Eigen::PartialPivLU<MatrixXd> lu(MatrixXd::Identity(n, n)
-                                           + 0.5 * impedance * mobility);
-    from_history = lu.inverse();
-    from_motion  = lu.solve(0.5 * impedance);
+                                           + 0.5 * impedance * v_by_p);
+    mobility            = without_rounding(v_by_p);
+    from_history        = lu.inverse();
+    from_motion         = without_rounding(lu.solve(0.5 * impedance));
+    p_of_history_is_due = true;
   }
 
   void FarField::correct(const StepContext &step,
@@ -306,7 +331,14 @@ namespace quoin
         v_before);
     transfer.gather(free_velocity, v_free);
     if (!staggered)
-      p.noalias() = from_history * frozen + from_motion * (v_before + v_free);
+    {
+      if (p_of_history_is_due)
+        p_of_history.noalias() = from_history * frozen;
+      p_of_history_is_due = false;
+      v_mean              = v_before + v_free;
+      p                   = p_of_history;
+      p.noalias() += from_motion * v_mean;
+    }
     else
     {
       transfer.gather(
@@ -370,11 +402,12 @@ namespace quoin
     if (is_first_rank)
     {
       // Of the work done on the domain, that on the scattered field has left.
-      const VectorXd force = (p - incident_p).cwiseProduct(to_eigen(areas));
-      const double now
-          = 0.5 * step.dt_before * force.dot(v_before - incident_velocity);
-      const double next
-          = 0.5 * step.dt * force.dot(v_after - incident_velocity);
+      const auto power = [&](const VectorXd &v)
+      {
+        return (p - incident_p).cwiseProduct(area).dot(v - incident_velocity);
+      };
+      const double now  = 0.5 * step.dt_before * power(v_before);
+      const double next = 0.5 * step.dt * power(v_after);
       state.energy.radiated += now;
       state.energy.external += now;
       state.pending.radiated += next;
@@ -383,14 +416,14 @@ namespace quoin
 
     if (from_rest)
       return;
-    const VectorXd mean = 0.5 * (v_before + v_after);
-    Eigen::Map<VectorXd>(far.velocity_sum.data(), mean.size())
-        += step.dt_velocity * mean;
+    v_mean = 0.5 * (v_before + v_after);
+    Eigen::Map<VectorXd>(far.velocity_sum.data(), v_mean.size())
+        += step.dt_velocity * v_mean;
     Eigen::Map<VectorXd>(far.traction_sum.data(), p.size()) += p;
     far.duration += step.dt_velocity;
+    // Of what the impedance adds to the frozen tractions.
     far.square_sum
-        += step.dt_velocity
-           * (impedance * mean).cwiseProduct(to_eigen(areas)).dot(mean);
+        += step.dt_velocity * (p - frozen).cwiseProduct(area).dot(v_mean);
     if (++far.substep == substeps)
       finish_element_step(state);
   }

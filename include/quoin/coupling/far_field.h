@@ -13,6 +13,7 @@
 #include <quoin/tdbem/formulation.h>
 
 #include <Eigen/Dense>
+#include <Eigen/SparseCore>
 
 #include <functional>
 #include <memory>
@@ -169,6 +170,8 @@ namespace quoin
     }
 
   private:
+    using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
     void start(const std::vector<CapturedNode> &captured, State &state);
     void prepare(const StepContext &step,
                  const std::vector<CapturedNode> &captured);
@@ -187,7 +190,7 @@ namespace quoin
     MPI_Comm communicator;
     bool is_first_rank;
     std::vector<unsigned int> unknowns; /**< of the interface */
-    std::vector<double> areas;          /**< of these [m^2] */
+    Eigen::VectorXd area;               /**< of these [m^2] */
 
     double dt             = 0.;
     unsigned int substeps = 0;
@@ -202,12 +205,15 @@ namespace quoin
     /** Staggered: the step that begins at rest belongs to no other. */
     bool from_rest = false;
     std::vector<double> gain;     /**< velocity by force, of the nodes */
-    Eigen::MatrixXd mobility;     /**< v of elements by their p [m/(Pa s)] */
+    SparseMatrix mobility;        /**< v of elements by their p [m/(Pa s)] */
     Eigen::MatrixXd from_history; /**< p by p_h */
-    Eigen::MatrixXd from_motion;  /**< p by velocities before and free */
+    SparseMatrix from_motion;     /**< p by velocities before and free */
+    /** from_history times frozen, or not made since either changed. */
+    Eigen::VectorXd p_of_history;
+    bool p_of_history_is_due = true;
 
     /** Of this step: tractions [Pa], velocities [m/s] of the elements. */
-    Eigen::VectorXd p, v_before, v_free, v_after;
+    Eigen::VectorXd p, v_before, v_free, v_after, v_mean;
     Eigen::VectorXd last_u; /**< of the elements since the start [m] */
     /** Of the step of the boundary elements under way. */
     Eigen::VectorXd frozen, incident_u, incident_velocity, incident_p;
