@@ -4,6 +4,7 @@
 #include <quoin/application/boundary_histories.h>
 #include <quoin/base/exceptions.h>
 
+#include <algorithm>
 #include <sstream>
 
 namespace quoin
@@ -45,7 +46,15 @@ namespace quoin
         probe.entity = points.size();
         points.push_back(point);
       }
-      else if (wanted.quantity != HistoryQuantity::boundary_force)
+      else if (wanted.quantity == HistoryQuantity::boundary_force)
+      {
+        if (std::find(names.begin(), names.end(), wanted.curve) == names.end())
+          throw InputError("section 'Histories/" + wanted.name
+                           + "': 'Curve = " + wanted.curve
+                           + "' is no boundary of section 'Boundary elements': "
+                             "name one of its 'Names'.");
+      }
+      else
       {
         if (nearest.distance > 2. * length)
         {

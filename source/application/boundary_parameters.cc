@@ -413,6 +413,10 @@ namespace quoin
                       "'Duration'.");
     prm.declare_entry("Element length", "0", Double(),
                       "Of boundaries that have none of their own [m]");
+    prm.declare_entry("Highest frequency", "0", Double(),
+                      "Of the waves that are to leave or come in: makes the "
+                      "'Element length' a tenth of the length of the S wave of "
+                      "this frequency; 0: the length is given [Hz]");
     prm.declare_entry("Step ratio", "1", Double(),
                       "c_1 times time step by length of the shortest element; "
                       "used if 'Time step' is 0 [-]");
@@ -457,16 +461,21 @@ namespace quoin
           { "convolution quadrature", Formulation::convolution_quadrature } });
     const bool quadrature
         = parameters.formulation == Formulation::convolution_quadrature;
-    parameters.is_static      = section.text("Analysis") == "static";
-    parameters.element_length = section.nonnegative("Element length");
-    parameters.step_ratio     = section.positive("Step ratio");
-    parameters.time_step      = section.nonnegative("Time step");
-    parameters.duration       = parameters.is_static || coupled
-                                    ? section.nonnegative("Duration")
-                                    : section.positive("Duration");
-    parameters.coupling       = section.choice<CouplingScheme>(
+    parameters.is_static         = section.text("Analysis") == "static";
+    parameters.element_length    = section.nonnegative("Element length");
+    parameters.highest_frequency = section.nonnegative("Highest frequency");
+    if (parameters.highest_frequency > 0. && parameters.element_length > 0.)
+      section.fail("Highest frequency", "gives the elements' length, as "
+                                        "'Element length' does: leave one of "
+                                        "them at 0.");
+    parameters.step_ratio = section.positive("Step ratio");
+    parameters.time_step  = section.nonnegative("Time step");
+    parameters.duration   = parameters.is_static || coupled
+                                ? section.nonnegative("Duration")
+                                : section.positive("Duration");
+    parameters.coupling   = section.choice<CouplingScheme>(
         "Coupling", { { "implicit", CouplingScheme::implicit },
-                            { "staggered", CouplingScheme::staggered } });
+                        { "staggered", CouplingScheme::staggered } });
     if (!coupled && parameters.coupling != CouplingScheme::implicit)
       section.fail("Coupling", "has no meaning without blocks: remove it.");
     if (parameters.is_static && section.number("Decay") > 0.)

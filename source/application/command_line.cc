@@ -13,6 +13,9 @@
 
 #include <iostream>
 
+/** Of OpenBLAS, which has no header of its own name everywhere. */
+extern "C" void openblas_set_num_threads(int n_threads);
+
 namespace quoin
 {
   namespace
@@ -76,6 +79,8 @@ namespace quoin
       return parsed;
 
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    // A rank is a core: the matrix products must not start threads of theirs.
+    openblas_set_num_threads(1);
     const bool first
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     const auto report = [first](const std::string &what, const int status)

@@ -5,6 +5,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/triangle.h>
 #include <quoin/output/block_output.h>
+#include <quoin/tdbem/tangential_stress.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -16,18 +17,26 @@
 namespace quoin
 {
   Histories::Histories(const std::vector<HistoryParameters> &parameters,
-                       const Model &model, const ExplicitSolver &solver)
+                       const Model &model, const ExplicitSolver &solver,
+                       const BoundaryGeometry &geometry,
+                       const BoundaryElementParameters &boundaries)
     : model(model), solver(solver),
       communicator(model.exchange().communicator())
   {
+    std::vector<HistoryParameters> boundary_probes;
     for (const HistoryParameters &history : parameters)
     {
       Probe probe;
       probe.parameters = history;
       locate(probe);
       probes.push_back(probe);
+      if (history.is_of_boundary())
+        boundary_probes.push_back(history);
     }
     row.resize(1 + probes.size());
+    if (!boundary_probes.empty())
+      of_boundary = std::make_unique<BoundaryHistories>(
+          boundary_probes, geometry, boundaries, model.thickness());
   }
 
   std::vector<std::string> Histories::column_names() const
@@ -118,7 +127,7 @@ namespace quoin
     case HistoryQuantity::contacts:
       return;
     default: // of boundary elements
-      throw InputError(section + "'Quantity' is not one of blocks.");
+      return;
     }
 
     // The nearest of all ranks, the first of them if there is a tie.
@@ -276,6 +285,29 @@ namespace quoin
         result[1 + i] = solver.energies().kinetic
                         / std::max(solver.energies().throughput(), 1e-300);
     }
+    if (of_boundary && state.far_field.active)
+      add_boundary_values(state, result);
     return result;
+  }
+
+  void Histories::add_boundary_values(const State &state,
+                                      std::vector<double> &result) const
+  {
+    const FarField &far = *solver.far_field();
+    BoundaryState fields{
+      far.displacement(state), far.velocity(state), far.traction(state), {}
+    };
+    // The row is of the time before the step that is over.
+    const double since = (double(state.far_field.substep) - 1.)
+                         * far.time_step() / far.n_substeps();
+    fields.displacement += since * fields.velocity;
+    fields.hoop_stress
+        = TangentialStress(far.domain().boundary, far.domain().medium)(
+            fields.displacement, fields.traction);
+    const std::vector<double> values = of_boundary->row(0., fields);
+    unsigned int next                = 1;
+    for (unsigned int i = 0; i < probes.size(); ++i)
+      if (probes[i].parameters.is_of_boundary())
+        result[1 + i] = values[next++];
   }
 } // namespace quoin

@@ -75,23 +75,24 @@ namespace quoin
   void HistoryParameters::declare(dealii::ParameterHandler &prm)
   {
     using dealii::Patterns::Anything;
-    prm.declare_entry("Quantity", "displacement x",
-                      dealii::Patterns::Selection(kind_names("|")),
-                      "What the column holds, in SI units; 'stress 1' and "
-                      "'stress 2' are the larger and the smaller principal "
-                      "stress; 'kinetic energy share' is kinetic energy by "
-                      "all energy that went through the model; 'contacts' the "
-                      "number of points that press on each other, matched "
-                      "joints apart; 'rotation' is that of the nearest rigid "
-                      "block, full turns counted, or of the nearest cell, "
-                      "from -180 to 180, anticlockwise. Rigid blocks have no "
-                      "stress: it is written as 0. Those of a 'boundary' are "
-                      "for 'Model = boundary elements', like displacements and "
-                      "velocities, which are then those in the domain; there "
-                      "velocities and tractions are means over the time step "
-                      "that ends. 'boundary hoop stress' is the normal stress "
-                      "along the boundary, 'boundary force' that on the "
-                      "domain.");
+    prm.declare_entry(
+        "Quantity", "displacement x",
+        dealii::Patterns::Selection(kind_names("|")),
+        "What the column holds, in SI units; 'stress 1' and "
+        "'stress 2' are the larger and the smaller principal "
+        "stress; 'kinetic energy share' is kinetic energy by "
+        "all energy that went through the model; 'contacts' the "
+        "number of points that press on each other, matched "
+        "joints apart; 'rotation' is that of the nearest rigid "
+        "block, full turns counted, or of the nearest cell, "
+        "from -180 to 180, anticlockwise. Rigid blocks have no "
+        "stress: it is written as 0. Those of a 'boundary' are "
+        "for boundary elements: velocities and tractions are "
+        "the means of their last step that is over. With 'Model = boundary "
+        "elements' displacements and velocities are those in the "
+        "domain. 'boundary hoop stress' is the normal stress "
+        "along the boundary, 'boundary force' that on the "
+        "domain.");
     prm.declare_entry("Point", "0, 0", Anything(),
                       "x, y of the point whose nearest node, cell or joint "
                       "point, or boundary element, is recorded; of boundary "

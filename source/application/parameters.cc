@@ -3,6 +3,7 @@
 
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/tdbem/elastic_medium.h>
 
 #include <algorithm>
 #include <cmath>
@@ -361,6 +362,17 @@ namespace quoin
       return nullptr;
     }
 
+    /** Of S waves of this frequency [Hz] in an elastic material [m]. */
+    double shortest_wave(const MaterialParameters &material,
+                         const double frequency)
+    {
+      return ElasticMedium::from_young(material.elastic.density,
+                                       material.elastic.young,
+                                       material.elastic.poisson)
+                 .c2
+             / frequency;
+    }
+
     void check_boundary_histories(const ParameterSection &top,
                                   const Parameters &parameters)
     {
@@ -375,13 +387,6 @@ namespace quoin
                           "is one of blocks: with 'Model = boundary "
                           "elements' take a displacement, a "
                           "velocity or a boundary quantity.");
-        if (history.quantity == HistoryQuantity::boundary_force
-            && std::none_of(boundary.boundaries.begin(),
-                            boundary.boundaries.end(),
-                            [&](const BoundaryCurveParameters &curve)
-                            { return curve.name == history.curve; }))
-          subsection.fail("Curve", "is no boundary of section 'Boundary "
-                                   "elements': name one of its 'Names'.");
         if (interior
             && boundary.formulation == Formulation::convolution_quadrature)
           subsection.fail("Quantity", "is one of the domain, which is computed "
@@ -417,14 +422,6 @@ namespace quoin
         const ParameterSection section(top, "Boundary elements");
         if (boundary.boundaries.empty())
           section.fail("Names", "must list at least one boundary.");
-        for (const BoundaryCurveParameters &curve : boundary.boundaries)
-          if (curve.shape != BoundaryShape::mesh
-              && curve.shape
-                     != BoundaryShape::interface && curve.n_elements == 0
-              && curve.element_length == 0. && boundary.element_length == 0.)
-            ParameterSection(section, curve.name)
-                .fail("Elements", "leaves the size of the elements open: give "
-                                  "their number or an 'Element length'.");
         const MaterialParameters *material = find_material(parameters);
         if (material == nullptr)
           section.fail("Material", "is no material: name one of the 'Names' of "
@@ -433,6 +430,18 @@ namespace quoin
           section.fail("Material", "leads to '" + material->name
                                        + "', which is rigid: boundary elements "
                                          "need 'Law = linear elastic'.");
+        if (boundary.highest_frequency > 0.)
+          boundary.element_length
+              = shortest_wave(*material, boundary.highest_frequency) / 10.;
+        for (const BoundaryCurveParameters &curve : boundary.boundaries)
+          if (curve.shape != BoundaryShape::mesh
+              && curve.shape
+                     != BoundaryShape::interface && curve.n_elements == 0
+              && curve.element_length == 0. && boundary.element_length == 0.)
+            ParameterSection(section, curve.name)
+                .fail("Elements", "leaves the size of the elements open: give "
+                                  "their number, an 'Element length' or a "
+                                  "'Highest frequency'.");
       }
     }
 
@@ -538,13 +547,6 @@ namespace quoin
 
     void read_block_model(const ParameterSection &top, Parameters &parameters)
     {
-      {
-        const ParameterSection section(top, "Histories");
-        for (const HistoryParameters &history : parameters.histories)
-          if (history.is_of_boundary())
-            ParameterSection(section, history.name)
-                .fail("Quantity", "needs 'Model = boundary elements'.");
-      }
       parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
       parameters.model.contact
           = ContactParameters::read(ParameterSection(top, "Contact"));
@@ -555,6 +557,15 @@ namespace quoin
         if (load.type == LoadType::initial_stress)
           parameters.model.initial_stresses.push_back(load);
       read_far_field(top, parameters);
+      if (parameters.boundary.boundaries.empty())
+      {
+        const ParameterSection section(top, "Histories");
+        for (const HistoryParameters &history : parameters.histories)
+          if (history.is_of_boundary())
+            ParameterSection(section, history.name)
+                .fail("Quantity", "needs 'Model = boundary elements' or a load "
+                                  "of 'Type = boundary elements'.");
+      }
       read_stages(top, parameters);
       check_loads(parameters);
     }

@@ -43,6 +43,13 @@ namespace quoin
      */
     constexpr double cautious_share = 0.5;
 
+    /**
+     * By what went through the model. Nothing can radiate less than nothing
+     * from a domain that was at rest; what rounds the discrete account is far
+     * below.
+     */
+    constexpr double largest_created_share = 0.05;
+
     double seconds_since(const Clock::time_point start)
     {
       return std::chrono::duration<double>(Clock::now() - start).count();
@@ -117,7 +124,8 @@ namespace quoin
           *model, parameters.loads, parameters.stages,
           make_far_field(parameters, as_read, *model, boundary_geometry));
       histories
-          = std::make_unique<Histories>(parameters.histories, *model, *solver);
+          = std::make_unique<Histories>(parameters.histories, *model, *solver,
+                                        boundary_geometry, parameters.boundary);
     }
     catch (const InputError &error)
     {
@@ -591,9 +599,19 @@ namespace quoin
   void Simulation::write_far_field_row()
   {
     const FarField *far = solver->far_field();
-    if (!far || !is_first_rank)
+    if (!far)
       return;
     const FarField::Ledger ledger = far->ledger(record.state);
+    const double throughput       = solver->energies().throughput();
+    if (ledger.radiated < -largest_created_share * throughput)
+      throw RunError("the boundary elements have created energy, "
+                     + number(-ledger.radiated) + " J of " + number(throughput)
+                     + " J that went through the model: their discrete "
+                       "impedance is not passive. Change 'Step ratio' or "
+                       "'Formulation' in section 'Boundary elements' until the "
+                       "passivity scan finds nothing, or damp the blocks.");
+    if (!is_first_rank)
+      return;
     far_field_table->add_row(
         { record.state.time, double(record.state.far_field.n_steps),
           ledger.radiated, ledger.substeps, ledger.incident, ledger.mismatch });

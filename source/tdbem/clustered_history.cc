@@ -353,7 +353,7 @@ namespace quoin
     make_room();
     const unsigned n_columns = options.block_size;
     block.setZero();
-    MatrixXd states, directions;
+    MatrixXd states, directions, shifted;
     for (unsigned c = first_cluster, p = 0; c < end_cluster; ++c)
     {
       const Cluster &row = clusters[c];
@@ -371,7 +371,8 @@ namespace quoin
         const Shifted past(column.past.data() + first * n_values,
                            pair.matrices.cols(), n_columns,
                            Eigen::OuterStride<>(n_values));
-        rows.noalias() += pair.matrices * past;
+        shifted = past; // columns that overlap are not for BLAS
+        rows.noalias() += pair.matrices * shifted;
 
         // 2. The exponentials, step by step.
         const unsigned n_moments = column.n_moments();

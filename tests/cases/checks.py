@@ -658,9 +658,20 @@ def finite_bar_bem(case, folder, output, histories):
 
 
 def cavity_harmonic(case, folder, output, histories):
-    """Amplitudes on the wall against the series."""
+    """Amplitudes on the wall against the series.
+
+    Of blocks the hoop stress is that of the wall's strain between two nodes,
+    one to each side."""
     histories = strictly_increasing(histories)
     t = histories["time"]
+    half = np.pi / 48
+    for angle in (0, 90, 180):
+        if "hoop_%d_after" % angle in histories:
+            strain = (histories["hoop_%d_after" % angle]
+                      - histories["hoop_%d_before" % angle]) / (2 * np.sin(half))
+            # E/(1 - nu^2), no pressure on the wall
+            histories["hoop_%d" % angle] = (1.6666666667e9 / (1 - 0.25**2)
+                                            * strain)
     ratio, speed, incident = case["ratio"], 1000.0, 1e-3
     omega = ratio * speed
     table, _ = read_table(os.path.join(folder, "wall_%g.csv" % ratio))
@@ -676,13 +687,14 @@ def cavity_harmonic(case, folder, output, histories):
         print("  hoop stress at %3d deg: %.4f, series %.4f"
               % (angle, found, wanted))
         result["hoop stress at %d" % angle] = (
-            abs(found - wanted) / exact("hoop stress", 90), 0.01)
+            abs(found - wanted) / exact("hoop stress", 90), case["tolerance"])
     for name, angle, part in (("front", 180, "radial"), ("back", 0, "radial"),
                               ("side", 90, "tangential")):
         found = amplitude(t, histories[name], omega) / incident
         wanted = exact(part, angle)
         print("  displacement, %-5s: %.4f, series %.4f" % (name, found, wanted))
-        result["displacement, " + name] = (abs(found / wanted - 1), 0.01)
+        result["displacement, " + name] = (abs(found / wanted - 1),
+                                           case["tolerance"])
     return result
 
 

@@ -120,13 +120,14 @@ namespace quoin
   struct BoundaryElementParameters
   {
     std::string material; /**< may be empty if there is one only */
-    Formulation formulation = Formulation::galerkin;
-    bool is_static          = false;
-    double element_length   = 0.; /**< [m]; 0: each boundary has its own */
-    double step_ratio       = 1.; /**< c_1 dt / shortest element */
-    double time_step        = 0.; /**< [s]; 0: as the ratio says */
-    double duration         = 0.; /**< [s] */
-    double decay            = 0.; /**< [1/s] */
+    Formulation formulation  = Formulation::galerkin;
+    bool is_static           = false;
+    double element_length    = 0.; /**< [m]; 0: each boundary has its own */
+    double highest_frequency = 0.; /**< [Hz]; sets element_length if not 0 */
+    double step_ratio        = 1.; /**< c_1 dt / shortest element */
+    double time_step         = 0.; /**< [s]; 0: as the ratio says */
+    double duration          = 0.; /**< [s] */
+    double decay             = 0.; /**< [1/s] */
     RayleighDamping damping;
     CouplingScheme coupling    = CouplingScheme::implicit;
     bool direct_history        = false;

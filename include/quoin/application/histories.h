@@ -4,11 +4,13 @@
 #ifndef quoin_application_histories_h
 #define quoin_application_histories_h
 
+#include <quoin/application/boundary_histories.h>
 #include <quoin/application/history_parameters.h>
 #include <quoin/base/state.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/model.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,14 +19,21 @@ namespace quoin
   /**
    * Samples the quantities of histories.csv at the time of a step: before it
    * what the step overwrites, after it what it computes. Point quantities are
-   * those of the nearest node, cell or joint point.
+   * those of the nearest node, cell or joint point. Those of boundary elements
+   * are of their last step that is over, their displacements continued from its
+   * end with its velocities.
    */
   class Histories
   {
   public:
-    /** Throws an InputError about loads and curves that do not exist. */
+    /**
+     * @p geometry: of the boundary elements that @p boundaries describe.
+     * Throws an InputError about loads and curves that do not exist.
+     */
     Histories(const std::vector<HistoryParameters> &parameters,
-              const Model &model, const ExplicitSolver &solver);
+              const Model &model, const ExplicitSolver &solver,
+              const BoundaryGeometry &geometry,
+              const BoundaryElementParameters &boundaries);
 
     /** "time [s]" and "name [unit]" of each column. */
     std::vector<std::string> column_names() const;
@@ -48,12 +57,16 @@ namespace quoin
 
     void locate(Probe &probe) const;
     double point_value(const Probe &probe, const State &state) const;
+    /** Puts in the columns of boundary elements. */
+    void add_boundary_values(const State &state,
+                             std::vector<double> &result) const;
     /** Of a local cell [rad]. */
     double rotation(unsigned int cell, const State &state) const;
 
     std::vector<Probe> probes;
     const Model &model;
     const ExplicitSolver &solver;
+    std::unique_ptr<BoundaryHistories> of_boundary; /**< or null */
     MPI_Comm communicator;
     std::vector<double> row;
   };

@@ -1,6 +1,6 @@
 // Three blocks of 10 m x 10 m on top of each other; a fourth one, above, is
 // made of boundary elements.
-h = 1.25;
+DefineConstant[ h = 1.25 ];
 For i In {0:3}
   Point(2 * i + 1) = {0, 10 * i, 0, h};
   Point(2 * i + 2) = {10, 10 * i, 0, h};

@@ -10,7 +10,7 @@ import numpy as np
 E, RHO, LENGTH, LOAD = 30e9, 2000.0, 30.0, 1e6
 C = np.sqrt(E / RHO)
 DECAY = 40.56 / 2  # half of the damping's rate
-HEIGHTS = {"B": 20.0, "C": 15.0, "D": 10.0}  # above the rigid block
+HEIGHTS = {"A": 30.0, "B": 20.0, "C": 15.0, "D": 10.0}  # above the rigid block
 
 
 def displacement(height, t, n_modes=4000):

@@ -1,0 +1,3 @@
+// The column, finer.
+h = 0.5;
+Include "column.geo";
