@@ -418,8 +418,9 @@ namespace quoin
   void ExplicitSolver::find_ratio(State &state, const StepContext &context,
                                   double applied, double unbalanced)
   {
-    // What nobody moves is unbalanced by its force, what a viscous boundary
-    // moves by what accelerates it; what is prescribed is held by a reaction.
+    // What nobody moves is unbalanced by its force, what a viscous boundary or
+    // a far field moves by what accelerates it, the rest of which is what that
+    // load does; what is prescribed is held by a reaction.
     for (const CapturedNode &node : captured)
     {
       NodeVector free{ { 0., 0. } }, held{ { 0., 0. } };
@@ -429,9 +430,12 @@ namespace quoin
         else if (node.owner[d]->holds()[d] || node.owner[d]->is_global())
           held.v[d] = node.force.v[d];
         else
+        {
           free.v[d] = node.mass
                       * (state.velocity[node.node].v[d] - node.velocity.v[d])
                       / context.dt_velocity;
+          held.v[d] = free.v[d] - node.force.v[d];
+        }
       unbalanced += norm(free);
       applied += norm(held);
     }

@@ -1,6 +1,6 @@
 // From the wall of a hole, 1 m, to twice its radius.
 n = 24; // edges of a quarter
-m = 20; // and from the wall to the interface
+m = 24; // and from the wall to the interface
 Point(1) = {0, 0, 0};
 For i In {0:3}
   t = (i - 0.5) * Pi / 2;
@@ -13,7 +13,7 @@ For i In {0:3}
   Circle(30 + i) = {20 + i, 1, 20 + j};
   Line(20 + i) = {10 + i, 20 + i};
   Transfinite Curve{10 + i, 30 + i} = n + 1;
-  Transfinite Curve{20 + i} = m + 1 Using Progression 1.03;
+  Transfinite Curve{20 + i} = m + 1;
 EndFor
 For i In {0:3}
   j = (i + 1) % 4;

@@ -1,6 +1,6 @@
 // A hole of radius 1 m in a square of 5 m, in eight structured sectors.
-n = 12; // edges of a sector along the wall
-m = 20; // and from the wall to the square
+n = 16; // edges of a sector along the wall
+m = 26; // and from the wall to the square
 For i In {0:7}
   t = i * Pi / 4;
   Point(10 + i) = {Cos(t), Sin(t), 0};
@@ -14,7 +14,7 @@ For i In {0:7}
   Line(20 + i) = {10 + i, 20 + i};
   Line(30 + i) = {20 + i, 20 + j};
   Transfinite Curve{10 + i, 30 + i} = n + 1;
-  Transfinite Curve{20 + i} = m + 1 Using Progression 1.06;
+  Transfinite Curve{20 + i} = m + 1 Using Progression 1.05;
 EndFor
 For i In {0:7}
   j = (i + 1) % 8;
