@@ -794,3 +794,15 @@ def kirsch(case, folder, output, histories):
                               / np.max(np.abs(wanted))), case["tolerance"]),
         "energy residual": (residual_of(energies(output)),
                             case.get("energy tolerance", 1e-9))}
+
+
+def cavity_blocks(case, folder, output, histories):
+    """The hoop stress in the quadrangle at the wall, the mean of its two
+    triangles, once the front has passed some rows of them."""
+    reference, _ = read_table(os.path.join(folder, case["reference"]))
+    late = reference["time"] > 1e-4
+    mean = np.interp(reference["time"], histories["time"],
+                     0.5 * (histories["hoop_inner"]
+                            + histories["hoop_outer"]))
+    error = np.abs(mean - reference["hoop"]) / np.max(reference["hoop"])
+    return {"hoop stress": (float(np.max(error[late])), case["tolerance"])}

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Cavity of the radius a under pressure, as cavity_step: displacements at the
-wall and at 1.5 a, stresses at the centroid of the triangle whose histories the
-case writes."""
+wall and at 1.5 a, and the mean of the stress yy of the two triangles whose
+histories the case writes."""
 import importlib.util
 import os
 
@@ -17,12 +17,14 @@ cavity = importlib.util.module_from_spec(specification)
 specification.loader.exec_module(cavity)
 
 
-def centroid():
-    """Of the triangle at the wall beside the x axis: two corners on the wall,
-    one on the axis a row further out (96 and 24 edges)."""
-    first = 1 + 1 / 24
+def centre():
+    """Of the two triangles at the wall beside the x axis, in the mean: 96
+    edges around, 24 to twice the radius."""
+    outer = 1 + 1 / 24
     step = 2 * np.pi / 96
-    corners = np.array([[1, 0], [np.cos(step), np.sin(step)], [first, 0]])
+    c, s = np.cos(step), np.sin(step)
+    corners = np.array([[1, 0], [c, s], [outer, 0],
+                        [c, s], [outer, 0], [outer * c, outer * s]])
     return corners.mean(axis=0)
 
 
@@ -40,7 +42,7 @@ def radial(pressure, R, tau):
 
 def main():
     tau = np.arange(0.2, 20.0, 0.2)
-    x, y = centroid()
+    x, y = centre()
     R, t = np.hypot(x, y), np.arctan2(y, x)
     displacement = cavity.PRESSURE * cavity.RADIUS / (2 * cavity.MU)
     for name, pressure in (("reference.csv", cavity.step),

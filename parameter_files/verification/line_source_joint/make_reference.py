@@ -26,7 +26,7 @@ import os
 import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-H, A0, PRESSURE, RISE = 1.0, 0.15, 1e6, 5e-4
+H, A0, PRESSURE, RISE = 1.0, 0.1, 1e6, 5e-4
 DENSITY, YOUNG, NU = 2500.0, 18.75e9, 0.25
 MU = YOUNG / (2 * (1 + NU))
 ALPHA = (2 * MU * (1 - NU) / (1 - 2 * NU) / DENSITY) ** 0.5

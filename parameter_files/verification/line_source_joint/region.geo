@@ -1,6 +1,6 @@
-// A plane joint, y = 0, above a cavity of 0.15 m radius at (0, -1).
+// A plane joint, y = 0, above a cavity of 0.1 m radius at (0, -1).
 h = 0.05;
-a = 0.15;
+a = 0.1;
 Point(1) = {-3, -2, 0, h};
 Point(2) = {4, -2, 0, h};
 Point(3) = {4, 0, 0, h};
@@ -23,7 +23,7 @@ Transfinite Curve{2, 6} = 2 / h + 1;
 Transfinite Curve{3, 5} = 1 / h + 1;
 For i In {0:3}
   Circle(10 + i) = {10 + i, 20, 10 + (i + 1) % 4};
-  Transfinite Curve{10 + i} = 9;
+  Transfinite Curve{10 + i} = 11;
 EndFor
 Curve Loop(1) = {1, 2, -7, 6};
 Curve Loop(2) = {7, 3, 4, 5};
