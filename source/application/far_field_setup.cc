@@ -10,6 +10,47 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** Edges of blocks along the interface. */
+    std::vector<unsigned int>
+    interface_faces(const BoundaryElementParameters &settings,
+                    const Model &model, const std::string &load)
+    {
+      std::vector<std::string> curves;
+      for (const BoundaryCurveParameters &curve : settings.boundaries)
+        if (curve.shape == BoundaryShape::interface)
+          curves.insert(curves.end(), curve.curves.begin(), curve.curves.end());
+      return faces_of_curves(model.mesh(), curves, load);
+    }
+
+    bool names(const StageParameters &stage, const std::string &load)
+    {
+      return std::find(stage.loads.begin(), stage.loads.end(), load)
+             != stage.loads.end();
+    }
+
+    /** The history of the waves must have no gap. */
+    void check_stages(const std::vector<StageParameters> &stages,
+                      const std::string &load)
+    {
+      bool has_acted = false, has_stopped = false;
+      for (const StageParameters &stage : stages)
+      {
+        const bool acts = stage.end == StageEnd::time && names(stage, load);
+        if (acts && has_stopped)
+          throw InputError("section 'Stages/" + stage.name
+                           + "': the boundary elements of load '" + load
+                           + "' have acted in an earlier stage with 'End = "
+                             "time' and not in the stage before this one: "
+                             "their history would have a gap. Let such stages "
+                             "follow each other.");
+        has_acted   = has_acted || acts;
+        has_stopped = has_acted && !acts;
+      }
+    }
+  } // namespace
+
   std::unique_ptr<FarField> make_far_field(const Parameters &parameters,
                                            const MeshData &mesh,
                                            const Model &model,
@@ -23,6 +64,7 @@ namespace quoin
     if (load == parameters.loads.end())
       return nullptr;
 
+    check_stages(parameters.stages, load->name);
     const BoundaryElementParameters &settings = parameters.boundary;
     geometry = make_boundary_geometry(settings, mesh);
     FarFieldDomain domain;
@@ -32,10 +74,6 @@ namespace quoin
         domain.medium = ElasticMedium::from_young(material.elastic.density,
                                                   material.elastic.young,
                                                   material.elastic.poisson);
-    std::vector<std::string> curves;
-    for (const BoundaryCurveParameters &curve : settings.boundaries)
-      if (curve.shape == BoundaryShape::interface)
-        curves.insert(curves.end(), curve.curves.begin(), curve.curves.end());
     for (unsigned int e = 0; e < geometry.owner.size(); ++e)
       if (settings.boundaries[geometry.owner[e]].shape
           == BoundaryShape::interface)
@@ -57,7 +95,7 @@ namespace quoin
     {
       return std::make_unique<FarField>(
           load->name, std::move(domain), model.mesh(),
-          faces_of_curves(model.mesh(), curves, load->name), model.exchange(),
+          interface_faces(settings, model, load->name), model.exchange(),
           model.thickness());
     }
     catch (const InputError &error)
@@ -65,5 +103,22 @@ namespace quoin
       throw InputError(std::string("section 'Boundary elements': ")
                        + error.what());
     }
+  }
+
+  std::unique_ptr<StaticFarField>
+  make_static_far_field(const Parameters &parameters, const Model &model,
+                        const FarField *far)
+  {
+    const auto needs_it = [&](const StageParameters &stage) {
+      return stage.end == StageEnd::static_ratio && names(stage, far->name());
+    };
+    if (!far
+        || std::none_of(parameters.stages.begin(), parameters.stages.end(),
+                        needs_it))
+      return nullptr;
+    return std::make_unique<StaticFarField>(
+        far->name(), far->domain(), model.mesh(),
+        interface_faces(parameters.boundary, model, far->name()),
+        model.exchange(), model.thickness());
   }
 } // namespace quoin

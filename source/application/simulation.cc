@@ -118,11 +118,13 @@ namespace quoin
           order_by_part(rank_of_block,
                         find_rigid_blocks(mesh, parameters.model.materials)));
       std::sort(rank_of_block.begin(), rank_of_block.end());
-      model  = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
+      model    = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
                                       communicator);
-      solver = std::make_unique<ExplicitSolver>(
-          *model, parameters.loads, parameters.stages,
-          make_far_field(parameters, as_read, *model, boundary_geometry));
+      auto far = make_far_field(parameters, as_read, *model, boundary_geometry);
+      auto static_far = make_static_far_field(parameters, *model, far.get());
+      solver          = std::make_unique<ExplicitSolver>(
+          *model, parameters.loads, parameters.stages, std::move(far),
+          std::move(static_far));
       histories
           = std::make_unique<Histories>(parameters.histories, *model, *solver,
                                         boundary_geometry, parameters.boundary);
@@ -153,6 +155,11 @@ namespace quoin
                   + number(mesh_report.unmatched_position[0]) + ", "
                   + number(mesh_report.unmatched_position[1])
                   + ") m: no joint is made there. Mesh both sides alike.");
+
+    if (const StaticFarField *far = solver->static_far_field())
+      log.message("static boundary elements: their forces' matrix was "
+                  "symmetric to "
+                  + number(far->asymmetry()) + " of its largest entry");
 
     // Each stage's step is found without starting it.
     State state = record.state;
@@ -209,10 +216,11 @@ namespace quoin
                                                histories->column_names());
     energy_table  = std::make_unique<CsvTable>(
         output + "/energies.csv",
-        std::vector<std::string>{
-             "time [s]", "kinetic [J]", "strain [J]", "joint [J]",
-             "friction [J]", "fracture [J]", "damping [J]", "viscous [J]",
-             "contact [J]", "radiated [J]", "external [J]", "residual [J]" });
+        std::vector<std::string>{ "time [s]", "kinetic [J]", "strain [J]",
+                                   "joint [J]", "friction [J]", "fracture [J]",
+                                   "damping [J]", "viscous [J]", "contact [J]",
+                                   "radiated [J]", "far field [J]",
+                                   "external [J]", "residual [J]" });
     if (solver->far_field())
       far_field_table = std::make_unique<CsvTable>(
           output + "/far_field.csv",
@@ -328,8 +336,8 @@ namespace quoin
     const double n_substeps = steps(step, dt);
     double n_steps          = 0.;
     for (const StageParameters &s : parameters.stages)
-      n_steps += s.end == StageEnd::time ? steps(s.duration, step)
-                                         : s.maximum_steps / n_substeps + 1.;
+      if (s.end == StageEnd::time)
+        n_steps += steps(s.duration, step);
     try
     {
       if (first && !settings.waves.empty())
@@ -354,19 +362,10 @@ namespace quoin
     FarField &far   = *solver->far_field();
     double duration = 0.;
     for (const StageParameters &stage : parameters.stages)
-    {
-      if (std::find(stage.loads.begin(), stage.loads.end(), far.name())
-          == stage.loads.end())
-        continue;
-      if (stage.end != StageEnd::time)
-        throw InputError("section 'Stages/" + stage.name
-                         + "': 'End' is not 'time', but waves come in through "
-                           "the boundary elements of load '"
-                         + far.name()
-                         + "': nobody can say when. Let that load act from a "
-                           "later stage on.");
-      duration += stage.duration + step;
-    }
+      if (stage.end == StageEnd::time
+          && std::find(stage.loads.begin(), stage.loads.end(), far.name())
+                 != stage.loads.end())
+        duration += stage.duration + step;
     waves = std::make_unique<IncidentWaves>(
         parameters.boundary, far.domain().medium, far.domain().boundary,
         std::vector<Eigen::Vector2d>(), duration, step);
@@ -531,7 +530,6 @@ namespace quoin
         && record.state.time - record.state.stage_start
                >= stage.minimum_duration
         && record.state.stage_step > balance_interval
-        && (!solver->far_field_acts() || record.state.far_field.substep == 0)
         && record.state.unbalanced_ratio <= stage.static_ratio)
       return true;
     if (record.state.stage_step >= stage.maximum_steps)
@@ -559,12 +557,12 @@ namespace quoin
     record.largest_residual
         = std::max(record.largest_residual, std::abs(energies.residual()));
     if (is_first_rank)
-      energy_table->add_row({ record.state.time - solver->get_time_step(),
-                              energies.kinetic, energies.strain, energies.joint,
-                              accounts.friction, accounts.fracture,
-                              accounts.damping, accounts.viscous,
-                              accounts.contact, accounts.radiated,
-                              accounts.external, energies.residual() });
+      energy_table->add_row(
+          { record.state.time - solver->get_time_step(), energies.kinetic,
+            energies.strain, energies.joint, accounts.friction,
+            accounts.fracture, accounts.damping, accounts.viscous,
+            accounts.contact, accounts.radiated, energies.far_field,
+            accounts.external, energies.residual() });
   }
 
   void Simulation::write_fields()
@@ -620,7 +618,7 @@ namespace quoin
   void Simulation::write_boundary()
   {
     const FarField &far = *solver->far_field();
-    if (!record.state.far_field.active)
+    if (!solver->far_field_acts() || !record.state.far_field.active)
       return;
     const Boundary &domain  = boundary_geometry.boundary;
     const Eigen::VectorXd u = far.displacement(record.state),

@@ -47,16 +47,6 @@ namespace quoin
       result.setFromTriplets(entries.begin(), entries.end());
       return result;
     }
-
-    /** @p matrix acts on both components of the elements alike. */
-    MatrixXd on_components(const MatrixXd &matrix)
-    {
-      MatrixXd result = MatrixXd::Zero(2 * matrix.rows(), 2 * matrix.cols());
-      for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-        for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-          result(2 * i, 2 * j) = result(2 * i + 1, 2 * j + 1) = matrix(i, j);
-      return result;
-    }
   } // namespace
 
   FarField::FarField(const std::string &name, FarFieldDomain domain,
@@ -121,12 +111,6 @@ namespace quoin
 
   void FarField::begin_stage(State &state, const bool continues)
   {
-    if (!continues && state.far_field.n_steps + state.far_field.substep > 0)
-      throw InputError("the boundary elements of load '" + load_name
-                       + "' have acted before and not in the stage before "
-                         "this one: their history would have a gap. Let them "
-                         "act in all stages from the first one on in which "
-                         "they do.");
     prepared_step = 0.;
     if (!continues)
       state.far_field = FarFieldState();
@@ -159,8 +143,8 @@ namespace quoin
     far                = FarFieldState();
     far.active         = true;
     for (const unsigned int c : captured_positions)
-      for (const double f : captured[c].force.v)
-        far.held.push_back(-f);
+      for (unsigned int d = 0; d < 2; ++d)
+        far.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
     VectorXd values;
     transfer.gather(
         [&](const unsigned int k)
@@ -286,9 +270,8 @@ namespace quoin
     const double a = 0.5 * step.dt_velocity * step.mass_damping;
     for (const unsigned int c : captured_positions)
       gain.push_back(step.dt_velocity / (captured[c].mass * (1. + a)));
-    const MatrixXd v_by_p
-        = thickness * on_components(transfer.congruence(gain));
-    const Eigen::Index n = v_by_p.rows();
+    const MatrixXd v_by_p = thickness * transfer.mobility(gain);
+    const Eigen::Index n  = v_by_p.rows();
     const Eigen::PartialPivLU<MatrixXd> lu(MatrixXd::Identity(n, n)
                                            + 0.5 * impedance * v_by_p);
     mobility            = without_rounding(v_by_p);

@@ -134,6 +134,18 @@ namespace quoin
     return result;
   }
 
+  Eigen::MatrixXd
+  InterfaceTransfer::mobility(const std::vector<double> &gain) const
+  {
+    const Eigen::MatrixXd matrix = congruence(gain);
+    Eigen::MatrixXd result
+        = Eigen::MatrixXd::Zero(2 * matrix.rows(), 2 * matrix.cols());
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+      for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+        result(2 * i, 2 * j) = result(2 * i + 1, 2 * j + 1) = matrix(i, j);
+    return result;
+  }
+
   void InterfaceTransfer::sum(Eigen::VectorXd &values) const
   {
     MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE,

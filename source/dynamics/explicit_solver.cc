@@ -26,22 +26,23 @@ namespace quoin
 
   double Energies::throughput() const
   {
-    return std::max({ std::abs(accounts.external), kinetic + strain + joint,
-                      accounts.friction + accounts.fracture + accounts.damping
-                          + accounts.viscous + accounts.contact
-                          + accounts.radiated });
+    return std::max(
+        { std::abs(accounts.external), kinetic + strain + joint + far_field,
+          accounts.friction + accounts.fracture + accounts.damping
+              + accounts.viscous + accounts.contact + accounts.radiated });
   }
 
   ExplicitSolver::ExplicitSolver(const Model &model,
                                  const std::vector<LoadParameters> &loads,
                                  const std::vector<StageParameters> &stages,
-                                 std::unique_ptr<FarField> far_field)
+                                 std::unique_ptr<FarField> far_field,
+                                 std::unique_ptr<StaticFarField> static_field)
     : model(model), communicator(model.exchange().communicator()),
       mass(model.mass()), box(model), all_stages(stages)
   {
     const auto &mesh       = model.mesh();
     const auto &exchange   = model.exchange();
-    unsigned int n_platens = 0;
+    unsigned int n_platens = 0, n_viscous = 0;
     for (const LoadParameters &load : loads)
     {
       known_loads.push_back(load.name);
@@ -49,7 +50,8 @@ namespace quoin
       {
       case LoadType::viscous_boundary:
         all_constraints.push_back(std::make_unique<ViscousBoundary>(
-            load, mesh, exchange, model.impedance(), model.thickness()));
+            load, n_viscous++, mesh, exchange, model.impedance(),
+            model.thickness()));
         break;
       case LoadType::prescribed_motion:
         all_constraints.push_back(
@@ -67,6 +69,9 @@ namespace quoin
       case LoadType::boundary_elements:
         far = far_field.get();
         all_constraints.push_back(std::move(far_field));
+        static_far = static_field.get();
+        if (static_field)
+          all_constraints.push_back(std::move(static_field));
         break;
       case LoadType::initial_stress:
         break;
@@ -111,6 +116,8 @@ namespace quoin
       look_at_box(state);
 
     apply_forces(state, context);
+    if (state.stage_step == 0 && !loads_begun.empty())
+      find_begun_forces(context);
 
     double strain = 0., joint = 0.;
     if (requests.energies)
@@ -222,6 +229,15 @@ namespace quoin
     for (const NodeRange &range : removed_nodes)
       std::fill(&force[range.begin], &force[range.begin] + range.size(),
                 NodeVector{ { 0., 0. } });
+  }
+
+  void ExplicitSolver::find_begun_forces(const StepContext &context)
+  {
+    AlignedArray<NodeVector> begun(force.size(), NodeVector{ { 0., 0. } });
+    for (const NodalLoad *load : loads_begun)
+      load->add_forces(context.begin, begun.data());
+    for (CapturedNode &node : captured)
+      node.begun = begun[node.node];
   }
 
   void ExplicitSolver::update_histories(State &state)
@@ -389,6 +405,7 @@ namespace quoin
     last_energies.kinetic           = values[0];
     last_energies.strain            = values[1] - strain_at_start;
     last_energies.joint             = values[2] - joint_at_start;
+    last_energies.far_field         = state.static_far_field.stored;
     last_energies.accounts.external = values[3];
     last_energies.accounts.friction = values[4];
     last_energies.accounts.fracture = values[5];
@@ -401,8 +418,9 @@ namespace quoin
   void ExplicitSolver::find_ratio(State &state, const StepContext &context,
                                   double applied, double unbalanced)
   {
-    // What nobody moves is unbalanced by its force, what a viscous boundary
-    // moves by what accelerates it; what is prescribed is held by a reaction.
+    // What nobody moves is unbalanced by its force, what a viscous boundary or
+    // a far field moves by what accelerates it, the rest of which is what that
+    // load does; what is prescribed is held by a reaction.
     for (const CapturedNode &node : captured)
     {
       NodeVector free{ { 0., 0. } }, held{ { 0., 0. } };
@@ -412,9 +430,12 @@ namespace quoin
         else if (node.owner[d]->holds()[d] || node.owner[d]->is_global())
           held.v[d] = node.force.v[d];
         else
+        {
           free.v[d] = node.mass
                       * (state.velocity[node.node].v[d] - node.velocity.v[d])
                       / context.dt_velocity;
+          held.v[d] = free.v[d] - node.force.v[d];
+        }
       unbalanced += norm(free);
       applied += norm(held);
     }
@@ -428,7 +449,9 @@ namespace quoin
   std::array<double, 3> ExplicitSolver::resultant(const std::string &load) const
   {
     for (const auto &constraint : all_constraints)
-      if (constraint->name() == load)
+      if (constraint->name() == load
+          && (constraint.get() != static_far || static_far_field_acts())
+          && (constraint.get() != far || !static_far_field_acts()))
       {
         auto values = constraint->resultant();
         if (!constraint->is_global())

@@ -43,7 +43,7 @@ namespace quoin
     constraints_on.clear();
     for (const int rank : { 0, 1, 2 })
       for (const auto &constraint : all_constraints)
-        if (contains(stage.loads, constraint->name())
+        if (acts_in(*constraint, stage)
             && rank
                    == (dynamic_cast<Platen *>(constraint.get()) ? 2
                        : constraint->moves_all()                ? 0
@@ -57,6 +57,15 @@ namespace quoin
     // With large displacements blocks may rest on others without a joint.
     if (stage.end == StageEnd::static_ratio && !model.large_displacements())
       check_no_free_bodies(model, constraints_on, stage.name);
+  }
+
+  bool ExplicitSolver::acts_in(const NodeConstraint &constraint,
+                               const StageParameters &any) const
+  {
+    const bool is_static = any.end == StageEnd::static_ratio;
+    return contains(any.loads, constraint.name())
+           && !(&constraint == far && is_static)
+           && !(&constraint == static_far && !is_static);
   }
 
   void ExplicitSolver::scale_masses(const StageParameters &stage, State &state)
@@ -254,21 +263,30 @@ namespace quoin
   {
     activate(new_stage);
     scale_masses(stage, state);
-    unsigned int n_platens = 0;
+    unsigned int n_platens = 0, n_viscous = 0;
     for (const auto &constraint : all_constraints)
+    {
       if (dynamic_cast<const Platen *>(constraint.get()))
         ++n_platens;
+      if (dynamic_cast<const ViscousBoundary *>(constraint.get()))
+        ++n_viscous;
+    }
     state.platens.resize(n_platens);
+    state.viscous_boundaries.resize(n_viscous);
+    loads_begun.clear();
+    for (const NodalLoad *load : loads_on)
+      if (previous && !contains(previous->loads, load->name()))
+        loads_begun.push_back(load);
     for (const auto &constraint : all_constraints)
-      if (!contains(stage.loads, constraint->name()))
+      if (!acts_in(*constraint, stage))
       {
         constraint->rest();
         if (const auto *platen = dynamic_cast<const Platen *>(constraint.get()))
           state.platens[platen->index()].active = false;
       }
     for (NodeConstraint *constraint : constraints_on)
-      constraint->begin_stage(
-          state, previous && contains(previous->loads, constraint->name()));
+      constraint->begin_stage(state,
+                              previous && acts_in(*constraint, *previous));
     collect_constrained_nodes(state);
     state.stage_start      = state.time;
     state.stage_step       = 0;
@@ -290,7 +308,12 @@ namespace quoin
 
   bool ExplicitSolver::far_field_acts() const
   {
-    return far && contains(stage.loads, far->name());
+    return far && acts_in(*far, stage);
+  }
+
+  bool ExplicitSolver::static_far_field_acts() const
+  {
+    return static_far && acts_in(*static_far, stage);
   }
 
   void ExplicitSolver::save(State &state) const

@@ -51,7 +51,9 @@ namespace quoin
       bodies.make_set(b);
     for (const NodeConstraint *constraint : constraints)
     {
-      const auto holds   = constraint->holds();
+      const auto holds   = constraint->supports()
+                               ? std::array<bool, 3>{ { true, true, false } }
+                               : constraint->holds();
       unsigned int first = n;
       std::set<unsigned int> blocks;
       for (const unsigned int node : constraint->nodes())

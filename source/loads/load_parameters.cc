@@ -147,6 +147,10 @@ namespace quoin
                       "Platen, anticlockwise: 'velocity' [deg/s], "
                       "'displacement' [deg] or 'moment' [N m] and a "
                       "function of time, or 'free'.");
+    prm.declare_entry("Pressure", "free", Anything(),
+                      "Traction: pushes on the block, against its outward "
+                      "normal in the mesh, and adds to 'Horizontal' and "
+                      "'Vertical'; as those [Pa]");
     for (const std::string direction : { "normal", "shear" })
       prm.declare_entry("Incident " + direction + " velocity", "0", Anything(),
                         "Viscous boundary: velocity of the wave that comes "
@@ -190,6 +194,7 @@ namespace quoin
       load.components[0]
           = component(section, "Horizontal", LoadQuantity::force);
       load.components[1] = component(section, "Vertical", LoadQuantity::force);
+      load.components[2] = component(section, "Pressure", LoadQuantity::force);
       break;
     case LoadType::viscous_boundary:
       load.components[0] = component(section, "Incident normal velocity",
@@ -218,6 +223,9 @@ namespace quoin
                                  "elements' names the curves. Remove it.");
       break;
     }
+    if (load.type != LoadType::traction && section.text("Pressure") != "free")
+      section.fail("Pressure", "acts on boundaries alone: it is for loads with "
+                               "'Type = traction'. Leave it at 'free'.");
     if ((load.type == LoadType::prescribed_motion
          || load.type == LoadType::traction
          || load.type == LoadType::viscous_boundary)

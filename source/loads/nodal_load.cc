@@ -83,46 +83,61 @@ namespace quoin
       return;
     }
     std::map<unsigned int, double> area;
+    std::map<unsigned int, NodeVector> inward_area;
     for (const unsigned int f :
          faces_of_curves(mesh, parameters.boundaries, parameters.name))
     {
       const BlockFace &face = mesh.boundary_faces[f];
-      const double length   = mesh.vertices[face.vertices[0]].distance(
-            mesh.vertices[face.vertices[1]]);
+      // The block is on the left of an edge.
+      const auto edge
+          = mesh.vertices[face.vertices[1]] - mesh.vertices[face.vertices[0]];
       for (const unsigned int v : face.vertices)
         if (exchange.owns(v))
-          area[exchange.local(v)] += 0.5 * length * thickness;
+        {
+          const unsigned int node = exchange.local(v);
+          area[node] += 0.5 * edge.norm() * thickness;
+          inward_area[node].v[0] -= 0.5 * edge[1] * thickness;
+          inward_area[node].v[1] += 0.5 * edge[0] * thickness;
+        }
     }
     for (const auto &[node, weight] : area)
     {
       nodes.push_back(node);
       weights.push_back(weight);
+      if (components[2].quantity != LoadQuantity::free)
+        inward.push_back(inward_area[node]);
     }
   }
 
-  std::array<double, 2> NodalLoad::amplitude(const TimePoint &time) const
+  std::array<double, 3> NodalLoad::amplitude(const TimePoint &time) const
   {
-    return { { components[0].value(time), components[1].value(time) } };
+    return component_values(components, time);
   }
 
   void NodalLoad::add_forces(const TimePoint &time, NodeVector *force) const
   {
-    const auto [x, y] = amplitude(time);
+    const auto [x, y, pressure] = amplitude(time);
     for (unsigned int i = 0; i < nodes.size(); ++i)
     {
       force[nodes[i]].v[0] += x * weights[i];
       force[nodes[i]].v[1] += y * weights[i];
     }
+    for (unsigned int i = 0; i < inward.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        force[nodes[i]].v[d] += pressure * inward[i].v[d];
   }
 
   double NodalLoad::power(const TimePoint &time,
                           const NodeVector *velocity) const
   {
-    double sum[2] = { 0., 0. };
+    double sum[2] = { 0., 0. }, inflow = 0.;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         sum[d] += weights[i] * velocity[nodes[i]].v[d];
-    const auto [x, y] = amplitude(time);
-    return x * sum[0] + y * sum[1];
+    for (unsigned int i = 0; i < inward.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        inflow += inward[i].v[d] * velocity[nodes[i]].v[d];
+    const auto [x, y, pressure] = amplitude(time);
+    return x * sum[0] + y * sum[1] + pressure * inflow;
   }
 } // namespace quoin

@@ -171,6 +171,33 @@ namespace quoin
     return signal;
   }
 
+  Signal friedlander_pulse(const double duration, const double coefficient)
+  {
+    const double b = coefficient;
+    // Integrals of exp(-b x) and x exp(-b x) from 0, once and twice.
+    const auto e = [b](const double x) { return -std::expm1(-b * x) / b; };
+    const auto f
+        = [=](const double x) { return (e(x) - x * std::exp(-b * x)) / b; };
+    Signal signal;
+    signal.value = [=](const double t)
+    {
+      const double x = t / duration;
+      return t > 0. ? (1. - x) * std::exp(-b * x) : 0.;
+    };
+    signal.integral = [=](const double t)
+    {
+      const double x = t / duration;
+      return t > 0. ? duration * (e(x) - f(x)) : 0.;
+    };
+    signal.second_integral = [=](const double t)
+    {
+      const double x = t / duration, twice_e = (x - e(x)) / b;
+      return t > 0. ? duration * duration * (twice_e - (twice_e - f(x)) / b)
+                    : 0.;
+    };
+    return signal;
+  }
+
   std::function<double(double)> integrated(const Signal &signal,
                                            const unsigned int n,
                                            const double begin, const double end,

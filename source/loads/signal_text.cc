@@ -116,8 +116,15 @@ namespace quoin
                                             : exponential_pulse(v[0], v[1]),
                        v.size() > 2 ? v[2] : 0.);
       }
-      throw InputError("must be 'pulse half-sine ...', 'pulse triangular ...' "
-                       "or 'pulse exponential ...'.");
+      if (kind == "Friedlander")
+      {
+        const auto v
+            = numbers(words, "pulse Friedlander DURATION COEFFICIENT [DELAY]",
+                      { "DURATION", "COEFFICIENT", "DELAY" }, true);
+        return delayed(friedlander_pulse(v[0], v[1]), v.size() > 2 ? v[2] : 0.);
+      }
+      throw InputError("must be 'pulse half-sine ...', 'pulse triangular ...', "
+                       "'pulse exponential ...' or 'pulse Friedlander ...'.");
     }
 
     /** Pairs of a word and a value, each taken once. */

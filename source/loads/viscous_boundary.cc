@@ -10,11 +10,12 @@
 namespace quoin
 {
   ViscousBoundary::ViscousBoundary(const LoadParameters &parameters,
+                                   const unsigned int index,
                                    const BlockMesh<2> &mesh,
                                    const NodeExchange &exchange,
                                    const std::vector<Impedance> &impedance,
                                    const double thickness)
-    : components(parameters.components)
+    : index(index), components(parameters.components)
   {
     load_name        = parameters.name;
     const auto faces = faces_of_curves(mesh, parameters.boundaries, load_name);
@@ -50,12 +51,32 @@ namespace quoin
     }
   }
 
+  void ViscousBoundary::begin_stage(State &state, const bool continues)
+  {
+    // Before the first stage nothing has been at rest.
+    if (!continues)
+      state.viscous_boundaries[index] = { state.step == 0, {} };
+  }
+
+  void ViscousBoundary::hold(const std::vector<CapturedNode> &captured,
+                             ViscousBoundaryState &own) const
+  {
+    own.active = true;
+    for (const unsigned int c : captured_positions)
+      for (unsigned int d = 0; d < 2; ++d)
+        own.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
+  }
+
   void ViscousBoundary::correct(const StepContext &step,
                                 const std::vector<CapturedNode> &captured,
                                 State &state)
   {
-    const double vn = components[0].value(step.begin);
-    const double vs = components[1].value(step.begin);
+    const double vn           = components[0].value(step.begin);
+    const double vs           = components[1].value(step.begin);
+    ViscousBoundaryState &own = state.viscous_boundaries[index];
+    if (!own.active)
+      hold(captured, own);
+    const bool holds_forces = !own.held.empty();
     for (unsigned int i = 0; i < dashpots.size(); ++i)
     {
       const CapturedNode &before  = captured[captured_positions[i]];
@@ -64,16 +85,18 @@ namespace quoin
       const double h = 0.5 * step.dt_velocity, m = before.mass;
       const double a  = h * step.mass_damping * m;
       const double vx = before.velocity.v[0], vy = before.velocity.v[1];
+      const double fx
+          = before.force.v[0] + (holds_forces ? own.held[2 * i] : 0.);
+      const double fy
+          = before.force.v[1] + (holds_forces ? own.held[2 * i + 1] : 0.);
 
       // (m + h c) v+ = (m - h c) v- + dt f, with c the 2x2 dashpot.
-      const double bx = (m - a) * vx - h * (cxx * vx + cxy * vy)
-                        + 2. * h
-                              * (before.force.v[0] + vn * dashpot.normal[0]
-                                 + vs * dashpot.shear[0]);
-      const double by = (m - a) * vy - h * (cxy * vx + cyy * vy)
-                        + 2. * h
-                              * (before.force.v[1] + vn * dashpot.normal[1]
-                                 + vs * dashpot.shear[1]);
+      const double bx
+          = (m - a) * vx - h * (cxx * vx + cxy * vy)
+            + 2. * h * (fx + vn * dashpot.normal[0] + vs * dashpot.shear[0]);
+      const double by
+          = (m - a) * vy - h * (cxy * vx + cyy * vy)
+            + 2. * h * (fy + vn * dashpot.normal[1] + vs * dashpot.shear[1]);
       const double axx = m + a + h * cxx, ayy = m + a + h * cyy, axy = h * cxy;
       const double determinant = axx * ayy - axy * axy;
 
@@ -90,9 +113,10 @@ namespace quoin
                                 const std::vector<CapturedNode> &captured,
                                 State &state)
   {
-    const double vn = components[0].value(step.begin);
-    const double vs = components[1].value(step.begin);
-    last_resultant  = {};
+    const double vn                 = components[0].value(step.begin);
+    const double vs                 = components[1].value(step.begin);
+    const std::vector<double> &held = state.viscous_boundaries[index].held;
+    last_resultant                  = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
     {
       const CapturedNode &before = captured[captured_positions[i]];
@@ -107,17 +131,18 @@ namespace quoin
       {
         if (before.owner[d] != this)
           continue;
-        const double incident = vn * dashpot.normal[d] + vs * dashpot.shear[d];
-        const double w0       = 0.5 * step.dt_before * v0[d];
-        const double w1       = 0.5 * step.dt * v1[d];
-        state.energy.external += incident * w0;
-        state.pending.external += incident * w1;
+        const double pushing = vn * dashpot.normal[d] + vs * dashpot.shear[d]
+                               + (held.empty() ? 0. : held[2 * i + d]);
+        const double w0 = 0.5 * step.dt_before * v0[d];
+        const double w1 = 0.5 * step.dt * v1[d];
+        state.energy.external += pushing * w0;
+        state.pending.external += pushing * w1;
         state.energy.viscous += drag[d] * w0;
         state.pending.viscous += drag[d] * w1;
         const double rayleigh = step.mass_damping * before.mass * mean[d];
         state.energy.damping += rayleigh * w0;
         state.pending.damping += rayleigh * w1;
-        last_resultant[d] += incident - drag[d];
+        last_resultant[d] += pushing - drag[d];
       }
     }
   }

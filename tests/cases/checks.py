@@ -746,3 +746,75 @@ def canyon(case, folder, output, histories):
         result["|u_%s|" % component] = (away, case["tolerance"])
         result["|u_%s| at the rim" % component] = (rim, case["rim tolerance"])
     return result
+
+
+def at_rest_after_switch(case, folder, output, histories):
+    """Velocities of the second stage by that which the in-situ stress would
+    cause at a free surface, 10 MPa / (rho c1), and the motion of the wall by
+    that of the first stage."""
+    rest = histories["time"] > histories["time"][-1] - 0.0159
+    fastest = max(np.max(np.abs(histories[name][rest]))
+                  for name in histories if name.endswith(("_x", "_y")))
+    wall = histories["wall_u"]
+    return {"velocity by stress / (rho c1)": (
+                float(fastest / (10e6 / (2500 * 3000))), 1e-9),
+            "motion of the wall by what it was": (
+                float(np.ptp(wall[rest]) / np.max(np.abs(wall))), 1e-9),
+            "energy residual": (residual_of(energies(output)), 2e-6)}
+
+
+def kirsch(case, folder, output, histories):
+    """Displacements all along the wall relative to the largest one, and the
+    hoop stress from the strain of the wall's edges, whose radial stress is
+    gone, relative to the largest one."""
+    sys.path.insert(0, os.path.join(os.path.dirname(HERE), os.pardir,
+                                    "scripts"))
+    import vtu  # noqa: E402
+
+    sxx, syy = case.get("stress", [-10e6, -5e6])
+    young, nu = 10e9, 0.25
+    mean, half = (sxx + syy) / 2, (sxx - syy) / 2
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    x, u = grid.points, grid.point_data["displacement"][:, :2]
+    angle = np.arctan2(x[:, 1], x[:, 0])
+    wall = np.nonzero(np.hypot(x[:, 0], x[:, 1]) < 1 + 1e-6)[0]
+    wall = wall[np.argsort(angle[wall])]
+    x, u, angle = x[wall], u[wall], angle[wall]
+    factor = (1 + nu) / young
+    radial = factor * (mean + half * np.cos(2 * angle) * (3 - 4 * nu))
+    along = -factor * half * np.sin(2 * angle) * (3 - 4 * nu)
+    c, s = np.cos(angle), np.sin(angle)
+    exact = np.stack([radial * c - along * s, radial * s + along * c], 1)
+    # nothing holds a translation
+    u = u - np.mean(u - exact, axis=0)
+    error = np.max(np.abs(u - exact)) / np.max(np.abs(exact))
+
+    edge = np.roll(x, -1, axis=0) - x
+    stretch = (np.sum((np.roll(u, -1, axis=0) - u) * edge, axis=1)
+               / np.sum(edge**2, axis=1))
+    middle = np.arctan2(*(x + 0.5 * edge).T[::-1])
+    before = mean + half * np.cos(2 * middle)  # radial, in situ
+    hoop = (mean - half * np.cos(2 * middle) - nu / (1 - nu) * before
+            + young / (1 - nu**2) * stretch)
+    wanted = 2 * mean - 4 * half * np.cos(2 * middle)
+    print("  hoop stress at the crown %.3f MPa, formula %.3f MPa"
+          % (hoop[np.argmax(middle > np.pi / 2)] / 1e6,
+             wanted[np.argmax(middle > np.pi / 2)] / 1e6))
+    return {
+        "displacement of the wall": (float(error), case["tolerance"]),
+        "hoop stress": (float(np.max(np.abs(hoop - wanted))
+                              / np.max(np.abs(wanted))), case["tolerance"]),
+        "energy residual": (residual_of(energies(output)),
+                            case.get("energy tolerance", 1e-9))}
+
+
+def cavity_blocks(case, folder, output, histories):
+    """The hoop stress in the quadrangle at the wall, the mean of its two
+    triangles, once the front has passed some rows of them."""
+    reference, _ = read_table(os.path.join(folder, case["reference"]))
+    late = reference["time"] > 1e-4
+    mean = np.interp(reference["time"], histories["time"],
+                     0.5 * (histories["hoop_inner"]
+                            + histories["hoop_outer"]))
+    error = np.abs(mean - reference["hoop"]) / np.max(reference["hoop"])
+    return {"hoop stress": (float(np.max(error[late])), case["tolerance"])}

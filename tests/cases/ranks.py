@@ -7,7 +7,8 @@ The five blocks of the patch test, loaded suddenly and undamped: deformable ones
 on their base, rigid ones flying freely. The sled: contacts between deformable
 and rigid blocks of different ranks, some of them joints at first, some of them
 new. Motion with many impacts would not agree: it multiplies rounding. The
-cavity: boundary elements, whose history and points the ranks share.
+cavity: boundary elements, whose history and points the ranks share. A static far
+field, which every rank has as a whole, and dashpots that hold what it carried.
 """
 import json
 import os
@@ -24,6 +25,10 @@ from common import Failure  # noqa: E402
 SETS = ["Stages/load/End=time", "Stages/load/Duration=5e-3",
         "Stages/load/Damping=none", "Histories/Interval=1e-5"]
 PATCH_TEST = os.path.join(common.VERIFICATION, "patch_test", "case.prm")
+# A stage of the static far field, left before it is at rest, then dashpots.
+AFTER_SWITCH = os.path.join(common.VERIFICATION, "at_rest_after_switch",
+                            "static_dashpots.prm")
+UNSETTLED = ["Stages/settle/Static ratio=0.1"]
 VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "rigid": (PATCH_TEST, SETS + ["Materials/rock/Law=rigid",
                                           "Loads/base/Type=traction"]),
@@ -33,7 +38,8 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "hybrid": (os.path.join(common.VERIFICATION, "hybrid_hole",
                                     "case.prm"),
                        ["Boundary elements/Element length=0.5",
-                        "Boundary elements/Passivity frequencies=0"])}
+                        "Boundary elements/Passivity frequencies=0"]),
+            "static far field": (AFTER_SWITCH, UNSETTLED)}
 TOLERANCE = 1e-10
 
 

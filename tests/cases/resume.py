@@ -53,6 +53,17 @@ CASES = {
                 "Output/Field interval=2e-2", "Stages/pulse/Duration=0.1",
                 "Boundary elements/Element length=0.5",
                 "Boundary elements/Passivity frequencies=0"], 1, 3),
+    # a static far field, and dashpots that hold what it carried
+    "static": (os.path.join(common.VERIFICATION, "at_rest_after_switch",
+                            "static_dashpots.prm"),
+               ["Output/Checkpoint interval=0.05", "Histories/Interval=1e-4",
+                "Stages/settle/Static ratio=1e-6",
+                "Stages/rest/Duration=0.15"], 1, 3),
+    "static on 2 ranks": (
+        os.path.join(common.VERIFICATION, "at_rest_after_switch",
+                     "static_dashpots.prm"),
+        ["Output/Checkpoint interval=0.05", "Histories/Interval=1e-4",
+         "Stages/settle/Static ratio=1e-6", "Stages/rest/Duration=0.15"], 2, 1),
 }
 
 

@@ -7,6 +7,7 @@
 #include <quoin/application/boundary_geometry.h>
 #include <quoin/application/parameters.h>
 #include <quoin/coupling/far_field.h>
+#include <quoin/coupling/static_far_field.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/mesh/mesh_data.h>
 
@@ -24,6 +25,14 @@ namespace quoin
                                            const MeshData &mesh,
                                            const Model &model,
                                            BoundaryGeometry &geometry);
+
+  /**
+   * The same at rest, of the domain of @p far, null or from make_far_field().
+   * Null if no static stage names its load.
+   */
+  std::unique_ptr<StaticFarField>
+  make_static_far_field(const Parameters &parameters, const Model &model,
+                        const FarField *far);
 } // namespace quoin
 
 #endif

@@ -240,6 +240,35 @@ namespace quoin
     }
   };
 
+  /** Static boundary elements beyond the blocks; see StaticFarField. */
+  struct StaticFarFieldState
+  {
+    bool active = false;        /**< whether it has begun */
+    std::vector<double> held;   /**< forces on its nodes [N] */
+    std::vector<double> origin; /**< motion of elements at its start [m] */
+    double stored        = 0.;  /**< elastic energy of the domain [J] */
+    double stored_before = 0.;  /**< when it began [J] */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &held &origin &stored &stored_before;
+    }
+  };
+
+  /** A viscous boundary that came after other stages. */
+  struct ViscousBoundaryState
+  {
+    bool active = false;      /**< whether it has begun */
+    std::vector<double> held; /**< forces on its nodes [N]; empty: none */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &held;
+    }
+  };
+
   /** A rigid block: freedoms x [m], y [m], rotation [rad, anticlockwise]. */
   struct RigidBlockState
   {
@@ -276,8 +305,10 @@ namespace quoin
     std::vector<PlatenState> platens; /**< in the order of the loads */
     std::vector<RigidBlockState> rigid_blocks; /**< of this rank */
     FarFieldState far_field;
-    double adaptive_damping   = 0.; /**< [1/s] */
-    double previous_time_step = 0.; /**< [s] */
+    StaticFarFieldState static_far_field;
+    std::vector<ViscousBoundaryState> viscous_boundaries; /**< as platens */
+    double adaptive_damping   = 0.;                       /**< [1/s] */
+    double previous_time_step = 0.;                       /**< [s] */
     double unbalanced_ratio   = 1.; /**< as last measured [-] */
 
     /** Complete at time, and what the step under way adds for time + dt/2. */
@@ -287,8 +318,9 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &time &step &stage &stage_start &stage_step &nodes &velocity
-          &joints &contacts &platens &rigid_blocks &far_field &adaptive_damping
-              &previous_time_step &unbalanced_ratio &energy &pending;
+          &joints &contacts &platens &rigid_blocks &far_field &static_far_field
+              &viscous_boundaries &adaptive_damping &previous_time_step
+                  &unbalanced_ratio &energy &pending;
     }
   };
 } // namespace quoin

@@ -6,6 +6,7 @@
 
 #include <quoin/base/state.h>
 #include <quoin/coupling/far_field.h>
+#include <quoin/coupling/static_far_field.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/model_box.h>
 #include <quoin/dynamics/node_update.h>
@@ -24,17 +25,18 @@ namespace quoin
   /** Energies of the whole model at one time [J]. */
   struct Energies
   {
-    double kinetic = 0.;
-    double strain  = 0.; /**< of the blocks, since the start */
-    double joint   = 0.; /**< recoverable, since the start */
+    double kinetic   = 0.;
+    double strain    = 0.; /**< of the blocks, since the start */
+    double joint     = 0.; /**< recoverable, since the start */
+    double far_field = 0.; /**< of static boundary elements, since then */
     EnergyAccounts accounts;
 
     /** What the balance leaves over; zero but for rounding and kinks. */
     double residual() const
     {
-      return kinetic + strain + joint + accounts.friction + accounts.fracture
-             + accounts.damping + accounts.viscous + accounts.contact
-             + accounts.radiated - accounts.external;
+      return kinetic + strain + joint + far_field + accounts.friction
+             + accounts.fracture + accounts.damping + accounts.viscous
+             + accounts.contact + accounts.radiated - accounts.external;
     }
 
     /** All energy that went through the model, to judge the residual by. */
@@ -55,13 +57,15 @@ namespace quoin
     /**
      * Keeps references to @p model. @p loads: all loads of the run;
      * @p stages: all stages, as State::stage counts them, so that no block is
-     * removed that a later one moves; @p far_field: of the load that is of the
-     * type 'boundary elements', or null. Throws an InputError about a block
-     * outside the box.
+     * removed that a later one moves; @p far_field and @p static_far_field: of
+     * the load that is of the type 'boundary elements', or null; the second
+     * acts in static stages. Throws an InputError about a block outside the
+     * box.
      */
     ExplicitSolver(const Model &model, const std::vector<LoadParameters> &loads,
-                   const std::vector<StageParameters> &stages = {},
-                   std::unique_ptr<FarField> far_field        = nullptr);
+                   const std::vector<StageParameters> &stages       = {},
+                   std::unique_ptr<FarField> far_field              = nullptr,
+                   std::unique_ptr<StaticFarField> static_far_field = nullptr);
 
     /** What is due at the time of a step; see step(). */
     struct Requests
@@ -151,6 +155,14 @@ namespace quoin
     /** Whether it acts in the stage that has begun. */
     bool far_field_acts() const;
 
+    /** Null if there is none. */
+    const StaticFarField *static_far_field() const
+    {
+      return static_far;
+    }
+    /** Whether that acts in the stage that has begun. */
+    bool static_far_field_acts() const;
+
     /** Called before a checkpoint: completes @p state. */
     void save(State &state) const;
 
@@ -168,6 +180,11 @@ namespace quoin
 
   private:
     void activate(const StageParameters &stage);
+    /** Whether @p stage names it and, of far fields, is of its kind. */
+    bool acts_in(const NodeConstraint &constraint,
+                 const StageParameters &stage) const;
+    /** CapturedNode::begun of the stage's first step. */
+    void find_begun_forces(const StepContext &context);
     void scale_masses(const StageParameters &stage, State &state);
     void collect_constrained_nodes(const State &state);
     /** Blocks of this rank that loads of this or a later stage move. */
@@ -205,12 +222,14 @@ namespace quoin
 
     std::unique_ptr<BlockContacts> block_contacts;
     std::vector<std::unique_ptr<NodeConstraint>> all_constraints;
-    FarField *far = nullptr; /**< one of them */
+    FarField *far              = nullptr; /**< one of them */
+    StaticFarField *static_far = nullptr; /**< one of them */
     std::vector<NodalLoad> all_loads;
     std::vector<std::string> known_loads;
 
     std::vector<NodeConstraint *> constraints_on; /**< in order of action */
     std::vector<const NodalLoad *> loads_on;
+    std::vector<const NodalLoad *> loads_begun; /**< not on in the last one */
     StageParameters stage;
 
     std::vector<double> mass;         /**< scaled, local nodes [kg] */

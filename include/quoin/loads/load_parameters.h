@@ -60,8 +60,8 @@ namespace quoin
     std::vector<std::string> groups;     /**< physical surfaces */
 
     /**
-     * Horizontal, vertical and, for platens, rotation; for a viscous boundary
-     * the incident normal and shear velocity.
+     * Horizontal, vertical and, for platens, rotation or, for tractions,
+     * pressure; for a viscous boundary the incident normal and shear velocity.
      */
     std::array<LoadComponent, 3> components;
 

@@ -15,8 +15,10 @@ namespace quoin
 {
   /**
    * A traction or gravity: forces a_x(t) w_i, a_y(t) w_i on nodes i with
-   * fixed weights w_i, the tributary area [m^2] or the mass [kg]. Tractions
-   * act on the reference area and keep their direction.
+   * fixed weights w_i, the tributary area [m^2] or the mass [kg]. A pressure
+   * adds a_p(t) n_i, with n_i the tributary area times the inward normal.
+   * Tractions and pressures act on the reference area and keep their
+   * direction.
    */
   class NodalLoad
   {
@@ -31,8 +33,8 @@ namespace quoin
     /** Rate of work [W] on nodes that move with @p velocity. */
     double power(const TimePoint &time, const NodeVector *velocity) const;
 
-    /** Traction [Pa] or acceleration [m/s^2]. */
-    std::array<double, 2> amplitude(const TimePoint &time) const;
+    /** Traction x, y and pressure [Pa] or acceleration x, y [m/s^2]. */
+    std::array<double, 3> amplitude(const TimePoint &time) const;
 
     const std::string &name() const
     {
@@ -44,6 +46,7 @@ namespace quoin
     std::array<LoadComponent, 3> components;
     std::vector<unsigned int> nodes;
     std::vector<double> weights;
+    std::vector<NodeVector> inward; /**< n_i [m^2]; empty without pressure */
   };
 
   /**

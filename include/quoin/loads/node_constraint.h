@@ -28,6 +28,11 @@ namespace quoin
     NodeVector velocity;
     NodeVector displacement;
     NodeVector viscous; /**< stiffness-proportional part of the force */
+    /**
+     * Part of the force at the first step of a stage: of tractions and gravity
+     * that did not act in the stage before, if there was one.
+     */
+    NodeVector begun;
     /** What moves each component: the last to act on it; null: nothing. */
     const NodeConstraint *owner[2];
   };
@@ -141,6 +146,12 @@ namespace quoin
 
     /** Which freedoms (x, y and, of platens, rotation) it prescribes. */
     virtual std::array<bool, 3> holds() const = 0;
+
+    /** Whether a stiffness resists motion of its nodes, given or not. */
+    virtual bool supports() const
+    {
+      return false;
+    }
 
   protected:
     std::string load_name;

@@ -58,6 +58,15 @@ namespace quoin
   Signal exponential_pulse(double rise, double decay);
 
   /**
+   * The overpressure of an explosion in air @cite Friedlander1946,
+   * (1 - t/T) exp(-b t/T) for t > 0: from 0 to 1 at once, zero at the
+   * @p duration T [s], then negative for ever less.
+   *
+   * @param coefficient b [-], the decay
+   */
+  Signal friedlander_pulse(double duration, double coefficient);
+
+  /**
    * The @p n times integrated @p signal, n = 0, 1 or 2, in closed form if it
    * has one. Otherwise the integral is that from @p begin on, before which it
    * is zero: by Gauss's rule over steps, cubic in between, with the fourth

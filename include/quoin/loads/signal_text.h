@@ -26,6 +26,7 @@ namespace quoin
    *   pulse half-sine DURATION [DELAY]
    *   pulse triangular RISE DECAY [DELAY]
    *   pulse exponential RISE DECAY [DELAY]
+   *   pulse Friedlander DURATION COEFFICIENT [DELAY]
    *   record FILE [OPTIONS]
    *   synthetic [OPTIONS]
    *

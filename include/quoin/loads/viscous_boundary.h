@@ -26,15 +26,24 @@ namespace quoin
    * coming in: traction = rho c (2 v_incident - v), normal and tangential.
    * The dashpot is centred in time and solved node by node, so that it does
    * not reduce the stable step. Local damping does not act on its nodes.
+   *
+   * If it comes after a stage in which it did not act, the forces that are
+   * unbalanced on its nodes at its first step, but for those of loads that
+   * begin with it, are held from there on: reactions of what it replaces. A
+   * run that begins with it has nothing to hold.
    */
   class ViscousBoundary : public NodeConstraint
   {
   public:
-    /** @p impedance of each cell group of @p mesh. */
-    ViscousBoundary(const LoadParameters &parameters, const BlockMesh<2> &mesh,
-                    const NodeExchange &exchange,
+    /**
+     * @p index: its place in State::viscous_boundaries; @p impedance of each
+     * cell group of @p mesh.
+     */
+    ViscousBoundary(const LoadParameters &parameters, unsigned int index,
+                    const BlockMesh<2> &mesh, const NodeExchange &exchange,
                     const std::vector<Impedance> &impedance, double thickness);
 
+    void begin_stage(State &state, bool continues) override;
     void correct(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
                  State &state) override;
@@ -51,6 +60,9 @@ namespace quoin
     }
 
   private:
+    void hold(const std::vector<CapturedNode> &captured,
+              ViscousBoundaryState &own) const;
+
     /** Of one node. */
     struct Dashpot
     {
@@ -59,6 +71,7 @@ namespace quoin
       std::array<double, 2> shear{};   /**< ... and shear velocity [N s/m] */
     };
 
+    unsigned int index;
     std::array<LoadComponent, 3> components;
     std::vector<Dashpot> dashpots;
   };

@@ -544,6 +544,41 @@ TEST(ExplicitSolver, ViscousBoundaryInAnyDirection)
               1e-6 * std::abs(force[0]));
 }
 
+// What it replaces is held; a load that begins with it is not.
+TEST(ExplicitSolver, ViscousBoundaryTakesOverReactions)
+{
+  for (const bool pushed : { false, true })
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, 2, 2);
+    const ModelParameters parameters = two_blocks(1e11, 1e11);
+    TestRun run(mesh, parameters,
+                { gravity("0", "-10"), motion("base", "bottom", "0", "0"),
+                  viscous("quiet", "bottom"),
+                  traction("push", "bottom", "0", "1e3") });
+    const StageParameters settle
+        = stage_with({ "gravity", "base" }, DampingType::local);
+    run.begin(settle, 0.5);
+    run.step(20000);
+    std::vector<std::string> loads = { "gravity", "quiet" };
+    if (pushed)
+      loads.push_back("push");
+    run.begin(stage_with(loads), 0.5, &settle);
+    run.step(1);
+    const double first = run.state.velocity[run.node(1., 0.)].v[1];
+    run.step(200);
+    double fastest = 0.;
+    for (const NodeVector &v : run.state.velocity)
+      fastest = std::max(fastest, std::abs(v.v[1]));
+    // Of half the traction: the other half goes into the dashpots.
+    const double speed = 1e3 / (2. * 2500. * std::sqrt(1e10 / 2500.));
+    if (pushed)
+      EXPECT_GT(first, 0.1 * speed);
+    else
+      EXPECT_LT(fastest, 1e-9 * speed);
+  }
+}
+
 TEST(ExplicitSolver, IncidentWaveDoublesAtTheFreeSurface)
 {
   // A steady incident shear velocity v: the column ends up moving at 2 v.

@@ -57,6 +57,7 @@ TEST(Signal, IntegralsInClosedForm)
   expect_integrals(read("pulse half-sine 0.4 0.1"), 0., 1., "half-sine");
   expect_integrals(read("pulse triangular 0.1 0.5 0.1"), 0., 1., "triangular");
   expect_integrals(read("pulse exponential 0.1 0.5"), 0.01, 3., "exponential");
+  expect_integrals(read("pulse Friedlander 0.4 1.5"), 0.01, 3., "Friedlander");
 }
 
 TEST(Signal, RickerHasItsPeakAtTheDelay)
@@ -89,6 +90,18 @@ TEST(Signal, Pulses)
   EXPECT_DOUBLE_EQ(triangle.value(0.35), 0.5);
   EXPECT_EQ(triangle.value(0.7), 0.);
   EXPECT_NEAR(triangle.integral(5.), 0.3, 1e-14);
+}
+
+TEST(Signal, FriedlanderPulseChangesSignAtItsDuration)
+{
+  const Signal signal = read("pulse Friedlander 0.4 1.5 0.1");
+  EXPECT_EQ(signal.value(0.1), 0.);
+  EXPECT_NEAR(signal.value(0.1 + 1e-12), 1., 1e-10);
+  EXPECT_NEAR(signal.value(0.3), 0.5 * std::exp(-0.75), 1e-14);
+  EXPECT_NEAR(signal.value(0.5), 0., 1e-14);
+  EXPECT_LT(signal.value(0.7), 0.);
+  // The impulse of both phases, T (b - 1) / b^2.
+  EXPECT_NEAR(signal.integral(50.), 0.4 * 0.5 / 2.25, 1e-12);
 }
 
 TEST(Signal, ExponentialPulseHasItsPeakAtTheRiseTime)
@@ -163,6 +176,7 @@ TEST(Signal, WrongTexts)
           { "wavelet Gabor 5 1 0", "must read 'wavelet Gabor" },
           { "pulse square 1", "'pulse half-sine ...'" },
           { "pulse exponential 2 1", "RISE < DECAY" },
+          { "pulse Friedlander 1", "DURATION COEFFICIENT" },
           { "pulse triangular 0 1", "must be positive" },
           { "record", "must read 'record FILE'" },
           { "record nowhere.csv", "nowhere.csv' cannot be read" },

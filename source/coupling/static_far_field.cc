@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/coupling/static_far_field.h>
+#include <quoin/tdbem/exterior_stiffness.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/LU>
+
+namespace quoin
+{
+  namespace
+  {
+    using Eigen::MatrixXd;
+    using Eigen::VectorXd;
+
+    VectorXd to_eigen(const std::vector<double> &values)
+    {
+      return VectorXd::Map(values.data(), Eigen::Index(values.size()));
+    }
+  } // namespace
+
+  StaticFarField::StaticFarField(const std::string &name,
+                                 const FarFieldDomain &domain,
+                                 const BlockMesh<2> &mesh,
+                                 const std::vector<unsigned int> &faces,
+                                 const NodeExchange &exchange,
+                                 const double thickness)
+    : transfer(domain.boundary, domain.interface, mesh, faces, exchange),
+      thickness(thickness),
+      is_first_rank(
+          dealii::Utilities::MPI::this_mpi_process(exchange.communicator())
+          == 0)
+  {
+    load_name                           = name;
+    node_list                           = transfer.nodes();
+    std::vector<bool> traction_is_given = domain.traction_is_given;
+    traction_is_given.resize(domain.boundary.n_unknowns(), true);
+    std::vector<unsigned int> unknowns;
+    for (const unsigned int element : domain.interface)
+      for (const unsigned int d : { 0U, 1U })
+      {
+        unknowns.push_back(2 * element + d);
+        traction_is_given[unknowns.back()] = false;
+      }
+    const ExteriorStiffness exterior
+        = exterior_stiffness(domain.boundary, domain.medium,
+                             Projection::galerkin, unknowns, traction_is_given);
+    stiffness          = exterior.traction;
+    relative_asymmetry = exterior.asymmetry;
+    areas.resize(stiffness.rows());
+    for (Eigen::Index k = 0; k < areas.size(); ++k)
+      areas[k] = transfer.lengths()[k / 2] * thickness;
+  }
+
+  void StaticFarField::begin_stage(State &state, const bool continues)
+  {
+    prepared_step = 0.;
+    if (continues)
+      return;
+    const double stored    = state.static_far_field.stored;
+    state.static_far_field = { false, {}, {}, stored, stored };
+  }
+
+  void StaticFarField::resume_stage(const State &)
+  {
+    prepared_step = 0.;
+  }
+
+  void StaticFarField::start(const std::vector<CapturedNode> &captured,
+                             State &state)
+  {
+    StaticFarFieldState &far = state.static_far_field;
+    far.active               = true;
+    for (const unsigned int c : captured_positions)
+      for (unsigned int d = 0; d < 2; ++d)
+        far.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
+    gather_displacement(captured, u);
+    far.origin.assign(u.data(), u.data() + u.size());
+  }
+
+  void
+  StaticFarField::gather_displacement(const std::vector<CapturedNode> &captured,
+                                      VectorXd &means) const
+  {
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const auto &value = captured[captured_positions[k]].displacement.v;
+          return std::array<double, 2>{ { value[0], value[1] } };
+        },
+        means);
+  }
+
+  void StaticFarField::prepare(const StepContext &step,
+                               const std::vector<CapturedNode> &captured)
+  {
+    if (step.dt == prepared_step && step.dt_velocity == prepared_velocity_step)
+      return;
+    prepared_step          = step.dt;
+    prepared_velocity_step = step.dt_velocity;
+    gain.clear();
+    for (const unsigned int c : captured_positions)
+      gain.push_back(step.dt_velocity / captured[c].mass);
+    const MatrixXd mobility = thickness * transfer.mobility(gain);
+    const Eigen::Index n    = stiffness.rows();
+    from_motion
+        = Eigen::PartialPivLU<MatrixXd>(MatrixXd::Identity(n, n)
+                                        + 0.25 * step.dt * stiffness * mobility)
+              .solve(stiffness);
+  }
+
+  void StaticFarField::correct(const StepContext &step,
+                               const std::vector<CapturedNode> &captured,
+                               State &state)
+  {
+    StaticFarFieldState &far = state.static_far_field;
+    if (!far.active)
+      start(captured, state);
+    prepare(step, captured);
+
+    const auto node = [&](const unsigned int k) -> const CapturedNode &
+    { return captured[captured_positions[k]]; };
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          return std::array<double, 2>{ { node(k).velocity.v[0],
+                                          node(k).velocity.v[1] } };
+        },
+        v_before);
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          std::array<double, 2> change{};
+          for (unsigned int d = 0; d < 2; ++d)
+            change[d] = gain[k] * (node(k).force.v[d] + far.held[2 * k + d]);
+          return change;
+        },
+        change);
+    gather_displacement(captured, u);
+    u -= to_eigen(far.origin);
+    // With mass damping of the added mass, too, so that this is all of it.
+    mean = u + 0.25 * step.dt * change
+           + 0.25 * (step.dt - step.dt_before) * v_before;
+    p.noalias() = from_motion * mean;
+
+    const double a = 0.5 * step.dt_velocity * step.mass_damping;
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+    {
+      const auto force = transfer.force(k, p);
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double total
+            = node(k).force.v[d] + far.held[2 * k + d] - thickness * force[d];
+        const double v1
+            = ((1. - a) * node(k).velocity.v[d] + gain[k] * total) / (1. + a);
+        state.velocity[node(k).node].v[d] = v1;
+        state.nodes[node(k).node].u[d]
+            = node(k).displacement.v[d] + step.dt * v1;
+      }
+    }
+  }
+
+  void StaticFarField::account(const StepContext &step,
+                               const std::vector<CapturedNode> &captured,
+                               State &state)
+  {
+    StaticFarFieldState &far = state.static_far_field;
+    last_resultant           = {};
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+    {
+      const CapturedNode &before = captured[captured_positions[k]];
+      const auto traction        = transfer.force(k, p);
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double v0 = before.velocity.v[d];
+        const double v1 = state.velocity[before.node].v[d];
+        const double w0 = 0.5 * step.dt_before * v0;
+        const double w1 = 0.5 * step.dt * v1;
+        const bool own  = before.owner[d] == this;
+        // Who else moves the node works against the domain, too.
+        const double held = own ? far.held[2 * k + d] : thickness * traction[d];
+        state.energy.external += held * w0;
+        state.pending.external += held * w1;
+        if (!own)
+          continue;
+        const double rayleigh
+            = step.mass_damping * before.mass * 0.5 * (v0 + v1);
+        state.energy.damping += rayleigh * w0;
+        state.pending.damping += rayleigh * w1;
+        last_resultant[d] += held - thickness * traction[d];
+      }
+    }
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const NodeVector &v
+              = state.velocity[captured[captured_positions[k]].node];
+          return std::array<double, 2>{ { v.v[0], v.v[1] } };
+        },
+        v_after);
+    book_stored(step, state);
+  }
+
+  void StaticFarField::book_stored(const StepContext &step, State &state)
+  {
+    // Positions half a step before and after, between which the trapezoidal
+    // work of K times their mean is the change of the energy.
+    v_before *= 0.5 * step.dt_before;
+    v_after *= 0.5 * step.dt;
+    before                   = u - v_before;
+    after                    = u + v_after;
+    elastic_before.noalias() = stiffness * before;
+    elastic.noalias()        = 0.5 * stiffness * after;
+    elastic += 0.5 * elastic_before;
+    StaticFarFieldState &far = state.static_far_field;
+    far.stored               = far.stored_before
+                 + 0.5 * elastic_before.cwiseProduct(areas).dot(before)
+                 + elastic.cwiseProduct(areas).dot(v_before);
+    if (!is_first_rank)
+      return;
+    const auto damping = (p - elastic).cwiseProduct(areas);
+    state.energy.damping += damping.dot(v_before);
+    state.pending.damping += damping.dot(v_after);
+  }
+} // namespace quoin

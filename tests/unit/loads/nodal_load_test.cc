@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/loads/nodal_load.h>
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using namespace quoin;
+
+namespace
+{
+  /** A rectangle of 3 m by 1 m, the block inside, whose curve is "wall". */
+  struct Rectangle
+  {
+    BlockMesh<2> mesh;
+    NodeExchange exchange{ 0, 4, 4, {}, MPI_COMM_SELF };
+
+    Rectangle()
+    {
+      mesh.vertices   = { { 0., 0. }, { 3., 0. }, { 3., 1. }, { 0., 1. } };
+      mesh.line_names = { "wall", "right" };
+      for (const unsigned int k : { 0U, 1U, 2U, 3U })
+        mesh.boundary_faces.push_back(
+            { { { k, (k + 1) % 4 } }, 0, k == 1 ? 1U : 0U });
+    }
+
+    NodalLoad load(const std::vector<std::string> &curves,
+                   const std::string &pressure, const double thickness) const
+    {
+      LoadParameters parameters;
+      parameters.name       = "charge";
+      parameters.boundaries = curves;
+      parameters.components[2]
+          = { LoadQuantity::force, TimeFunction(pressure, "./") };
+      return { parameters, mesh, exchange, std::vector<double>(4, 1.),
+               thickness };
+    }
+  };
+} // namespace
+
+TEST(NodalLoad, PressurePushesOnTheBlock)
+{
+  const Rectangle rectangle;
+  const NodalLoad load = rectangle.load({ "right" }, "2 * t", 0.5);
+  std::vector<NodeVector> force(4, NodeVector{ { 0., 0. } });
+  load.add_forces({ 3., 3. }, force.data());
+  for (const unsigned int node : { 1U, 2U })
+  {
+    EXPECT_DOUBLE_EQ(force[node].v[0], -6. * 0.5 * 0.5);
+    EXPECT_DOUBLE_EQ(force[node].v[1], 0.);
+  }
+  EXPECT_EQ(force[0].v[0], 0.);
+}
+
+TEST(NodalLoad, PressureAllAroundIsInBalanceAndDoesTheWorkOfVolume)
+{
+  const Rectangle rectangle;
+  const NodalLoad load = rectangle.load({ "wall", "right" }, "7", 2.);
+  std::vector<NodeVector> force(4, NodeVector{ { 0., 0. } });
+  load.add_forces({ 0., 0. }, force.data());
+  double sum[2] = { 0., 0. };
+  for (const NodeVector &f : force)
+    for (unsigned int d = 0; d < 2; ++d)
+      sum[d] += f.v[d];
+  EXPECT_NEAR(sum[0], 0., 1e-14);
+  EXPECT_NEAR(sum[1], 0., 1e-14);
+  // The area, 3 m^2, grows by 0.1 + 0.2 of itself a second.
+  std::vector<NodeVector> velocity;
+  for (const auto &p : rectangle.mesh.vertices)
+    velocity.push_back({ { 0.1 * p[0], 0.2 * p[1] } });
+  EXPECT_NEAR(load.power({ 0., 0. }, velocity.data()), -7. * 2. * 3. * 0.3,
+              1e-13);
+}
