@@ -95,6 +95,10 @@ namespace quoin
       SampledFieldParameters::declare(prm);
       prm.leave_subsection();
 
+      prm.enter_subsection("Initial motion");
+      InitialMotion::declare(prm);
+      prm.leave_subsection();
+
       prm.enter_subsection("Time stepping");
       prm.declare_entry("Share of critical time step", "0.8", Double(),
                         "Of the bound that is computed from blocks, joints "
@@ -441,6 +445,11 @@ namespace quoin
     {
       for (const std::string name : { "Joints", "Loads", "Stages" })
         refuse_names(top, name, "boundary elements");
+      for (const std::string name : { "Displacement", "Velocity" })
+        if (const ParameterSection section(top, "Initial motion");
+            !section.text(name).empty())
+          section.fail(name, "has no meaning with 'Model = boundary "
+                             "elements': it is that of blocks. Remove it.");
       if (parameters.model.plane != PlaneAssumption::plane_strain)
         top.fail("Plane assumption", "does not go with boundary elements: "
                                      "their kernels are those of plane "
@@ -555,6 +564,8 @@ namespace quoin
         if (load.type == LoadType::initial_stress)
           parameters.model.initial_stresses.push_back(load);
       read_far_field(top, parameters);
+      parameters.initial_motion
+          = InitialMotion::read(ParameterSection(top, "Initial motion"));
       read_stages(top, parameters);
       check_loads(parameters);
     }

@@ -118,12 +118,21 @@ namespace quoin
           make_far_field(parameters, as_read, *model, boundary_geometry));
       histories
           = std::make_unique<Histories>(parameters.histories, *model, *solver);
+      record.state = model->initial_state();
+      if (parameters.initial_motion.is_given)
+        set_initial_motion();
     }
     catch (const InputError &error)
     {
       throw InputError(parameters.file + ", " + error.what());
     }
-    record.state = model->initial_state();
+  }
+
+  void Simulation::set_initial_motion()
+  {
+    all_or_none<InputError>(communicator, [&]()
+                            { parameters.initial_motion.apply(record.state); });
+    solver->account_for_initial_motion(record.state);
   }
 
   void Simulation::report_model()

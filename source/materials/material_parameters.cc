@@ -13,7 +13,8 @@ namespace quoin
   {
     prm.declare_entry("Groups", "", Anything(),
                       "Physical surfaces of the mesh that are made of this "
-                      "material; empty: the one that bears its name.");
+                      "material; empty: the one that bears its name; "
+                      "'none': no block, only what is beyond.");
     prm.declare_entry("Law", "linear elastic",
                       Selection("linear elastic|rigid"),
                       "Whether blocks of this material deform; rigid blocks "
@@ -33,6 +34,8 @@ namespace quoin
     material.groups = section.list("Groups");
     if (material.groups.empty())
       material.groups = { name };
+    if (material.groups == std::vector<std::string>{ "none" })
+      material.groups.clear();
     material.elastic.density = section.positive("Density");
     material.rigid           = section.text("Law") == "rigid";
     if (material.rigid)

@@ -240,6 +240,21 @@ namespace quoin
     }
   };
 
+  /** A column beside the blocks; see FreeFieldBoundary. */
+  struct FreeFieldState
+  {
+    bool active = false;              /**< whether it has begun */
+    std::vector<double> displacement; /**< x, y of its nodes [m] */
+    std::vector<double> velocity;     /**< the same at time - dt/2 [m/s] */
+    std::vector<double> held;         /**< forces on nodes of blocks [N] */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &displacement &velocity &held;
+    }
+  };
+
   /** A rigid block: freedoms x [m], y [m], rotation [rad, anticlockwise]. */
   struct RigidBlockState
   {
@@ -276,9 +291,10 @@ namespace quoin
     std::vector<PlatenState> platens; /**< in the order of the loads */
     std::vector<RigidBlockState> rigid_blocks; /**< of this rank */
     FarFieldState far_field;
-    double adaptive_damping   = 0.; /**< [1/s] */
-    double previous_time_step = 0.; /**< [s] */
-    double unbalanced_ratio   = 1.; /**< as last measured [-] */
+    std::vector<FreeFieldState> free_fields; /**< in the order of the loads */
+    double adaptive_damping   = 0.;          /**< [1/s] */
+    double previous_time_step = 0.;          /**< [s] */
+    double unbalanced_ratio   = 1.;          /**< as last measured [-] */
 
     /** Complete at time, and what the step under way adds for time + dt/2. */
     EnergyAccounts energy, pending;
@@ -287,8 +303,9 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &time &step &stage &stage_start &stage_step &nodes &velocity
-          &joints &contacts &platens &rigid_blocks &far_field &adaptive_damping
-              &previous_time_step &unbalanced_ratio &energy &pending;
+          &joints &contacts &platens &rigid_blocks &far_field &free_fields
+              &adaptive_damping &previous_time_step &unbalanced_ratio &energy
+                  &pending;
     }
   };
 } // namespace quoin

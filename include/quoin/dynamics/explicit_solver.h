@@ -63,6 +63,13 @@ namespace quoin
                    const std::vector<StageParameters> &stages = {},
                    std::unique_ptr<FarField> far_field        = nullptr);
 
+    /**
+     * Books the energy of @p state, which is not at rest where the run begins,
+     * as brought in from outside. Throws an InputError if rigid blocks move;
+     * collective.
+     */
+    void account_for_initial_motion(State &state) const;
+
     /** What is due at the time of a step; see step(). */
     struct Requests
     {
@@ -167,6 +174,7 @@ namespace quoin
     }
 
   private:
+    void make_free_fields(const std::vector<LoadParameters> &loads);
     void activate(const StageParameters &stage);
     void scale_masses(const StageParameters &stage, State &state);
     void collect_constrained_nodes(const State &state);
