@@ -98,9 +98,9 @@ namespace quoin
         fail("Boundary",
              "must be one upright side of the model, but has an edge from "
                  + at(a[0], a[1]) + " to " + at(b[0], b[1])
-                 + " that is not upright, not at x = " + std::to_string(x)
-                 + " m or on the other side of its block. Give each side a "
-                   "load of its own.");
+                 + " that is not upright, not in line with the first one or on "
+                   "the other side of its block. Give each side a load of its "
+                   "own.");
       const unsigned int group = mesh.cell_group[face.cell];
       if (ground.is_rigid[group])
         fail("Boundary", "meets a rigid block at " + at(a[0], a[1])

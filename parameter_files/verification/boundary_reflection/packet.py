@@ -107,8 +107,11 @@ def packet(kind, degrees, centre, along, across, amplitude=1e-6):
             "Velocity": "; ".join(turned(v, -SPEED[kind]))}
 
 
-def geometry(width, height, size):
-    """A rectangle from (-width, 0) to (0, height), the wall on its right."""
+def geometry(width, height, size, together=1):
+    """A rectangle from (-width, 0) to (0, height), the wall on its right. The
+    number of edges of a side is a multiple of @p together."""
+    edges = [together * round(length / (together * size))
+             for length in (width, height)]
     return """// A rectangle of %.9g m x %.9g m.
 Point(1) = {%.9g, 0, 0};
 Point(2) = {0, 0, 0};
@@ -121,12 +124,12 @@ Transfinite Curve{1, 3} = %d;
 Transfinite Curve{2, 4} = %d;
 Curve Loop(1) = {1:4};
 Plane Surface(1) = {1};
-Transfinite Surface{1} Alternate;
+Transfinite Surface{1};
 Physical Curve("wall") = {2};
 Physical Curve("rest") = {1, 3, 4};
 Physical Surface("rock") = {1};
 """ % (width, height, -width, height, -width, height,
-       round(width / size) + 1, round(height / size) + 1)
+       edges[0] + 1, edges[1] + 1)
 
 
 def extent(degrees, along, across, turned=0.0, reach=3.0):
@@ -153,16 +156,16 @@ def wide_model(kind, degrees, along, across, size):
             length / SPEED[kind])
 
 
-def small_model(kind, degrees, along, across, size):
+def small_model(kind, degrees, along, across, size, together):
     """Mesh, packet and duration such that the packet has just room in front of
     the wall, and meets all of it: for boundary elements all around."""
-    ahead = extent(degrees, along, across, reach=3.2)
-    beside = extent(degrees, along, across, 90, reach=3.2)
+    ahead = extent(degrees, along, across, reach=4)
+    beside = extent(degrees, along, across, 90, reach=4)
     settings = packet(kind, degrees, (-ahead, beside), along, across)
     tangent, cosine = np.tan(np.radians(degrees)), np.cos(np.radians(degrees))
     height = 2 * beside + 2 * ahead * tangent
-    return (geometry(2 * ahead, height, size), settings,
-            1.1 * 2 * ahead / cosine / SPEED[kind])
+    return (geometry(2 * ahead, height, size, together), settings,
+            1.5 * 2 * ahead / cosine / SPEED[kind])
 
 
 def run(quoin, folder, name, geo, settings, duration, more=()):

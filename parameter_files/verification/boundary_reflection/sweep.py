@@ -47,12 +47,13 @@ def across_of(angle):
 def measure(quoin, boundary, kind, angle, folder):
     name = "%s_%s_%g" % (boundary.replace(" ", "_"), kind, angle)
     if boundary == "boundary elements":
-        along = across = 6.0
-        model = packet.small_model(kind, angle, along, across, 10 / 24)
-        more = packet.boundary_elements(10 / 12)
+        along = across = 5.5
+        model = packet.small_model(kind, angle, along, across, 10 / 16, 1)
+        more = packet.boundary_elements(10 / 16)
     else:
         along, across = 6.0, across_of(angle)
-        model = packet.wide_model(kind, angle, along, across, 10 / 16)
+        model = packet.wide_model(kind, angle, along, across,
+                                  10 / 20 if angle > 70 else 10 / 24)
         more = packet.FIXED if boundary == "fixed" else []
     _, energy, seconds = packet.run(quoin, folder, name, *model, more)
     closed = packet.reflected_share(kind, np.radians(angle))

@@ -183,7 +183,7 @@ TEST(FreeField, RefusesWhatIsNoSide)
   ModelParameters parameters    = plane_strain();
   parameters.materials[1].rigid = true;
   expect_refused({ incident("0", "0"), free_field("side", "left") },
-                 { "'Boundary'", "rigid", "(0, 2)" }, parameters);
+                 { "'Boundary'", "rigid", "(0, 4)" }, parameters);
 
   BlockMesh<2> mesh;
   MeshData data;
