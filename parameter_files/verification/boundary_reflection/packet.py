@@ -158,14 +158,16 @@ def wide_model(kind, degrees, along, across, size):
 
 def small_model(kind, degrees, along, across, size, together):
     """Mesh, packet and duration such that the packet has just room in front of
-    the wall, and meets all of it: for boundary elements all around."""
+    the wall, and meets all of it: for boundary elements all around. It ends
+    when plane waves 15 degrees more oblique have passed too, before what they
+    sent back has left through the other side."""
     ahead = extent(degrees, along, across, reach=4)
     beside = extent(degrees, along, across, 90, reach=4)
     settings = packet(kind, degrees, (-ahead, beside), along, across)
-    tangent, cosine = np.tan(np.radians(degrees)), np.cos(np.radians(degrees))
-    height = 2 * beside + 2 * ahead * tangent
+    height = 2 * beside + 2 * ahead * np.tan(np.radians(degrees))
+    cosine = np.cos(np.radians(min(degrees + 15, 82)))
     return (geometry(2 * ahead, height, size, together), settings,
-            1.5 * 2 * ahead / cosine / SPEED[kind])
+            1.05 * 2 * ahead / cosine / SPEED[kind])
 
 
 def run(quoin, folder, name, geo, settings, duration, more=()):

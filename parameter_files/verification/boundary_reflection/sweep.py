@@ -48,8 +48,10 @@ def measure(quoin, boundary, kind, angle, folder):
     name = "%s_%s_%g" % (boundary.replace(" ", "_"), kind, angle)
     if boundary == "boundary elements":
         along = across = 5.5
-        model = packet.small_model(kind, angle, along, across, 10 / 16, 1)
-        more = packet.boundary_elements(10 / 16)
+        # 600 elements at 75 degrees, else up to 525
+        length = 10 / 12 if angle > 70 else 10 / 16
+        model = packet.small_model(kind, angle, along, across, length / 2, 2)
+        more = packet.boundary_elements(length)
     else:
         along, across = 6.0, across_of(angle)
         model = packet.wide_model(kind, angle, along, across,
