@@ -9,6 +9,7 @@
 import argparse
 import csv
 import os
+import sys
 import tempfile
 
 import numpy as np
@@ -70,19 +71,19 @@ def measure(quoin, boundary, kind, angle, folder):
 
 
 def plot(path):
-    import matplotlib
-    matplotlib.use("Agg")
+    sys.path.insert(0, os.path.join(packet.HERE, *[os.pardir] * 3, "scripts"))
+    import figure_style  # noqa: F401
     import matplotlib.pyplot as plt
 
     rows = read_rows()
-    figure, axes = plt.subplots(1, 2, figsize=(9, 4.2), sharey=True)
+    figure, axes = plt.subplots(1, 2, figsize=(9, 4.6), sharey=True)
     angles = np.linspace(0.5, 88, 400)
     marks = {"dashpots": ("o", "C0"), "boundary elements": ("s", "C3"),
              "fixed": ("^", "0.4")}
     for axis, kind in zip(axes, ("P", "SV")):
         axis.semilogy(angles, [packet.reflected_share(kind, np.radians(a))
                                for a in angles], "C0-", lw=1,
-                      label="dashpots, closed form")
+                      label="dashpots, closed form, plane wave")
         for boundary, (mark, colour) in marks.items():
             of = [r for r in rows
                   if r["boundary"] == boundary and r["kind"] == kind]
@@ -90,21 +91,19 @@ def plot(path):
                 axis.semilogy([float(r["angle"]) for r in of],
                               [float(r["reflected"]) for r in of], mark,
                               color=colour, label=boundary + ", measured")
-        dashpots = [r for r in rows
-                    if r["boundary"] == "dashpots" and r["kind"] == kind]
-        axis.semilogy([float(r["angle"]) for r in dashpots],
-                      [float(r["packet"]) for r in dashpots], "_", ms=12,
-                      color="C0", label="the same, mean over the packet")
-        axis.axhline(1e-4, color="C3", lw=0.7, ls=":")
+        axis.semilogy(packet.ANGLES,
+                      [packet.packet_share(kind, a, 6.0, across_of(a))
+                       for a in packet.ANGLES], "_", ms=14, color="C0",
+                      label="dashpots, closed form, mean over the packet")
         axis.set_title("%s wave, Poisson's ratio 1/4" % kind)
         axis.set_xlabel("angle of incidence [deg]")
         axis.set_xlim(-2, 80)
         axis.set_xticks(packet.ANGLES)
         axis.set_ylim(1e-7, 2)
-        axis.grid(alpha=0.3)
     axes[0].set_ylabel("reflected energy / incident energy")
-    axes[1].legend(fontsize=8, loc="lower right")
-    figure.tight_layout()
+    handles, labels = axes[0].get_legend_handles_labels()
+    figure.tight_layout(rect=(0, 0.1, 1, 1))
+    figure.legend(handles, labels, fontsize=8, ncol=3, loc="lower center")
     figure.savefig(path, dpi=110)
 
 
