@@ -10,7 +10,7 @@ Transfinite Curve{1, 3} = 58;
 Transfinite Curve{2, 4} = 102;
 Curve Loop(1) = {1:4};
 Plane Surface(1) = {1};
-Transfinite Surface{1} Alternate;
+Transfinite Surface{1};
 Physical Curve("wall") = {2};
 Physical Curve("rest") = {1, 3, 4};
 Physical Surface("rock") = {1};

@@ -3,7 +3,7 @@
 # Copyright (C) 2026 The quoin authors
 """Wave packets that meet a boundary: closed form, meshes, packets, runs.
 
-Without arguments it writes case.geo, packet.prm and reference.csv, the energy
+Without arguments it writes case.geo, packet.inc and reference.csv, the energy
 that dashpots reflect by the closed form. tests/cases/reflection.py runs it for
 the tests, sweep.py for the table and the figure.
 """
@@ -212,7 +212,7 @@ def main():
     geo, settings, _ = wide_model("P", 30, 6.0, 10.0, 0.8)
     with open(os.path.join(HERE, "case.geo"), "w") as stream:
         stream.write(geo)
-    with open(os.path.join(HERE, "packet.prm"), "w") as stream:
+    with open(os.path.join(HERE, "packet.inc"), "w") as stream:
         stream.write("# Written by packet.py.\n")
         for item in settings.items():
             stream.write("set %s = %s\n" % item)
