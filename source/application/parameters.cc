@@ -96,6 +96,10 @@ namespace quoin
       SampledFieldParameters::declare(prm);
       prm.leave_subsection();
 
+      prm.enter_subsection("Initial motion");
+      InitialMotion::declare(prm);
+      prm.leave_subsection();
+
       prm.enter_subsection("Time stepping");
       prm.declare_entry("Share of critical time step", "0.8", Double(),
                         "Of the bound that is computed from blocks, joints "
@@ -450,6 +454,11 @@ namespace quoin
     {
       for (const std::string name : { "Joints", "Loads", "Stages" })
         refuse_names(top, name, "boundary elements");
+      for (const std::string name : { "Displacement", "Velocity" })
+        if (const ParameterSection section(top, "Initial motion");
+            !section.text(name).empty())
+          section.fail(name, "has no meaning with 'Model = boundary "
+                             "elements': it is that of blocks. Remove it.");
       if (parameters.model.plane != PlaneAssumption::plane_strain)
         top.fail("Plane assumption", "does not go with boundary elements: "
                                      "their kernels are those of plane "
@@ -566,6 +575,8 @@ namespace quoin
                 .fail("Quantity", "needs 'Model = boundary elements' or a load "
                                   "of 'Type = boundary elements'.");
       }
+      parameters.initial_motion
+          = InitialMotion::read(ParameterSection(top, "Initial motion"));
       read_stages(top, parameters);
       check_loads(parameters);
     }

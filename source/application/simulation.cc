@@ -128,12 +128,21 @@ namespace quoin
       histories
           = std::make_unique<Histories>(parameters.histories, *model, *solver,
                                         boundary_geometry, parameters.boundary);
+      record.state = model->initial_state();
+      if (parameters.initial_motion.is_given)
+        set_initial_motion();
     }
     catch (const InputError &error)
     {
       throw InputError(parameters.file + ", " + error.what());
     }
-    record.state = model->initial_state();
+  }
+
+  void Simulation::set_initial_motion()
+  {
+    all_or_none<InputError>(communicator, [&]()
+                            { parameters.initial_motion.apply(record.state); });
+    solver->account_for_initial_motion(record.state);
   }
 
   void Simulation::report_model()
@@ -225,7 +234,7 @@ namespace quoin
       far_field_table = std::make_unique<CsvTable>(
           output + "/far_field.csv",
           std::vector<std::string>{ "time [s]", "steps [-]", "radiated [J]",
-                                    "substeps [J]", "incident [J]",
+                                    "substeps [J]", "incident [J]", "given [J]",
                                     "mismatch [-]" });
     if (options.resume)
     {
@@ -601,9 +610,10 @@ namespace quoin
       return;
     const FarField::Ledger ledger = far->ledger(record.state);
     const double throughput       = solver->energies().throughput();
-    if (ledger.radiated < -largest_created_share * throughput)
+    const double taken            = ledger.radiated + ledger.given;
+    if (taken < -largest_created_share * throughput)
       throw RunError("the boundary elements have created energy, "
-                     + number(-ledger.radiated) + " J of " + number(throughput)
+                     + number(-taken) + " J of " + number(throughput)
                      + " J that went through the model: their discrete "
                        "impedance is not passive. Change 'Step ratio' or "
                        "'Formulation' in section 'Boundary elements' until the "
@@ -612,7 +622,8 @@ namespace quoin
       return;
     far_field_table->add_row(
         { record.state.time, double(record.state.far_field.n_steps),
-          ledger.radiated, ledger.substeps, ledger.incident, ledger.mismatch });
+          ledger.radiated, ledger.substeps, ledger.incident, ledger.given,
+          ledger.mismatch });
   }
 
   void Simulation::write_boundary()

@@ -71,6 +71,11 @@ namespace quoin
     area.resize(Eigen::Index(unknowns.size()));
     for (unsigned int e = 0; e < transfer.n_elements(); ++e)
       area.segment<2>(2 * e).setConstant(transfer.lengths()[e] * thickness);
+    outer_area.resize(Eigen::Index(problem.boundary.n_unknowns()));
+    for (unsigned int e = 0; e < problem.boundary.n_elements(); ++e)
+      outer_area.segment<2>(2 * e).setConstant(
+          problem.boundary.elements[e].length() * thickness);
+    outer_area(unknowns).setZero();
   }
 
   FarField::~FarField() = default;
@@ -247,6 +252,9 @@ namespace quoin
                                        - incident_p);
     else
       march->finish_step();
+    far.given += march->p()
+                     .cwiseProduct(outer_area)
+                     .dot(march->u() - to_eigen(far.displacement));
     far.last_motion = to_vector(motion);
     far.velocity    = to_vector((march->u() - to_eigen(far.displacement)) / dt);
     far.displacement = to_vector(march->u());
@@ -385,8 +393,7 @@ namespace quoin
     if (is_first_rank)
     {
       // Of the work done on the domain, that on the scattered field has left.
-      const auto power = [&](const VectorXd &v)
-      {
+      const auto power = [&](const VectorXd &v) {
         return (p - incident_p).cwiseProduct(area).dot(v - incident_velocity);
       };
       const double now  = 0.5 * step.dt_before * power(v_before);
@@ -414,7 +421,8 @@ namespace quoin
   FarField::Ledger FarField::ledger(const State &state) const
   {
     const FarFieldState &far = state.far_field;
-    return { far.radiated, far.substep_sum, far.incident, far.mismatch };
+    return { far.radiated, far.substep_sum, far.incident, far.given,
+             far.mismatch };
   }
 
   VectorXd FarField::displacement(const State &state) const

@@ -50,7 +50,7 @@ namespace quoin
       {
       case LoadType::viscous_boundary:
         all_constraints.push_back(std::make_unique<ViscousBoundary>(
-            load, n_viscous++, mesh, exchange, model.impedance(),
+            load, n_viscous++, mesh, exchange, model.impedance_beyond(load),
             model.thickness()));
         break;
       case LoadType::prescribed_motion:
@@ -74,9 +74,11 @@ namespace quoin
           all_constraints.push_back(std::move(static_field));
         break;
       case LoadType::initial_stress:
+      case LoadType::free_field:
         break;
       }
     }
+    make_free_fields(loads);
     if (model.large_displacements())
       block_contacts = std::make_unique<BlockContacts>(mesh, exchange,
                                                        model.contact_model());
@@ -104,6 +106,7 @@ namespace quoin
     context.begin       = { in_stage, state.time };
     context.middle
         = { in_stage + 0.5 * time_step, state.time + 0.5 * time_step };
+    context.stiffness_damping = stage.stiffness_coefficient;
     context.end           = { in_stage + time_step, state.time + time_step };
     context.local_damping = stage.local_coefficient;
     context.mass_damping  = stage.damping == DampingType::adaptive
@@ -460,7 +463,7 @@ namespace quoin
         return values;
       }
     throw InputError("'" + load
-                     + "' is no prescribed motion, platen or viscous "
-                       "boundary, so it has no reaction.");
+                     + "' is no prescribed motion, platen, viscous or "
+                       "free-field boundary, so it has no reaction.");
   }
 } // namespace quoin

@@ -7,6 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/free_bodies.h>
+#include <quoin/loads/free_field_boundary.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,15 @@ namespace quoin
                          + name + "', which is no load. Loads are: " + known
                          + ".");
       }
+
+    for (const auto &constraint : all_constraints)
+      if (contains(stage.loads, constraint->name())
+          && !constraint->companion().empty()
+          && !contains(stage.loads, constraint->companion()))
+        throw InputError(
+            "section 'Stages/" + stage.name + "': 'Loads' names '"
+            + constraint->name() + "', whose columns stand on the base '"
+            + constraint->companion() + "', but not that. Add it.");
 
     // Viscous boundaries act first, so that what is prescribed prevails;
     // platens last, because they move all of their nodes.
@@ -111,10 +121,12 @@ namespace quoin
     // Giving moving nodes another mass is work done from outside.
     state.energy.external += kinetic() - before;
 
+    double eigenvalue
+        = model.stability().largest_eigenvalue(mass, rigid_stage.mass_factor);
+    for (const NodeConstraint *constraint : constraints_on)
+      eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
     critical_step = StableTimeStep::critical(
-        dealii::Utilities::MPI::max(
-            model.stability().largest_eigenvalue(mass, rigid_stage.mass_factor),
-            communicator),
+        dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
     for (NodeConstraint *constraint : constraints_on)
       if (auto *platen = dynamic_cast<Platen *>(constraint))
@@ -263,16 +275,18 @@ namespace quoin
   {
     activate(new_stage);
     scale_masses(stage, state);
-    unsigned int n_platens = 0, n_viscous = 0;
+    unsigned int n_platens = 0, n_viscous = 0, n_free_fields = 0;
     for (const auto &constraint : all_constraints)
     {
-      if (dynamic_cast<const Platen *>(constraint.get()))
-        ++n_platens;
-      if (dynamic_cast<const ViscousBoundary *>(constraint.get()))
-        ++n_viscous;
+      n_platens += dynamic_cast<const Platen *>(constraint.get()) != nullptr;
+      n_viscous
+          += dynamic_cast<const ViscousBoundary *>(constraint.get()) != nullptr;
+      n_free_fields += dynamic_cast<const FreeFieldBoundary *>(constraint.get())
+                       != nullptr;
     }
     state.platens.resize(n_platens);
     state.viscous_boundaries.resize(n_viscous);
+    state.free_fields.resize(n_free_fields);
     loads_begun.clear();
     for (const NodalLoad *load : loads_on)
       if (previous && !contains(previous->loads, load->name()))

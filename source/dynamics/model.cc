@@ -79,13 +79,9 @@ namespace quoin
                          + block_mesh.group_names[g]
                          + "' has no material. Add it to the 'Groups' of "
                            "one.");
-      const LinearElastic &material
-          = parameters.materials[material_of_group[g]].elastic;
-      const PlaneStiffness stiffness
-          = plane_stiffness(material, parameters.plane);
       group_impedance.push_back(
-          { std::sqrt(material.density * stiffness.c11),
-            std::sqrt(material.density * stiffness.c33) });
+          impedance_of(parameters.materials[material_of_group[g]].elastic,
+                       parameters.plane));
     }
   }
 
@@ -304,6 +300,41 @@ namespace quoin
       add_edge(face.lower);
       add_edge(face.upper);
     }
+  }
+
+  std::vector<Impedance>
+  Model::impedance_beyond(const LoadParameters &load) const
+  {
+    if (load.far_material.empty())
+      return group_impedance;
+    std::string known;
+    for (const MaterialParameters &material : parameters.materials)
+      if (material.rigid)
+        continue;
+      else if (material.name == load.far_material)
+        return std::vector<Impedance>(
+            group_impedance.size(),
+            impedance_of(material.elastic, parameters.plane));
+      else
+        known += (known.empty() ? "" : ", ") + material.name;
+    throw InputError("section 'Loads/" + load.name
+                     + "': 'Far field material = " + load.far_material
+                     + "' is no linear elastic material of section "
+                       "'Materials'. There are: "
+                     + (known.empty() ? "none" : known) + ".");
+  }
+
+  FreeFieldGround Model::free_field_ground() const
+  {
+    FreeFieldGround ground;
+    for (const unsigned int m : material_of_group)
+    {
+      ground.materials.push_back(parameters.materials[m].elastic);
+      ground.is_rigid.push_back(parameters.materials[m].rigid);
+    }
+    ground.plane     = parameters.plane;
+    ground.thickness = parameters.thickness;
+    return ground;
   }
 
   ContactModel Model::contact_model() const

@@ -120,9 +120,10 @@ namespace quoin
   {
     prm.declare_entry(
         "Type", "traction",
-        dealii::Patterns::Selection("prescribed motion|traction|viscous "
-                                    "boundary|platen|gravity|initial stress|"
-                                    "boundary elements"),
+        dealii::Patterns::Selection(
+            "prescribed motion|traction|viscous "
+            "boundary|free-field boundary|platen|gravity|"
+            "initial stress|boundary elements"),
         "What the load is. Boundary elements: as their section says.");
     prm.declare_entry("Boundary", "", Anything(),
                       "Physical curves on which it acts.");
@@ -156,6 +157,14 @@ namespace quoin
                         "Viscous boundary: velocity of the wave that comes "
                         "in, along the inward normal or along the boundary "
                         "with the block on its left [m/s].");
+    prm.declare_entry("Far field material", "", Anything(),
+                      "Viscous boundary: material of what is beyond, which "
+                      "gives the impedances; empty: that of the cells along "
+                      "the boundary.");
+    prm.declare_entry("Base", "", Anything(),
+                      "Free-field boundary: the load on the model's base, of "
+                      "type 'viscous boundary' or 'prescribed motion', which "
+                      "drives the foot of the column too.");
     prm.declare_entry("Stress", "0, 0, 0", Anything(),
                       "Initial stress xx, yy, xy at y = 0, tension positive "
                       "[Pa]");
@@ -172,6 +181,7 @@ namespace quoin
         "Type", { { "prescribed motion", LoadType::prescribed_motion },
                   { "traction", LoadType::traction },
                   { "viscous boundary", LoadType::viscous_boundary },
+                  { "free-field boundary", LoadType::free_field },
                   { "platen", LoadType::platen },
                   { "gravity", LoadType::gravity },
                   { "initial stress", LoadType::initial_stress },
@@ -201,6 +211,12 @@ namespace quoin
                                      LoadQuantity::velocity);
       load.components[1] = component(section, "Incident shear velocity",
                                      LoadQuantity::velocity);
+      load.far_material  = section.text("Far field material");
+      break;
+    case LoadType::free_field:
+      load.base = section.text("Base");
+      if (load.base.empty())
+        section.fail("Base", "must name the load on the base of the model.");
       break;
     case LoadType::platen:
       load.groups = section.list("Group");
@@ -228,7 +244,8 @@ namespace quoin
                                "'Type = traction'. Leave it at 'free'.");
     if ((load.type == LoadType::prescribed_motion
          || load.type == LoadType::traction
-         || load.type == LoadType::viscous_boundary)
+         || load.type == LoadType::viscous_boundary
+         || load.type == LoadType::free_field)
         && load.boundaries.empty())
       section.fail("Boundary", "must name a physical curve of the mesh.");
     return load;

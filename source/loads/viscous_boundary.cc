@@ -6,21 +6,25 @@
 #include <quoin/loads/viscous_boundary.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace quoin
 {
-  ViscousBoundary::ViscousBoundary(const LoadParameters &parameters,
-                                   const unsigned int index,
-                                   const BlockMesh<2> &mesh,
-                                   const NodeExchange &exchange,
-                                   const std::vector<Impedance> &impedance,
-                                   const double thickness)
-    : index(index), components(parameters.components)
+  Impedance impedance_of(const LinearElastic &material,
+                         const PlaneAssumption assumption)
   {
-    load_name        = parameters.name;
-    const auto faces = faces_of_curves(mesh, parameters.boundaries, load_name);
-    node_list        = nodes_of_faces(mesh, exchange, faces);
-    dashpots.resize(node_list.size());
+    const PlaneStiffness stiffness = plane_stiffness(material, assumption);
+    return { std::sqrt(material.density * stiffness.c11),
+             std::sqrt(material.density * stiffness.c33) };
+  }
+
+  void add_dashpots(const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                    const std::vector<unsigned int> &faces,
+                    const std::vector<Impedance> &impedance,
+                    const double thickness,
+                    const std::vector<unsigned int> &nodes,
+                    std::vector<Dashpot> &dashpots)
+  {
     for (const unsigned int f : faces)
     {
       const BlockFace &face = mesh.boundary_faces[f];
@@ -34,10 +38,11 @@ namespace quoin
       {
         if (!exchange.owns(v))
           continue;
-        Dashpot &dashpot
-            = dashpots[std::lower_bound(node_list.begin(), node_list.end(),
-                                        exchange.local(v))
-                       - node_list.begin()];
+        const auto found
+            = std::lower_bound(nodes.begin(), nodes.end(), exchange.local(v));
+        if (found == nodes.end() || *found != exchange.local(v))
+          continue;
+        Dashpot &dashpot = dashpots[found - nodes.begin()];
         const double zn = z.normal * half_area, zs = z.shear * half_area;
         dashpot.damping[0] += zn * n[0] * n[0] + zs * t[0] * t[0];
         dashpot.damping[1] += zn * n[1] * n[1] + zs * t[1] * t[1];
@@ -49,6 +54,74 @@ namespace quoin
         }
       }
     }
+  }
+
+  void move_with_dashpot(const StepContext &step, const CapturedNode &before,
+                         const std::array<double, 3> &damping,
+                         const std::array<double, 2> &pull, State &state)
+  {
+    const auto &[cxx, cyy, cxy] = damping;
+    const double h = 0.5 * step.dt_velocity, m = before.mass;
+    const double a  = h * step.mass_damping * m;
+    const double vx = before.velocity.v[0], vy = before.velocity.v[1];
+    const double bx = (m - a) * vx - h * (cxx * vx + cxy * vy)
+                      + 2. * h * (before.force.v[0] + pull[0]);
+    const double by = (m - a) * vy - h * (cxy * vx + cyy * vy)
+                      + 2. * h * (before.force.v[1] + pull[1]);
+    const double axx = m + a + h * cxx, ayy = m + a + h * cyy, axy = h * cxy;
+    const double determinant = axx * ayy - axy * axy;
+
+    NodeVector &after = state.velocity[before.node];
+    after.v[0]        = (ayy * bx - axy * by) / determinant;
+    after.v[1]        = (axx * by - axy * bx) / determinant;
+    for (unsigned int d = 0; d < 2; ++d)
+      state.nodes[before.node].u[d]
+          = before.displacement.v[d] + step.dt * after.v[d];
+  }
+
+  void account_for_dashpot(const StepContext &step, const CapturedNode &before,
+                           const std::array<double, 3> &damping,
+                           const std::array<double, 2> &pull,
+                           const NodeConstraint *owner,
+                           std::array<double, 3> &resultant, State &state)
+  {
+    const auto &[cxx, cyy, cxy] = damping;
+    const double *v0            = before.velocity.v;
+    const double *v1            = state.velocity[before.node].v;
+    const double mean[2] = { 0.5 * (v0[0] + v1[0]), 0.5 * (v0[1] + v1[1]) };
+    const double drag[2]
+        = { cxx * mean[0] + cxy * mean[1], cxy * mean[0] + cyy * mean[1] };
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      if (before.owner[d] != owner)
+        continue;
+      const double w0 = 0.5 * step.dt_before * v0[d];
+      const double w1 = 0.5 * step.dt * v1[d];
+      state.energy.external += pull[d] * w0;
+      state.pending.external += pull[d] * w1;
+      state.energy.viscous += drag[d] * w0;
+      state.pending.viscous += drag[d] * w1;
+      const double rayleigh = step.mass_damping * before.mass * mean[d];
+      state.energy.damping += rayleigh * w0;
+      state.pending.damping += rayleigh * w1;
+      resultant[d] += pull[d] - drag[d];
+    }
+  }
+
+  ViscousBoundary::ViscousBoundary(const LoadParameters &parameters,
+                                   const unsigned int index,
+                                   const BlockMesh<2> &mesh,
+                                   const NodeExchange &exchange,
+                                   const std::vector<Impedance> &impedance,
+                                   const double thickness)
+    : index(index), components(parameters.components)
+  {
+    load_name        = parameters.name;
+    const auto faces = faces_of_curves(mesh, parameters.boundaries, load_name);
+    node_list        = nodes_of_faces(mesh, exchange, faces);
+    dashpots.resize(node_list.size());
+    add_dashpots(mesh, exchange, faces, impedance, thickness, node_list,
+                 dashpots);
   }
 
   void ViscousBoundary::begin_stage(State &state, const bool continues)
@@ -67,6 +140,17 @@ namespace quoin
         own.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
   }
 
+  std::array<double, 2>
+  ViscousBoundary::pull(const unsigned int i, const double vn, const double vs,
+                        const ViscousBoundaryState &own) const
+  {
+    std::array<double, 2> result = dashpots[i].pull(vn, vs);
+    if (!own.held.empty())
+      for (unsigned int d = 0; d < 2; ++d)
+        result[d] += own.held[2 * i + d];
+    return result;
+  }
+
   void ViscousBoundary::correct(const StepContext &step,
                                 const std::vector<CapturedNode> &captured,
                                 State &state)
@@ -76,37 +160,9 @@ namespace quoin
     ViscousBoundaryState &own = state.viscous_boundaries[index];
     if (!own.active)
       hold(captured, own);
-    const bool holds_forces = !own.held.empty();
     for (unsigned int i = 0; i < dashpots.size(); ++i)
-    {
-      const CapturedNode &before  = captured[captured_positions[i]];
-      const Dashpot &dashpot      = dashpots[i];
-      const auto &[cxx, cyy, cxy] = dashpot.damping;
-      const double h = 0.5 * step.dt_velocity, m = before.mass;
-      const double a  = h * step.mass_damping * m;
-      const double vx = before.velocity.v[0], vy = before.velocity.v[1];
-      const double fx
-          = before.force.v[0] + (holds_forces ? own.held[2 * i] : 0.);
-      const double fy
-          = before.force.v[1] + (holds_forces ? own.held[2 * i + 1] : 0.);
-
-      // (m + h c) v+ = (m - h c) v- + dt f, with c the 2x2 dashpot.
-      const double bx
-          = (m - a) * vx - h * (cxx * vx + cxy * vy)
-            + 2. * h * (fx + vn * dashpot.normal[0] + vs * dashpot.shear[0]);
-      const double by
-          = (m - a) * vy - h * (cxy * vx + cyy * vy)
-            + 2. * h * (fy + vn * dashpot.normal[1] + vs * dashpot.shear[1]);
-      const double axx = m + a + h * cxx, ayy = m + a + h * cyy, axy = h * cxy;
-      const double determinant = axx * ayy - axy * axy;
-
-      NodeVector &after = state.velocity[before.node];
-      after.v[0]        = (ayy * bx - axy * by) / determinant;
-      after.v[1]        = (axx * by - axy * bx) / determinant;
-      for (unsigned int d = 0; d < 2; ++d)
-        state.nodes[before.node].u[d]
-            = before.displacement.v[d] + step.dt * after.v[d];
-    }
+      move_with_dashpot(step, captured[captured_positions[i]],
+                        dashpots[i].damping, pull(i, vn, vs, own), state);
   }
 
   void ViscousBoundary::account(const StepContext &step,
@@ -115,35 +171,11 @@ namespace quoin
   {
     const double vn                 = components[0].value(step.begin);
     const double vs                 = components[1].value(step.begin);
-    const std::vector<double> &held = state.viscous_boundaries[index].held;
+    const ViscousBoundaryState &own = state.viscous_boundaries[index];
     last_resultant                  = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
-    {
-      const CapturedNode &before = captured[captured_positions[i]];
-      const Dashpot &dashpot     = dashpots[i];
-      const double *v0           = before.velocity.v;
-      const double *v1           = state.velocity[before.node].v;
-      const double mean[2] = { 0.5 * (v0[0] + v1[0]), 0.5 * (v0[1] + v1[1]) };
-      const auto &[cxx, cyy, cxy] = dashpot.damping;
-      const double drag[2]
-          = { cxx * mean[0] + cxy * mean[1], cxy * mean[0] + cyy * mean[1] };
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        if (before.owner[d] != this)
-          continue;
-        const double pushing = vn * dashpot.normal[d] + vs * dashpot.shear[d]
-                               + (held.empty() ? 0. : held[2 * i + d]);
-        const double w0 = 0.5 * step.dt_before * v0[d];
-        const double w1 = 0.5 * step.dt * v1[d];
-        state.energy.external += pushing * w0;
-        state.pending.external += pushing * w1;
-        state.energy.viscous += drag[d] * w0;
-        state.pending.viscous += drag[d] * w1;
-        const double rayleigh = step.mass_damping * before.mass * mean[d];
-        state.energy.damping += rayleigh * w0;
-        state.pending.damping += rayleigh * w1;
-        last_resultant[d] += pushing - drag[d];
-      }
-    }
+      account_for_dashpot(step, captured[captured_positions[i]],
+                          dashpots[i].damping, pull(i, vn, vs, own), this,
+                          last_resultant, state);
   }
 } // namespace quoin

@@ -35,6 +35,22 @@ def energy_residual(case, folder, output, histories):
         case.get("energy tolerance", 1e-3))}
 
 
+def initial_energy(case, folder, output, histories):
+    """The energy of the pulse f(x) that is put in at the start, half of it
+    strain: rho c^2 times the integral of f'^2; and the residual."""
+    table = energies(output)
+    amplitude, width, height = 1e-4, 2.0, 0.4
+    exact = (2500 * 3000.0**2 * height * amplitude**2 * np.sqrt(np.pi / 2)
+             / width)
+    return {
+        "energy at the start": (
+            float(abs(table["external"][0] / exact - 1)), 0.005),
+        "strain at the start": (
+            float(abs(table["strain"][0] / exact - 0.5)), 0.005),
+        "energy residual": (
+            float(np.max(np.abs(table["residual"])) / exact), 1e-8)}
+
+
 def miller(case, folder, output, histories):
     """Coefficients from the energy fluxes over the last full period."""
     name = os.path.join(folder, "coefficients.csv")

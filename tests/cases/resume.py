@@ -30,6 +30,12 @@ CASES = {
                "Histories/Names=displacement, force, ratio",
                "Histories/ratio/Quantity=unbalanced ratio",
                "Time stepping/Share of critical time step=0.3"], 1, 3),
+    # columns beside the blocks, motion at the start
+    "free field": (os.path.join(common.VERIFICATION, "free_field_sides",
+                                "case.prm"),
+                   ["Output/Checkpoint interval=0.05",
+                    "Stages/shake/Duration=2",
+                    "Initial motion/Velocity=1e-3*exp(-x*x); 0"], 1, 2),
     # contacts searched, handed over and taken up in between
     "sled": (common.SLED, ["Output/Checkpoint interval=0.02",
                            "Output/Field interval=2e-3"], 1, 4),

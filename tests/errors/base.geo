@@ -22,5 +22,7 @@ Plane Surface(2) = {2};
 Physical Curve("bottom") = {1};
 Physical Curve("top") = {4};
 Physical Curve("bed") = {7};
+Physical Curve("left") = {5, 6};
+Physical Curve("right") = {2, 3};
 Physical Surface("rock") = {1};
 Physical Surface("lid") = {2};

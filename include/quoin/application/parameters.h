@@ -6,6 +6,7 @@
 
 #include <quoin/application/boundary_parameters.h>
 #include <quoin/application/history_parameters.h>
+#include <quoin/application/initial_motion.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/mesh/block_splitter.h>
@@ -32,6 +33,7 @@ namespace quoin
     ModelParameters model;
     std::vector<LoadParameters> loads; /**< initial stresses included */
     std::vector<StageParameters> stages;
+    InitialMotion initial_motion;
 
     double share_of_critical_step = 0.8;
     double time_step              = 0.; /**< [s]; 0: automatic */

@@ -69,6 +69,7 @@ namespace quoin
     };
 
     void make_model();
+    void set_initial_motion();
     void report_model();
     void open_outputs();
     void run_stage(unsigned int index);

@@ -225,6 +225,7 @@ namespace quoin
     double radiated    = 0.;          /**< as FarField::Ledger [J] */
     double substep_sum = 0.;
     double incident    = 0.;
+    double given       = 0.;
     double mismatch    = 0.;
     /** Of all boundary elements in the last step, scattered. */
     std::vector<double> displacement, velocity, traction;
@@ -235,8 +236,8 @@ namespace quoin
     {
       archive &active &n_steps &substep &held &last_motion &origin &frozen
           &velocity_sum &traction_sum &duration &square_sum &radiated
-              &substep_sum &incident &mismatch &displacement &velocity &traction
-                  &history;
+              &substep_sum &incident &given &mismatch &displacement &velocity
+                  &traction &history;
     }
   };
 
@@ -266,6 +267,21 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &active &held;
+    }
+  };
+
+  /** A column beside the blocks; see FreeFieldBoundary. */
+  struct FreeFieldState
+  {
+    bool active = false;              /**< whether it has begun */
+    std::vector<double> displacement; /**< x, y of its nodes [m] */
+    std::vector<double> velocity;     /**< the same at time - dt/2 [m/s] */
+    std::vector<double> held;         /**< forces on nodes of blocks [N] */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &displacement &velocity &held;
     }
   };
 
@@ -307,9 +323,10 @@ namespace quoin
     FarFieldState far_field;
     StaticFarFieldState static_far_field;
     std::vector<ViscousBoundaryState> viscous_boundaries; /**< as platens */
-    double adaptive_damping   = 0.;                       /**< [1/s] */
-    double previous_time_step = 0.;                       /**< [s] */
-    double unbalanced_ratio   = 1.; /**< as last measured [-] */
+    std::vector<FreeFieldState> free_fields; /**< in the order of the loads */
+    double adaptive_damping   = 0.;          /**< [1/s] */
+    double previous_time_step = 0.;          /**< [s] */
+    double unbalanced_ratio   = 1.;          /**< as last measured [-] */
 
     /** Complete at time, and what the step under way adds for time + dt/2. */
     EnergyAccounts energy, pending;
@@ -319,8 +336,8 @@ namespace quoin
     {
       archive &time &step &stage &stage_start &stage_step &nodes &velocity
           &joints &contacts &platens &rigid_blocks &far_field &static_far_field
-              &viscous_boundaries &adaptive_damping &previous_time_step
-                  &unbalanced_ratio &energy &pending;
+              &viscous_boundaries &free_fields &adaptive_damping
+                  &previous_time_step &unbalanced_ratio &energy &pending;
     }
   };
 } // namespace quoin

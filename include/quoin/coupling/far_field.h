@@ -87,6 +87,8 @@ namespace quoin
       double substeps = 0.;
       /** Brought in by the incident field. */
       double incident = 0.;
+      /** As radiated, of the rest of the boundary, where values are given. */
+      double given = 0.;
       /** Largest |p - (p_h + Z0 v)| by the largest p: rounding. */
       double mismatch = 0.;
     };
@@ -191,6 +193,7 @@ namespace quoin
     bool is_first_rank;
     std::vector<unsigned int> unknowns; /**< of the interface */
     Eigen::VectorXd area;               /**< of these [m^2] */
+    Eigen::VectorXd outer_area; /**< of the others, 0 on the interface [m^2] */
 
     double dt             = 0.;
     unsigned int substeps = 0;

@@ -67,6 +67,13 @@ namespace quoin
                    std::unique_ptr<FarField> far_field              = nullptr,
                    std::unique_ptr<StaticFarField> static_far_field = nullptr);
 
+    /**
+     * Books the energy of @p state, which is not at rest where the run begins,
+     * as brought in from outside. Throws an InputError if rigid blocks move;
+     * collective.
+     */
+    void account_for_initial_motion(State &state) const;
+
     /** What is due at the time of a step; see step(). */
     struct Requests
     {
@@ -179,6 +186,7 @@ namespace quoin
     }
 
   private:
+    void make_free_fields(const std::vector<LoadParameters> &loads);
     void activate(const StageParameters &stage);
     /** Whether @p stage names it and, of far fields, is of its kind. */
     bool acts_in(const NodeConstraint &constraint,

@@ -12,6 +12,7 @@
 #include <quoin/dynamics/rigid_blocks.h>
 #include <quoin/dynamics/stable_time_step.h>
 #include <quoin/joints/joint_parameters.h>
+#include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/viscous_boundary.h>
 #include <quoin/materials/material_parameters.h>
@@ -124,6 +125,13 @@ namespace quoin
     {
       return group_impedance;
     }
+    /**
+     * The same of what lies beyond a viscous boundary: that of the material
+     * which @p load names for it, or of the cells there. Throws an InputError.
+     */
+    std::vector<Impedance> impedance_beyond(const LoadParameters &load) const;
+    /** What columns beside the blocks are made of. */
+    FreeFieldGround free_field_ground() const;
     unsigned int first_block() const
     {
       return block_begin;

@@ -18,6 +18,7 @@ namespace quoin
     prescribed_motion,
     traction,
     viscous_boundary,
+    free_field,
     platen,
     gravity,
     initial_stress,
@@ -64,6 +65,11 @@ namespace quoin
      * pressure; for a viscous boundary the incident normal and shear velocity.
      */
     std::array<LoadComponent, 3> components;
+
+    /** Viscous boundary: of what is beyond; empty: as the cells along it. */
+    std::string far_material;
+    std::string
+        base; /**< free field: load that drives the foot of the column */
 
     std::array<double, 3> stress{};          /**< xx, yy, xy at y = 0 [Pa] */
     std::array<double, 3> stress_gradient{}; /**< per metre of y [Pa/m] */

@@ -41,11 +41,12 @@ namespace quoin
   struct StepContext
   {
     TimePoint begin, middle, end;
-    double dt;            /**< from t to t + dt [s] */
-    double dt_before;     /**< of the step before; 0 at the first [s] */
-    double dt_velocity;   /**< from middle to middle [s] */
-    double local_damping; /**< Cundall's factor; 0: none */
-    double mass_damping;  /**< alpha [1/s] */
+    double dt;                /**< from t to t + dt [s] */
+    double dt_before;         /**< of the step before; 0 at the first [s] */
+    double dt_velocity;       /**< from middle to middle [s] */
+    double local_damping;     /**< Cundall's factor; 0: none */
+    double mass_damping;      /**< alpha [1/s] */
+    double stiffness_damping; /**< beta [s] */
   };
 
   /**
@@ -84,6 +85,18 @@ namespace quoin
      */
     virtual void check_start(const TimePoint &) const
     {
+    }
+
+    /** The load without which it cannot act in a stage; empty: none. */
+    virtual std::string companion() const
+    {
+      return {};
+    }
+
+    /** Largest squared frequency of what it moves besides nodes [1/s^2]. */
+    virtual double largest_eigenvalue() const
+    {
+      return 0.;
     }
 
     /** Called when a stage begins in which it does not act. */

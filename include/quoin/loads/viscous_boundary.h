@@ -7,6 +7,8 @@
 #include <quoin/base/node_exchange.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/node_constraint.h>
+#include <quoin/materials/linear_elastic.h>
+#include <quoin/materials/plane_assumption.h>
 #include <quoin/mesh/block_mesh.h>
 
 #include <array>
@@ -14,12 +16,60 @@
 
 namespace quoin
 {
-  /** Impedances of a cell group [Pa s/m]: rho c of P and S waves. */
+  /** Impedances of a material [Pa s/m]: rho c of P and S waves. */
   struct Impedance
   {
     double normal;
     double shear;
   };
+
+  Impedance impedance_of(const LinearElastic &material,
+                         PlaneAssumption assumption);
+
+  /** Of one node on a viscous boundary. */
+  struct Dashpot
+  {
+    std::array<double, 3> damping{}; /**< xx, yy, xy [N s/m] */
+    std::array<double, 2> normal{};  /**< force per incident normal ... */
+    std::array<double, 2> shear{};   /**< ... and shear velocity [N s/m] */
+
+    /** Force of a wave that comes in with these velocities [N]. */
+    std::array<double, 2> pull(const double vn, const double vs) const
+    {
+      return { { vn * normal[0] + vs * shear[0],
+                 vn * normal[1] + vs * shear[1] } };
+    }
+  };
+
+  /**
+   * Adds to @p dashpots, those of the local nodes @p nodes (ascending), the
+   * shares of the @p faces of @p mesh; nodes that are not listed are left out.
+   * @p impedance: of each cell group.
+   */
+  void add_dashpots(const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                    const std::vector<unsigned int> &faces,
+                    const std::vector<Impedance> &impedance, double thickness,
+                    const std::vector<unsigned int> &nodes,
+                    std::vector<Dashpot> &dashpots);
+
+  /**
+   * Moves a node by the force @p pull [N] beside its own and the drag
+   * @p damping (xx, yy, xy [N s/m]) on the mean velocity of the step:
+   * (m + h c) v+ = (m - h c) v- + 2 h f, h half the step.
+   */
+  void move_with_dashpot(const StepContext &step, const CapturedNode &before,
+                         const std::array<double, 3> &damping,
+                         const std::array<double, 2> &pull, State &state);
+
+  /**
+   * Books the work of what move_with_dashpot() did, for the components that
+   * @p owner moved, and adds its forces to @p resultant [N].
+   */
+  void account_for_dashpot(const StepContext &step, const CapturedNode &before,
+                           const std::array<double, 3> &damping,
+                           const std::array<double, 2> &pull,
+                           const NodeConstraint *owner,
+                           std::array<double, 3> &resultant, State &state);
 
   /**
    * The standard viscous boundary (@cite LysmerKuhlemeyer1969) with waves
@@ -36,8 +86,8 @@ namespace quoin
   {
   public:
     /**
-     * @p index: its place in State::viscous_boundaries; @p impedance of each
-     * cell group of @p mesh.
+     * @p index: its place in State::viscous_boundaries; @p impedance: of what
+     * lies beyond each cell group of @p mesh.
      */
     ViscousBoundary(const LoadParameters &parameters, unsigned int index,
                     const BlockMesh<2> &mesh, const NodeExchange &exchange,
@@ -62,14 +112,9 @@ namespace quoin
   private:
     void hold(const std::vector<CapturedNode> &captured,
               ViscousBoundaryState &own) const;
-
-    /** Of one node. */
-    struct Dashpot
-    {
-      std::array<double, 3> damping{}; /**< xx, yy, xy [N s/m] */
-      std::array<double, 2> normal{};  /**< force per incident normal ... */
-      std::array<double, 2> shear{};   /**< ... and shear velocity [N s/m] */
-    };
+    /** On the i-th node, of the wave that comes in and what is held [N]. */
+    std::array<double, 2> pull(unsigned int i, double vn, double vs,
+                               const ViscousBoundaryState &own) const;
 
     unsigned int index;
     std::array<LoadComponent, 3> components;

@@ -37,6 +37,26 @@ namespace
   }
 } // namespace
 
+TEST(LoadParameters, TruncatedBoundaries)
+{
+  auto load = read("set Type = viscous boundary\n"
+                   "set Boundary = left\n"
+                   "set Far field material = bedrock\n"
+                   "set Incident shear velocity = 0.1*t\n");
+  EXPECT_EQ(load.type, LoadType::viscous_boundary);
+  EXPECT_EQ(load.far_material, "bedrock");
+  EXPECT_DOUBLE_EQ(value(load, 1), 0.2);
+
+  load = read("set Type = free-field boundary\n"
+              "set Boundary = left\nset Base = below\n");
+  EXPECT_EQ(load.type, LoadType::free_field);
+  EXPECT_EQ(load.base, "below");
+  expect_refused("set Type = free-field boundary\nset Boundary = left\n",
+                 "Base = ", "must name the load");
+  expect_refused("set Type = free-field boundary\nset Base = below\n",
+                 "Boundary = ", "physical curve");
+}
+
 TEST(LoadParameters, PrescribedMotion)
 {
   auto load = read("set Type = prescribed motion\n"

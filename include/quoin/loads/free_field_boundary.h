@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_free_field_boundary_h
+#define quoin_loads_free_field_boundary_h
+
+#include <quoin/base/node_exchange.h>
+#include <quoin/loads/load_parameters.h>
+#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/viscous_boundary.h>
+#include <quoin/materials/linear_elastic.h>
+#include <quoin/mesh/block_mesh.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** What the columns of a FreeFieldBoundary are made of. */
+  struct FreeFieldGround
+  {
+    std::vector<LinearElastic> materials; /**< of each cell group */
+    std::vector<bool> is_rigid;           /**< of each cell group */
+    PlaneAssumption plane = PlaneAssumption::plane_strain;
+    double thickness      = 1.; /**< [m] */
+  };
+
+  /** The load that drives the foot of the columns. */
+  struct FreeFieldBase
+  {
+    LoadParameters load; /**< viscous boundary or prescribed motion */
+    std::vector<Impedance> impedance; /**< beyond it, of each cell group */
+  };
+
+  /**
+   * An upright side of a model whose surroundings go on as they are (@cite
+   * ZienkiewiczBicanicShen1989): beside it stands a column of the ground along
+   * the side, with a node at the height of each node of the side, in which P
+   * and S waves run up and down. Its top is free, its foot is driven as the
+   * base of the model is. The traction on the side, whose outward normal n is
+   * horizontal, is
+   * @f[ t = \sigma_f n + \rho c_1 (v_f - v)_x + \rho c_2 (v_f - v)_y, @f]
+   * f the column: nothing of what the ground does by itself is reflected, and
+   * what the model adds leaves through dashpots. The column does not feel the
+   * model. Joints that meet the side are closed in the column.
+   *
+   * When it first acts the column is at rest and without stress of its own;
+   * what forces are unbalanced on the side then are held from there on, so
+   * that stresses of a stage before need no other load. Each rank computes the
+   * whole column. The dashpots are those of ViscousBoundary, also where the
+   * side meets a viscous base, whose part at that node is taken along.
+   */
+  class FreeFieldBoundary : public NodeConstraint
+  {
+  public:
+    /**
+     * @p index: of State::free_fields. Throws an InputError about a side that
+     * is not upright or in one piece, or a base that cannot drive a column.
+     */
+    FreeFieldBoundary(const LoadParameters &parameters, unsigned int index,
+                      const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                      const FreeFieldGround &ground, const FreeFieldBase &base);
+
+    void begin_stage(State &state, bool continues) override;
+    void correct(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
+    void account(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State &state) override;
+    std::array<double, 3> values(const TimePoint &) const override
+    {
+      return {};
+    }
+    std::array<bool, 3> holds() const override
+    {
+      return { { false, false, false } };
+    }
+    std::string companion() const override
+    {
+      return base.name;
+    }
+    double largest_eigenvalue() const override;
+
+    /** Heights of the column's nodes, ascending [m]. */
+    const std::vector<double> &heights() const
+    {
+      return node_height;
+    }
+
+  private:
+    /** A layer between two nodes of the column. */
+    struct Layer
+    {
+      double height; /**< [m] */
+      double density;
+      PlaneStiffness stiffness;
+    };
+
+    /** What half an edge of the side gives to a node. */
+    struct Share
+    {
+      unsigned int node; /**< into nodes() */
+      unsigned int layer;
+      double area; /**< negative where n points left [m^2] */
+    };
+
+    [[noreturn]] void fail(const std::string &setting,
+                           const std::string &why) const;
+    void make_column(const BlockMesh<2> &mesh,
+                     const std::vector<unsigned int> &faces,
+                     const FreeFieldGround &ground);
+    void make_shares(const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                     const std::vector<unsigned int> &faces, double thickness);
+    /** Returns the base's faces. */
+    std::vector<unsigned int> make_foot(const BlockMesh<2> &mesh,
+                                        const FreeFieldBase &given);
+    unsigned int node_at(double height) const;
+    void start(const std::vector<CapturedNode> &captured,
+               FreeFieldState &column);
+    void move_foot(const StepContext &step, const double *force,
+                   FreeFieldState &column) const;
+    /** Takes the column from t to t + dt and finds the pull at t. */
+    void advance(const StepContext &step, FreeFieldState &column);
+
+    unsigned int index;
+    double x       = 0.; /**< of the side [m] */
+    double outward = 0.; /**< n_x: 1 or -1 */
+    std::vector<double> node_height;
+    std::vector<double> node_mass; /**< by area of the column [kg/m^2] */
+    std::vector<Layer> layers;
+
+    /** What is at the foot. */
+    struct Foot
+    {
+      std::string name; /**< of the load */
+      bool is_prescribed = false;
+      std::array<LoadComponent, 3> components;
+      std::array<double, 2> impedance{}; /**< of x, y [Pa s/m] */
+    } base;
+
+    std::vector<unsigned int> column_node; /**< of each of nodes() */
+    std::vector<Share> shares;
+    std::vector<Dashpot> side_dashpots; /**< of each of nodes() */
+    std::vector<Dashpot> base_dashpots; /**< the same, of the base's edges */
+
+    std::vector<std::array<double, 2>> traction; /**< xx, xy of layers [Pa] */
+    std::vector<double> force;                   /**< on the column [N/m^2] */
+    std::vector<double> mean_velocity;          /**< of the column at t [m/s] */
+    std::vector<std::array<double, 2>> pull;    /**< of each of nodes() [N] */
+    std::vector<std::array<double, 3>> damping; /**< of each of nodes() */
+  };
+} // namespace quoin
+
+#endif

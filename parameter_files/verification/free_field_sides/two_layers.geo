@@ -1,0 +1,24 @@
+// Layers of 12 m and 8 m, 40 m wide; the lower one has finer triangles.
+Point(1) = {-20, -20, 0, 0.8};
+Point(2) = {20, -20, 0, 0.8};
+Point(3) = {20, -8, 0, 0.8};
+Point(4) = {-20, -8, 0, 0.8};
+Point(5) = {20, 0, 0, 1};
+Point(6) = {-20, 0, 0, 1};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Line(5) = {3, 5};
+Line(6) = {5, 6};
+Line(7) = {6, 4};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+Curve Loop(2) = {-3, 5, 6, 7};
+Plane Surface(2) = {2};
+Physical Curve("base") = {1};
+Physical Curve("right") = {2, 5};
+Physical Curve("left") = {4, 7};
+Physical Curve("surface") = {6};
+Physical Surface("rock") = {1};
+Physical Surface("soil") = {2};

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// What ExplicitSolver does before the first stage, beside its constructor.
+
+#include <quoin/base/exceptions.h>
+#include <quoin/dynamics/explicit_solver.h>
+#include <quoin/loads/free_field_boundary.h>
+
+#include <algorithm>
+#include <sstream>
+
+namespace quoin
+{
+  void
+  ExplicitSolver::make_free_fields(const std::vector<LoadParameters> &loads)
+  {
+    unsigned int n = 0;
+    for (const LoadParameters &load : loads)
+    {
+      if (load.type != LoadType::free_field)
+        continue;
+      const auto base = std::find_if(loads.begin(), loads.end(),
+                                     [&](const LoadParameters &other)
+                                     { return other.name == load.base; });
+      if (base == loads.end()
+          || (base->type != LoadType::viscous_boundary
+              && base->type != LoadType::prescribed_motion))
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Base = " + load.base
+                         + "' must name the load that drives the base of the "
+                           "model, of type 'viscous boundary' or 'prescribed "
+                           "motion'.");
+      all_constraints.push_back(std::make_unique<FreeFieldBoundary>(
+          load, n++, model.mesh(), model.exchange(), model.free_field_ground(),
+          FreeFieldBase{ *base, model.impedance_beyond(*base) }));
+    }
+  }
+
+  void ExplicitSolver::account_for_initial_motion(State &state) const
+  {
+    unsigned int moved = -1;
+    for (unsigned int i = model.n_deformable_nodes();
+         i < model.exchange().n_owned() && moved == -1U; ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        if (state.nodes[i].u[d] != 0. || state.velocity[i].v[d] != 0.)
+          moved = model.exchange().global(i);
+    moved = dealii::Utilities::MPI::min(moved, communicator);
+    if (moved != -1U)
+    {
+      const auto &p = model.mesh().vertices[moved];
+      std::ostringstream message;
+      message << "section 'Initial motion': it moves the rigid block at ("
+              << p[0] << ", " << p[1]
+              << ") m, but can be given to deformable blocks only. Make it 0 "
+                 "there, or the block deformable.";
+      throw InputError(message.str());
+    }
+
+    // Joints follow the positions in the first step.
+    State moving = state, rest = model.initial_state();
+    AlignedArray<NodeVector> unused(state.nodes.size(),
+                                    NodeVector{ { 0., 0. } });
+    EnergyAccounts lost;
+    model.joints().add_forces(moving.nodes.data(), moving.joints, lost,
+                              unused.data());
+    const auto stored = [&](const State &s)
+    {
+      return model.blocks().strain_energy(s.nodes.data())
+             + model.joints().stored_energy(s.nodes.data(), s.joints);
+    };
+    double energy
+        = stored(moving) - stored(rest) + lost.friction + lost.fracture;
+    for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
+      for (const double v : state.velocity[i].v)
+        energy += 0.5 * mass[i] * v * v;
+    state.energy.external += energy;
+  }
+} // namespace quoin
