@@ -4,13 +4,13 @@
 #include <quoin/application/boundary_geometry.h>
 #include <quoin/application/incident_waves.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
 #include <quoin/tdbem/line_source.h>
 #include <quoin/tdbem/plane_wave.h>
 #include <quoin/tdbem/rayleigh_wave.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace quoin
 {
@@ -18,14 +18,6 @@ namespace quoin
   {
     using Eigen::Vector2d;
     using Eigen::VectorXd;
-
-    std::string number(const double value)
-    {
-      std::ostringstream text;
-      text.precision(4);
-      text << value;
-      return text.str();
-    }
   } // namespace
 
   IncidentWaves::IncidentWaves(const BoundaryElementParameters &settings,
@@ -108,14 +100,14 @@ namespace quoin
     if (wave.type != IncidentWaveType::line_source)
       return;
     const Vector2d source(wave.position[0], wave.position[1]);
-    const std::string position
-        = "'Position = " + number(source.x()) + ", " + number(source.y()) + "'";
+    const std::string position = "'Position = " + number_text(source.x()) + ", "
+                                 + number_text(source.y()) + "'";
     const NearestElement nearest = nearest_element(boundary, source);
     const double length          = boundary.elements[nearest.element].length();
     if (!nearest.inside_domain || nearest.distance < length)
       throw InputError(section + position
                        + " is not in the domain, or less than an element, "
-                       + number(length)
+                       + number_text(length)
                        + " m, away from the boundary. Move the source, or give "
                          "shorter elements.");
     for (const Vector2d &x : points)
@@ -137,7 +129,7 @@ namespace quoin
     for (double t = 0.; t <= duration; t += time_step)
     {
       if (!std::isfinite(signal(t)))
-        throw InputError(section + "it is not finite at t = " + number(t)
+        throw InputError(section + "it is not finite at t = " + number_text(t)
                          + " s. Change the expression so that it has a value "
                            "at all times of the run.");
       peak = std::max(peak, std::abs(signal(t)));
@@ -145,7 +137,7 @@ namespace quoin
     if (wave.type == IncidentWaveType::line_source)
     {
       if (!(std::abs(signal(0.)) <= 1e-3 * peak))
-        throw InputError(section + "the moment is " + number(signal(0.))
+        throw InputError(section + "the moment is " + number_text(signal(0.))
                          + " N at t = 0 already. Let it begin at 0.");
       return;
     }
@@ -153,10 +145,10 @@ namespace quoin
         = field.displacements(boundary, 0.).lpNorm<Eigen::Infinity>();
     if (!(start <= 1e-3 * peak))
       throw InputError(
-          section + "at t = 0 the wave moves the boundary by " + number(start)
-          + " m already"
+          section + "at t = 0 the wave moves the boundary by "
+          + number_text(start) + " m already"
           + (field.has_precursors()
-                 ? ", more than a thousandth of the peak, " + number(peak)
+                 ? ", more than a thousandth of the peak, " + number_text(peak)
                        + " m. Its displacement contains the Hilbert transform "
                          "of the signal, which precedes the wave, far ahead if "
                          "the signal has a mean. Let it start later, or take "
@@ -168,7 +160,7 @@ namespace quoin
           "incident wave " + wave.name
           + ": its displacement contains the Hilbert transform of the signal; "
             "at t = 0 the boundary has "
-          + number(start / peak) + " of the peak");
+          + number_text(start / peak) + " of the peak");
   }
 
   Vector2d IncidentWaves::displacement(const Vector2d &x,

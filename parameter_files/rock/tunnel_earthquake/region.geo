@@ -39,10 +39,13 @@ wall[] -= all[];
 sides[] = outer[];
 sides[] -= wall[];
 sides[] -= top[];
+base[] = Curve In BoundingBox{-width - e, -depth - e, -e, width + e, -depth + e, e};
+sides[] -= base[];
 Physical Curve("joints")    = {all[]};
 Physical Curve("tunnel")    = {wall[]};
 Physical Curve("surface")   = {top[]};
-Physical Curve("interface") = {sides[]};
+Physical Curve("sides")     = {sides[]};
+Physical Curve("base")      = {base[]};
 Physical Surface("rock")    = {Surface{:}};
 
 Field[1]           = Distance;

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/application/simulation.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
+#include <quoin/output/collective.h>
+#include <quoin/tdbem/passivity.h>
+#include <quoin/tdbem/tangential_stress.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    /**
+     * By what went through the model. Nothing can radiate less than nothing
+     * from a domain that was at rest; what rounds the discrete account is far
+     * below.
+     */
+    constexpr double largest_created_share = 0.05;
+  } // namespace
+
+  double Simulation::choose_far_field_step(const StageParameters &stage,
+                                           const double dt)
+  {
+    FarField &far                             = *solver->far_field();
+    const BoundaryElementParameters &settings = parameters.boundary;
+    const auto steps = [](const double duration, const double step)
+    { return std::max(1., std::ceil(duration / step * (1. - 1e-12))); };
+    double step      = far.time_step();
+    const bool first = step == 0.;
+    if (first)
+    {
+      step = settings.time_step > 0.
+                 ? settings.time_step
+                 : settings.step_ratio
+                       * far.domain().boundary.lengths().minCoeff()
+                       / far.domain().medium.c1;
+      if (stage.end == StageEnd::time)
+        step = stage.duration / steps(stage.duration, step);
+    }
+    const double n_substeps = steps(step, dt);
+    double n_steps          = 0.;
+    for (const StageParameters &s : parameters.stages)
+      if (s.end == StageEnd::time)
+        n_steps += steps(s.duration, step);
+    try
+    {
+      if (first && !settings.waves.empty())
+        make_waves(step);
+      far.set_time_step(step, static_cast<unsigned int>(n_substeps),
+                        static_cast<unsigned long>(std::min(n_steps, 1e7)));
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(parameters.file + ", " + error.what());
+    }
+    if (first)
+      report_far_field();
+    // Whole steps of the boundary elements: up to one more than asked for.
+    if (stage.end == StageEnd::time)
+      steps_of_stage = std::uint64_t(steps(stage.duration, step) * n_substeps);
+    return step / n_substeps;
+  }
+
+  void Simulation::make_waves(const double step)
+  {
+    FarField &far   = *solver->far_field();
+    double duration = 0.;
+    for (const StageParameters &stage : parameters.stages)
+      if (stage.end == StageEnd::time
+          && std::find(stage.loads.begin(), stage.loads.end(), far.name())
+                 != stage.loads.end())
+        duration += stage.duration + step;
+    waves = std::make_unique<IncidentWaves>(
+        parameters.boundary, far.domain().medium, far.domain().boundary,
+        std::vector<Eigen::Vector2d>(), duration, step);
+    far.set_incident_field([this](const double time)
+                           { return waves->displacements(time); },
+                           [this](const double begin, const double end)
+                           { return waves->tractions(begin, end); });
+    for (const std::string &text : waves->reports())
+      log.message(text);
+  }
+
+  void Simulation::report_far_field()
+  {
+    const FarField &far    = *solver->far_field();
+    const Boundary &domain = far.domain().boundary;
+    const auto lengths     = domain.lengths();
+    const double low
+        = far.domain().medium.c1 * far.time_step() / lengths.maxCoeff();
+    const double high
+        = far.domain().medium.c1 * far.time_step() / lengths.minCoeff();
+    log.message(
+        "boundary elements: " + std::to_string(domain.n_elements()) + ", "
+        + std::to_string(far.domain().interface.size())
+        + " of them along blocks, from " + number_text(lengths.minCoeff())
+        + " to " + number_text(lengths.maxCoeff()) + " m; S waves of up to "
+        + number_text(far.domain().medium.c2 / (8. * lengths.maxCoeff()))
+        + " Hz have eight of them");
+    log.message(
+        "boundary elements: time step " + number_text(far.time_step()) + " s, "
+        + std::to_string(far.n_substeps()) + " block steps, c1 dt / L "
+        + (high - low < 1e-6 * high
+               ? number_text(high)
+               : "from " + number_text(low) + " to " + number_text(high)));
+    if (parameters.boundary.n_frequencies == 0)
+      return;
+    const unsigned int n       = parameters.boundary.n_frequencies;
+    const ZTransform transform = make_transform(
+        far.lag_kernel(), far.boundary_history(), domain, far.domain().medium,
+        far.domain().formulation, communicator);
+    passivity = std::make_unique<PassivityReport>(
+        scan_passivity(transform, domain, far.domain().medium, far.time_step(),
+                       n, 1. - 0.5 / double(n)));
+    log.message(passivity->advice());
+  }
+
+  void Simulation::write_far_field_row()
+  {
+    const FarField *far = solver->far_field();
+    if (!far)
+      return;
+    const FarField::Ledger ledger = far->ledger(record.state);
+    const double throughput       = solver->energies().throughput();
+    const double taken            = ledger.radiated + ledger.given;
+    if (taken < -largest_created_share * throughput)
+      throw RunError("the boundary elements have created energy, "
+                     + number_text(-taken) + " J of " + number_text(throughput)
+                     + " J that went through the model: their discrete "
+                       "impedance is not passive. Change 'Step ratio' or "
+                       "'Formulation' in section 'Boundary elements' until the "
+                       "passivity scan finds nothing, or damp the blocks.");
+    if (!is_first_rank)
+      return;
+    far_field_table->add_row(
+        { record.state.time, double(record.state.far_field.n_steps),
+          ledger.radiated, ledger.substeps, ledger.incident, ledger.given,
+          ledger.mismatch });
+  }
+
+  void Simulation::write_boundary()
+  {
+    const FarField &far = *solver->far_field();
+    if (!solver->far_field_acts() || !record.state.far_field.active)
+      return;
+    const Boundary &domain  = boundary_geometry.boundary;
+    const Eigen::VectorXd u = far.displacement(record.state),
+                          v = far.velocity(record.state),
+                          p = far.traction(record.state);
+    const Eigen::VectorXd hoop
+        = TangentialStress(domain, far.domain().medium)(u, p);
+    all_or_none<RunError>(
+        communicator,
+        [&]()
+        {
+          if (!is_first_rank)
+            return;
+          BoundaryFields fields;
+          for (unsigned int e = 0; e < domain.n_elements(); ++e)
+          {
+            const BoundaryElement &element = domain.elements[e];
+            fields.a.push_back({ { element.a.x(), element.a.y() } });
+            fields.b.push_back({ { element.b.x(), element.b.y() } });
+            fields.boundary.push_back(std::int32_t(boundary_geometry.owner[e]));
+            fields.displacement.push_back({ { u[2 * e], u[2 * e + 1] } });
+            fields.velocity.push_back({ { v[2 * e], v[2 * e + 1] } });
+            fields.traction.push_back({ { p[2 * e], p[2 * e + 1] } });
+            fields.hoop_stress.push_back(hoop[e]);
+          }
+          record.boundary_output.write(record.state.time, fields);
+        });
+  }
+} // namespace quoin

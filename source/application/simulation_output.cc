@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/application/bandwidth.h>
+#include <quoin/application/field_output.h>
+#include <quoin/application/simulation.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
+#include <quoin/base/wall_clock.h>
+#include <quoin/output/checkpoint.h>
+#include <quoin/output/collective.h>
+#include <quoin/output/json_file.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Steps between looks at the clock for a checkpoint. */
+    constexpr std::uint64_t clock_interval = 256;
+  } // namespace
+
+  void Simulation::open_outputs()
+  {
+    all_or_none<InputError>(
+        communicator,
+        [&]()
+        {
+          std::error_code error;
+          if (is_first_rank)
+          {
+            std::filesystem::create_directories(output, error);
+            if (!std::filesystem::is_directory(output))
+              throw InputError("the output directory '" + output
+                               + "' cannot be made: " + error.message()
+                               + ". Choose another with 'Output directory' or "
+                                 "--output.");
+          }
+        });
+    history_table = std::make_unique<CsvTable>(output + "/histories.csv",
+                                               histories->column_names());
+    energy_table  = std::make_unique<CsvTable>(
+        output + "/energies.csv",
+        std::vector<std::string>{ "time [s]", "kinetic [J]", "strain [J]",
+                                   "joint [J]", "friction [J]", "fracture [J]",
+                                   "damping [J]", "viscous [J]", "contact [J]",
+                                   "radiated [J]", "far field [J]",
+                                   "external [J]", "residual [J]" });
+    if (solver->far_field())
+      far_field_table = std::make_unique<CsvTable>(
+          output + "/far_field.csv",
+          std::vector<std::string>{ "time [s]", "steps [-]", "radiated [J]",
+                                    "substeps [J]", "incident [J]", "given [J]",
+                                    "mismatch [-]" });
+    if (options.resume)
+    {
+      const CheckpointInfo info
+          = load_checkpoint(output, communicator, QUOIN_VERSION,
+                            fingerprint(parameters.effective), record);
+      all_or_none<RunError>(communicator,
+                            [&]() { log.open(output + "/log.txt", true); });
+      log.message("resumed at time " + number_text(info.time) + " s, step "
+                  + std::to_string(info.step));
+    }
+    else
+      all_or_none<RunError>(communicator,
+                            [&]() { log.open(output + "/log.txt", false); });
+
+    all_or_none<RunError>(
+        communicator,
+        [&]()
+        {
+          if (!is_first_rank)
+            return;
+          if (options.resume)
+          {
+            history_table->resume(record.histories_bytes);
+            energy_table->resume(record.energies_bytes);
+            if (far_field_table)
+              far_field_table->resume(record.far_field_bytes);
+          }
+          else
+          {
+            std::filesystem::remove_all(output + "/checkpoint");
+            history_table->start();
+            energy_table->start();
+            if (far_field_table)
+            {
+              far_field_table->start();
+              record.boundary_output.start();
+            }
+          }
+          std::ofstream used(output + "/used_parameters.prm");
+          used << parameters.effective;
+          used.close();
+          if (!used)
+            throw RunError("'" + output
+                           + "/used_parameters.prm' cannot be written. Is the "
+                             "disk full?");
+        });
+    record.block_output.start();
+    record.joint_output.start();
+    if (solver->contacts())
+      record.contact_output.start();
+  }
+
+  void Simulation::write_energies()
+  {
+    const Energies &energies       = solver->energies();
+    const EnergyAccounts &accounts = energies.accounts;
+    record.largest_residual
+        = std::max(record.largest_residual, std::abs(energies.residual()));
+    if (is_first_rank)
+      energy_table->add_row(
+          { record.state.time - solver->get_time_step(), energies.kinetic,
+            energies.strain, energies.joint, accounts.friction,
+            accounts.fracture, accounts.damping, accounts.viscous,
+            accounts.contact, accounts.radiated, energies.far_field,
+            accounts.external, energies.residual() });
+  }
+
+  void Simulation::write_fields()
+  {
+    const State &state = record.state;
+    if (state.time == record.fields_time)
+      return;
+    record.fields_time = state.time;
+    record.block_output.write(state.time, block_fields(*model, state));
+    // Histories are those of the step before.
+    State now = state;
+    solver->update_histories(now);
+    record.joint_output.write(state.time, joint_fields(*model, now));
+    if (solver->contacts())
+      record.contact_output.write(state.time,
+                                  contact_fields(*solver->contacts(), now));
+    if (solver->far_field())
+      write_boundary();
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (is_first_rank)
+                            {
+                              history_table->flush();
+                              energy_table->flush();
+                              if (far_field_table)
+                                far_field_table->flush();
+                            }
+                          });
+  }
+
+  void Simulation::checkpoint_if_due()
+  {
+    if (parameters.checkpoint_interval == 0.
+        || record.state.stage_step % clock_interval != 0)
+      return;
+    // The first rank's clock counts for all.
+    const bool due = dealii::Utilities::MPI::broadcast(
+        communicator,
+        seconds_since(last_checkpoint) > parameters.checkpoint_interval);
+    if (due)
+      save_checkpoint();
+  }
+
+  void Simulation::save_checkpoint()
+  {
+    solver->check_finite(record.state);
+    solver->check_cells(record.state);
+    solver->save(record.state);
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (is_first_rank)
+                            {
+                              history_table->sync();
+                              energy_table->sync();
+                              if (far_field_table)
+                              {
+                                far_field_table->sync();
+                                record.far_field_bytes
+                                    = far_field_table->size();
+                              }
+                              record.histories_bytes = history_table->size();
+                              record.energies_bytes  = energy_table->size();
+                            }
+                          });
+    CheckpointInfo info;
+    info.step       = record.state.step;
+    info.time       = record.state.time;
+    info.version    = QUOIN_VERSION;
+    info.parameters = fingerprint(parameters.effective);
+    quoin::save_checkpoint(output, communicator, info, record);
+    record.state.far_field.history.clear();
+    last_checkpoint = WallClock::now();
+  }
+
+  void Simulation::write_summary(const bool finished)
+  {
+    const double updates
+        = seconds_done > 0.
+              ? double(mesh.n_cells()) * double(steps_done) / seconds_done
+              : 0.;
+    nlohmann::json summary
+        = { { "title", parameters.title },
+            { "version", QUOIN_VERSION },
+            { "finished", finished },
+            { "ranks", dealii::Utilities::MPI::n_mpi_processes(communicator) },
+            { "blocks", mesh.n_blocks() },
+            { "rigid blocks", std::count(model->is_rigid().begin(),
+                                         model->is_rigid().end(), true) },
+            { "cells", mesh.n_cells() },
+            { "nodes", mesh.n_vertices() },
+            { "joint faces", mesh.joint_faces.size() },
+            { "joint length [m]", mesh_report.total_joint_length },
+            { "shortest edge [m]", mesh_report.shortest_edge },
+            { "smallest angle [deg]", mesh_report.smallest_angle },
+            { "time [s]", record.state.time },
+            { "steps", record.state.step },
+            { "time step [s]", solver->get_time_step() },
+            { "critical time step [s]", solver->critical_time_step() },
+            { "added mass share", solver->added_mass_share() },
+            { "wall time [s]", record.wall_time },
+            { "element updates per second", updates },
+            { "unbalanced ratio", record.state.unbalanced_ratio },
+            { "energy throughput [J]", solver->energies().throughput() },
+            { "energy residual [J]", solver->energies().residual() },
+            { "largest energy residual [J]", record.largest_residual },
+            { "energy residual share", energy_residual() } };
+    if (parameters.model.contact.has_box)
+    {
+      const auto &marks         = record.state.contacts.outside;
+      summary["blocks deleted"] = std::count(marks.begin(), marks.end(),
+                                             BlockContacts::removed_from_model);
+      summary["blocks outside the box"]
+          = std::count(marks.begin(), marks.end(), BlockContacts::left_box);
+    }
+    if (const BlockContacts *contacts = solver->contacts())
+    {
+      const double sums[3]
+          = { contacts->n_touching(record.state.contacts),
+              double(contacts->n_updates()), contacts->search_seconds() };
+      std::array<double, 3> all;
+      MPI_Allreduce(sums, all.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
+      summary["contacts"] = all[0];
+      summary["contact updates per second"]
+          = seconds_done > 0. ? all[1] / seconds_done : 0.;
+      summary["contact searches"] = record.state.contacts.n_searches;
+      // Ranks search together: the mean of their times counts.
+      summary["contact search share"]
+          = seconds_done > 0.
+                ? all[2] / dealii::Utilities::MPI::n_mpi_processes(communicator)
+                      / seconds_done
+                : 0.;
+    }
+    if (finished && parameters.measure_bandwidth)
+    {
+      const double measured
+          = dealii::Utilities::MPI::sum(memory_bandwidth(), communicator);
+      const double used = step_bytes(mesh.n_vertices(), mesh.n_cells())
+                          * double(steps_done) / seconds_done;
+      summary["memory bandwidth [B/s]"]    = measured;
+      summary["share of memory bandwidth"] = used / measured;
+    }
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (is_first_rank)
+                              write_json(output + "/summary.json", summary);
+                          });
+    if (!finished)
+      return;
+    log.message("finished: " + std::to_string(record.state.step) + " steps in "
+                + duration_text(record.wall_time) + ", "
+                + number_text(updates / 1e6)
+                + " million element updates a second, energy residual "
+                + number_text(energy_residual()) + " of what went through");
+    if (solver->contacts())
+      log.message(
+          "contacts: "
+          + number_text(summary["contact updates per second"].get<double>()
+                        / 1e6)
+          + " million updates a second, "
+          + std::to_string(record.state.contacts.n_searches)
+          + " searches that took "
+          + number_text(100. * summary["contact search share"].get<double>())
+          + " % of the time");
+  }
+} // namespace quoin
