@@ -126,11 +126,14 @@ namespace quoin
     if (!far)
       return;
     const FarField::Ledger ledger = far->ledger(record.state);
-    const double throughput       = solver->energies().throughput();
     const double taken            = ledger.radiated + ledger.given;
-    if (taken < -largest_created_share * throughput)
+    record.largest_throughput
+        = std::max({ record.largest_throughput, std::abs(ledger.radiated),
+                     std::abs(ledger.given), solver->energies().throughput() });
+    if (taken < -largest_created_share * record.largest_throughput)
       throw RunError("the boundary elements have created energy, "
-                     + number_text(-taken) + " J of " + number_text(throughput)
+                     + number_text(-taken) + " J of "
+                     + number_text(record.largest_throughput)
                      + " J that went through the model: their discrete "
                        "impedance is not passive. Change 'Step ratio' or "
                        "'Formulation' in section 'Boundary elements' until the "

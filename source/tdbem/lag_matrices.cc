@@ -328,7 +328,7 @@ namespace quoin
     // serve both the normal on F, seen from E, and that on E, seen from F.
     double a_cos = 0., a_sin = 0., b = 0.;
     double yx = 0., yy = 0., zx = 0., zy = 0.;
-    double xxx = 0., xxy = 0., xyy = 0., yyy = 0.;
+    double sum_x3 = 0., sum_x2y = 0., sum_xy2 = 0., sum_y3 = 0.;
     for (unsigned k = 0; k < n_points; ++k)
     {
       const Vector2d source = E.a + E.length * rule.points[k] * E.tangent;
@@ -347,10 +347,10 @@ namespace quoin
         yy += weight * terms.y * y;
         zx += weight * terms.z * x;
         zy += weight * terms.z * y;
-        xxx += weight * terms.x * x * x * x;
-        xxy += weight * terms.x * x * x * y;
-        xyy += weight * terms.x * x * y * y;
-        yyy += weight * terms.x * y * y * y;
+        sum_x3 += weight * terms.x * x * x * x;
+        sum_x2y += weight * terms.x * x * x * y;
+        sum_xy2 += weight * terms.x * x * y * y;
+        sum_y3 += weight * terms.x * y * y * y;
       }
     }
 
@@ -361,8 +361,9 @@ namespace quoin
     {
       const Vector2d y(yx, yy), z(zx, zy);
       Matrix2d cubic;
-      cubic << xxx * n.x() + xxy * n.y(), xxy * n.x() + xyy * n.y(),
-          xxy * n.x() + xyy * n.y(), xyy * n.x() + yyy * n.y();
+      cubic << sum_x3 * n.x() + sum_x2y * n.y(),
+          sum_x2y * n.x() + sum_xy2 * n.y(), sum_x2y * n.x() + sum_xy2 * n.y(),
+          sum_xy2 * n.x() + sum_y3 * n.y();
       return (cubic + y.dot(n) * Matrix2d::Identity() + y * n.transpose()
               + n * z.transpose())
              / (4. * M_PI);

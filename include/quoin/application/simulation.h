@@ -56,6 +56,7 @@ namespace quoin
       std::uint64_t far_field_bytes = 0;
       double wall_time              = 0.;  /**< of the time loop [s] */
       double largest_residual       = 0.;  /**< of the energy balance */
+      double largest_throughput     = 0.;  /**< boundary elements' too [J] */
       double fields_time            = -1.; /**< of the last VTU files [s] */
       bool stage_begun              = false;
 
@@ -64,7 +65,8 @@ namespace quoin
       {
         archive &state &histories_bytes &energies_bytes &block_output
             &joint_output &contact_output &boundary_output &far_field_bytes
-                &wall_time &largest_residual &fields_time &stage_begun;
+                &wall_time &largest_residual &largest_throughput &fields_time
+                    &stage_begun;
       }
     };
 

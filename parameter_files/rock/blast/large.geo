@@ -1,3 +1,3 @@
 // The region with rock around it, of blocks alone.
-beyond = 45;
+beyond = 30;
 Include "region.geo";

@@ -70,15 +70,27 @@ If (beyond > 0)
 EndIf
 Physical Surface("rock") = {Surface{:}};
 
+// From h_hole at the charge to h_far in the region and h_beyond beyond it.
+h_beyond                   = 1.2;
 Field[1]                   = Distance;
 Field[1].CurvesList        = {charge[]};
 Field[1].NumPointsPerCurve = 40;
 Field[2]                   = Threshold;
 Field[2].InField           = 1;
 Field[2].SizeMin           = h_hole;
-Field[2].SizeMax           = h_far;
+Field[2].SizeMax           = h_beyond;
 Field[2].DistMin           = 0.2;
-Field[2].DistMax           = 4;
-Background Field           = 2;
+Field[2].DistMax           = 13.5;
+Field[3]                   = Box;
+Field[3].XMin              = left;
+Field[3].XMax              = right;
+Field[3].YMin              = -half;
+Field[3].YMax              = half;
+Field[3].VIn               = h_far;
+Field[3].VOut              = h_beyond;
+Field[3].Thickness         = 10;
+Field[4]                   = Min;
+Field[4].FieldsList        = {2, 3};
+Background Field           = 4;
 Mesh.MeshSizeExtendFromBoundary = 0;
 Mesh.MeshSizeFromPoints         = 0;

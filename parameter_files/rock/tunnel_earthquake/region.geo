@@ -41,10 +41,14 @@ sides[] -= wall[];
 sides[] -= top[];
 base[] = Curve In BoundingBox{-width - e, -depth - e, -e, width + e, -depth + e, e};
 sides[] -= base[];
+left[]  = Curve In BoundingBox{-width - e, -depth - e, -e, -width + e, e, e};
+right[] = sides[];
+right[] -= left[];
 Physical Curve("joints")    = {all[]};
 Physical Curve("tunnel")    = {wall[]};
 Physical Curve("surface")   = {top[]};
-Physical Curve("sides")     = {sides[]};
+Physical Curve("left")      = {left[]};
+Physical Curve("right")     = {right[]};
 Physical Curve("base")      = {base[]};
 Physical Surface("rock")    = {Surface{:}};
 
