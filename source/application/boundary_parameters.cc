@@ -417,9 +417,12 @@ namespace quoin
                       "Of the waves that are to leave or come in: makes the "
                       "'Element length' a tenth of the length of the S wave of "
                       "this frequency; 0: the length is given [Hz]");
-    prm.declare_entry("Step ratio", "1", Double(),
+    prm.declare_entry("Step ratio", "0", Double(),
                       "c_1 times time step by length of the shortest element; "
-                      "used if 'Time step' is 0 [-]");
+                      "used if 'Time step' is 0. 0: 1, more if Poisson's ratio "
+                      "is above 0.25 (c_2 times time step then is 0.58 "
+                      "lengths), at most 1.5; with convolution quadrature 0.5 "
+                      "[-]");
     prm.declare_entry("Time step", "0", Double(),
                       "0: as the ratio says. It is shortened until the run "
                       "ends at a step [s]");
@@ -468,7 +471,7 @@ namespace quoin
       section.fail("Highest frequency", "gives the elements' length, as "
                                         "'Element length' does: leave one of "
                                         "them at 0.");
-    parameters.step_ratio = section.positive("Step ratio");
+    parameters.step_ratio = section.nonnegative("Step ratio");
     parameters.time_step  = section.nonnegative("Time step");
     parameters.duration   = parameters.is_static || coupled
                                 ? section.nonnegative("Duration")

@@ -366,15 +366,19 @@ namespace quoin
       return nullptr;
     }
 
-    /** Of S waves of this frequency [Hz] in an elastic material [m]. */
-    double shortest_wave(const MaterialParameters &material,
-                         const double frequency)
+    /** What is left to the program: sizes of elements and steps. */
+    void choose_resolution(const ElasticMedium &medium,
+                           BoundaryElementParameters &boundary)
     {
-      return ElasticMedium::from_young(material.elastic.density,
-                                       material.elastic.young,
-                                       material.elastic.poisson)
-                 .c2
-             / frequency;
+      if (boundary.highest_frequency > 0.)
+        boundary.element_length = medium.c2 / boundary.highest_frequency / 10.;
+      // Where the discrete operators are passive, or nearly so, and accurate.
+      if (boundary.step_ratio == 0.)
+        boundary.step_ratio
+            = boundary.formulation == Formulation::convolution_quadrature
+                  ? 0.5
+                  : std::clamp(medium.c1 / (std::sqrt(3.) * medium.c2), 1.,
+                               1.5);
     }
 
     void check_boundary_histories(const ParameterSection &top,
@@ -434,9 +438,10 @@ namespace quoin
           section.fail("Material", "leads to '" + material->name
                                        + "', which is rigid: boundary elements "
                                          "need 'Law = linear elastic'.");
-        if (boundary.highest_frequency > 0.)
-          boundary.element_length
-              = shortest_wave(*material, boundary.highest_frequency) / 10.;
+        choose_resolution(ElasticMedium::from_young(material->elastic.density,
+                                                    material->elastic.young,
+                                                    material->elastic.poisson),
+                          boundary);
         for (const BoundaryCurveParameters &curve : boundary.boundaries)
           if (curve.shape != BoundaryShape::mesh
               && curve.shape

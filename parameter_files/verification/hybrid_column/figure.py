@@ -24,9 +24,11 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(HERE)))
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 import figure_style  # noqa: E402,F401
 
-MODELS = (("hybrid", "case.prm", "C0", "-"),
-          ("boundary elements", "boundary_elements.prm", "C1", "--"),
-          ("blocks", "blocks.prm", "C2", "-."))
+# with the series of the damping that each has
+MODELS = (("hybrid", "case.prm", "reference.csv", "C0", "-"),
+          ("boundary elements", "boundary_elements.prm", "reference_decay.csv",
+           "C1", "--"),
+          ("blocks", "blocks.prm", "reference.csv", "C2", "-."))
 STATIC = 1e-3  # of the top [m]
 
 
@@ -48,19 +50,20 @@ def main():
         axis.plot(1e3 * series["time"], 1e3 * series[point], "k", linewidth=2.5,
                   alpha=0.25, label="series")
         axis.set_ylabel("%s: u [mm]" % point)
-    for name, prm, colour, style in MODELS:
+    for name, prm, theory, colour, style in MODELS:
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([options.quoin, os.path.join(HERE, prm), "--output",
                             folder, "--quiet"], check=True)
             run = read(os.path.join(folder, "histories.csv"))
+        theory = read(os.path.join(HERE, theory))
         errors = []
         for axis, point in zip(axes, "ABCD"):
             u = (run[point] if point in run else
                  0.5 * (run[point + "_above"] + run[point + "_below"]))
             axis.plot(1e3 * run["time"], 1e3 * u, style, color=colour,
                       linewidth=1, label=name)
-            exact = np.interp(run["time"], series["time"], series[point])
-            inside = run["time"] <= series["time"][-1]
+            exact = np.interp(run["time"], theory["time"], theory[point])
+            inside = run["time"] <= theory["time"][-1]
             error = (u - exact)[inside] / STATIC
             errors.append("%s %.1f (rms %.2f)" % (
                 point, 100 * np.max(np.abs(error)),
