@@ -2,6 +2,8 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/boundary_simulation.h>
+#include <quoin/application/field_output.h>
+#include <quoin/application/open_log.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
@@ -28,14 +30,6 @@ namespace quoin
     std::vector<double> to_vector(const VectorXd &values)
     {
       return { values.data(), values.data() + values.size() };
-    }
-
-    std::vector<std::array<double, 2>> pairs(const VectorXd &values)
-    {
-      std::vector<std::array<double, 2>> result(values.size() / 2);
-      for (std::size_t k = 0; k < result.size(); ++k)
-        result[k] = { { values[2 * k], values[2 * k + 1] } };
-      return result;
     }
 
     /** Largest memory that this process has had [B]. */
@@ -66,19 +60,7 @@ namespace quoin
         });
     history_table = std::make_unique<CsvTable>(output + "/histories.csv",
                                                histories->column_names());
-    if (options.resume)
-    {
-      const CheckpointInfo info
-          = load_checkpoint(output, communicator, QUOIN_VERSION,
-                            fingerprint(parameters.effective), record);
-      all_or_none<RunError>(communicator,
-                            [&]() { log.open(output + "/log.txt", true); });
-      log.message("resumed at time " + number_text(info.time) + " s, step "
-                  + std::to_string(info.step));
-    }
-    else
-      all_or_none<RunError>(communicator,
-                            [&]() { log.open(output + "/log.txt", false); });
+    open_log(parameters, output, options.resume, communicator, log, record);
     all_or_none<RunError>(
         communicator,
         [&]()
@@ -144,27 +126,14 @@ namespace quoin
   void BoundarySimulation::write_boundary(const double time,
                                           const BoundaryState &state)
   {
-    all_or_none<RunError>(
-        communicator,
-        [&]()
-        {
-          if (!is_first_rank)
-            return;
-          BoundaryFields fields;
-          for (unsigned int e = 0; e < geometry.owner.size(); ++e)
-          {
-            const BoundaryElement &element = geometry.boundary.elements[e];
-            fields.a.push_back({ { element.a.x(), element.a.y() } });
-            fields.b.push_back({ { element.b.x(), element.b.y() } });
-            fields.boundary.push_back(std::int32_t(geometry.owner[e]));
-          }
-          fields.displacement = pairs(state.displacement);
-          fields.velocity     = pairs(state.velocity);
-          fields.traction     = pairs(state.traction);
-          fields.hoop_stress  = to_vector(state.hoop_stress);
-          record.boundary_output.write(time, fields);
-          history_table->flush();
-        });
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (is_first_rank)
+                              record.boundary_output.write(
+                                  time, boundary_fields(geometry, state));
+                            history_table->flush();
+                          });
   }
 
   void BoundarySimulation::checkpoint_if_due()

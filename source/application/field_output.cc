@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/field_output.h>
+#include <quoin/tdbem/tangential_stress.h>
 
 namespace quoin
 {
@@ -102,6 +103,38 @@ namespace quoin
         fields.shear_traction.push_back(pairs[i].points[k].shear_traction);
         fields.state.push_back(pairs[i].points[k].state);
       }
+    }
+    return fields;
+  }
+
+  BoundaryState boundary_state(const FarField &far, const State &state)
+  {
+    BoundaryState result{
+      far.displacement(state), far.velocity(state), far.traction(state), {}
+    };
+    result.hoop_stress
+        = TangentialStress(far.domain().boundary, far.domain().medium)(
+            result.displacement, result.traction);
+    return result;
+  }
+
+  BoundaryFields boundary_fields(const BoundaryGeometry &geometry,
+                                 const BoundaryState &state)
+  {
+    const auto pair = [](const Eigen::VectorXd &values, const unsigned int e) {
+      return std::array<double, 2>{ { values[2 * e], values[2 * e + 1] } };
+    };
+    BoundaryFields fields;
+    for (unsigned int e = 0; e < geometry.boundary.n_elements(); ++e)
+    {
+      const BoundaryElement &element = geometry.boundary.elements[e];
+      fields.a.push_back({ { element.a.x(), element.a.y() } });
+      fields.b.push_back({ { element.b.x(), element.b.y() } });
+      fields.boundary.push_back(std::int32_t(geometry.owner[e]));
+      fields.displacement.push_back(pair(state.displacement, e));
+      fields.velocity.push_back(pair(state.velocity, e));
+      fields.traction.push_back(pair(state.traction, e));
+      fields.hoop_stress.push_back(state.hoop_stress[e]);
     }
     return fields;
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/application/field_output.h>
 #include <quoin/application/histories.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/triangle.h>
 #include <quoin/output/block_output.h>
-#include <quoin/tdbem/tangential_stress.h>
 
 #include <deal.II/base/numbers.h>
 
@@ -293,17 +293,12 @@ namespace quoin
   void Histories::add_boundary_values(const State &state,
                                       std::vector<double> &result) const
   {
-    const FarField &far = *solver.far_field();
-    BoundaryState fields{
-      far.displacement(state), far.velocity(state), far.traction(state), {}
-    };
+    const FarField &far  = *solver.far_field();
+    BoundaryState fields = boundary_state(far, state);
     // The row is of the time before the step that is over.
     const double since = (double(state.far_field.substep) - 1.)
                          * far.time_step() / far.n_substeps();
     fields.displacement += since * fields.velocity;
-    fields.hoop_stress
-        = TangentialStress(far.domain().boundary, far.domain().medium)(
-            fields.displacement, fields.traction);
     const std::vector<double> values = of_boundary->row(0., fields);
     unsigned int next                = 1;
     for (unsigned int i = 0; i < probes.size(); ++i)

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/application/field_output.h>
 #include <quoin/application/simulation.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/output/collective.h>
 #include <quoin/tdbem/passivity.h>
-#include <quoin/tdbem/tangential_stress.h>
 
 #include <algorithm>
 #include <cmath>
@@ -151,31 +151,14 @@ namespace quoin
     const FarField &far = *solver->far_field();
     if (!solver->far_field_acts() || !record.state.far_field.active)
       return;
-    const Boundary &domain  = boundary_geometry.boundary;
-    const Eigen::VectorXd u = far.displacement(record.state),
-                          v = far.velocity(record.state),
-                          p = far.traction(record.state);
-    const Eigen::VectorXd hoop
-        = TangentialStress(domain, far.domain().medium)(u, p);
-    all_or_none<RunError>(
-        communicator,
-        [&]()
-        {
-          if (!is_first_rank)
-            return;
-          BoundaryFields fields;
-          for (unsigned int e = 0; e < domain.n_elements(); ++e)
-          {
-            const BoundaryElement &element = domain.elements[e];
-            fields.a.push_back({ { element.a.x(), element.a.y() } });
-            fields.b.push_back({ { element.b.x(), element.b.y() } });
-            fields.boundary.push_back(std::int32_t(boundary_geometry.owner[e]));
-            fields.displacement.push_back({ { u[2 * e], u[2 * e + 1] } });
-            fields.velocity.push_back({ { v[2 * e], v[2 * e + 1] } });
-            fields.traction.push_back({ { p[2 * e], p[2 * e + 1] } });
-            fields.hoop_stress.push_back(hoop[e]);
-          }
-          record.boundary_output.write(record.state.time, fields);
-        });
+    const BoundaryState fields = boundary_state(far, record.state);
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (is_first_rank)
+                              record.boundary_output.write(
+                                  record.state.time,
+                                  boundary_fields(boundary_geometry, fields));
+                          });
   }
 } // namespace quoin

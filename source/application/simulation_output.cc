@@ -4,6 +4,7 @@
 #include <quoin/application/bandwidth.h>
 #include <quoin/application/field_output.h>
 #include <quoin/application/simulation.h>
+#include <quoin/application/open_log.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
@@ -58,19 +59,7 @@ namespace quoin
           std::vector<std::string>{ "time [s]", "steps [-]", "radiated [J]",
                                     "substeps [J]", "incident [J]", "given [J]",
                                     "mismatch [-]" });
-    if (options.resume)
-    {
-      const CheckpointInfo info
-          = load_checkpoint(output, communicator, QUOIN_VERSION,
-                            fingerprint(parameters.effective), record);
-      all_or_none<RunError>(communicator,
-                            [&]() { log.open(output + "/log.txt", true); });
-      log.message("resumed at time " + number_text(info.time) + " s, step "
-                  + std::to_string(info.step));
-    }
-    else
-      all_or_none<RunError>(communicator,
-                            [&]() { log.open(output + "/log.txt", false); });
+    open_log(parameters, output, options.resume, communicator, log, record);
 
     all_or_none<RunError>(
         communicator,

@@ -4,9 +4,13 @@
 #ifndef quoin_application_field_output_h
 #define quoin_application_field_output_h
 
+#include <quoin/application/boundary_geometry.h>
+#include <quoin/application/boundary_histories.h>
 #include <quoin/base/state.h>
+#include <quoin/coupling/far_field.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/output/block_output.h>
+#include <quoin/output/boundary_output.h>
 #include <quoin/output/joint_output.h>
 
 namespace quoin
@@ -22,6 +26,13 @@ namespace quoin
 
   /** General contacts of this rank, for the same state. */
   JointFields contact_fields(const BlockContacts &contacts, const State &state);
+
+  /** The total field on the boundary after the far field's last step. */
+  BoundaryState boundary_state(const FarField &far, const State &state);
+
+  /** Boundary elements as they go to ParaView. */
+  BoundaryFields boundary_fields(const BoundaryGeometry &geometry,
+                                 const BoundaryState &state);
 } // namespace quoin
 
 #endif

@@ -48,9 +48,9 @@ def across_of(angle):
 def measure(quoin, boundary, kind, angle, folder):
     name = "%s_%s_%g" % (boundary.replace(" ", "_"), kind, angle)
     if boundary == "boundary elements":
-        along = across = 5.5
-        # 600 elements at 75 degrees, else up to 525
-        length = 10 / 12 if angle > 70 else 10 / 16
+        # 800 elements at 75 degrees, else up to 525
+        along = across = 5.0 if angle > 70 else 5.5
+        length = 10 / 20 if angle > 70 else 10 / 16
         model = packet.small_model(kind, angle, along, across, length / 2, 2)
         more = packet.boundary_elements(length)
     else:
