@@ -164,7 +164,7 @@ namespace quoin
     const double sigma = normal_stiffness * (opening - point.plastic_opening);
     const double tau   = shear_stiffness * (slip - point.plastic_slip);
     const CompositeReturnMap map(*this, point, sigma, std::abs(tau));
-    return accept(map, map.opened(), tau < 0. ? -1. : 1., opening, slip, point);
+    return accept(map, map.end(), tau < 0. ? -1. : 1., opening, slip, point);
   }
 
   CompositeDissipation CompositeLaw::update(CompositePoint &point,
@@ -182,7 +182,7 @@ namespace quoin
     const double tau       = ks * (slip - point.plastic_slip);
     const double direction = tau < 0. ? -1. : 1.;
     const CompositeReturnMap map(*this, point, sigma, std::abs(tau));
-    const CompositeFlow flow = map.opened();
+    const CompositeFlow flow = map.end();
     const Eigen::Matrix2d D  = differentiate(map, flow);
     tangent                  = { D(0, 0) * kn, D(0, 1) * ks * direction,
                                  D(1, 0) * kn * direction, D(1, 1) * ks };

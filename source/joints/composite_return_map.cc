@@ -11,6 +11,11 @@ namespace quoin
   {
     constexpr double eps = std::numeric_limits<double>::epsilon();
 
+    double square(const double x)
+    {
+      return x * x;
+    }
+
     /**
      * Root of @p f between @p x2, where it is @p f2 <= 0, and @p x1, where it
      * is @p f1 > 0, by inverse quadratic interpolation and bisection
@@ -117,36 +122,102 @@ namespace quoin
       fade(law.slip_softening() > 0. ? law.dilation_decay / law.slip_softening()
                                      : 0.),
       bond_start(start.bond), crushing_start(start.crushing),
-      sigma_trial(sigma_trial), tau_trial(tau_trial),
-      rounding(4. * eps * (law.tension + law.cohesion))
+      sigma_trial(sigma_trial), tau_trial(tau_trial)
   {
+  }
+
+  CompositeFlow CompositeReturnMap::end() const
+  {
+    const bool opens = sigma_trial > law.tension * bond_start;
+    const bool slips = tau_trial + sigma_trial * law.friction_at(bond_start)
+                       > law.cohesion * bond_start;
+    CompositeFlow flow;
+    if ((opens || slips)
+        && (iterate(flow, opens, slips)
+            || (opens != slips && iterate(flow, true, true))))
+      return flow;
+    return opened();
+  }
+
+  bool CompositeReturnMap::iterate(CompositeFlow &flow, const bool opens,
+                                   const bool slips) const
+  {
+    const double kn = law.normal_stiffness, ks = law.shear_stiffness;
+    double sigma
+        = opens ? std::min(law.tension * bond_start, sigma_trial) : sigma_trial;
+    double tau = slips ? std::clamp(law.cohesion * bond_start
+                                        - sigma * law.friction_at(bond_start),
+                                    0., tau_trial)
+                       : tau_trial;
+    for (unsigned int i = 0; i < 10; ++i)
+    {
+      flow              = loosened(sigma, tau);
+      const double f1   = opening_excess(flow);
+      const double f2   = slip_excess(flow);
+      const double most = tolerance(sigma);
+      if ((!opens || std::abs(f1) <= most) && (!slips || std::abs(f2) <= most))
+        return f1 <= most && f2 <= most
+               && law.cap_load(flow.sigma, flow.tau) <= std::max(
+                      law.lowest_cap_load(), square(law.cap(crushing_start)));
+
+      // Of bond = exp(-root((a dl1)^2 + (b dl2)^2)) by what is left of the
+      // trial tractions.
+      const double a = law.opening_softening(), b = law.slip_softening();
+      const double u = a * flow.opening, v = b * flow.slip;
+      const double growth     = std::sqrt(u * u + v * v);
+      const double factor     = growth > 0. ? flow.bond / growth : 0.;
+      const double bond_sigma = factor * a * u / kn;
+      const double bond_tau   = factor * b * v / ks;
+
+      // sigma (1 + A/sigma_u) = sigma* - A with A = kn tan(psi) dl2.
+      const double full    = free_dilation(flow.bond);
+      const double pressed = flow.sigma < 0. ? 1. / law.dilation_pressure : 0.;
+      const double share   = std::max(0., 1. + flow.sigma * pressed);
+      const double divisor
+          = share > 0. ? 1. + kn * full * flow.slip * pressed : 1.;
+      const double by_bond
+          = flow.bond > 0. ? kn * fade * full / flow.bond * flow.slip : 0.;
+      const double d_sigma = (1. - share * by_bond * bond_sigma) / divisor;
+      const double d_tau
+          = share * (kn * full / ks - by_bond * bond_tau) / divisor;
+
+      const double f2_bond
+          = flow.sigma * (law.friction - law.residual_friction) - law.cohesion;
+      const double friction = law.friction_at(flow.bond);
+      const double J11      = opens ? d_sigma - law.tension * bond_sigma : 1.;
+      const double J12      = opens ? d_tau - law.tension * bond_tau : 0.;
+      const double J21 = slips ? friction * d_sigma + f2_bond * bond_sigma : 0.;
+      const double J22
+          = slips ? 1. + friction * d_tau + f2_bond * bond_tau : 1.;
+      const double r1 = opens ? f1 : 0., r2 = slips ? f2 : 0.;
+      const double determinant = J11 * J22 - J12 * J21;
+      sigma -= (J22 * r1 - J12 * r2) / determinant;
+      tau -= (J11 * r2 - J21 * r1) / determinant;
+      if (!(sigma <= sigma_trial && tau >= 0. && tau <= tau_trial))
+        return false;
+    }
+    return false;
   }
 
   CompositeFlow CompositeReturnMap::opened() const
   {
-    const auto excess = [this](const CompositeFlow &flow)
-    { return flow.sigma - law.tension * flow.bond; };
     const CompositeFlow closed = slipped(sigma_trial);
-    const double f_closed      = excess(closed);
-    if (!(f_closed > rounding))
+    const double f_closed      = opening_excess(closed);
+    if (!(f_closed > tolerance(0.)))
       return closed;
     // The surface of before is near where a small increment ends.
     const double guess = std::min(law.tension * bond_start, sigma_trial);
     return find_flow([this](const double sigma) { return slipped(sigma); },
-                     excess, guess, sigma_trial, f_closed, rounding);
+                     [this](const CompositeFlow &f)
+                     { return opening_excess(f); },
+                     guess, sigma_trial, f_closed, tolerance(0.));
   }
 
   CompositeFlow CompositeReturnMap::slipped(const double sigma) const
   {
-    const auto excess = [this](const CompositeFlow &flow)
-    {
-      return flow.tau + flow.sigma * law.friction_at(flow.bond)
-             - law.cohesion * flow.bond;
-    };
-    const double tolerance    = rounding + 4. * eps * std::abs(sigma);
     const CompositeFlow stuck = crushed(sigma, tau_trial);
-    const double f_stuck      = excess(stuck);
-    if (!(f_stuck > tolerance) || tau_trial == 0.)
+    const double f_stuck      = slip_excess(stuck);
+    if (!(f_stuck > tolerance(sigma)) || tau_trial == 0.)
       return stuck;
     // Exact if neither strength nor sigma changes. Beyond the apex of the
     // cone no shear is left, and opening has to do the rest.
@@ -155,11 +226,12 @@ namespace quoin
                                     0., tau_trial);
     return find_flow([this, sigma](const double tau)
                      { return crushed(sigma, tau); },
-                     excess, guess, tau_trial, f_stuck, tolerance);
+                     [this](const CompositeFlow &f) { return slip_excess(f); },
+                     guess, tau_trial, f_stuck, tolerance(sigma));
   }
 
-  CompositeFlow CompositeReturnMap::crushed(const double sigma,
-                                            const double tau) const
+  CompositeFlow CompositeReturnMap::loosened(const double sigma,
+                                             const double tau) const
   {
     CompositeFlow flow;
     flow.opening   = (sigma_trial - sigma) / law.normal_stiffness;
@@ -167,11 +239,14 @@ namespace quoin
     const double a = law.opening_softening() * flow.opening;
     const double b = law.slip_softening() * flow.slip;
     flow.bond      = bond_start * std::exp(-std::sqrt(a * a + b * b));
-    const double widening
-        = law.dilation > 0. && flow.slip > 0.
-              ? law.normal_stiffness * free_dilation(flow.bond) * flow.slip
-              : 0.;
-    relax(flow, sigma, tau, widening, 1.);
+    relax(flow, sigma, tau, 1.);
+    return flow;
+  }
+
+  CompositeFlow CompositeReturnMap::crushed(const double sigma,
+                                            const double tau) const
+  {
+    CompositeFlow flow = loosened(sigma, tau);
     // The cap itself needs a root or an exponential: only near it.
     if (law.cap_load(flow.sigma, flow.tau) <= law.lowest_cap_load())
       return flow;
@@ -181,7 +256,7 @@ namespace quoin
 
     const auto f = [&](const double share)
     {
-      relax(flow, sigma, tau, widening, share);
+      relax(flow, sigma, tau, share);
       return overload(flow);
     };
     const double limit = law.cap(crushing_start);
@@ -198,9 +273,12 @@ namespace quoin
   }
 
   void CompositeReturnMap::relax(CompositeFlow &flow, const double sigma,
-                                 const double tau, const double widening,
-                                 const double share) const
+                                 const double tau, const double share) const
   {
+    const double widening
+        = law.dilation > 0. && flow.slip > 0.
+              ? law.normal_stiffness * free_dilation(flow.bond) * flow.slip
+              : 0.;
     const double centre = -0.5 * law.cap_offset / law.cap_normal;
     const double before = share * sigma + (1. - share) * centre;
     const double taken  = share * widening;
@@ -219,6 +297,22 @@ namespace quoin
     const double shear  = 2. * law.cap_shear * flow.tau;
     flow.crushing       = crushing_start
                     + flow.cap * std::sqrt(normal * normal + shear * shear);
+  }
+
+  double CompositeReturnMap::opening_excess(const CompositeFlow &flow) const
+  {
+    return flow.sigma - law.tension * flow.bond;
+  }
+
+  double CompositeReturnMap::slip_excess(const CompositeFlow &flow) const
+  {
+    return flow.tau + flow.sigma * law.friction_at(flow.bond)
+           - law.cohesion * flow.bond;
+  }
+
+  double CompositeReturnMap::tolerance(const double sigma) const
+  {
+    return 4. * eps * (law.tension + law.cohesion + std::abs(sigma));
   }
 
   double CompositeReturnMap::overload(const CompositeFlow &flow) const

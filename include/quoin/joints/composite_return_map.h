@@ -24,12 +24,14 @@ namespace quoin
    * Backward Euler for CompositeLaw from one point and given trial tractions
    * [Pa], that of shear without its sign.
    *
-   * The three modes are nested: crushed() returns onto the cap, slipped()
-   * seeks the slip for which what crushed() returns is on f2, and opened()
-   * the opening for which what slipped() returns is on f1; either of them is
-   * zero if that surface is not reached without. Every search has a bracket,
-   * so that corners need no guess of the active set, and there is always an
-   * answer.
+   * The usual increment is found by Newton's method for the surfaces that the
+   * trial is beyond, and checked against the others. Failing that, and for all
+   * crushing, the three modes are nested: crushed() returns onto the cap,
+   * slipped() seeks the slip for which what crushed() returns is on f2, and
+   * opened() the opening for which what slipped() returns is on f1; either of
+   * them is zero if that surface is not reached without. Every search has a
+   * bracket, so that corners need no guess of the active set, and there is
+   * always an answer.
    */
   class CompositeReturnMap
   {
@@ -38,7 +40,7 @@ namespace quoin
                        double sigma_trial, double tau_trial);
 
     /** The end of the increment. */
-    CompositeFlow opened() const;
+    CompositeFlow end() const;
 
     /** tan(psi) [-] at the end of @p flow. */
     double dilation(const CompositeFlow &flow) const;
@@ -50,25 +52,42 @@ namespace quoin
     const double fade; /**< tan(psi) goes with bond^fade */
 
   private:
+    /**
+     * Newton's method for f1 = 0 if the joint @p opens and f2 = 0 if it
+     * @p slips, without crushing. Whether it found what no other surface
+     * objects to.
+     */
+    bool iterate(CompositeFlow &flow, bool opens, bool slips) const;
+
+    /** With whatever opening there must be. */
+    CompositeFlow opened() const;
+
     /** With the opening that leaves @p sigma of the normal trial. */
     CompositeFlow slipped(double sigma) const;
 
     /** With the opening and slip that leave @p sigma and @p tau. */
     CompositeFlow crushed(double sigma, double tau) const;
 
+    /** The same without crushing. */
+    CompositeFlow loosened(double sigma, double tau) const;
+
     /**
      * Tractions after flow on the cap that leaves the @p share
-     * 1/(1 + 2 kn Cnn dl3) of the distance to its centre. @p widening is
-     * what full dilation takes off sigma; pressure reduces it.
+     * 1/(1 + 2 kn Cnn dl3) of the distance to its centre, and after dilation.
      */
-    void relax(CompositeFlow &flow, double sigma, double tau, double widening,
+    void relax(CompositeFlow &flow, double sigma, double tau,
                double share) const;
 
+    /** f1, f2 [Pa] and f3 [Pa^2]. */
+    double opening_excess(const CompositeFlow &flow) const;
+    double slip_excess(const CompositeFlow &flow) const;
     double overload(const CompositeFlow &flow) const;
+
+    /** Of f1 and f2, with rounding errors of @p sigma [Pa]. */
+    double tolerance(double sigma) const;
 
     const double bond_start, crushing_start;
     const double sigma_trial, tau_trial;
-    const double rounding; /**< of strengths [Pa] */
   };
 } // namespace quoin
 
