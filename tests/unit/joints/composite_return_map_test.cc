@@ -278,7 +278,8 @@ TEST(CompositeReturnMap, AnyIncrementHasAnAdmissibleEnd)
   std::uniform_real_distribution<double> uniform(0., 1.);
   const auto power = [&](const double from, const double to)
   { return std::pow(10., from + (to - from) * uniform(random)); };
-  const auto sense = [&]() { return uniform(random) < 0.5 ? -1. : 1.; };
+  const auto sense      = [&]() { return uniform(random) < 0.5 ? -1. : 1.; };
+  unsigned int n_gentle = 0, n_off = 0;
   for (unsigned int run = 0; run < 4000; ++run)
   {
     CompositeLaw law;
@@ -335,10 +336,27 @@ TEST(CompositeReturnMap, AnyIncrementHasAnAdmissibleEnd)
       ASSERT_LT(slip_excess(law, point), allowed) << run << " " << i;
       ASSERT_LT(cap_excess(law, point), allowed) << run << " " << i;
 
+      // What flowed is on its surface, unless the law snaps back or dilation
+      // fades within the step. Friction that is not associated leaves a few
+      // large steps without an answer that is.
+      const double deepest = -law.normal_stiffness * std::abs(opening);
+      if (law.dilation == 0.
+          && law.softens_gently(std::min(
+              { deepest, start.normal_traction, point.normal_traction })))
+      {
+        const unsigned int flowed = active(lost, start, point);
+        ++n_gentle;
+        n_off += ((flowed & 1) && opening_excess(law, point) < -allowed)
+                 || ((flowed & 2) && slip_excess(law, point) < -allowed)
+                 || ((flowed & 4) && cap_excess(law, point) < -allowed);
+      }
+
       CompositePoint again = start;
       law.update(again, opening, slip);
       ASSERT_EQ(again.normal_traction, point.normal_traction);
       ASSERT_EQ(again.shear_traction, point.shear_traction);
     }
   }
+  EXPECT_GT(n_gentle, 30000U);
+  EXPECT_LE(n_off, 1U);
 }
