@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joints_composite_law_h
+#define quoin_joints_composite_law_h
+
+#include <quoin/base/state.h>
+
+#include <cmath>
+#include <limits>
+
+namespace quoin
+{
+  /**
+   * One point of a masonry joint: what the law reads and overwrites.
+   *
+   * The first four and the state are the arrays of the same names in
+   * JointHistory; @p bond and @p crushing are one more array each, which
+   * begin with 1 and 0.
+   */
+  struct CompositePoint
+  {
+    double normal_traction = 0.; /**< sigma [Pa], tension positive */
+    double shear_traction  = 0.; /**< tau [Pa] */
+    double plastic_slip    = 0.; /**< p [m] */
+    double plastic_opening = 0.; /**< w [m]; negative once crushed */
+    double bond            = 1.; /**< ft/ft0 = c/c0 = exp(-k) [-] */
+    double crushing        = 0.; /**< k3 [m] */
+    JointState state       = JointState::intact;
+  };
+
+  /** Energy per area that an update dissipated [J/m^2]. */
+  struct CompositeDissipation
+  {
+    double tension  = 0.; /**< fracture, mode I */
+    double shear    = 0.; /**< loss of cohesion, mode II */
+    double friction = 0.; /**< slip beyond that, and its dilation */
+    double crushing = 0.; /**< on the cap */
+
+    double total() const
+    {
+      return tension + shear + friction + crushing;
+    }
+  };
+
+  /** Derivative of the tractions by opening and slip [Pa/m]. */
+  struct CompositeTangent
+  {
+    double normal_opening = 0.;
+    double normal_slip    = 0.;
+    double shear_opening  = 0.;
+    double shear_slip     = 0.;
+  };
+
+  /**
+   * The composite interface law for masonry joints of @cite LourencoRots1997
+   * and @cite Lourenco1996: tension cut-off, Coulomb friction and an elliptic
+   * cap, each with hardening or softening.
+   *
+   * sigma = kn (u_n - w), tau = ks (u_s - p). With k1, k2 and k3,
+   *
+   *     f1 = sigma - ft,                      ft = ft0 exp(-ft0 k1/GfI),
+   *     f2 = |tau| + sigma tan(phi) - c,      c  = c0 exp(-c0 k2/GfII),
+   *     f3 = Cnn sigma^2 + Css tau^2 + Cn sigma - cap(k3)^2,
+   *
+   * tan(phi) going from its peak to its residual value as c goes to zero. f1
+   * and f3 are associated; f2 flows with tan(psi). Tension and shear soften
+   * together, k1 = k2 (GfI c0)/(GfII ft0), so that ft/ft0 = c/c0 for good and
+   * one number, the @em bond, stands for both. Unloading is elastic with the
+   * first stiffness: plastic opening stays, and a crack that closes carries
+   * compression as soon as u_n < w.
+   *
+   * Strengths and stiffnesses are finite, energies positive (infinite: that
+   * mode does not soften), ft0 tan(phi) <= c0, and tan(psi0) <= tan(phi), or
+   * slip could create energy.
+   *
+   * What an update returns is dissipated by the trapezoidal rule, so that
+   * work = change of stored_energy() + total() to rounding. An increment can
+   * be negative only if the step jumps across the elastic range.
+   */
+  struct CompositeLaw
+  {
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    double normal_stiffness = 0.; /**< kn [Pa/m] */
+    double shear_stiffness  = 0.; /**< ks [Pa/m] */
+
+    double tension           = 0.;       /**< ft0 [Pa] */
+    double tension_energy    = infinity; /**< GfI [J/m^2] */
+    double cohesion          = 0.;       /**< c0 [Pa] */
+    double shear_energy      = infinity; /**< GfII [J/m^2] */
+    double friction          = 0.;       /**< tan(phi0) */
+    double residual_friction = 0.;       /**< tan(phi_r) */
+
+    double dilation          = 0.;       /**< tan(psi0) */
+    double dilation_pressure = infinity; /**< where it ends, sigma_u [Pa] */
+    double dilation_decay    = 0.;       /**< with k2, delta [1/m] */
+
+    double compression        = infinity; /**< fm [Pa]; infinite: no cap */
+    double compression_energy = 0.;       /**< Gfc [J/m^2] */
+    double peak_crushing      = 0.;       /**< k3 at fm, kp [m] */
+    double cap_normal         = 1.;       /**< Cnn */
+    double cap_shear          = 9.;       /**< Css */
+    double cap_offset         = 0.;       /**< Cn [Pa] */
+
+    /**
+     * Whether no mode can snap back: GfI kn > ft0^2, GfII ks > c0^2 and kn
+     * above the steepest slope of the cap. Otherwise the law drops at
+     * failure however small the step; it stays defined, but dissipates other
+     * than the fracture energy. No length comes in. Shear allows for friction
+     * that softens at the normal traction @p sigma [Pa].
+     */
+    bool softens_gently(double sigma = 0.) const;
+
+    /** Brings @p point to @p opening and @p slip [m], overwriting it. */
+    CompositeDissipation update(CompositePoint &point, double opening,
+                                double slip) const;
+
+    /**
+     * The same with the consistent tangent, for a Newton solver, which
+     * updates a copy of the point that it began with and keeps the last copy
+     * once it has converged.
+     */
+    CompositeDissipation update(CompositePoint &point, double opening,
+                                double slip, CompositeTangent &tangent) const;
+
+    /** The same, if the joint is elastic there; else false. */
+    bool update_elastic(CompositePoint &point, double opening,
+                        double slip) const;
+
+    /** The same for a joint that fails. */
+    CompositeDissipation update_failing(CompositePoint &point, double opening,
+                                        double slip) const;
+
+    /** Recoverable energy per area [J/m^2]. */
+    double stored_energy(const CompositePoint &point) const
+    {
+      return 0.5 * point.normal_traction * point.normal_traction
+                 / normal_stiffness
+             + 0.5 * point.shear_traction * point.shear_traction
+                   / shear_stiffness;
+    }
+
+    /**
+     * How fast opening and slip alone use the bond up [1/m]; together by
+     * dk = root((a dl1)^2 + (b dl2)^2), bond = exp(-k).
+     */
+    double opening_softening() const
+    {
+      return tension > 0. ? tension / tension_energy : 0.;
+    }
+    double slip_softening() const
+    {
+      return cohesion > 0. ? cohesion / shear_energy : 0.;
+    }
+
+    /** tan(phi) at what is left of the @p bond. */
+    double friction_at(const double bond) const
+    {
+      return residual_friction + (friction - residual_friction) * bond;
+    }
+
+    /** cap(k3) [Pa] and its slope [Pa/m] at @p crushing [m]. */
+    double cap(double crushing, double &slope) const;
+    double cap(const double crushing) const
+    {
+      double slope;
+      return cap(crushing, slope);
+    }
+
+    /** k3 where the cap has come down to fm/2, km [m]. */
+    double middle_crushing() const
+    {
+      return 75. / 67. * compression_energy / compression + peak_crushing;
+    }
+
+    /** Below this the cap is never reached [Pa^2]. */
+    double lowest_cap_load() const
+    {
+      return compression * compression / 49.;
+    }
+
+    /** What the square of the cap is held against [Pa^2]. */
+    double cap_load(const double sigma, const double tau) const
+    {
+      return (cap_normal * sigma + cap_offset) * sigma + cap_shear * tau * tau;
+    }
+  };
+
+  inline bool CompositeLaw::update_elastic(CompositePoint &point,
+                                           const double opening,
+                                           const double slip) const
+  {
+    const double sigma = normal_stiffness * (opening - point.plastic_opening);
+    const double tau   = shear_stiffness * (slip - point.plastic_slip);
+    const double load  = cap_load(sigma, tau);
+    if (!(sigma <= tension * point.bond
+          && std::abs(tau)
+                 <= cohesion * point.bond - sigma * friction_at(point.bond)))
+      return false;
+    // The cap itself needs a root or an exponential: only near it.
+    if (!(load <= lowest_cap_load()))
+    {
+      const double limit = cap(point.crushing);
+      if (!(load <= limit * limit))
+        return false;
+    }
+    point.normal_traction = sigma;
+    point.shear_traction  = tau;
+    if (point.state != JointState::intact)
+      point.state = sigma > 0. ? JointState::open : JointState::slipped;
+    return true;
+  }
+
+  inline CompositeDissipation CompositeLaw::update(CompositePoint &point,
+                                                   const double opening,
+                                                   const double slip) const
+  {
+    return update_elastic(point, opening, slip)
+               ? CompositeDissipation()
+               : update_failing(point, opening, slip);
+  }
+} // namespace quoin
+
+#endif
