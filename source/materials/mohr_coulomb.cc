@@ -168,8 +168,9 @@ namespace quoin
   // The same in plane stress, where the third principal stress is zero: the
   // elastic domain of the two others is a polygon. Yielding with the free
   // direction limits the major one from above ('tension', too) and the minor
-  // one from below ('squeeze'), which may violate the shear plane anew if
-  // N_phi > 1 / nu.
+  // one from below ('squeeze'). The latter may violate a shear plane that the
+  // trial stress did not, if nu > 1 / N_phi; the shear return then ends beyond
+  // the vertex, too.
   MohrCoulomb::Region
   MohrCoulomb::region_plane_stress(const Principal &trial) const
   {
@@ -191,8 +192,6 @@ namespace quoin
         return Region::squeeze_two;
       if (shear_function(s[0], s[1]) <= 0.)
         return Region::squeeze;
-      if (shear_function(trial[0], trial[1]) <= 0.)
-        return Region::shear_squeeze;
     }
     const Principal s = to(Region::shear);
     if (s[0] > limits.in_plane)
