@@ -43,7 +43,8 @@ namespace quoin
   struct PlasticPoint
   {
     std::array<double, 4> plastic_strain{};
-    std::array<double, 4> stress{}; /**< [Pa], tension positive */
+    /** [Pa], tension positive; at the start the initial stress. */
+    std::array<double, 4> stress{};
 
     /**
      * Sum of the increments' $\sqrt{\mathrm{dev}\, \Delta p :
@@ -69,7 +70,8 @@ namespace quoin
    *     F_t = \sigma_1 - \sigma_t, \quad
    *     N_\varphi = \frac{1 + \sin\varphi}{1 - \sin\varphi} . @f]
    * Flow: @f$G_s = N_\psi \sigma_1 - \sigma_3@f$ in shear, associated in
-   * tension; on edges and vertices the sum of the adjoining planes' (Koiter).
+   * tension; on edges and vertices the sum of the adjoining planes'
+   * (@cite Koiter1953).
    *
    * The stress is @f$\sigma = \sigma_0 + C (e - p)@f$ with the total strain e
    * and the plastic strain p, so that a cell which never yields is a linear
