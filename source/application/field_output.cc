@@ -74,6 +74,11 @@ namespace quoin
         fields.slip.push_back(gaps[k][1]);
         fields.normal_traction.push_back(state.joints.normal_traction[p]);
         fields.shear_traction.push_back(state.joints.shear_traction[p]);
+        if (model.joints().can_soften())
+        {
+          fields.damage.push_back(1. - state.joints.bond[p]);
+          fields.crushing.push_back(state.joints.crushing[p]);
+        }
         fields.state.push_back(state.joints.state[p]);
       }
     }

@@ -193,7 +193,12 @@ namespace quoin
         return state.joints.normal_traction[p];
       if (wanted.component == 3)
         return state.joints.shear_traction[p];
-      return static_cast<double>(state.joints.state[p]);
+      if (wanted.component == 4)
+        return static_cast<double>(state.joints.state[p]);
+      if (!model.joints().can_soften())
+        return 0.;
+      return wanted.component == 5 ? 1. - state.joints.bond[p]
+                                   : state.joints.crushing[p];
     }
     default:
       return 0.;

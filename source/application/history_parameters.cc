@@ -36,6 +36,8 @@ namespace quoin
         { "joint normal traction", { Q::joint, 2, "Pa" } },
         { "joint shear traction", { Q::joint, 3, "Pa" } },
         { "joint state", { Q::joint, 4, "-" } },
+        { "joint damage", { Q::joint, 5, "-" } },
+        { "joint crushing", { Q::joint, 6, "m" } },
         { "reaction x", { Q::reaction, 0, "N" } },
         { "reaction y", { Q::reaction, 1, "N" } },
         { "reaction moment", { Q::reaction, 2, "N m" } },
@@ -81,7 +83,9 @@ namespace quoin
         "What the column holds, in SI units; 'stress 1' and "
         "'stress 2' are the larger and the smaller principal "
         "stress; 'kinetic energy share' is kinetic energy by "
-        "all energy that went through the model; 'contacts' the "
+        "all energy that went through the model; 'joint damage' the share of "
+        "tensile strength and "
+        "cohesion that a composite law has lost; 'contacts' the "
         "number of points that press on each other, matched "
         "joints apart; 'rotation' is that of the nearest rigid "
         "block, full turns counted, or of the nearest cell, "

@@ -48,11 +48,11 @@ namespace quoin
                                                histories->column_names());
     energy_table  = std::make_unique<CsvTable>(
         output + "/energies.csv",
-        std::vector<std::string>{ "time [s]", "kinetic [J]", "strain [J]",
-                                   "joint [J]", "friction [J]", "fracture [J]",
-                                   "damping [J]", "viscous [J]", "contact [J]",
-                                   "radiated [J]", "far field [J]",
-                                   "external [J]", "residual [J]" });
+        std::vector<std::string>{
+             "time [s]", "kinetic [J]", "strain [J]", "joint [J]",
+             "friction [J]", "fracture [J]", "crushing [J]", "damping [J]",
+             "viscous [J]", "contact [J]", "radiated [J]", "far field [J]",
+             "external [J]", "residual [J]" });
     if (solver->far_field())
       far_field_table = std::make_unique<CsvTable>(
           output + "/far_field.csv",
@@ -109,9 +109,9 @@ namespace quoin
       energy_table->add_row(
           { record.state.time - solver->get_time_step(), energies.kinetic,
             energies.strain, energies.joint, accounts.friction,
-            accounts.fracture, accounts.damping, accounts.viscous,
-            accounts.contact, accounts.radiated, energies.far_field,
-            accounts.external, energies.residual() });
+            accounts.fracture, accounts.crushing, accounts.damping,
+            accounts.viscous, accounts.contact, accounts.radiated,
+            energies.far_field, accounts.external, energies.residual() });
   }
 
   void Simulation::write_fields()

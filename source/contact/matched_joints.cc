@@ -43,6 +43,72 @@ namespace quoin
         }
       return set_of_line;
     }
+
+    // Points of both laws, from and to the arrays of the history.
+
+    JointPoint read_point(const CoulombLaw &, const JointHistory &history,
+                          const unsigned int p)
+    {
+      return { history.normal_traction[p], history.shear_traction[p],
+               history.plastic_slip[p], history.plastic_opening[p],
+               history.state[p] };
+    }
+
+    CompositePoint read_point(const CompositeLaw &, const JointHistory &history,
+                              const unsigned int p)
+    {
+      return { history.normal_traction[p],
+               history.shear_traction[p],
+               history.plastic_slip[p],
+               history.plastic_opening[p],
+               history.bond[p],
+               history.crushing[p],
+               history.state[p] };
+    }
+
+    /** What only a failing update changes. */
+    void write_flow(const JointPoint &point, JointHistory &history,
+                    const unsigned int p)
+    {
+      history.plastic_slip[p]    = point.plastic_slip;
+      history.plastic_opening[p] = point.plastic_opening;
+    }
+
+    void write_flow(const CompositePoint &point, JointHistory &history,
+                    const unsigned int p)
+    {
+      history.plastic_slip[p]    = point.plastic_slip;
+      history.plastic_opening[p] = point.plastic_opening;
+      history.bond[p]            = point.bond;
+      history.crushing[p]        = point.crushing;
+    }
+
+    void book(const JointDissipation &lost, const double weight,
+              EnergyAccounts &energy)
+    {
+      energy.friction += weight * lost.friction;
+      energy.fracture += weight * lost.fracture;
+    }
+
+    void book(const CompositeDissipation &lost, const double weight,
+              EnergyAccounts &energy)
+    {
+      energy.friction += weight * lost.friction;
+      energy.fracture += weight * (lost.tension + lost.shear);
+      energy.crushing += weight * lost.crushing;
+    }
+
+    double energy_of(const CoulombLaw &law, const JointPoint &point,
+                     const double opening)
+    {
+      return law.stored_energy(point, opening);
+    }
+
+    double energy_of(const CompositeLaw &law, const CompositePoint &point,
+                     const double /*opening*/)
+    {
+      return law.stored_energy(point);
+    }
   } // namespace
 
   void MatchedJoints::prepare(const BlockMesh<2> &mesh,
@@ -51,8 +117,14 @@ namespace quoin
                               const double thickness)
   {
     laws.clear();
+    composites.clear();
     for (const auto &set : sets)
+    {
       laws.push_back(set.law);
+      composites.push_back(set.composite);
+    }
+    softens = std::any_of(composites.begin(), composites.end(),
+                          [](const auto &law) { return law.has_value(); });
 
     segments.clear();
     const auto set_of_line = sets_of_lines(mesh, sets);
@@ -172,9 +244,11 @@ namespace quoin
     }
   }
 
-  void MatchedJoints::add_forces(const NodeRecord *nodes, JointHistory &history,
-                                 EnergyAccounts &energy,
-                                 NodeVector *force) const
+  template <typename Law>
+  void
+  MatchedJoints::add_set_forces(const unsigned int set, const Law &law,
+                                const NodeRecord *nodes, JointHistory &history,
+                                EnergyAccounts &energy, NodeVector *force) const
   {
     // Positions first, for some segments at a time: the square roots and
     // divisions of several then overlap, where one followed by its law would
@@ -183,62 +257,64 @@ namespace quoin
     std::array<Frame, chunk> frames;
     std::array<std::array<double, 2>, 2 * chunk> gaps;
 
-    double friction = 0., fracture = 0.;
-    for (unsigned int set = 0; set < laws.size(); ++set)
+    const unsigned int end = set_begin[set + 1];
+    for (unsigned int begin = set_begin[set]; begin < end; begin += chunk)
     {
-      const CoulombLaw law   = laws[set];
-      const unsigned int end = set_begin[set + 1];
-      for (unsigned int begin = set_begin[set]; begin < end; begin += chunk)
+      const unsigned int n = std::min(chunk, end - begin);
+      for (unsigned int j = 0; j < n; ++j)
       {
-        const unsigned int n = std::min(chunk, end - begin);
-        for (unsigned int j = 0; j < n; ++j)
+        const Segment &segment = segments[begin + j];
+        frames[j]              = frame(segment, nodes);
+        for (unsigned int k = 0; k < 2; ++k)
+          gaps[2 * j + k] = gap(segment, frames[j], nodes, k);
+      }
+      for (unsigned int j = 0; j < 2 * n; ++j)
+      {
+        const Segment &segment     = segments[begin + j / 2];
+        const Frame &local         = frames[j / 2];
+        const unsigned int k       = j % 2;
+        const unsigned int p       = 2 * begin + j;
+        const auto [opening, slip] = gaps[j];
+        if (history.handed_over[begin + j / 2])
+          continue;
+        auto point = read_point(law, history, p);
+        if (!law.update_elastic(point, opening, slip))
         {
-          const Segment &segment = segments[begin + j];
-          frames[j]              = frame(segment, nodes);
-          for (unsigned int k = 0; k < 2; ++k)
-            gaps[2 * j + k] = gap(segment, frames[j], nodes, k);
+          book(law.update_failing(point, opening, slip),
+               segment.area * segment.share, energy);
+          write_flow(point, history, p);
         }
-        for (unsigned int j = 0; j < 2 * n; ++j)
-        {
-          const Segment &segment     = segments[begin + j / 2];
-          const Frame &local         = frames[j / 2];
-          const unsigned int k       = j % 2;
-          const unsigned int p       = 2 * begin + j;
-          const auto [opening, slip] = gaps[j];
-          if (history.handed_over[begin + j / 2])
-            continue;
-          JointPoint point{ history.normal_traction[p],
-                            history.shear_traction[p], history.plastic_slip[p],
-                            history.plastic_opening[p], history.state[p] };
-          if (!law.update_elastic(point, opening, slip))
-          {
-            const JointDissipation lost
-                = law.update_failing(point, opening, slip);
-            const double weight = segment.area * segment.share;
-            friction += weight * lost.friction;
-            fracture += weight * lost.fracture;
-            history.plastic_slip[p]    = point.plastic_slip;
-            history.plastic_opening[p] = point.plastic_opening;
-          }
-          history.normal_traction[p] = point.normal_traction;
-          history.shear_traction[p]  = point.shear_traction;
-          history.state[p]           = point.state;
+        history.normal_traction[p] = point.normal_traction;
+        history.shear_traction[p]  = point.shear_traction;
+        history.state[p]           = point.state;
 
-          const double sigma = segment.area * point.normal_traction;
-          const double tau   = segment.area * point.shear_traction;
-          NodeVector &lower  = force[segment.lower[k]];
-          NodeVector &upper  = force[segment.upper[k]];
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            const double f = sigma * local.normal[d] + tau * local.tangent[d];
-            lower.v[d] += f;
-            upper.v[d] -= f;
-          }
+        const double sigma = segment.area * point.normal_traction;
+        const double tau   = segment.area * point.shear_traction;
+        NodeVector &lower  = force[segment.lower[k]];
+        NodeVector &upper  = force[segment.upper[k]];
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double f = sigma * local.normal[d] + tau * local.tangent[d];
+          lower.v[d] += f;
+          upper.v[d] -= f;
         }
       }
     }
-    energy.friction += friction;
-    energy.fracture += fracture;
+  }
+
+  void MatchedJoints::add_forces(const NodeRecord *nodes, JointHistory &history,
+                                 EnergyAccounts &energy,
+                                 NodeVector *force) const
+  {
+    // Summed apart: a step's share is small beside the account.
+    EnergyAccounts lost;
+    for (unsigned int set = 0; set < laws.size(); ++set)
+      if (composites[set])
+        add_set_forces(set, CompositeLaw(*composites[set]), nodes, history,
+                       lost, force);
+      else
+        add_set_forces(set, CoulombLaw(laws[set]), nodes, history, lost, force);
+    energy += lost;
   }
 
   void MatchedJoints::add_viscous_forces(const NodeRecord *nodes,
@@ -286,16 +362,18 @@ namespace quoin
         continue;
       const Segment &segment = segments[i];
       const auto gap         = gaps(nodes, i);
-      for (unsigned int k = 0; k < 2; ++k)
+      const double weight    = segment.area * segment.share;
+      const auto sum         = [&](const auto &law)
       {
-        const unsigned int p = 2 * i + k;
-        energy += segment.area * segment.share
-                  * laws[segment.set].stored_energy(
-                      { history.normal_traction[p], history.shear_traction[p],
-                        history.plastic_slip[p], history.plastic_opening[p],
-                        history.state[p] },
-                      gap[k][0]);
-      }
+        for (unsigned int k = 0; k < 2; ++k)
+          energy += weight
+                    * energy_of(law, read_point(law, history, 2 * i + k),
+                                gap[k][0]);
+      };
+      if (composites[segment.set])
+        sum(*composites[segment.set]);
+      else
+        sum(laws[segment.set]);
     }
     return energy;
   }

@@ -26,10 +26,11 @@ namespace quoin
 
   double Energies::throughput() const
   {
-    return std::max(
-        { std::abs(accounts.external), kinetic + strain + joint + far_field,
-          accounts.friction + accounts.fracture + accounts.damping
-              + accounts.viscous + accounts.contact + accounts.radiated });
+    return std::max({ std::abs(accounts.external),
+                      kinetic + strain + joint + far_field,
+                      accounts.friction + accounts.fracture + accounts.crushing
+                          + accounts.damping + accounts.viscous
+                          + accounts.contact + accounts.radiated });
   }
 
   ExplicitSolver::ExplicitSolver(const Model &model,
@@ -394,17 +395,18 @@ namespace quoin
   void ExplicitSolver::find_energies(State &state, const double strain,
                                      const double joint, const double kinetic)
   {
-    double values[10] = { kinetic,
+    double values[11] = { kinetic,
                           strain,
                           joint,
                           state.energy.external,
                           state.energy.friction,
                           state.energy.fracture,
+                          state.energy.crushing,
                           state.energy.damping,
                           state.energy.viscous,
                           state.energy.contact,
                           state.energy.radiated };
-    MPI_Allreduce(MPI_IN_PLACE, values, 10, MPI_DOUBLE, MPI_SUM, communicator);
+    MPI_Allreduce(MPI_IN_PLACE, values, 11, MPI_DOUBLE, MPI_SUM, communicator);
     last_energies.kinetic           = values[0];
     last_energies.strain            = values[1] - strain_at_start;
     last_energies.joint             = values[2] - joint_at_start;
@@ -412,10 +414,11 @@ namespace quoin
     last_energies.accounts.external = values[3];
     last_energies.accounts.friction = values[4];
     last_energies.accounts.fracture = values[5];
-    last_energies.accounts.damping  = values[6];
-    last_energies.accounts.viscous  = values[7];
-    last_energies.accounts.contact  = values[8];
-    last_energies.accounts.radiated = values[9];
+    last_energies.accounts.crushing = values[6];
+    last_energies.accounts.damping  = values[7];
+    last_energies.accounts.viscous  = values[8];
+    last_energies.accounts.contact  = values[9];
+    last_energies.accounts.radiated = values[10];
   }
 
   void ExplicitSolver::find_ratio(State &state, const StepContext &context,

@@ -69,8 +69,8 @@ namespace quoin
       return model.blocks().strain_energy(s.nodes.data())
              + model.joints().stored_energy(s.nodes.data(), s.joints);
     };
-    double energy
-        = stored(moving) - stored(rest) + lost.friction + lost.fracture;
+    double energy = stored(moving) - stored(rest) + lost.friction
+                    + lost.fracture + lost.crushing;
     for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
       for (const double v : state.velocity[i].v)
         energy += 0.5 * mass[i] * v * v;

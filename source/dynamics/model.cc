@@ -357,7 +357,7 @@ namespace quoin
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       state.nodes.push_back(at_rest(block_mesh.vertices[nodes->global(i)]));
     state.velocity.assign(nodes->n_local(), NodeVector{ { 0., 0. } });
-    state.joints.resize(matched_joints.n_points());
+    state.joints.resize(matched_joints.n_points(), matched_joints.can_soften());
     if (!cell_stress.empty())
     {
       std::vector<std::array<double, 3>> face_stress;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/joints/composite_parameters.h>
 #include <quoin/joints/joint_parameters.h>
 
 #include <deal.II/base/numbers.h>
@@ -31,12 +32,15 @@ namespace quoin
                       "the pairs that no other set names. They are born "
                       "failed, that is with the residual strength. For large "
                       "displacements; such a set needs no curve.");
-    prm.declare_entry("Law", "Coulomb",
-                      dealii::Patterns::Selection("Coulomb|elastic|no tension"),
-                      "Coulomb: cohesion, friction and tension that drop to "
-                      "their residual values at failure; elastic: never "
-                      "fails; no tension: Coulomb without tension whose "
-                      "cohesion is never lost.");
+    prm.declare_entry(
+        "Law", "Coulomb",
+        dealii::Patterns::Selection("Coulomb|composite|elastic|no tension"),
+        "Coulomb: cohesion, friction and tension that drop to "
+        "their residual values at failure; composite: these "
+        "soften with fracture energies, and a cap crushes, for "
+        "masonry; elastic: never fails; no tension: Coulomb without tension "
+        "whose "
+        "cohesion is never lost.");
     prm.declare_entry("Normal stiffness", "0", Double(), "kn [Pa/m]");
     prm.declare_entry("Shear stiffness", "0", Double(), "ks [Pa/m]");
     prm.declare_entry("Cohesion", "0", Double(), "Peak cohesion c [Pa]");
@@ -51,6 +55,7 @@ namespace quoin
                       "Friction angle once failed, or 'same' [deg]");
     prm.declare_entry("Residual tensile strength", "0", Double(),
                       "Tensile strength once failed [Pa]");
+    declare_composite_law(prm);
   }
 
   JointSetParameters JointSetParameters::read(const ParameterSection &section,
@@ -87,6 +92,18 @@ namespace quoin
         section.fail("Law", "cannot be 'elastic' for new contacts, which "
                             "would then hold together for good. Use "
                             "'Coulomb'.");
+      return set;
+    }
+
+    if (kind == "composite")
+    {
+      if (is_new)
+        section.fail("Law", "cannot be 'composite' for new contacts, which "
+                            "hold nothing together. Use 'Coulomb'.");
+      set.composite               = read_composite_law(section);
+      const CompositeLaw &masonry = *set.composite;
+      law.peak     = { masonry.cohesion, masonry.friction, masonry.tension };
+      law.residual = { 0., masonry.residual_friction, 0. };
       return set;
     }
 

@@ -83,12 +83,20 @@ namespace quoin
     AlignedArray<double> shear_traction;  /**< [Pa] */
     AlignedArray<double> plastic_slip;    /**< inelastic slip [m] */
     AlignedArray<double> plastic_opening; /**< dilation, offsets [m] */
+    AlignedArray<double> bond;            /**< share of ft, c left [-] */
+    AlignedArray<double> crushing;        /**< of the cap [m] */
     AlignedArray<JointState> state;
     /** Of each segment, two points: it is a general contact by now. */
     AlignedArray<std::uint8_t> handed_over;
 
-    void resize(const std::size_t n)
+    /** bond and crushing stay empty unless a law @p softens. */
+    void resize(const std::size_t n, const bool softens = false)
     {
+      if (softens)
+      {
+        bond.resize(n, 1.);
+        crushing.resize(n, 0.);
+      }
       normal_traction.resize(n, 0.);
       shear_traction.resize(n, 0.);
       plastic_slip.resize(n, 0.);
@@ -101,7 +109,7 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &normal_traction &shear_traction &plastic_slip &plastic_opening
-          &state &handed_over;
+          &bond &crushing &state &handed_over;
     }
   };
 
@@ -114,7 +122,8 @@ namespace quoin
   {
     double external = 0.; /**< done by loads and prescribed motion */
     double friction = 0.; /**< dissipated in slip and dilation of joints */
-    double fracture = 0.; /**< lost when joints break in tension */
+    double fracture = 0.; /**< lost when joints break */
+    double crushing = 0.; /**< dissipated by crushed joints */
     double damping  = 0.; /**< taken by local, adaptive, Rayleigh damping */
     double viscous  = 0.; /**< left through viscous boundaries */
     double contact  = 0.; /**< lost as contacts changed their length */
@@ -125,6 +134,7 @@ namespace quoin
       external += other.external;
       friction += other.friction;
       fracture += other.fracture;
+      crushing += other.crushing;
       damping += other.damping;
       viscous += other.viscous;
       contact += other.contact;
@@ -135,7 +145,7 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &external &friction &fracture &damping &viscous &contact
+      archive &external &friction &fracture &crushing &damping &viscous &contact
           &radiated;
     }
   };

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace quoin
@@ -123,9 +124,16 @@ namespace quoin
     std::array<std::array<double, 2>, 2> gaps(const NodeRecord *nodes,
                                               unsigned int i) const;
 
+    /** Of a composite law its stiffnesses and strengths. */
     const CoulombLaw &law(const unsigned int set) const
     {
       return laws[set];
+    }
+
+    /** Whether a set, of any rank, has a composite law. */
+    bool can_soften() const
+    {
+      return softens;
     }
 
   private:
@@ -138,8 +146,16 @@ namespace quoin
     static std::array<double, 2> gap(const Segment &segment, const Frame &frame,
                                      const NodeRecord *nodes, unsigned int k);
 
+    /** add_forces() of a set; @p Law: CoulombLaw or CompositeLaw. */
+    template <typename Law>
+    void add_set_forces(unsigned int set, const Law &law,
+                        const NodeRecord *nodes, JointHistory &history,
+                        EnergyAccounts &energy, NodeVector *force) const;
+
     std::vector<Segment> segments; /**< sorted by set */
     std::vector<CoulombLaw> laws;
+    std::vector<std::optional<CompositeLaw>> composites; /**< of each set */
+    bool softens = false;
     std::vector<unsigned int> set_begin; /**< first segment of each set */
   };
 } // namespace quoin

@@ -35,8 +35,9 @@ namespace quoin
     double residual() const
     {
       return kinetic + strain + joint + far_field + accounts.friction
-             + accounts.fracture + accounts.damping + accounts.viscous
-             + accounts.contact + accounts.radiated - accounts.external;
+             + accounts.fracture + accounts.crushing + accounts.damping
+             + accounts.viscous + accounts.contact + accounts.radiated
+             - accounts.external;
     }
 
     /** All energy that went through the model, to judge the residual by. */

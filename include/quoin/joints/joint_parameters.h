@@ -5,8 +5,10 @@
 #define quoin_joints_joint_parameters_h
 
 #include <quoin/base/parameter_section.h>
+#include <quoin/joints/composite_law.h>
 #include <quoin/joints/coulomb_law.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,7 +23,9 @@ namespace quoin
     /** Pairs of materials whose new contacts follow this set. */
     std::vector<std::pair<std::string, std::string>> new_contacts;
     bool all_new_contacts = false; /**< of pairs that no other set names */
+    /** Of a composite set: its stiffnesses and strengths. */
     CoulombLaw law;
+    std::optional<CompositeLaw> composite;
 
     static void declare(dealii::ParameterHandler &prm);
     static JointSetParameters read(const ParameterSection &section,

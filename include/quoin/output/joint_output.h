@@ -28,6 +28,8 @@ namespace quoin
     std::vector<double> slip;            /**< [m] */
     std::vector<double> normal_traction; /**< [Pa] */
     std::vector<double> shear_traction;  /**< [Pa] */
+    std::vector<double> damage;          /**< 0 to 1, or empty [-] */
+    std::vector<double> crushing;        /**< of the cap, or empty [m] */
     std::vector<JointState> state;
     std::vector<std::int32_t> joint_set; /**< of each face */
   };
