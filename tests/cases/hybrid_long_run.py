@@ -80,12 +80,11 @@ def body():
     for region in options.regions.split(","):
         for ratio in options.ratios.split(","):
             result = run(options.quoin, region, float(ratio), options.steps)
-            print("| %s | %s | %d | %d | %s | %.0e | %.0e | %.0f |" % (
+            print("| %s | %s | %d | %d | %s | %.0e | %.0e |" % (
                 region.replace("_", "-"), ratio, result["substeps"],
                 result["element steps"],
                 ", ".join("%.1e" % x for x in result["left"]),
-                result["residual"], result["mismatch"], result["seconds"]),
-                flush=True)
+                result["residual"], result["mismatch"]), flush=True)
             name = "%s %s: " % (region, ratio)
             left = result["left"]
             worst = max(worst, left[-1] / left[0])
