@@ -33,6 +33,8 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "rigid": (PATCH_TEST, SETS + ["Materials/rock/Law=rigid",
                                           "Loads/base/Type=traction"]),
             "sled": (common.SLED, []),
+            "couplet": (os.path.join(common.VERIFICATION, "masonry_couplet",
+                                     "tension.prm"), []),
             # a column in each rank, and joints across it
             "free field": (os.path.join(common.VERIFICATION,
                                         "free_field_sides", "case.prm"),

@@ -36,6 +36,11 @@ CASES = {
                    ["Output/Checkpoint interval=0.05",
                     "Stages/shake/Duration=2",
                     "Initial motion/Velocity=1e-3*exp(-x*x); 0"], 1, 2),
+    # joints that soften
+    "couplet": (os.path.join(common.VERIFICATION, "masonry_couplet",
+                             "shear.prm"),
+                ["Output/Checkpoint interval=0.02",
+                 "Output/Field interval=2e-2"], 1, 2),
     # contacts searched, handed over and taken up in between
     "sled": (common.SLED, ["Output/Checkpoint interval=0.02",
                            "Output/Field interval=2e-3"], 1, 4),
