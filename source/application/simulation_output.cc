@@ -29,21 +29,6 @@ namespace quoin
 
   void Simulation::open_outputs()
   {
-    all_or_none<InputError>(
-        communicator,
-        [&]()
-        {
-          std::error_code error;
-          if (is_first_rank)
-          {
-            std::filesystem::create_directories(output, error);
-            if (!std::filesystem::is_directory(output))
-              throw InputError("the output directory '" + output
-                               + "' cannot be made: " + error.message()
-                               + ". Choose another with 'Output directory' or "
-                                 "--output.");
-          }
-        });
     history_table = std::make_unique<CsvTable>(output + "/histories.csv",
                                                histories->column_names());
     energy_table  = std::make_unique<CsvTable>(

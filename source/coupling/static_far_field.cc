@@ -14,11 +14,6 @@ namespace quoin
   {
     using Eigen::MatrixXd;
     using Eigen::VectorXd;
-
-    VectorXd to_eigen(const std::vector<double> &values)
-    {
-      return VectorXd::Map(values.data(), Eigen::Index(values.size()));
-    }
   } // namespace
 
   StaticFarField::StaticFarField(const std::string &name,
@@ -139,7 +134,7 @@ namespace quoin
         },
         change);
     gather_displacement(captured, u);
-    u -= to_eigen(far.origin);
+    u -= VectorXd::Map(far.origin.data(), u.size());
     // With mass damping of the added mass, too, so that this is all of it.
     mean = u + 0.25 * step.dt * change
            + 0.25 * (step.dt - step.dt_before) * v_before;

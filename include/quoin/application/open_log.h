@@ -11,20 +11,38 @@
 #include <quoin/output/collective.h>
 #include <quoin/output/log.h>
 
+#include <deal.II/base/mpi.h>
+
+#include <filesystem>
 #include <string>
 
 namespace quoin
 {
   /**
-   * Begins the log of a run, or goes on with that of the run which @p record is
-   * read from, its last checkpoint. Collective. Throws an InputError if there
-   * is no such checkpoint.
+   * Makes the folder @p output and begins the log of a run, or goes on with
+   * that of the run which @p record is read from, its last checkpoint.
+   * Collective. Throws an InputError if the folder cannot be made or there is
+   * no such checkpoint.
    */
   template <typename Record>
   void open_log(const Parameters &parameters, const std::string &output,
                 const bool resume, const MPI_Comm communicator, Log &log,
                 Record &record)
   {
+    all_or_none<InputError>(
+        communicator,
+        [&]()
+        {
+          std::error_code error;
+          if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+            return;
+          std::filesystem::create_directories(output, error);
+          if (!std::filesystem::is_directory(output))
+            throw InputError("the output directory '" + output
+                             + "' cannot be made: " + error.message()
+                             + ". Choose another with 'Output directory' or "
+                               "--output.");
+        });
     CheckpointInfo info;
     if (resume)
       info = load_checkpoint(output, communicator, QUOIN_VERSION,
