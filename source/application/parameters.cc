@@ -3,6 +3,7 @@
 
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/mesh/wall_layout.h>
 #include <quoin/tdbem/elastic_medium.h>
 
 #include <algorithm>
@@ -71,10 +72,12 @@ namespace quoin
       prm.enter_subsection("Mesh");
       prm.declare_entry("File", "", Anything(),
                         "gmsh geometry (.geo) or mesh (.msh), relative to "
-                        "the folder of this file; coordinates in [m].");
+                        "the folder of this file; coordinates in [m]. Empty "
+                        "with a wall of section 'Wall'.");
       prm.declare_entry("Joints along", "", Anything(),
                         "Physical curves along which the mesh is split into "
-                        "blocks.");
+                        "blocks; empty with a wall of section 'Wall': all of "
+                        "its joints.");
       prm.declare_entry("Joints between", "", Anything(),
                         "Pairs a:b of physical surfaces between which it is "
                         "split, or 'all'.");
@@ -82,6 +85,10 @@ namespace quoin
                         Selection("keep|refuse"),
                         "Joints that end inside a block: keep them as "
                         "cracks, or stop.");
+      prm.leave_subsection();
+
+      prm.enter_subsection("Wall");
+      WallParameters::declare(prm);
       prm.leave_subsection();
 
       prm.enter_subsection("Contact");
@@ -262,12 +269,41 @@ namespace quoin
       return result;
     }
 
-    void read_mesh(const ParameterSection &top, Parameters &parameters)
+    /** The wall of section 'Wall', if there is one. */
+    bool lay_wall(const ParameterSection &top, Parameters &parameters)
     {
+      WallParameters wall;
+      {
+        const ParameterSection section(top, "Wall");
+        wall = WallParameters::read(section);
+      }
+      if (wall.bond == WallBond::none)
+        return false;
       const ParameterSection section(top, "Mesh");
+      if (!section.text("File").empty())
+        section.fail("File", "does not go with a wall of section 'Wall': leave "
+                             "it empty, or set 'Wall/Bond = none'.");
+      try
+      {
+        const WallLayout layout       = quoin::lay_wall(wall);
+        const WallGeometry geometry   = quoin::wall_geometry(wall, layout);
+        parameters.wall_geometry      = geometry.text;
+        parameters.wall_report        = quoin::wall_report(layout);
+        parameters.split.joints_along = geometry.joint_curves;
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(top.file() + ", " + error.what());
+      }
+      return true;
+    }
+
+    void read_mesh_file(const ParameterSection &section, Parameters &parameters)
+    {
       const std::string name = section.text("File");
       if (name.empty())
-        section.fail("File", "must name a .geo or .msh file.");
+        section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
+                             "a bond.");
       parameters.mesh_file
           = name.front() == '/' ? name : section.folder() + name;
       if (!std::filesystem::exists(parameters.mesh_file))
@@ -279,7 +315,16 @@ namespace quoin
           = std::filesystem::path(parameters.mesh_file).extension();
       if (extension != ".geo" && extension != ".msh")
         section.fail("File", "must end in .geo or .msh.");
-      parameters.split.joints_along = section.list("Joints along");
+    }
+
+    void read_mesh(const ParameterSection &top, Parameters &parameters)
+    {
+      const bool generated = lay_wall(top, parameters);
+      const ParameterSection section(top, "Mesh");
+      if (!generated)
+        read_mesh_file(section, parameters);
+      if (!generated || !section.text("Joints along").empty())
+        parameters.split.joints_along = section.list("Joints along");
       for (const std::string &pair : section.list("Joints between"))
       {
         if (pair == "all")

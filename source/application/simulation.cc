@@ -71,7 +71,10 @@ namespace quoin
 
   void Simulation::make_model()
   {
-    const MeshData as_read = read_gmsh(parameters.mesh_file, communicator);
+    const MeshData as_read
+        = parameters.wall_geometry.empty()
+              ? read_gmsh(parameters.mesh_file, communicator)
+              : mesh_gmsh_geometry(parameters.wall_geometry, communicator);
     split_into_blocks(as_read, parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 
@@ -118,6 +121,8 @@ namespace quoin
     // What touches without matching is in contact if displacements are large.
     if (parameters.model.contact.large_displacements)
       mesh_report.unmatched_length = 0.;
+    if (!parameters.wall_report.empty())
+      log.message(parameters.wall_report);
     log.message(mesh_report.to_text());
     const auto &rigid          = model->is_rigid();
     const unsigned int n_rigid = std::count(rigid.begin(), rigid.end(), true);

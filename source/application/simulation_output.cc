@@ -8,6 +8,8 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
+#include <quoin/mesh/gmsh_reader.h>
+#include <quoin/output/atomic_file.h>
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/collective.h>
 #include <quoin/output/json_file.h>
@@ -17,7 +19,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 namespace quoin
 {
@@ -70,18 +71,25 @@ namespace quoin
               record.boundary_output.start();
             }
           }
-          std::ofstream used(output + "/used_parameters.prm");
-          used << parameters.effective;
-          used.close();
-          if (!used)
-            throw RunError("'" + output
-                           + "/used_parameters.prm' cannot be written. Is the "
-                             "disk full?");
+          write_text("used_parameters.prm", parameters.effective);
+          if (!parameters.wall_geometry.empty() && !options.resume)
+          {
+            write_text("wall.geo", parameters.wall_geometry);
+            write_gmsh_mesh(output + "/wall.geo", output + "/wall.msh");
+          }
         });
     record.block_output.start();
     record.joint_output.start();
     if (solver->contacts())
       record.contact_output.start();
+  }
+
+  void Simulation::write_text(const std::string &name,
+                              const std::string &text) const
+  {
+    AtomicFile file(output + "/" + name);
+    file.stream() << text;
+    file.commit();
   }
 
   void Simulation::write_energies()

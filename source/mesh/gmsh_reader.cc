@@ -9,6 +9,7 @@
 #include <boost/serialization/utility.hpp>
 
 #include <gmsh.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -388,23 +389,92 @@ namespace quoin
     return Reader(filename).read();
   }
 
+  namespace
+  {
+    /** What @p read gives on the first rank, on all of them. */
+    template <typename Read>
+    MeshData read_and_send(const MPI_Comm &communicator, const Read &read)
+    {
+      // The others must hear of an error, too, or they wait forever.
+      std::pair<MeshData, std::string> mesh_and_error;
+      if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+        try
+        {
+          mesh_and_error.first = read();
+        }
+        catch (const InputError &error)
+        {
+          mesh_and_error.second = error.what();
+        }
+      mesh_and_error
+          = dealii::Utilities::MPI::broadcast(communicator, mesh_and_error);
+      if (!mesh_and_error.second.empty())
+        throw InputError(mesh_and_error.second);
+      return std::move(mesh_and_error.first);
+    }
+
+    /** A file of the system's folder for such, gone with this object. */
+    class TemporaryGeometry
+    {
+    public:
+      explicit TemporaryGeometry(const std::string &text)
+      {
+        std::error_code ignored;
+        name = std::filesystem::temp_directory_path(ignored)
+               / "quoin-XXXXXX.geo";
+        const int file = mkstemps(name.data(), 4);
+        if (file >= 0)
+          close(file);
+        std::ofstream stream(name);
+        stream << text;
+        stream.close();
+        if (file < 0 || !stream)
+          throw InputError("the geometry of the wall cannot be written to '"
+                           + name
+                           + "'. Give a folder with space in the environment "
+                             "variable TMPDIR.");
+      }
+      ~TemporaryGeometry()
+      {
+        std::error_code ignored;
+        std::filesystem::remove(name, ignored);
+      }
+      TemporaryGeometry(const TemporaryGeometry &)            = delete;
+      TemporaryGeometry &operator=(const TemporaryGeometry &) = delete;
+
+      std::string name;
+    };
+  } // namespace
+
   MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator)
   {
-    // The others must hear of an error, too, or they wait forever.
-    std::pair<MeshData, std::string> mesh_and_error;
-    if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
-      try
-      {
-        mesh_and_error.first = read_gmsh(filename);
-      }
-      catch (const InputError &error)
-      {
-        mesh_and_error.second = error.what();
-      }
-    mesh_and_error
-        = dealii::Utilities::MPI::broadcast(communicator, mesh_and_error);
-    if (!mesh_and_error.second.empty())
-      throw InputError(mesh_and_error.second);
-    return std::move(mesh_and_error.first);
+    return read_and_send(communicator, [&]() { return read_gmsh(filename); });
+  }
+
+  MeshData mesh_gmsh_geometry(const std::string &geometry,
+                              const MPI_Comm &communicator)
+  {
+    return read_and_send(communicator,
+                         [&]()
+                         {
+                           const TemporaryGeometry file(geometry);
+                           return read_gmsh(file.name);
+                         });
+  }
+
+  void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file)
+  {
+    const GmshSession session;
+    try
+    {
+      gmsh::open(geo_file);
+      gmsh::model::mesh::generate(2);
+      gmsh::write(msh_file);
+    }
+    catch (...)
+    {
+      throw RunError("gmsh cannot write the mesh '" + msh_file
+                     + "'. Is the disk full?");
+    }
   }
 } // namespace quoin

@@ -28,6 +28,9 @@ namespace quoin
     BoundaryElementParameters boundary;
 
     std::string mesh_file; /**< relative to the working directory */
+    /** Instead of the file: the geometry of a generated wall; or empty. */
+    std::string wall_geometry;
+    std::string wall_report; /**< what was laid, in a line */
     SplitOptions split;
 
     ModelParameters model;

@@ -90,6 +90,8 @@ namespace quoin
     void report_blocks_outside();
     bool stage_is_over(const StageParameters &stage, bool balance);
     void check_start() const;
+    /** A file of the output folder. */
+    void write_text(const std::string &name, const std::string &text) const;
     void write_energies();
     void write_fields();
     void save_checkpoint();

@@ -34,6 +34,17 @@ namespace quoin
    * InputError is thrown on all of them.
    */
   MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator);
+
+  /** Mesh the text @p geometry of a .geo file, on all ranks. */
+  MeshData mesh_gmsh_geometry(const std::string &geometry,
+                              const MPI_Comm &communicator);
+
+  /**
+   * Mesh the geometry @p geo_file and write the mesh to @p msh_file (.msh), for
+   * users to look at and change. Throws RunError if it cannot be written.
+   */
+  void write_gmsh_mesh(const std::string &geo_file,
+                       const std::string &msh_file);
 } // namespace quoin
 
 #endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_mesh_wall_parameters_h
+#define quoin_mesh_wall_parameters_h
+
+#include <quoin/base/parameter_section.h>
+
+#include <cstdint>
+#include <vector>
+
+namespace quoin
+{
+  /** How the units of a wall are laid. */
+  enum class WallBond
+  {
+    none,    /**< no wall is generated */
+    running, /**< every other course is shifted by a share of a unit */
+    stack,   /**< head joints above each other */
+    header,  /**< half units (headers), shifted by half of one */
+    english, /**< courses of stretchers and of headers in turn */
+    flemish, /**< stretcher and header in turn in every course */
+    random   /**< units of random lengths */
+  };
+
+  /** An opening of whole courses; the units around it are cut to fit. */
+  struct WallOpening
+  {
+    double left;               /**< [m] */
+    double right;              /**< [m] */
+    unsigned int first_course; /**< counted from 1 at the bottom */
+    unsigned int last_course;
+  };
+
+  /** The section 'Wall'. */
+  struct WallParameters
+  {
+    WallBond bond          = WallBond::none;
+    double length          = 0.; /**< [m] */
+    unsigned int n_courses = 0;
+
+    /** A unit with half a joint on each side: the joints have no thickness. */
+    double unit_length = 0.; /**< [m] */
+    double unit_height = 0.; /**< [m] */
+
+    /** Shift of every other course of a running bond, of unit_length [-]. */
+    double offset = 0.5;
+    /** Whether the first course is one of those that begin with a cut unit. */
+    bool begins_shifted = false;
+    /** Shorter pieces join their neighbour; a share of unit_length [-]. */
+    double shortest = 0.2;
+
+    double random_shortest    = 0.; /**< [m] */
+    double random_longest     = 0.; /**< [m] */
+    double random_overlap     = 0.; /**< least, of joints of two courses [m] */
+    std::uint64_t random_seed = 1;
+
+    std::vector<WallOpening> openings;
+    double lintel_bearing = 0.; /**< on each side of an opening; 0: none [m] */
+
+    double bottom_platen = 0.; /**< height [m]; 0: none */
+    double top_platen    = 0.; /**< height [m]; 0: none */
+
+    bool cracks = false; /**< potential cracks at mid-length of the units */
+
+    double element_size = 0.; /**< longest edge, about [m] */
+    bool structured     = true;
+
+    static void declare(dealii::ParameterHandler &prm);
+    static WallParameters read(const ParameterSection &section);
+  };
+} // namespace quoin
+
+#endif
