@@ -234,7 +234,8 @@ namespace quoin
   void Histories::before_step(const State &state)
   {
     std::fill(row.begin(), row.end(), 0.);
-    row[0] = state.time;
+    row[0]     = state.time;
+    load_clock = { state.load_time, state.load_rate };
     for (unsigned int i = 0; i < probes.size(); ++i)
     {
       const Probe &probe = probes[i];
@@ -286,6 +287,10 @@ namespace quoin
         result[1 + i] = solver.resultant(wanted.load)[wanted.component];
       else if (wanted.quantity == HistoryQuantity::unbalanced_ratio)
         result[1 + i] = state.unbalanced_ratio;
+      else if (wanted.quantity == HistoryQuantity::load_time)
+        result[1 + i] = load_clock[0];
+      else if (wanted.quantity == HistoryQuantity::loading_rate)
+        result[1 + i] = load_clock[1];
       else if (wanted.quantity == HistoryQuantity::kinetic_share)
         result[1 + i] = solver.energies().kinetic
                         / std::max(solver.energies().throughput(), 1e-300);

@@ -50,6 +50,8 @@ namespace quoin
         { "platen force moment", { Q::platen_force, 2, "N m" } },
         { "unbalanced ratio", { Q::unbalanced_ratio, 0, "-" } },
         { "kinetic energy share", { Q::kinetic_share, 0, "-" } },
+        { "load time", { Q::load_time, 0, "s" } },
+        { "loading rate", { Q::loading_rate, 0, "-" } },
         { "contacts", { Q::contacts, 0, "-" } },
         { "boundary displacement x", { Q::boundary_displacement, 0, "m" } },
         { "boundary displacement y", { Q::boundary_displacement, 1, "m" } },

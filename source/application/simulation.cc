@@ -18,8 +18,7 @@ namespace quoin
 {
   namespace
   {
-    /** Steps between looks at unbalanced force and at NaN. */
-    constexpr std::uint64_t balance_interval = 100;
+    constexpr std::uint64_t balance_interval = ExplicitSolver::balance_interval;
 
     /**
      * Largest share of the critical step where modes must turn by less than
@@ -159,20 +158,22 @@ namespace quoin
         throw InputError(parameters.file + ", " + error.what());
       }
       choose_time_step(stage);
-      log.message("stage " + stage.name + ": time step "
-                  + number_text(solver->get_time_step()) + " s, "
-                  + number_text(100. * solver->get_time_step()
-                                / solver->critical_time_step())
-                  + " % of the critical "
-                  + number_text(solver->critical_time_step()) + " s"
-                  + (stage.end == StageEnd::time
-                         ? ", " + std::to_string(steps_of_stage) + " steps"
-                         : "")
-                  + (solver->added_mass_share() > 0.
-                         ? ", mass scaling adds "
-                               + number_text(100. * solver->added_mass_share())
-                               + " % of mass"
-                         : ""));
+      log.message(
+          "stage " + stage.name + ": time step "
+          + number_text(solver->get_time_step()) + " s, "
+          + number_text(100. * solver->get_time_step()
+                        / solver->critical_time_step())
+          + " % of the critical " + number_text(solver->critical_time_step())
+          + " s"
+          + (stage.end == StageEnd::time
+                 ? ", " + std::to_string(steps_of_stage)
+                       + (stage.slows_loads() ? " steps or more" : " steps")
+                 : "")
+          + (solver->added_mass_share() > 0.
+                 ? ", mass scaling adds "
+                       + number_text(100. * solver->added_mass_share())
+                       + " % of mass"
+                 : ""));
     }
   }
 
@@ -240,8 +241,7 @@ namespace quoin
     state.far_field.history.clear();
 
     progress.start(progress_figures(stage));
-    bool over
-        = stage.end == StageEnd::time && state.stage_step >= steps_of_stage;
+    bool over = stage.end == StageEnd::time && time_is_over(stage);
     while (!over)
     {
       const auto start     = WallClock::now();
@@ -275,10 +275,12 @@ namespace quoin
 
     // A stage's last step has a row of its own; a static stage may find only
     // afterwards that this was it.
-    const bool row_is_due  = history_control.is_due(state.time, dt);
-    const bool may_be_last = stage.end == StageEnd::time
-                                 ? state.stage_step + 1 == steps_of_stage
-                                 : balance;
+    const bool row_is_due = history_control.is_due(state.time, dt);
+    const bool may_be_last
+        = stage.slows_loads() ? stage.duration - state.load_time
+                                    <= (1. + 1e-6) * state.load_rate * dt
+          : stage.end == StageEnd::time ? state.stage_step + 1 == steps_of_stage
+                                        : balance;
     ExplicitSolver::Requests requests;
     requests.energies = row_is_due || may_be_last;
     requests.balance  = balance || (row_is_due && histories->need_balance());
@@ -322,11 +324,29 @@ namespace quoin
                          : ""));
   }
 
+  bool Simulation::time_is_over(const StageParameters &stage) const
+  {
+    return stage.slows_loads()
+               ? record.state.load_time >= (1. - 1e-12) * stage.duration
+               : record.state.stage_step >= steps_of_stage;
+  }
+
   bool Simulation::stage_is_over(const StageParameters &stage,
                                  const bool balance)
   {
     if (stage.end == StageEnd::time)
-      return record.state.stage_step >= steps_of_stage;
+    {
+      if (stage.slows_loads() && record.state.stage_step >= stage.maximum_steps)
+        throw RunError(
+            "stage '" + stage.name + "' has not come to its end within "
+            + std::to_string(stage.maximum_steps) + " steps: its loads are at "
+            + number_text(record.state.load_time) + " of "
+            + number_text(stage.duration) + " s and go on at the rate "
+            + number_text(record.state.load_rate)
+            + ". Raise 'Kinetic energy limit' or 'Maximum steps', or damp "
+              "more.");
+      return time_is_over(stage);
+    }
     if (balance
         && !solver->loads_have_changed(
             record.state, balance_interval * solver->get_time_step())
@@ -361,7 +381,7 @@ namespace quoin
     figures.time     = record.state.time;
     figures.step     = record.state.step;
     figures.fraction = stage.end == StageEnd::time
-                           ? double(record.state.stage_step) / steps_of_stage
+                           ? record.state.load_time / stage.duration
                            : -1.;
     figures.share_of_critical
         = solver->get_time_step() / solver->critical_time_step();

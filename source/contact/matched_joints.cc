@@ -63,6 +63,7 @@ namespace quoin
                history.plastic_opening[p],
                history.bond[p],
                history.crushing[p],
+               history.crack_opening[p],
                history.state[p] };
     }
 
@@ -81,6 +82,7 @@ namespace quoin
       history.plastic_opening[p] = point.plastic_opening;
       history.bond[p]            = point.bond;
       history.crushing[p]        = point.crushing;
+      history.crack_opening[p]   = point.crack_opening;
     }
 
     void book(const JointDissipation &lost, const double weight,

@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
+#include <quoin/dynamics/loading_rate.h>
 #include <quoin/loads/prescribed_motion.h>
 
 #include <algorithm>
@@ -97,18 +98,24 @@ namespace quoin
     return dealii::Utilities::MPI::sum(value, communicator);
   }
 
-  void ExplicitSolver::step(State &state, const Requests &requests)
+  void ExplicitSolver::step(State &state, const Requests &wanted)
   {
-    const double in_stage = state.time - state.stage_start;
+    Requests requests = wanted;
+    if (stage.slows_loads() && requests.balance)
+      requests.energies = true;
+    const double in_stage = state.load_time;
+    const double advance  = state.load_rate * time_step;
     StepContext context;
-    context.dt          = time_step;
-    context.dt_before   = state.previous_time_step;
-    context.dt_velocity = 0.5 * (time_step + state.previous_time_step);
-    context.begin       = { in_stage, state.time };
-    context.middle
-        = { in_stage + 0.5 * time_step, state.time + 0.5 * time_step };
+    context.dt                = time_step;
+    context.dt_before         = state.previous_time_step;
+    context.dt_velocity       = 0.5 * (time_step + state.previous_time_step);
+    context.load_rate         = state.load_rate;
+    context.begin             = { in_stage, state.stage_start + in_stage };
+    context.middle            = { in_stage + 0.5 * advance,
+                                  state.stage_start + in_stage + 0.5 * advance };
     context.stiffness_damping = stage.stiffness_coefficient;
-    context.end           = { in_stage + time_step, state.time + time_step };
+    context.end
+        = { in_stage + advance, state.stage_start + in_stage + advance };
     context.local_damping = stage.local_coefficient;
     context.mass_damping  = stage.damping == DampingType::adaptive
                                 ? state.adaptive_damping
@@ -175,6 +182,19 @@ namespace quoin
     ++state.stage_step;
     state.time               = state.stage_start + state.stage_step * time_step;
     state.previous_time_step = time_step;
+    if (!stage.slows_loads())
+      state.load_time = state.time - state.stage_start;
+    else
+    {
+      state.load_time += advance;
+      if (requests.balance && last_energies.throughput() > 0.)
+        state.load_rate_growth = loading_rate::growth(
+            last_energies.kinetic
+                / (stage.kinetic_limit * last_energies.throughput()),
+            balance_interval);
+      state.load_rate
+          = loading_rate::next(state.load_rate, state.load_rate_growth);
+    }
   }
 
   void ExplicitSolver::account_for_new_step(State &state,

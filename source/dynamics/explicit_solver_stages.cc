@@ -7,6 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/free_bodies.h>
+#include <quoin/dynamics/loading_rate.h>
 #include <quoin/loads/free_field_boundary.h>
 
 #include <algorithm>
@@ -47,6 +48,17 @@ namespace quoin
             "section 'Stages/" + stage.name + "': 'Loads' names '"
             + constraint->name() + "', whose columns stand on the base '"
             + constraint->companion() + "', but not that. Add it.");
+
+    if (stage.slows_loads())
+      for (const auto &constraint : all_constraints)
+        if (constraint->moves_all() && !constraint->is_global()
+            && acts_in(*constraint, stage))
+          throw InputError("section 'Stages/" + stage.name
+                           + "': 'Kinetic energy limit' slows loads down, "
+                             "which waves through the boundary of the load '"
+                           + constraint->name()
+                           + "' cannot follow. Set it to 0, or use that load "
+                             "in another stage.");
 
     // Viscous boundaries act first, so that what is prescribed prevails;
     // platens last, because they move all of their nodes.
@@ -304,6 +316,9 @@ namespace quoin
     collect_constrained_nodes(state);
     state.stage_start      = state.time;
     state.stage_step       = 0;
+    state.load_time        = 0.;
+    state.load_rate        = stage.slows_loads() ? loading_rate::start : 1.;
+    state.load_rate_growth = 1.;
     state.adaptive_damping = 0.;
     state.unbalanced_ratio = 1.;
   }
@@ -345,10 +360,10 @@ namespace quoin
   bool ExplicitSolver::loads_have_changed(const State &state,
                                           const double duration) const
   {
-    const double now    = state.time - state.stage_start;
-    const double before = std::max(0., now - duration);
-    const TimePoint times[]
-        = { { before, state.stage_start + before }, { now, state.time } };
+    const double now        = state.load_time;
+    const double before     = std::max(0., now - duration);
+    const TimePoint times[] = { { before, state.stage_start + before },
+                                { now, state.stage_start + now } };
     for (const NodalLoad *load : loads_on)
       if (load->amplitude(times[0]) != load->amplitude(times[1]))
         return true;

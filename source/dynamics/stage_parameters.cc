@@ -22,6 +22,12 @@ namespace quoin
                       "the unbalanced forces has fallen to a share of that of "
                       "the applied ones.");
     prm.declare_entry("Duration", "0", Double(), "For 'End = time' [s]");
+    prm.declare_entry("Kinetic energy limit", "0", Double(),
+                      "The clock of the loads slows down, at most ten "
+                      "thousand times, so that kinetic energy stays below "
+                      "this share of the energy that went through; the "
+                      "duration is then one of that clock. For quasi-static "
+                      "loading to collapse; 0: loads follow the time [-]");
     prm.declare_entry("Static ratio", "1e-6", Double(),
                       "Unbalanced to applied force at which a stage with "
                       "'End = static ratio' ends [-]");
@@ -71,6 +77,11 @@ namespace quoin
       stage.minimum_duration = section.nonnegative("Minimum duration");
     }
     stage.maximum_steps = section.integer("Maximum steps");
+    stage.kinetic_limit = section.within("Kinetic energy limit", 0., 1.);
+    if (stage.slows_loads() && stage.end != StageEnd::time)
+      section.fail("Kinetic energy limit",
+                   "needs 'End = time': a stage that settles has loads that "
+                   "rest in the end.");
     if (section.text("Start time") != "previous end")
     {
       stage.start_time = section.numbers<1>("Start time").front();

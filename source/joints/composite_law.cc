@@ -38,6 +38,8 @@ namespace quoin
       point.plastic_slip    = slip - point.shear_traction / law.shear_stiffness;
       point.bond            = flow.bond;
       point.crushing        = flow.crushing;
+      if (law.cracks_close)
+        point.crack_opening += flow.opening;
       if (flow.opening > 0.)
         point.state = JointState::open;
       else if (flow.slip > 0.)
@@ -45,6 +47,23 @@ namespace quoin
       else if (flow.cap > 0. || point.state != JointState::intact)
         point.state = JointState::slipped;
       return lost;
+    }
+
+    /**
+     * Closes the crack of @p point as far as @p opening [m] asks for; returns
+     * by how much [m]. One that does not close wholly carries nothing.
+     */
+    double close_crack(const double opening, CompositePoint &point)
+    {
+      const double gap = point.plastic_opening - opening;
+      if (!(gap > 0. && point.crack_opening > 0.))
+        return 0.;
+      const double closed   = std::min(gap, point.crack_opening);
+      point.plastic_opening = closed < point.crack_opening
+                                  ? opening
+                                  : point.plastic_opening - closed;
+      point.crack_opening -= closed;
+      return closed;
     }
 
     /**
@@ -117,6 +136,46 @@ namespace quoin
       trial(0, 0) = trial(1, 1) = 1.;
       return J.fullPivLu().solve(trial).topRows<2>();
     }
+
+    /**
+     * A step that is not elastic: the crack closes first, then the joint is
+     * elastic or fails. @p tangent holds the elastic one.
+     */
+    template <bool with_tangent>
+    CompositeDissipation advance(const CompositeLaw &law, CompositePoint &point,
+                                 const double opening, const double slip,
+                                 CompositeTangent &tangent)
+    {
+      const double kn = law.normal_stiffness, ks = law.shear_stiffness;
+      const double sigma_before = point.normal_traction;
+      const double closed       = close_crack(opening, point);
+
+      CompositeDissipation lost;
+      const double trial_tau = ks * (slip - point.plastic_slip);
+      if (closed == 0. || !law.update_elastic(point, opening, slip))
+      {
+        const double direction = trial_tau < 0. ? -1. : 1.;
+        const CompositeReturnMap map(law, point,
+                                     kn * (opening - point.plastic_opening),
+                                     std::abs(trial_tau));
+        const CompositeFlow flow = map.end();
+        if (with_tangent)
+        {
+          const Eigen::Matrix2d D = differentiate(map, flow);
+          tangent                 = { D(0, 0) * kn, D(0, 1) * ks * direction,
+                                      D(1, 0) * kn * direction, D(1, 1) * ks };
+        }
+        lost = accept(map, flow, direction, opening, slip, point);
+      }
+      if (closed > 0.)
+        lost.tension -= 0.5 * (sigma_before + point.normal_traction) * closed;
+      if (closed > 0. && point.crack_opening > 0.) // carries nothing
+      {
+        point.state            = JointState::open;
+        tangent.normal_opening = tangent.shear_opening = 0.;
+      }
+      return lost;
+    }
   } // namespace
 
   double CompositeLaw::cap(const double crushing, double &slope) const
@@ -161,10 +220,8 @@ namespace quoin
                                                     const double opening,
                                                     const double slip) const
   {
-    const double sigma = normal_stiffness * (opening - point.plastic_opening);
-    const double tau   = shear_stiffness * (slip - point.plastic_slip);
-    const CompositeReturnMap map(*this, point, sigma, std::abs(tau));
-    return accept(map, map.end(), tau < 0. ? -1. : 1., opening, slip, point);
+    CompositeTangent unused;
+    return advance<false>(*this, point, opening, slip, unused);
   }
 
   CompositeDissipation CompositeLaw::update(CompositePoint &point,
@@ -172,20 +229,9 @@ namespace quoin
                                             const double slip,
                                             CompositeTangent &tangent) const
   {
-    const double kn = normal_stiffness, ks = shear_stiffness;
-    if (update_elastic(point, opening, slip))
-    {
-      tangent = { kn, 0., 0., ks };
-      return {};
-    }
-    const double sigma     = kn * (opening - point.plastic_opening);
-    const double tau       = ks * (slip - point.plastic_slip);
-    const double direction = tau < 0. ? -1. : 1.;
-    const CompositeReturnMap map(*this, point, sigma, std::abs(tau));
-    const CompositeFlow flow = map.end();
-    const Eigen::Matrix2d D  = differentiate(map, flow);
-    tangent                  = { D(0, 0) * kn, D(0, 1) * ks * direction,
-                                 D(1, 0) * kn * direction, D(1, 1) * ks };
-    return accept(map, flow, direction, opening, slip, point);
+    tangent = { normal_stiffness, 0., 0., shear_stiffness };
+    return update_elastic(point, opening, slip)
+               ? CompositeDissipation()
+               : advance<true>(*this, point, opening, slip, tangent);
   }
 } // namespace quoin

@@ -39,6 +39,12 @@ namespace quoin
     prm.declare_entry("Shear fracture energy", "none", Anything(),
                       "Mode II fracture energy GfII, or 'none': cohesion does "
                       "not soften [J/m^2]");
+    prm.declare_entry("Cracks", "stay open",
+                      dealii::Patterns::Selection("stay open|close"),
+                      "What unloading does to a crack that tension opened. "
+                      "stay open: unloading is elastic, compression comes back "
+                      "before the crack is closed, as published; close: it "
+                      "closes without resistance first, for cyclic loading.");
     prm.declare_entry("Dilation pressure", "none", Anything(),
                       "Pressure under which the joint dilates no more, or "
                       "'none': any [Pa]");
@@ -88,6 +94,8 @@ namespace quoin
         section.within("Dilation angle", 0., std::min(angle, residual)));
     law.dilation_pressure = positive_or_none(section, "Dilation pressure");
     law.dilation_decay    = section.nonnegative("Dilation decay");
+
+    law.cracks_close = section.text("Cracks") == "close";
 
     law.compression = positive_or_none(section, "Compressive strength");
     if (std::isinf(law.compression))

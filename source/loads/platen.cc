@@ -161,7 +161,8 @@ namespace quoin
       velocity_before[d]  = before;
       damping[d]          = 0.;
       if (components[d].quantity == LoadQuantity::velocity)
-        platen.velocity[d] = unit * components[d].value(step.middle);
+        platen.velocity[d]
+            = unit * step.load_rate * components[d].value(step.middle);
       else if (components[d].quantity == LoadQuantity::displacement)
         platen.velocity[d]
             = (platen.stage_start[d] + unit * components[d].value(step.end)

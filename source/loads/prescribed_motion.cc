@@ -44,7 +44,7 @@ namespace quoin
         continue;
       const double velocity
           = component.quantity == LoadQuantity::velocity
-                ? component.value(step.middle)
+                ? step.load_rate * component.value(step.middle)
                 : (component.value(step.end) - component.value(step.begin))
                       / step.dt;
       for (const unsigned int c : captured_positions)

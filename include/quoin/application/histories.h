@@ -68,6 +68,7 @@ namespace quoin
     const ExplicitSolver &solver;
     std::unique_ptr<BoundaryHistories> of_boundary; /**< or null */
     MPI_Comm communicator;
+    std::array<double, 2> load_clock{}; /**< its time [s] and rate */
     std::vector<double> row;
   };
 } // namespace quoin

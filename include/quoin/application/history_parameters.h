@@ -23,6 +23,8 @@ namespace quoin
     platen_force,
     unbalanced_ratio,
     kinetic_share,
+    load_time,
+    loading_rate,
     contacts,
     boundary_displacement,
     boundary_traction,

@@ -88,6 +88,8 @@ namespace quoin
     /** Returns whether the stage is over. */
     bool take_step(const StageParameters &stage);
     void report_blocks_outside();
+    /** Of a stage that lasts for a given time. */
+    bool time_is_over(const StageParameters &stage) const;
     bool stage_is_over(const StageParameters &stage, bool balance);
     void check_start() const;
     /** A file of the output folder. */

@@ -85,17 +85,19 @@ namespace quoin
     AlignedArray<double> plastic_opening; /**< dilation, offsets [m] */
     AlignedArray<double> bond;            /**< share of ft, c left [-] */
     AlignedArray<double> crushing;        /**< of the cap [m] */
+    AlignedArray<double> crack_opening;   /**< that may close again [m] */
     AlignedArray<JointState> state;
     /** Of each segment, two points: it is a general contact by now. */
     AlignedArray<std::uint8_t> handed_over;
 
-    /** bond and crushing stay empty unless a law @p softens. */
+    /** bond, crushing, crack_opening stay empty unless a law @p softens. */
     void resize(const std::size_t n, const bool softens = false)
     {
       if (softens)
       {
         bond.resize(n, 1.);
         crushing.resize(n, 0.);
+        crack_opening.resize(n, 0.);
       }
       normal_traction.resize(n, 0.);
       shear_traction.resize(n, 0.);
@@ -109,7 +111,7 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &normal_traction &shear_traction &plastic_slip &plastic_opening
-          &bond &crushing &state &handed_over;
+          &bond &crushing &crack_opening &state &handed_over;
     }
   };
 
@@ -323,6 +325,9 @@ namespace quoin
     unsigned int stage       = 0;
     double stage_start       = 0.; /**< [s] */
     std::uint64_t stage_step = 0;  /**< steps done in this stage */
+    double load_time         = 0.; /**< in the stage, by the loads' clock [s] */
+    double load_rate         = 1.; /**< of that clock [-] */
+    double load_rate_growth  = 1.; /**< a step [-] */
 
     AlignedArray<NodeRecord> nodes;
     AlignedArray<NodeVector> velocity; /**< at time - dt/2 */
@@ -344,10 +349,11 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &time &step &stage &stage_start &stage_step &nodes &velocity
-          &joints &contacts &platens &rigid_blocks &far_field &static_far_field
-              &viscous_boundaries &free_fields &adaptive_damping
-                  &previous_time_step &unbalanced_ratio &energy &pending;
+      archive &time &step &stage &stage_start &stage_step &load_time &load_rate
+          &load_rate_growth &nodes &velocity &joints &contacts &platens
+              &rigid_blocks &far_field &static_far_field &viscous_boundaries
+                  &free_fields &adaptive_damping &previous_time_step
+                      &unbalanced_ratio &energy &pending;
     }
   };
 } // namespace quoin

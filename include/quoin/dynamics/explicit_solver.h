@@ -75,6 +75,10 @@ namespace quoin
      */
     void account_for_initial_motion(State &state) const;
 
+    /** Steps between looks at unbalanced force, at NaN, and at the rate of
+        loads. */
+    static constexpr std::uint64_t balance_interval = 100;
+
     /** What is due at the time of a step; see step(). */
     struct Requests
     {

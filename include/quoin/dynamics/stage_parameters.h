@@ -45,6 +45,15 @@ namespace quoin
 
     double scaled_time_step = 0.; /**< of mass scaling [s]; 0: none */
 
+    /** Above this share of the energy that went through, kinetic energy slows
+        the loads down [-]; 0: they follow the time. */
+    double kinetic_limit = 0.;
+
+    bool slows_loads() const
+    {
+      return kinetic_limit > 0.;
+    }
+
     static void declare(dealii::ParameterHandler &prm);
     static StageParameters read(const ParameterSection &section,
                                 const std::string &name);

@@ -14,9 +14,8 @@ namespace quoin
   /**
    * One point of a masonry joint: what the law reads and overwrites.
    *
-   * The first four and the state are the arrays of the same names in
-   * JointHistory; @p bond and @p crushing are one more array each, which
-   * begin with 1 and 0.
+   * The arrays of the same names in JointHistory; @p bond begins with 1, all
+   * others with 0.
    */
   struct CompositePoint
   {
@@ -26,7 +25,9 @@ namespace quoin
     double plastic_opening = 0.; /**< w [m]; negative once crushed */
     double bond            = 1.; /**< ft/ft0 = c/c0 = exp(-k) [-] */
     double crushing        = 0.; /**< k3 [m] */
-    JointState state       = JointState::intact;
+    /** Share of w that tension opened and closing takes back [m]. */
+    double crack_opening = 0.;
+    JointState state     = JointState::intact;
   };
 
   /** Energy per area that an update dissipated [J/m^2]. */
@@ -66,9 +67,12 @@ namespace quoin
    * tan(phi) going from its peak to its residual value as c goes to zero. f1
    * and f3 are associated; f2 flows with tan(psi). Tension and shear soften
    * together, k1 = k2 (GfI c0)/(GfII ft0), so that ft/ft0 = c/c0 for good and
-   * one number, the @em bond, stands for both. Unloading is elastic with the
-   * first stiffness: plastic opening stays, and a crack that closes carries
-   * compression as soon as u_n < w.
+   * one number, the @em bond, stands for both.
+   *
+   * Unloading is elastic with the first stiffness. In the published law plastic
+   * opening stays, and a crack that closes carries compression as soon as
+   * u_n < w. With @p cracks_close what tension opened closes without
+   * resistance first: at sigma = 0, down to what dilation and crushing left.
    *
    * Strengths and stiffnesses are finite, energies positive (infinite: that
    * mode does not soften), ft0 tan(phi) <= c0, and tan(psi0) <= tan(phi), or
@@ -103,6 +107,8 @@ namespace quoin
     double cap_shear          = 9.;       /**< Css */
     double cap_offset         = 0.;       /**< Cn [Pa] */
 
+    bool cracks_close = false;
+
     /**
      * Whether no mode can snap back: GfI kn > ft0^2, GfII ks > c0^2 and kn
      * above the steepest slope of the cap. Otherwise the law drops at
@@ -124,11 +130,12 @@ namespace quoin
     CompositeDissipation update(CompositePoint &point, double opening,
                                 double slip, CompositeTangent &tangent) const;
 
-    /** The same, if the joint is elastic there; else false. */
+    /** The same, if the joint is elastic there and no crack closes; else
+        false. */
     bool update_elastic(CompositePoint &point, double opening,
                         double slip) const;
 
-    /** The same for a joint that fails. */
+    /** The same for a joint that fails or closes. */
     CompositeDissipation update_failing(CompositePoint &point, double opening,
                                         double slip) const;
 
@@ -194,6 +201,8 @@ namespace quoin
     const double sigma = normal_stiffness * (opening - point.plastic_opening);
     const double tau   = shear_stiffness * (slip - point.plastic_slip);
     const double load  = cap_load(sigma, tau);
+    if (sigma < 0. && point.crack_opening > 0.)
+      return false;
     if (!(sigma <= tension * point.bond
           && std::abs(tau)
                  <= cohesion * point.bond - sigma * friction_at(point.bond)))
