@@ -90,7 +90,7 @@ def scale_for(unit, largest):
     return 1.0, unit
 
 
-def with_unit(value, unit):
+def with_unit(value, unit, form=".3g"):
     """A number as it is shown, e.g. 0.00102, "m" as "1.02 mm"."""
     factor, shown = scale_for(unit, abs(value))
-    return f"{value * factor:.3g} {shown}".rstrip()
+    return f"{value * factor:{form}} {shown}".rstrip()

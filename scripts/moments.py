@@ -11,6 +11,7 @@ import numpy as np
 import vtu
 from csv_table import Table, unit_of, with_unit
 
+SLACK = 1e-3                         # of the range of a history
 # label: what is written above the picture, None: the time
 Moment = namedtuple("Moment", "time label", defaults=(None,))
 
@@ -41,6 +42,10 @@ def time_when(time, value, wanted, name):
         return time[np.abs(value).argmax()]
     beyond = (value >= wanted) if wanted >= value[0] else (value <= wanted)
     if not beyond.any():
+        # A run ends a step before its last value: 3.9999 mm stands for 4.
+        nearest = np.abs(value - wanted).argmin()
+        if abs(value[nearest] - wanted) <= SLACK * np.ptp(value):
+            return time[nearest]
         raise ValueError(f"'{name}' never reaches {wanted:g}: it is from "
                          f"{value.min():g} to {value.max():g}")
     k = int(beyond.argmax())
@@ -84,7 +89,8 @@ def moments_at(output, text, series="blocks.pvd"):
                 f"{column} = {moments[field][0]} and {target} have the same "
                 f"nearest field, at {field:g} s; lower 'Output/Field "
                 f"interval'")
-        there = with_unit(np.interp(field, time, value), unit_of(name))
+        there = with_unit(np.interp(field, time, value), unit_of(name),
+                          "#.3g")
         moments[field] = (target, Moment(
             field, f"{name.split(' [')[0]} {there}"
             + (f" ({target})" if target in ("peak", "end") else "")))

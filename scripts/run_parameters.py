@@ -32,13 +32,19 @@ def joint_sets(output):
     return [name.strip() for name in names.split(",") if name.strip()]
 
 
+def of_joint_sets(output, entry):
+    """A number of each joint set."""
+    joints = read(output).get("Joints", {})
+    return [float(joints[name][entry]) for name in joint_sets(output)]
+
+
 def peak_crushing(output):
     """Of each joint set, the plastic closing at the compressive strength
     [m]; infinite where the joint does not crush."""
     joints = read(output).get("Joints", {})
     return [
-        float(joints[name]["Peak crushing"])
-        if joints[name].get("Compressive strength", "none") != "none"
-        else float("inf")
-        for name in joint_sets(output)
+        peak if joints[name]["Law"] == "composite"
+        and joints[name]["Compressive strength"] != "none" else float("inf")
+        for name, peak in zip(joint_sets(output),
+                              of_joint_sets(output, "Peak crushing"))
     ]
