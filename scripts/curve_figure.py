@@ -194,6 +194,13 @@ class CurveFigure:
                 data.column(curve["column"])
                 * curve.get("factor", self.y.get("factor", 1.0)))
 
+    def place_at(self, time):
+        """Where the first curve of the first run is at a time [s]."""
+        folder, curve = self.runs[0][0], self.spec["curves"][0]
+        when = self.table(folder, curve).column(0)
+        return [np.interp(time, when, value)
+                for value in self.points(folder, curve)]
+
     def line(self, axes, entry, x, y, style, label, **look):
         """A curve, with its peak if that is wanted."""
         line = axes.plot(x, y, entry.get("style", style), **look)[0]

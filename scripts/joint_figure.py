@@ -3,8 +3,6 @@
 """Joints and contacts for scripts/render: joints by their state, as cracks by
 mode and width, or by their damage."""
 
-import itertools
-
 import numpy as np
 
 from matplotlib.cm import ScalarMappable
@@ -119,10 +117,10 @@ class CrackJoints:
         widths = np.concatenate(
             [crack_modes(grid, *self.properties)[1] for grid in grids]
             or [np.zeros(0)])
-        widths = widths[widths > 1e-3 * max(widths.max(initial=0.0), 1e-12)]
-        # A few ends that move most must not make all others thin.
+        widths = widths[widths > 1e-2 * max(widths.max(initial=0.0), 1e-12)]
+        # A bed joint on which all slides must not make all others thin.
         self.widest = widest or round_near(
-            np.quantile(widths, 0.9) if len(widths) else 1e-3)
+            widths.mean() if len(widths) else 1e-3)
 
     def draw(self, axes, joints, scale, with_count):
         position = current_position(joints, scale)
@@ -151,9 +149,7 @@ class CrackJoints:
         least = with_unit(LEAST_SHARE * self.widest, "m")
         intact = Line2D([], [], color=STATES[INTACT][1], linewidth=0.6,
                         label=f"intact or below {least}")
-        # Legends fill their columns first: modes above, widths below.
-        rows = itertools.zip_longest(modes + [intact], widths)
-        return [handle for pair in rows for handle in pair if handle]
+        return modes + [intact] + widths
 
     def mappable(self):
         return None

@@ -48,9 +48,8 @@ def draw_moment(picture, frame):
         figure.colorbar(mappable, label=label,
                         cax=axes.inset_axes([1.03 + 0.2 * k, 0, 0.03, 1]))
     if handles:
-        axes.legend(handles=handles, loc="upper center", fontsize=8,
-                    bbox_to_anchor=(0.5, -0.55 / height),
-                    ncol=legend_columns(len(handles)))
+        axes.legend(loc="upper center", fontsize=8,
+                    bbox_to_anchor=(0.5, -0.55 / height), **in_rows(handles))
     return figure
 
 
@@ -98,8 +97,20 @@ def letter(k):
     return chr(ord("a") + k % 26)
 
 
-def legend_columns(n):
-    return n if n <= 5 else -(-n // 2)
+def in_rows(handles):
+    """How many columns a legend has, and the handles so that it reads row by
+    row, though it is filled by columns."""
+    n = len(handles)
+    columns = n if n <= 5 else -(-n // 2)
+    return {"ncol": columns,
+            "handles": [h for k in range(columns) for h in handles[k::columns]]}
+
+
+def legend_in(axes, handles, remark):
+    """In axes of its own."""
+    axes.axis("off")
+    axes.legend(handles=handles, title=remark, title_fontsize=8, fontsize=8,
+                loc="center")
 
 
 def place_legend(figure, all_axes, handles, remark):
@@ -112,9 +123,9 @@ def place_legend(figure, all_axes, handles, remark):
                              + max(box.x1 for box in boxes)),
                       min(box.y0 for box in boxes)))
     if handles:
-        figure.legend(handles=handles, title=remark, title_fontsize=8,
-                      fontsize=8, loc="upper center", bbox_to_anchor=(x, y),
-                      ncol=legend_columns(len(handles)), borderaxespad=0.3)
+        figure.legend(title=remark, title_fontsize=8, fontsize=8,
+                      loc="upper center", bbox_to_anchor=(x, y),
+                      borderaxespad=0.3, **in_rows(handles))
     else:
         figure.text(x, y - 0.02, remark, fontsize=8, ha="center", va="top")
 
