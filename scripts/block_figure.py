@@ -227,7 +227,7 @@ class Picture:
                          "velocity [m/s]"))
         if self.contours:
             bars.append((self.contours.mappable(),
-                         "minor principal stress [MPa]"))
+                         f"minor principal stress [{self.contours.unit}]"))
         if self.joints and self.joints.mappable():
             bars.append((self.joints.mappable(), "damage of joints [-]"))
         return bars

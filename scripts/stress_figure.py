@@ -10,6 +10,7 @@ their mean.
 
 import numpy as np
 
+from csv_table import scale_for, with_unit
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm
@@ -92,12 +93,12 @@ class Crosses:
     def __init__(self, frames, size, n_across):
         self.spacing = size / n_across
         values = [self.values(frame.blocks) for frame in frames]
+        sizes = [np.maximum(np.abs(s1), np.abs(s2))
+                 for _, _, s1, s2, _ in values]
+        largest = max(size.max() for size in sizes)
         # The few crosses at a corner must not make all others invisible.
-        self.reference = round_near(max(
-            np.quantile(np.maximum(np.abs(s1), np.abs(s2)), 0.9)
-            for _, _, s1, s2, _ in values))
-        largest = max(max(np.abs(s1).max(), np.abs(s2).max())
-                      for _, _, s1, s2, _ in values)
+        self.reference = round_near(
+            max(np.quantile(size, 0.9) for size in sizes) or largest)
         self.is_cut = largest > LONGEST * self.reference
         self.half = 0.45 * self.spacing / self.reference
 
@@ -127,9 +128,9 @@ class Crosses:
         x, y = corner
         axes.plot([x, x + length], [y, y], color=COMPRESSION, linewidth=1.2,
                   solid_capstyle="butt", clip_on=False)
-        text = f"{self.reference / 1e6:g} MPa"
+        text = with_unit(self.reference, "Pa")
         if self.is_cut:
-            text += f", cut at {LONGEST * self.reference / 1e6:g} MPa"
+            text += f", cut at {with_unit(LONGEST * self.reference, 'Pa')}"
         axes.text(x + 1.4 * length, y, text, fontsize=7.5, va="center",
                   clip_on=False)
 
@@ -141,23 +142,29 @@ class Contours:
         values = np.concatenate([self.values(f.blocks) for f in frames])
         values = values[np.isfinite(values)]
         low, high = np.quantile(values, [0.01, 0.99])
-        if high - low < 1e-9 * max(abs(low), abs(high), 1e-3):
-            low, high = low - 0.5, high + 0.5
+        largest = max(abs(low), abs(high))
+        if high - low <= 1e-3 * largest:
+            # the same everywhere: its colour is in the middle
+            low, high = low - (largest or 1.0), high + (largest or 1.0)
+        self.factor, self.unit = scale_for("Pa", largest)
         self.levels = MaxNLocator(9, steps=[1, 2, 2.5, 5, 10]).tick_values(
-            low, high)
+            self.factor * low, self.factor * high)
+        values = values * self.factor
+        self.rounding = 1e-6 * self.factor * largest or 1.0
         self.extend = {(True, True): "both", (True, False): "min",
                        (False, True): "max", (False, False): "neither"}[
             values.min() < self.levels[0], values.max() > self.levels[-1]]
 
     @staticmethod
     def values(blocks):
-        """At the nodes [MPa]."""
-        return principal(nodal_stress(blocks))[1] / 1e6
+        """At the nodes [Pa]."""
+        return principal(nodal_stress(blocks))[1]
 
     def draw(self, axes, blocks, position):
         # Blocks share no nodes, so that contours end at joints.
         # Rounded, or stress-free rigid blocks scatter about the level zero.
-        value = np.round(np.nan_to_num(self.values(blocks)), 6)
+        value = np.nan_to_num(self.factor * self.values(blocks))
+        value = self.rounding * np.round(value / self.rounding)
         axes.tricontourf(*position.T, blocks.cells, value,
                          levels=self.levels, cmap=CONTOURS,
                          extend=self.extend)

@@ -185,7 +185,7 @@ class Stresses(unittest.TestCase):
         self.assertEqual(crosses.reference, 5e6)
         self.assertFalse(crosses.is_cut)
         self.assertEqual(stress_figure.Contours.values(Frame.blocks).min(),
-                         -4.4)
+                         -4.4e6)
 
 
 def joints():
