@@ -2,7 +2,9 @@
 # Copyright (C) 2026 The quoin authors
 """Figures of curves for scripts/plot, from a description as in plot.json."""
 
+import json
 import os
+import re
 
 import numpy as np
 
@@ -13,6 +15,22 @@ import matplotlib.pyplot as plt
 MILLIMETRES = 1.0 / 25.4
 STYLES = ("-", "--", ":", "-.")
 BAND = "#b8c4cc"
+AT_END = 0.02                        # of the range of x
+
+
+def read_specs(path):
+    """The figures that a plot.json describes, at least one."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            specs = json.load(file)
+    except OSError as error:
+        raise ValueError(f"{path}: {error.strerror}") from error
+    except json.JSONDecodeError as error:
+        raise ValueError(f"{path}: {error}") from error
+    specs = specs if isinstance(specs, list) else [specs]
+    if not specs:
+        raise ValueError(f"{path}: it describes no figure")
+    return specs
 
 
 def is_number(value):
@@ -149,14 +167,20 @@ def draw_band(axes, band, beside):
 
 
 def peak_of(x, y, limits):
-    """Index of the largest magnitude within the limits of x; None if there
-    is nothing."""
+    """Index of the largest magnitude within the limits of x, and whether the
+    curve rises to its end there; None if there is nothing."""
     seen = np.isfinite(x) & np.isfinite(y)
     if limits:
         seen &= (x >= min(limits)) & (x <= max(limits))
     if not seen.any():
         return None
-    return int(np.where(seen, np.abs(y), -1.0).argmax())
+    k = int(np.where(seen, np.abs(y), -1.0).argmax())
+    return k, abs(x[seen][-1] - x[k]) <= AT_END * np.ptp(x[seen])
+
+
+def look_of(style, colour):
+    """The colour, unless the style has one."""
+    return {} if re.search(r"[bgrcmykw]|C\d", style) else {"color": colour}
 
 
 class CurveFigure:
@@ -201,18 +225,21 @@ class CurveFigure:
         return [np.interp(time, when, value)
                 for value in self.points(folder, curve)]
 
-    def line(self, axes, entry, x, y, style, label, **look):
+    def line(self, axes, entry, x, y, style, colour, label, **look):
         """A curve, with its peak if that is wanted."""
-        line = axes.plot(x, y, entry.get("style", style), **look)[0]
-        if entry.get("peak", self.spec.get("peak", False)):
-            k = peak_of(x, y, self.x.get("limits"))
-            if k is not None:
-                label += (f", peak {y[k]:.3g} {unit_of(self.y_label)}".rstrip()
-                          + f" at {x[k]:.3g} {unit_of(self.x_label)}".rstrip())
-                # What rises to its end has not shown its peak.
-                label += " (at its end)" if k == len(y) - 1 else ""
-                axes.plot(x[k], y[k], "o", color=line.get_color(),
-                          markersize=5, markeredgecolor="white", zorder=4)
+        style = entry.get("style", style)
+        look.update(look_of(style, colour) if "color" not in entry
+                    else {"color": entry["color"]})
+        line = axes.plot(x, y, style, **look)[0]
+        peak = (peak_of(x, y, self.x.get("limits"))
+                if entry.get("peak", self.spec.get("peak", False)) else None)
+        if peak is not None:
+            k, at_end = peak
+            label += (f", peak {y[k]:.3g} {unit_of(self.y_label)}".rstrip()
+                      + f" at {x[k]:.3g} {unit_of(self.x_label)}".rstrip()
+                      + (" (at its end)" if at_end else ""))
+            axes.plot(x[k], y[k], "o", color=line.get_color(), markersize=5,
+                      markeredgecolor="white", zorder=4, clip_on=False)
         line.set_label(label)
 
     def draw_references(self, axes):
@@ -222,7 +249,7 @@ class CurveFigure:
             entry = dict(reference, peak=reference.get("peak", False))
             self.line(
                 axes, entry, *reference_points(reference, self.beside),
-                style=next(markers), color=reference.get("color", "0.45"),
+                style=next(markers), colour="0.45",
                 markersize=4, markerfacecolor="none",
                 label=reference.get(
                     "label", os.path.splitext(reference["file"])[0]))
@@ -237,11 +264,9 @@ class CurveFigure:
                     folder, curve).full_name(curve["column"])
                 label = (name if not several else run_label
                          if len(curves) == 1 else f"{run_label}: {name}")
-                colour = (f"C{r % 10}" if several
-                          else curve.get("color", f"C{c % 10}"))
                 self.line(axes, curve, *self.points(folder, curve),
                           style=STYLES[c % 4] if several else "-",
-                          color=colour, label=label)
+                          colour=f"C{(r if several else c) % 10}", label=label)
 
     def draw(self, axes):
         """Everything but the title and the legend."""

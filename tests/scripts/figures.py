@@ -119,8 +119,8 @@ class Curves(Says):
 
     def test_peak(self):
         x, y = np.array([0., 1., 2., 3.]), np.array([0., -3., 2., -5.])
-        self.assertEqual(curve_figure.peak_of(x, y, None), 3)
-        self.assertEqual(curve_figure.peak_of(x, y, [0., 2.5]), 1)
+        self.assertEqual(curve_figure.peak_of(x, y, None), (3, True))
+        self.assertEqual(curve_figure.peak_of(x, y, [0., 2.5]), (1, False))
         self.assertIsNone(curve_figure.peak_of(x, y, [8., 9.]))
 
     def test_descriptions(self):
