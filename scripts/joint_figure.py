@@ -144,7 +144,8 @@ class CrackJoints:
                  if number != CRUSHING or self.can_crush]
         widths = [
             Line2D([], [], color="0.35", linewidth=self.line_width(w),
-                   label=("≥ " if w == self.widest else "") + with_unit(w, "m"))
+                   label=("≥ " if w == self.widest else "")
+                   + with_unit(w, "m"))
             for w in self.widest * np.array([0.2, 0.5, 1.0])]
         least = with_unit(LEAST_SHARE * self.widest, "m")
         intact = Line2D([], [], color=STATES[INTACT][1], linewidth=0.6,
