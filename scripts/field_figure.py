@@ -26,11 +26,12 @@ def is_field_run(output):
 class FieldFrame:
     """Field and boundary at one moment; the field may be None."""
 
-    def __init__(self, output, time):
+    def __init__(self, output, time, label=None):
         def series(name):
             path = os.path.join(output, name)
             return vtu.read_at(path, time) if os.path.exists(path) else None
 
+        self.label = label
         self.boundary = series("boundary.pvd")
         if self.boundary is None:
             raise ValueError("no field was written to boundary.pvd")
@@ -87,14 +88,15 @@ class FieldPicture:
         axes.set_aspect("equal")
         return []
 
-    def title(self, frame, digits="3g"):
+    def caption(self, frame, digits="3g"):
         for factor, unit in ((1.0, "s"), (1e3, "ms")):
             if frame.time * factor >= 0.1:
                 break
-        return f"t = {frame.time * factor:.{digits}} {unit}"
+        return frame.label or f"t = {frame.time * factor:.{digits}} {unit}"
 
-    def colour_bar(self, figure, cax_of=None, **where):
-        if cax_of is not None:
-            where["cax"] = cax_of.inset_axes([1.03, 0, 0.03, 1])
-        figure.colorbar(ScalarMappable(self.values, plt.get_cmap(COLOURS)),
-                        label=f"{self.name} [{UNITS[self.name]}]", **where)
+    def remark(self):
+        return ""
+
+    def colour_bars(self):
+        return [(ScalarMappable(self.values, plt.get_cmap(COLOURS)),
+                 f"{self.name} [{UNITS[self.name]}]")]

@@ -1,0 +1,233 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Pictures of a run of blocks for scripts/render: the deformed blocks with
+what joint_figure and stress_figure add to them."""
+
+import os
+
+import numpy as np
+
+import vtu
+from joint_figure import (CrackJoints, DamageJoints, StateJoints,
+                          contact_forces, draw_contacts)
+from stress_figure import Contours, Crosses
+import matplotlib.pyplot as plt
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import Normalize
+
+MATERIALS = ["#e9e2d6", "#cfd8dc", "#dcd3e3", "#d3e3d5", "#e3d3d3"]
+STONES = ["#d9c9ad", "#c9b693", "#e3d7c0", "#bfb3a0", "#d3bf9f", "#cbbfae",
+          "#b9a888"]
+VELOCITY_COLOURS = "YlOrRd"
+LARGEST_TURN = 0.3                   # [rad], see automatic_scale()
+
+
+class Frame:
+    """The fields of one moment; joints and contacts may be None."""
+
+    def __init__(self, output, time, label=None):
+        def series(name):
+            path = os.path.join(output, name)
+            return vtu.read_at(path, time) if os.path.exists(path) else None
+
+        self.label = label
+        self.blocks = series("blocks.pvd")
+        self.joints = series("joints.pvd")
+        self.contacts = series("contacts.pvd")
+        if self.blocks is None:
+            raise ValueError(f"no blocks are listed in "
+                             f"{os.path.join(output, 'blocks.pvd')}; was a "
+                             f"field written?")
+        for name in ("joints", "contacts"):
+            # a series that ended earlier says nothing of this moment
+            grid = getattr(self, name)
+            if grid is not None and grid.time != self.blocks.time:
+                setattr(self, name, None)
+
+    @property
+    def time(self):
+        return self.blocks.time
+
+    def position(self, scale):
+        u = self.blocks.point_data["displacement"][:, :2]
+        return self.blocks.points + scale * u
+
+
+def round_down(value):
+    """1, 2 or 5 times a power of ten, and not below 1."""
+    value = max(value, 1.0)
+    power = 10.0 ** np.floor(np.log10(value))
+    return power * max(f for f in (1.0, 2.0, 5.0) if f * power <= value)
+
+
+def largest_turn(blocks):
+    """The largest rotation of a block [rad], from the best rigid fit."""
+    cells, block = blocks.cells, blocks.cell_data["block"]
+    node_block = np.empty(len(blocks.points), dtype=int)
+    node_block[cells] = block[:, None]
+    # blocks share no nodes; a node without cells belongs to none
+    used = np.zeros(len(blocks.points), dtype=bool)
+    used[cells] = True
+    X = blocks.points[used]
+    x = X + blocks.point_data["displacement"][used, :2]
+    _, owner = np.unique(node_block[used], return_inverse=True)
+    count = np.bincount(owner)
+
+    def about_centre(p):
+        centre = np.stack([np.bincount(owner, p[:, d]) / count
+                           for d in range(2)], axis=1)
+        return p - centre[owner]
+
+    X, x = about_centre(X), about_centre(x)
+    sine = np.bincount(owner, X[:, 0] * x[:, 1] - X[:, 1] * x[:, 0])
+    cosine = np.bincount(owner, X[:, 0] * x[:, 0] + X[:, 1] * x[:, 1])
+    return np.abs(np.arctan2(sine, cosine)).max()
+
+
+def automatic_scale(blocks):
+    """Shows the largest displacement, rigid translation taken off, as about
+    4 % of the size, unless a block would seem turned by more than
+    LARGEST_TURN: enlarged rotations blow blocks up. Infinite if nothing has
+    moved."""
+    u = blocks.point_data["displacement"][:, :2]
+    largest = np.linalg.norm(u - u.mean(axis=0), axis=1).max()
+    size = np.ptp(blocks.points, axis=0).max()
+    if largest <= 1e-12 * size:
+        return np.inf
+    turn = max(largest_turn(blocks), 1e-12)
+    return round_down(min(0.04 * size / largest, LARGEST_TURN / turn))
+
+
+def outline(blocks):
+    """The edges that belong to one cell only: the contours of the blocks."""
+    c = blocks.cells
+    edges = np.sort(np.concatenate([c[:, [0, 1]], c[:, [1, 2]], c[:, [2, 0]]]))
+    unique, count = np.unique(edges, axis=0, return_counts=True)
+    return unique[count == 1]
+
+
+def block_colours(number):
+    """Tints of stone that differ between neighbours, and stay with a block."""
+    mixed = number.astype(np.uint64) * np.uint64(2654435761) >> np.uint64(7)
+    return np.array(STONES)[mixed % np.uint64(len(STONES))]
+
+
+def cell_speed(blocks):
+    v = np.linalg.norm(blocks.point_data["velocity"][:, :2], axis=1)
+    return v[blocks.cells].mean(axis=1)
+
+
+class Picture:
+    """Draws frames with one scale, one view and one range of colours."""
+
+    def __init__(self, options, frames):
+        self.options = options
+        self.scale = options.scale
+        if self.scale is None:
+            self.scale = min(automatic_scale(f.blocks) for f in frames)
+            self.scale = self.scale if np.isfinite(self.scale) else 1.0
+        if options.view:
+            self.low, self.high = np.reshape(options.view, (2, 2))
+        else:
+            places = [f.position(self.scale) for f in frames]
+            self.low = np.min([p.min(axis=0) for p in places], axis=0)
+            self.high = np.max([p.max(axis=0) for p in places], axis=0)
+        self.extent = self.high - self.low
+
+        # A few extremes must not make all others pale or thin.
+        self.speeds = self.contours = self.crosses = None
+        if options.colour == "velocity":
+            fastest = max(np.quantile(cell_speed(f.blocks), 0.99)
+                          for f in frames)
+            self.speeds = Normalize(0.0, fastest or 1.0, clip=True)
+        if options.colour == "stress":
+            self.contours = Contours(frames)
+        self.is_panel = len(frames) > 1
+        if options.principal:
+            size = np.ptp(frames[0].blocks.points, axis=0).max()
+            self.crosses = Crosses(frames, size, options.crosses
+                                   or (20 if self.is_panel else 32))
+        self.joints = None if options.blocks_only else self.joint_style(frames)
+        forces = [contact_forces(f.contacts) for f in frames if f.contacts]
+        self.force = max([np.quantile(f, 0.99) for f in forces], default=0.0)
+
+    def joint_style(self, frames):
+        if self.options.joints == "mode":
+            return CrackJoints(self.options.output, frames,
+                               self.options.widest)
+        if self.options.joints == "damage":
+            return DamageJoints(frames)
+        return StateJoints()
+
+    def draw(self, axes, frame, with_count):
+        """One moment; returns the handles of the legend."""
+        position = frame.position(self.scale)
+        axes.grid(False)
+        self.draw_blocks(axes, frame.blocks, position)
+        handles = []
+        if frame.joints and self.joints:
+            handles += self.joints.draw(axes, frame.joints, self.scale,
+                                        with_count)
+        if frame.contacts and self.force > 0.0 and self.joints:
+            handles += draw_contacts(axes, frame.contacts, self.scale,
+                                     self.force)
+        margin = 0.0 if self.options.view else 0.02 * self.extent.max()
+        below = margin
+        if self.crosses:
+            handles += self.crosses.draw(axes, frame, position,
+                                         0.7 if self.is_panel else 0.9)
+            below += 0.05 * self.extent[1]
+            self.crosses.draw_bar(
+                axes, (self.low[0], self.low[1] - 0.045 * self.extent[1]))
+        axes.set_xlim(self.low[0] - margin, self.high[0] + margin)
+        axes.set_ylim(self.low[1] - below, self.high[1] + margin)
+        axes.set_aspect("equal")
+        return handles
+
+    def draw_blocks(self, axes, blocks, position):
+        contour = position[outline(blocks)]
+        show_mesh = self.options.mesh
+        if self.contours:
+            self.contours.draw(axes, blocks, position)
+        else:
+            colours = self.colours(blocks)
+            axes.add_collection(PolyCollection(
+                position[blocks.cells], facecolors=colours,
+                edgecolors="0.75" if show_mesh else colours,
+                linewidths=0.15 if show_mesh else 0.4))
+        axes.add_collection(
+            LineCollection(contour, colors="0.35", linewidths=0.4))
+
+    def colours(self, blocks):
+        """Of the cells."""
+        if self.speeds:
+            return plt.get_cmap(VELOCITY_COLOURS)(
+                self.speeds(cell_speed(blocks)))
+        if self.options.colour == "block":
+            return block_colours(blocks.cell_data["block"])
+        return np.array(MATERIALS)[
+            blocks.cell_data["material"] % len(MATERIALS)]
+
+    def caption(self, frame, digits="4g"):
+        """Which moment it is."""
+        return frame.label or f"t = {frame.time:.{digits}} s"
+
+    def remark(self):
+        """What holds of all moments."""
+        return ("" if self.scale == 1.0
+                else f"displacements × {self.scale:g}")
+
+    def colour_bars(self):
+        """(mappable, label) of each scale of colours."""
+        bars = []
+        if self.speeds:
+            bars.append((ScalarMappable(self.speeds,
+                                        plt.get_cmap(VELOCITY_COLOURS)),
+                         "velocity [m/s]"))
+        if self.contours:
+            bars.append((self.contours.mappable(),
+                         f"minor principal stress [{self.contours.unit}]"))
+        if self.joints and self.joints.mappable():
+            bars.append((self.joints.mappable(), "damage of joints [-]"))
+        return bars

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Joints and contacts for scripts/render: joints by their state, as cracks by
+mode and width, or by their damage."""
+
+import numpy as np
+
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection
+from matplotlib.colors import LinearSegmentedColormap, Normalize
+from matplotlib.lines import Line2D
+
+import run_parameters
+from csv_table import with_unit
+from stress_figure import COMPRESSION, round_near
+
+# state: (name, colour, line width), drawn in this order; see JointState
+STATES = {
+    0: ("intact", "0.6", 0.4),
+    2: ("slipped", "#f2c500", 1.6),
+    1: ("slipping", "#f07800", 1.8),
+    3: ("open", "#d00000", 2.0),
+}
+INTACT, SLIPPING, OPEN = 0, 1, 3
+# how a crack moves: (name, colour), in the order in which they are drawn
+MODES = (("shear slip", "#f07800"), ("tensile opening", "#d00000"),
+         ("crushing", "#4b1e78"))
+SHEAR, TENSION, CRUSHING = 0, 1, 2
+WIDEST_CRACK, THINNEST_CRACK = 4.0, 0.6      # [pt]
+LEAST_SHARE = 0.02                   # of the widest, below it is no crack
+DAMAGE_COLOURS = LinearSegmentedColormap.from_list(
+    "damage", ["0.65", "#fecc5c", "#fd8d3c", "#e31a1c", "#800026"])
+WIDEST_CONTACT = 5.0                 # [pt]
+
+
+def current_position(grid, scale):
+    """Of joints and contacts, whose points are at their current places; None
+    where those cannot be enlarged."""
+    if scale == 1.0:
+        return grid.points
+    if "displacement" not in grid.point_data:
+        return None
+    u = grid.point_data["displacement"][:, :2]
+    return grid.points + (scale - 1.0) * u
+
+
+def add_lines(axes, lines, **look):
+    axes.add_collection(LineCollection(lines, capstyle="round", **look))
+
+
+def add_cracks(axes, lines, **look):
+    """Flat at their ends, which round ones would seem to move, and a little
+    longer than the faces, so that no seams show."""
+    longer = 0.02 * np.diff(lines, axis=1)[:, 0]
+    lines = lines + np.stack([-longer, longer], axis=1)
+    axes.add_collection(LineCollection(lines, **look))
+
+
+class StateJoints:
+    """Joints by the worse state of their ends."""
+
+    def draw(self, axes, joints, scale, with_count):
+        position = current_position(joints, scale)
+        state = joints.cell_data["state"]
+        handles = []
+        for number, (name, colour, width) in STATES.items():
+            lines = position[joints.cells[state == number]]
+            if len(lines) == 0:
+                continue
+            add_lines(axes, lines, colors=colour, linewidths=width)
+            count = f" ({len(lines)})" if with_count else ""
+            handles.append(Line2D([], [], color=colour,
+                                  linewidth=max(width, 1.0),
+                                  label=name + count))
+        return handles
+
+    def mappable(self):
+        return None
+
+
+def crack_modes(joints, shear_stiffness, peak_crushing):
+    """Mode of each face and how wide it is [m]: the mean of its ends.
+
+    A face is crushed once its plastic closing is beyond that at the
+    compressive strength of its set, @p peak_crushing [m]; otherwise it opens
+    or slips, whichever is more. Faces that never failed have no width, and
+    slip without its elastic part, by @p shear_stiffness [Pa/m], is what counts.
+    """
+    of_set = joints.cell_data["joint set"]
+
+    def mean(name):
+        return joints.point_data[name][joints.cells].mean(axis=1)
+
+    opening = np.maximum(mean("opening"), 0.0)
+    slip = np.abs(mean("slip") - mean("shear traction")
+                  / np.asarray(shear_stiffness)[of_set])
+    mode = np.where(opening >= slip, TENSION, SHEAR)
+    width = np.maximum(opening, slip)
+    if "crushing" in joints.point_data:
+        crushing = mean("crushing")
+        is_crushed = crushing > np.asarray(peak_crushing)[of_set]
+        mode = np.where(is_crushed, CRUSHING, mode)
+        width = np.where(is_crushed, crushing, width)
+    return mode, np.where(joints.cell_data["state"] == INTACT, 0.0, width)
+
+
+class CrackJoints:
+    """Cracks coloured by mode and as wide as they open, slip or close; one
+    scale for all frames."""
+
+    def __init__(self, output, frames, widest=None):
+        grids = [f.joints for f in frames if f.joints is not None]
+        self.can_crush = any("crushing" in g.point_data for g in grids)
+        self.properties = (
+            run_parameters.of_joint_sets(output, "Shear stiffness"),
+            run_parameters.peak_crushing(output))
+        widths = np.concatenate(
+            [crack_modes(grid, *self.properties)[1] for grid in grids]
+            or [np.zeros(0)])
+        widths = widths[widths > 1e-2 * max(widths.max(initial=0.0), 1e-12)]
+        # A bed joint on which all slides must not make all others thin.
+        self.widest = widest or round_near(
+            widths.mean() if len(widths) else 1e-3)
+
+    def draw(self, axes, joints, scale, with_count):
+        position = current_position(joints, scale)
+        mode, width = crack_modes(joints, *self.properties)
+        is_crack = width >= LEAST_SHARE * self.widest
+        add_lines(axes, position[joints.cells[~is_crack]],
+                  colors=STATES[INTACT][1], linewidths=STATES[INTACT][2])
+        for number, (_, colour) in enumerate(MODES):
+            chosen = is_crack & (mode == number)
+            add_cracks(axes, position[joints.cells[chosen]], colors=colour,
+                       linewidths=self.line_width(width[chosen]))
+        return self.legend()
+
+    def line_width(self, width):
+        return np.clip(WIDEST_CRACK * np.asarray(width) / self.widest,
+                       THINNEST_CRACK, WIDEST_CRACK)
+
+    def legend(self):
+        modes = [Line2D([], [], color=colour, linewidth=2.0, label=name)
+                 for number, (name, colour) in enumerate(MODES)
+                 if number != CRUSHING or self.can_crush]
+        widths = [
+            Line2D([], [], color="0.35", linewidth=self.line_width(w),
+                   label=("≥ " if w == self.widest else "")
+                   + with_unit(w, "m"))
+            for w in self.widest * np.array([0.2, 0.5, 1.0])]
+        least = with_unit(LEAST_SHARE * self.widest, "m")
+        intact = Line2D([], [], color=STATES[INTACT][1], linewidth=0.6,
+                        label=f"intact or below {least}")
+        return modes + [intact] + widths
+
+    def mappable(self):
+        return None
+
+
+class DamageJoints:
+    """Joints by the share of their bond that they lost."""
+
+    def __init__(self, frames):
+        if not any(f.joints is not None and "damage" in f.joints.point_data
+                   for f in frames):
+            raise ValueError("--joints damage is for joints of 'Law = "
+                             "composite', which write a damage")
+
+    def draw(self, axes, joints, scale, with_count):
+        position = current_position(joints, scale)
+        damage = joints.point_data["damage"][joints.cells].mean(axis=1)
+        order = np.argsort(damage)
+        add_cracks(axes, position[joints.cells[order]],
+                   colors=DAMAGE_COLOURS(damage[order]),
+                   linewidths=0.4 + 2.0 * damage[order])
+        return []
+
+    def mappable(self):
+        return ScalarMappable(Normalize(0.0, 1.0), DAMAGE_COLOURS)
+
+
+def contact_forces(contacts):
+    """Compression of each contact, per thickness [N/m]."""
+    traction = contacts.point_data["normal traction"][contacts.cells]
+    return np.maximum(
+        -traction.mean(axis=1) * contacts.cell_data["length"], 0.0)
+
+
+def draw_contacts(axes, contacts, scale, largest_force):
+    position = current_position(contacts, scale)
+    force = contact_forces(contacts)
+    state = contacts.cell_data["state"]
+    shown = (force > 1e-3 * largest_force) & (state != OPEN)
+    if position is None or not shown.any():
+        return []
+    slipping = state[shown] == SLIPPING
+    width = np.clip(WIDEST_CONTACT * force[shown] / largest_force, 0.3,
+                    1.5 * WIDEST_CONTACT)
+    add_lines(axes, position[contacts.cells[shown]], linewidths=width,
+              colors=np.where(slipping, STATES[SLIPPING][1], COMPRESSION))
+    handles = [Line2D([], [], color=COMPRESSION, linewidth=WIDEST_CONTACT,
+                      solid_capstyle="round",
+                      label=f"contact, {largest_force / 1e3:.3g} kN/m")]
+    if slipping.any():
+        handles.append(Line2D([], [], color=STATES[SLIPPING][1],
+                              linewidth=WIDEST_CONTACT / 2,
+                              solid_capstyle="round",
+                              label="slipping contact"))
+    return handles

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""The moments of a run that a figure shows: given as times, or by the values
+of a history."""
+
+import os
+from collections import namedtuple
+
+import numpy as np
+
+import vtu
+from csv_table import Table, unit_of, with_unit
+
+SLACK = 1e-3                         # of the range of a history
+# label: what is written above the picture, None: the time
+Moment = namedtuple("Moment", "time label", defaults=(None,))
+
+
+def recorded_times(output, series):
+    """The times [s] at which a series, e.g. "blocks.pvd", has fields."""
+    times = [time for time, _ in vtu.read_pvd(os.path.join(output, series))]
+    if not times:
+        raise ValueError(f"no fields are listed in "
+                         f"{os.path.join(output, series)}; was a field "
+                         f"written?")
+    return np.array(times)
+
+
+def time_when(time, value, wanted, name):
+    """When a history first reaches a value [s], on the line between rows.
+
+    @p wanted is a number, "peak" (the largest magnitude) or "end". A history
+    that never reaches it is a ValueError.
+    """
+    known = np.isfinite(value)
+    time, value = time[known], value[known]
+    if len(value) == 0:
+        raise ValueError(f"'{name}' has no values")
+    if wanted == "end":
+        return time[-1]
+    if wanted == "peak":
+        return time[np.abs(value).argmax()]
+    beyond = (value >= wanted) if wanted >= value[0] else (value <= wanted)
+    if not beyond.any():
+        # A run ends a step before its last value: 3.9999 mm stands for 4.
+        nearest = np.abs(value - wanted).argmin()
+        if abs(value[nearest] - wanted) <= SLACK * np.ptp(value):
+            return time[nearest]
+        raise ValueError(f"'{name}' never reaches {wanted:g}: it is from "
+                         f"{value.min():g} to {value.max():g}")
+    k = int(beyond.argmax())
+    if k == 0:
+        return time[0]
+    return np.interp(wanted, *(zip(*sorted(
+        [(value[k - 1], time[k - 1]), (value[k], time[k])]))))
+
+
+def read_at(text):
+    """"displacement=1e-3,2e-3,peak" as a column and what it is to reach."""
+    column, sign, words = text.rpartition("=")
+    wanted = []
+    for word in (word.strip() for word in words.split(",")):
+        if word not in ("peak", "end"):
+            try:
+                word = float(word)
+            except ValueError:
+                sign = ""
+        wanted.append(word)
+    if not sign or not column.strip():
+        raise ValueError(f"expected COLUMN=VALUE,VALUE,... in the units of the "
+                         f"table, or peak, or end, not '{text}'")
+    return column.strip(), wanted
+
+
+def moments_at(output, text, series="blocks.pvd"):
+    """The fields that are nearest to where a history first reaches values,
+    each with the value that it has there."""
+    column, wanted = read_at(text)
+    table = Table(os.path.join(output, "histories.csv"))
+    time, value = table.column(0), table.column(column)
+    name = table.full_name(column)
+    recorded = recorded_times(output, series)
+    moments = {}
+    for target in wanted:
+        when = time_when(time, value, target, name)
+        field = recorded[np.abs(recorded - when).argmin()]
+        if field in moments:
+            raise ValueError(
+                f"{column} = {moments[field][0]} and {target} have the same "
+                f"nearest field, at {field:g} s; lower 'Output/Field "
+                f"interval'")
+        there = with_unit(np.interp(field, time, value), unit_of(name),
+                          "#.3g")
+        moments[field] = (target, Moment(
+            field, f"{name.split(' [')[0]} {there}"
+            + (f" ({target})" if target in ("peak", "end") else "")))
+    return [moment for _, moment in moments.values()]

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""The options that scripts/render and scripts/wall_figure share."""
+
+import argparse
+
+
+def numbers(text):
+    return [float(word) for word in text.split(",")]
+
+
+def view(text):
+    values = numbers(text)
+    if len(values) != 4 or values[0] >= values[2] or values[1] >= values[3]:
+        raise argparse.ArgumentTypeError(
+            "expected XMIN,YMIN,XMAX,YMAX in [m]")
+    return values
+
+
+def positive(kind):
+    def convert(text):
+        value = kind(text)
+        if value <= 0:
+            raise argparse.ArgumentTypeError(f"{text} is not positive")
+        return value
+    return convert
+
+
+def add_picture_options(parser, joints="state"):
+    """What a picture shows; @p joints: the default of --joints."""
+    parser.add_argument("--scale", type=float,
+                        help="of displacements, default automatic")
+    parser.add_argument("--view", type=view, metavar="XMIN,YMIN,XMAX,YMAX",
+                        help="what is shown [m], default all; with a minus "
+                             "sign in front: --view=-9,0,9,8")
+    parser.add_argument("--colour", default="material",
+                        choices=("material", "block", "velocity", "stress",
+                                 "displacement"),
+                        help="of the blocks, default material; block: a tint "
+                             "that stays with each block; stress: the minor "
+                             "principal one; of a field velocity (default) or "
+                             "displacement")
+    parser.add_argument("--joints", default=joints,
+                        choices=("state", "mode", "damage"),
+                        help=f"what their colours are, default {joints}")
+    parser.add_argument("--widest", type=positive(float), metavar="OPENING",
+                        help="of --joints mode: opening or slip that is drawn "
+                             "widest [m], default automatic")
+    parser.add_argument("--blocks-only", action="store_true",
+                        help="neither joints nor contacts")
+    parser.add_argument("--principal", action="store_true",
+                        help="crosses of the principal stresses")
+    parser.add_argument("--crosses", type=positive(int), metavar="N",
+                        help="of --principal, along the longer side, default "
+                             "32, or 20 of several moments")
+    parser.add_argument("--mesh", action="store_true",
+                        help="show the edges of the cells")
