@@ -56,6 +56,46 @@ TEST(ExplicitSolver, EnergyBalanceOfAnElasticModel)
   EXPECT_GT(run.solver.energies().joint, 0.);
 }
 
+TEST(ExplicitSolver, KineticEnergySlowsTheLoadsDown)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  TestRun run(mesh, two_blocks(),
+              { motion("base", "bottom", "0", "0"),
+                motion("pull", "top", "", "20"),
+                traction("push", "sides", "1e3 * t", "") });
+  StageParameters stage
+      = stage_with({ "base", "pull", "push" }, DampingType::local);
+  stage.duration      = 1e-3;
+  stage.kinetic_limit = 1e-3;
+  run.begin(stage, 0.4);
+  EXPECT_LT(run.state.load_rate, 0.1);
+  double largest = 0., fastest = 0., balance = 0.;
+  while (run.state.load_time < stage.duration)
+  {
+    ASSERT_LT(run.state.stage_step, 1000000U);
+    const bool due
+        = run.state.stage_step % ExplicitSolver::balance_interval == 0;
+    run.solver.step(run.state, { false, due });
+    const Energies &energies = run.solver.energies();
+    if (!due)
+      continue;
+    balance = std::max(balance,
+                       std::abs(energies.residual()) / energies.throughput());
+    if (run.state.stage_step < 1000)
+      continue;
+    largest = std::max(largest, energies.kinetic / energies.throughput());
+    fastest = std::max(fastest, run.state.load_rate);
+  }
+  EXPECT_LT(largest, stage.kinetic_limit);
+  EXPECT_LT(fastest, 0.5);
+  EXPECT_LT(balance, 1e-6);
+  EXPECT_GT(run.state.time, run.state.load_time);
+  // What velocity prescribes is the displacement by the loads' clock.
+  for (const unsigned int node : run.nodes_at_height(4.))
+    EXPECT_NEAR(run.state.nodes[node].u[1], 20. * run.state.load_time, 1e-12);
+}
+
 TEST(ExplicitSolver, EnergyBalanceWhenTheTimeStepChanges)
 {
   BlockMesh<2> mesh;

@@ -48,6 +48,19 @@ TEST(StageParameters, Defaults)
   EXPECT_EQ(stage.maximum_steps, 10000000U);
 }
 
+TEST(StageParameters, LoadsThatSlowDown)
+{
+  EXPECT_FALSE(read("set Duration = 0.1\n").slows_loads());
+  const auto stage
+      = read("set Duration = 0.1\nset Kinetic energy limit = 1e-3\n");
+  EXPECT_TRUE(stage.slows_loads());
+  EXPECT_EQ(stage.kinetic_limit, 1e-3);
+  expect_refused("set End = static ratio\nset Kinetic energy limit = 1e-3\n",
+                 "Kinetic energy limit = 1e-3", "End = time");
+  expect_refused("set Duration = 1\nset Kinetic energy limit = 2\n",
+                 "Kinetic energy limit = 2", "between 0 and 1");
+}
+
 TEST(StageParameters, StaticStage)
 {
   const auto stage = read("set Loads = base, beam\nset End = static ratio\n"

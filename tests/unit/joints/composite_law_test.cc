@@ -205,6 +205,87 @@ TEST(CompositeLaw, ClosingCrackCarriesCompressionAtItsPlasticOpening)
   EXPECT_EQ(walk.point.state, JointState::slipped);
 }
 
+TEST(CompositeLaw, CrackThatClosesCarriesNothingUntilItIsClosed)
+{
+  CompositeLaw law = wall();
+  law.cracks_close = true;
+  Walk walk        = begin(law);
+  walk.go(1e-4, 0., 200);
+  const double strength = law.tension * walk.point.bond;
+  EXPECT_DOUBLE_EQ(walk.point.normal_traction, strength);
+  EXPECT_NEAR(walk.point.crack_opening, 1e-4 - strength / 82e9, 1e-15);
+  // Half way back nothing, opened again up to what is left of the strength.
+  walk.go(5e-5, 0., 37);
+  EXPECT_EQ(walk.point.normal_traction, 0.);
+  EXPECT_EQ(walk.point.state, JointState::open);
+  walk.go(5e-5 + 0.5 * strength / 82e9, 0., 3);
+  EXPECT_NEAR(walk.point.normal_traction, 0.5 * strength, 1e-6 * strength);
+  walk.go(6e-5, 0., 50);
+  EXPECT_DOUBLE_EQ(walk.point.normal_traction, law.tension * walk.point.bond);
+  // Compression from the closed joint on, no earlier.
+  walk.go(1e-7, 0., 50);
+  EXPECT_EQ(walk.point.normal_traction, 0.);
+  walk.go(-1e-5, 0., 50);
+  EXPECT_NEAR(walk.point.normal_traction, -0.82e6, 1e-6);
+  EXPECT_EQ(walk.point.crack_opening, 0.);
+  EXPECT_NEAR(walk.point.plastic_opening, 0., 1e-18);
+  EXPECT_EQ(walk.point.state, JointState::slipped);
+  EXPECT_NEAR(walk.work, law.stored_energy(walk.point) + walk.lost.total(),
+              1e-12 * walk.turnover);
+  EXPECT_GT(walk.lost.tension, 0.);
+}
+
+TEST(CompositeLaw, WhatDilationOpenedDoesNotClose)
+{
+  CompositeLaw law = dilatant();
+  law.cracks_close = true;
+  Walk walk        = begin(law);
+  walk.slide(-0.2e6, 1e-4);
+  const double dilated = walk.point.plastic_opening;
+  EXPECT_GT(dilated, 1e-6);
+  EXPECT_EQ(walk.point.crack_opening, 0.);
+  walk.go(dilated + 3e-5, walk.slip, 50);
+  // As the shear traction goes, the joint still slips and dilates a little.
+  const double kept = walk.point.plastic_opening - walk.point.crack_opening;
+  EXPECT_GE(kept, dilated);
+  EXPECT_GT(walk.point.crack_opening, 2e-5);
+  walk.go(kept + 1e-6, walk.slip, 50);
+  EXPECT_NEAR(walk.point.normal_traction, 0., 1e-3);
+  walk.go(kept - 1e-6, walk.slip, 50);
+  EXPECT_NEAR(walk.point.normal_traction, -82e3, 1e-3);
+}
+
+TEST(CompositeLaw, TangentOfACrackThatCloses)
+{
+  CompositeLaw law = wall();
+  law.cracks_close = true;
+  Walk walk        = begin(law);
+  walk.go(1e-4, 2e-6, 100);
+  const double h = 1e-10;
+  // partly closed; wholly, sticking; wholly, slipping
+  for (const auto &[opening, slip] : { std::array<double, 2>{ 5e-5, 3e-6 },
+                                       std::array<double, 2>{ -1e-5, 3e-6 },
+                                       std::array<double, 2>{ -1e-5, 9e-5 } })
+  {
+    CompositePoint end = walk.point;
+    CompositeTangent tangent;
+    law.update(end, opening, slip, tangent);
+    const auto moved = [&](const double du, const double dv)
+    {
+      CompositePoint point = walk.point;
+      law.update(point, opening + du, slip + dv);
+      return std::array<double, 2>{ point.normal_traction,
+                                    point.shear_traction };
+    };
+    const auto right = moved(h, 0.), left = moved(-h, 0.);
+    const auto above = moved(0., h), below = moved(0., -h);
+    EXPECT_NEAR(tangent.normal_opening, (right[0] - left[0]) / (2. * h), 1e5);
+    EXPECT_NEAR(tangent.shear_opening, (right[1] - left[1]) / (2. * h), 1e5);
+    EXPECT_NEAR(tangent.normal_slip, (above[0] - below[0]) / (2. * h), 1e5);
+    EXPECT_NEAR(tangent.shear_slip, (above[1] - below[1]) / (2. * h), 1e5);
+  }
+}
+
 TEST(CompositeLaw, OpenJointHasNoShear)
 {
   Walk walk = begin(wall());
