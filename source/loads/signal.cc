@@ -198,6 +198,24 @@ namespace quoin
     return signal;
   }
 
+  Signal sine_cycles(const double rate, const std::vector<double> &amplitudes)
+  {
+    const auto value = [rate, amplitudes](double t)
+    {
+      if (t < 0.)
+        return 0.;
+      for (const double amplitude : amplitudes)
+      {
+        const double phase = rate * t / amplitude;
+        if (phase < 2. * pi)
+          return amplitude * std::sin(phase);
+        t -= 2. * pi * amplitude / rate;
+      }
+      return 0.;
+    };
+    return { value, nullptr, nullptr, "" };
+  }
+
   std::function<double(double)> integrated(const Signal &signal,
                                            const unsigned int n,
                                            const double begin, const double end,

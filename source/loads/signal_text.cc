@@ -127,6 +127,16 @@ namespace quoin
                        "'pulse exponential ...' or 'pulse Friedlander ...'.");
     }
 
+    Signal read_cycles(const Words &words)
+    {
+      if (words.size() < 3)
+        throw InputError("must read 'cycles RATE AMPLITUDE [AMPLITUDE ...]'.");
+      std::vector<double> amplitudes;
+      for (std::size_t k = 2; k < words.size(); ++k)
+        amplitudes.push_back(positive(words[k], "AMPLITUDE"));
+      return sine_cycles(positive(words[1], "RATE"), amplitudes);
+    }
+
     /** Pairs of a word and a value, each taken once. */
     class Options
     {
@@ -269,7 +279,8 @@ namespace quoin
     const Words words = split(text.substr(0, 80));
     if (words.empty())
       return false;
-    for (const char *const word : { "wavelet", "pulse", "record", "synthetic" })
+    for (const char *const word :
+         { "wavelet", "pulse", "cycles", "record", "synthetic" })
       if (words[0] == word)
         return true;
     return false;
@@ -279,11 +290,14 @@ namespace quoin
   {
     const Words words = split(text);
     if (words.empty() || !is_signal_text(text))
-      throw InputError("must begin with wavelet, pulse, record or synthetic.");
+      throw InputError(
+          "must begin with wavelet, pulse, cycles, record or synthetic.");
     if (words[0] == "wavelet")
       return read_wavelet(words);
     if (words[0] == "pulse")
       return read_pulse(words);
+    if (words[0] == "cycles")
+      return read_cycles(words);
     return words[0] == "record" ? read_record(words, folder)
                                 : read_synthetic(words);
   }

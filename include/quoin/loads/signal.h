@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace quoin
 {
@@ -65,6 +66,13 @@ namespace quoin
    * @param coefficient b [-], the decay
    */
   Signal friedlander_pulse(double duration, double coefficient);
+
+  /**
+   * Whole cycles, one after the other, each a sine with one of the
+   * @p amplitudes and the largest slope @p rate [1/s], with which all begin and
+   * end: the k-th takes 2 pi amplitude_k / rate. Zero before and after.
+   */
+  Signal sine_cycles(double rate, const std::vector<double> &amplitudes);
 
   /**
    * The @p n times integrated @p signal, n = 0, 1 or 2, in closed form if it

@@ -12,7 +12,7 @@ namespace quoin
 {
   /**
    * Whether @p text begins like a signal of read_signal(): with one of the
-   * words wavelet, pulse, record, synthetic.
+   * words wavelet, pulse, cycles, record, synthetic.
    */
   bool is_signal_text(const std::string &text);
 
@@ -27,6 +27,7 @@ namespace quoin
    *   pulse triangular RISE DECAY [DELAY]
    *   pulse exponential RISE DECAY [DELAY]
    *   pulse Friedlander DURATION COEFFICIENT [DELAY]
+   *   cycles RATE AMPLITUDE [AMPLITUDE ...]      not of peak 1: sine_cycles()
    *   record FILE [OPTIONS]
    *   synthetic [OPTIONS]
    *

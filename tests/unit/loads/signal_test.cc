@@ -92,6 +92,21 @@ TEST(Signal, Pulses)
   EXPECT_NEAR(triangle.integral(5.), 0.3, 1e-14);
 }
 
+TEST(Signal, CyclesFollowEachOtherSmoothly)
+{
+  const Signal signal = read("cycles 0.02 1e-3 5e-3");
+  const double first = 2. * M_PI * 1e-3 / 0.02, second = 5. * first;
+  EXPECT_EQ(signal.value(-0.1), 0.);
+  EXPECT_NEAR(signal.value(0.25 * first), 1e-3, 1e-15);
+  EXPECT_NEAR(signal.value(0.75 * first), -1e-3, 1e-15);
+  EXPECT_NEAR(signal.value(first + 0.25 * second), 5e-3, 1e-15);
+  EXPECT_NEAR(signal.value(first + 0.75 * second), -5e-3, 1e-15);
+  EXPECT_EQ(signal.value(1.0001 * (first + second)), 0.);
+  // The slope where one cycle passes into the next.
+  for (const double t : { 1e-9, first })
+    EXPECT_NEAR((signal.value(t + 1e-6) - signal.value(t)) / 1e-6, 0.02, 1e-8);
+}
+
 TEST(Signal, FriedlanderPulseChangesSignAtItsDuration)
 {
   const Signal signal = read("pulse Friedlander 0.4 1.5 0.1");
@@ -177,6 +192,9 @@ TEST(Signal, WrongTexts)
           { "pulse square 1", "'pulse half-sine ...'" },
           { "pulse exponential 2 1", "RISE < DECAY" },
           { "pulse Friedlander 1", "DURATION COEFFICIENT" },
+          { "cycles 1", "cycles RATE AMPLITUDE" },
+          { "cycles 1 0", "AMPLITUDE" },
+          { "cycles fast 1", "RATE" },
           { "pulse triangular 0 1", "must be positive" },
           { "record", "must read 'record FILE'" },
           { "record nowhere.csv", "nowhere.csv' cannot be read" },
