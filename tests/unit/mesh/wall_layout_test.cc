@@ -220,6 +220,54 @@ namespace
     EXPECT_NEAR(meshed.joint_length["bed"], 5. - 4 * 0.375, 1e-12);
   }
 
+  TEST(WallGeometry, HasTheBlocksAndJointsOfTheTests)
+  {
+    // Raijmakers & Vermeltfoort 1992
+    WallParameters wall = small_wall(WallBond::running);
+    wall.length         = 0.99;
+    wall.n_courses      = 16;
+    wall.unit_length    = 0.22;
+    wall.unit_height    = 0.0625;
+    wall.bottom_platen = wall.top_platen = 0.0625;
+    wall.cracks                          = true;
+    wall.element_size                    = 0.032;
+    MeshedWall meshed(wall);
+    const BlockMesh<2> &mesh = meshed.mesh;
+
+    EXPECT_NEAR(meshed.area, 0.99 * (1. + 2 * 0.0625), 1e-12);
+    EXPECT_EQ(mesh.n_blocks(), 16U * 9U + 2U);
+    EXPECT_NEAR(meshed.joint_length["bed"], 15 * 0.99, 1e-9);
+    EXPECT_NEAR(meshed.joint_length["platen_joint"], 2 * 0.99, 1e-9);
+    EXPECT_NEAR(meshed.joint_length["head"], 64 * 0.0625, 1e-9);
+    EXPECT_NEAR(meshed.joint_length["crack"], 64 * 0.0625, 1e-9);
+
+    // Odd courses have their first head joint after a unit, even ones after
+    // half a unit; the other columns of half units are cracks.
+    std::map<std::string, std::set<std::pair<long, long>>> places;
+    for (const JointFace &face : mesh.joint_faces)
+      for (const unsigned int v : face.lower)
+      {
+        const auto &p = mesh.vertices[v];
+        if (std::abs(p[1] / 0.0625 - std::lround(p[1] / 0.0625)) < 1e-6)
+          places[mesh.line_names[face.name]].insert(
+              { std::lround(p[0] / 0.11), std::lround(p[1] / 0.0625) });
+      }
+    EXPECT_EQ(places["head"].size(), 128U);
+    EXPECT_EQ(places["head"].count({ 2, 0 }), 1U);
+    EXPECT_EQ(places["head"].count({ 2, 1 }), 1U);
+    EXPECT_EQ(places["head"].count({ 1, 0 }), 0U);
+    EXPECT_EQ(places["head"].count({ 1, 2 }), 1U);
+    EXPECT_EQ(places["crack"].count({ 1, 0 }), 1U);
+
+    // Two triangles in each corner of a half unit.
+    std::vector<unsigned int> n_cells(mesh.n_vertices(), 0);
+    for (const auto &cell : mesh.cells)
+      for (const unsigned int v : cell)
+        ++n_cells[v];
+    for (const unsigned int n : n_cells)
+      EXPECT_GE(n, 2U);
+  }
+
   TEST(WallGeometry, RefusesSliversInStructuredMeshes)
   {
     WallParameters wall = small_wall(WallBond::running);
