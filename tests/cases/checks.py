@@ -162,52 +162,6 @@ def at_rest(case, folder, output, histories):
             float(np.max(np.abs(histories["reaction"] / weight - 1))), 1e-9)}
 
 
-def wall_stiffness(case, folder, output, histories):
-    """Force by displacement of the beam: that of static_reference.py, a
-    separate finite element solution of the same triangles and joint springs,
-    and within 10 % of 103 kN/mm."""
-    stiffness = histories["horizontal"][-1] / histories["displacement"][-1]
-    exact = reference_module(folder, "static_reference").stiffness(output)
-    return {"static finite elements": (
-                float(abs(stiffness / exact - 1)), 0.001),
-            "103 kN/mm": (float(abs(stiffness / 103e6 - 1)), 0.1)}
-
-
-def wall_cracks(case, folder, output, histories):
-    """At 1 mm: the joints at both beams have opened and the vertical reaction
-    has grown above the preload of 29.7 kN, without the rest of the wall
-    having had more than a small share of the open joints; quasi-static."""
-    sys.path.insert(0, os.path.join(os.path.dirname(HERE), os.pardir,
-                                    "scripts"))
-    import vtu  # noqa: E402
-
-    grid = vtu.read_at(os.path.join(output, "joints.pvd"))
-    state = grid.cell_data["state"]
-    y = grid.points[:, 1].reshape(-1, 2).mean(axis=1)
-    opened = state == 3
-    beams = (np.abs(y) < 5e-3) | (np.abs(y - 1) < 5e-3)
-    lower = np.count_nonzero(opened & (np.abs(y) < 5e-3))
-    upper = np.count_nonzero(opened & (np.abs(y - 1) < 5e-3))
-    rest = np.count_nonzero(opened & ~beams)
-    late = histories["displacement"] > 0.4e-3
-    table = energies(output)
-    return {
-        "lower beam joint open (faces missing of 9)": (
-            float(max(0, 9 - lower)), 0.5),
-        "upper beam joint open (faces missing of 9)": (
-            float(max(0, 9 - upper)), 0.5),
-        "open elsewhere / open at beams": (
-            float(rest / max(1, lower + upper)), 1.0),
-        "preload / vertical reaction at 1 mm": (
-            float(29.7e3 / histories["vertical"][-1]), 0.8),
-        "kinetic energy share beyond 0.4 mm": (
-            float(np.max(histories["kinetic"][late])), 0.01),
-        "energy residual": (
-            float(np.max(np.abs(table["residual"])) / peak_energy(table)),
-            1e-3),
-    }
-
-
 def residual_of(table):
     """The residual of the energy balance relative to the peak energy."""
     return float(np.max(np.abs(table["residual"])) / peak_energy(table))
@@ -629,11 +583,11 @@ def amplitude(t, values, omega, periods=1):
     return float(np.hypot(fit[0], fit[1]))
 
 
-def reference_module(folder):
-    """make_reference.py of a case, imported."""
+def reference_module(folder, name="make_reference"):
+    """A script of a case, imported."""
     import importlib.util
     spec = importlib.util.spec_from_file_location(
-        "make_reference", os.path.join(folder, "make_reference.py"))
+        name, os.path.join(folder, name + ".py"))
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module

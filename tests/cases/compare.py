@@ -18,6 +18,7 @@ import numpy as np
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import checks  # noqa: E402
 import common  # noqa: E402
+import wall_checks  # noqa: E402
 from common import Failure  # noqa: E402
 
 
@@ -85,8 +86,9 @@ def run_case(case, options):
                                           reference_units))
         extra = {}
         if "check" in case:
-            extra = getattr(checks, case["check"])(case, folder, output,
-                                                   histories)
+            room = checks if hasattr(checks, case["check"]) else wall_checks
+            extra = getattr(room, case["check"])(case, folder, output,
+                                                 histories)
     tolerance = case["tolerance"]
     failed = []
     worst = 0.0

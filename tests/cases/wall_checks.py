@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Checks of masonry walls, as those of checks.py.
+
+Forces are reactions of the lower beam: negative where the upper one is pushed
+to the right.
+"""
+import os
+import sys
+
+import numpy as np
+
+import checks
+
+sys.path.insert(0, os.path.join(checks.HERE, os.pardir, os.pardir, "scripts"))
+import vtu  # noqa: E402
+
+
+def joint_faces(output):
+    """Middles of the joint faces, and opening and slip there, at the end."""
+    grid = vtu.read_at(os.path.join(output, "joints.pvd"))
+    middle = grid.points.reshape(-1, 2, grid.points.shape[1]).mean(axis=1)
+    opening = grid.point_data["opening"].reshape(-1, 2).max(axis=1)
+    slip = np.abs(grid.point_data["slip"]).reshape(-1, 2).max(axis=1)
+    return middle[:, :2], opening, slip
+
+
+def quasi_static(case, output, histories):
+    """What every slow run must show."""
+    table = checks.energies(output)
+    return {
+        "kinetic energy share": (
+            float(np.max(histories["kinetic"][histories["displacement"] != 0])),
+            case.get("kinetic tolerance", 1e-3)),
+        "energy residual": (
+            float(np.max(np.abs(table["residual"]))
+                  / checks.peak_energy(table)), 1e-3)}
+
+
+def wall_stiffness(case, folder, output, histories):
+    """Force by displacement of the beam: that of static_reference.py, a
+    separate finite element solution of the same triangles and joint springs,
+    and within 10 % of 103 kN/mm."""
+    stiffness = -histories["horizontal"][-1] / histories["displacement"][-1]
+    exact = checks.reference_module(folder,
+                                    "static_reference").stiffness(output)
+    return {"static finite elements": (float(abs(stiffness / exact - 1)),
+                                       0.001),
+            "103 kN/mm": (float(abs(stiffness / 103e6 - 1)), 0.1)}
+
+
+def shear_wall(case, folder, output, histories):
+    """A wall between beams that do not turn: peak force of the tests, a fall
+    beyond it, the vertical reaction that the locked beam raises, and wide
+    cracks (more than a tenth of the displacement) along the diagonal of
+    compression or at the beams."""
+    force = -histories["horizontal"]
+    peak = np.max(force)
+    result = quasi_static(case, output, histories)
+    result["peak of the tests"] = (float(abs(peak / case["peak"] - 1)),
+                                   case["tolerance"])
+    result["force at the end by the peak"] = (float(force[-1] / peak), 0.9)
+    result["preload by largest vertical reaction"] = (
+        float(case["preload"] / np.max(histories["vertical"])), 0.99)
+    middle, opening, slip = joint_faces(output)
+    wide = np.maximum(opening, slip) > 0.1 * histories["displacement"][-1]
+    x, y = middle[:, 0] / 0.99, middle[:, 1] / 1.0
+    expected = ((np.abs(x + y - 1) < 0.35) | (y < 0.01) | (y > 0.99))
+    result["wide cracks elsewhere"] = (
+        float(np.count_nonzero(wide & ~expected)
+              / max(1, np.count_nonzero(wide))), 0.2)
+    if case.get("diagonal", True):
+        inside = wide & (np.abs(x + y - 1) < 0.2) & (y > 0.1) & (y < 0.9)
+        courses = len(np.unique(np.floor(middle[inside, 1] / 0.0625)))
+        result["courses that the diagonal misses"] = (float(12 - courses),
+                                                      2.5)
+    return result
+
+
+def dry_wall(case, folder, output, histories):
+    """Peak against the mean of two specimens; how the wall fails."""
+    force = -histories["horizontal"]
+    result = quasi_static(case, output, histories)
+    result["peak of the tests"] = (
+        float(abs(np.max(force) / case["peak"] - 1)), case["tolerance"])
+    middle, opening, slip = joint_faces(output)
+    u = histories["displacement"][-1]
+    height = middle[:, 1]
+    if case["fails by"] == "sliding":
+        # All of one bed joint slips by most of the displacement.
+        beds = np.round(height / 0.1)
+        on_bed = np.abs(height - 0.1 * beds) < 1e-3
+        best = max(np.min(slip[on_bed & (beds == b)]) for b in range(10))
+        result["bed joint that slides, missing of 2/3"] = (
+            float(max(0.0, 2 / 3 - best / u)), 1e-6)
+    else:
+        # Stepped diagonal cracks: every course has a head joint open by
+        # more than 2 % of the displacement.
+        head = (opening > 0.02 * u) & (np.abs(height / 0.1 % 1 - 0.5) < 0.45)
+        courses = len(np.unique(np.floor(height[head] / 0.1)))
+        result["courses without an open head joint"] = (float(9 - courses),
+                                                        1.5)
+    return result
+
+
+def cyclic_wall(case, folder, output, histories):
+    """Peaks of the envelope in both senses, and hysteresis: the work of the
+    cycle with the largest amplitude by that of an elastic-plastic one."""
+    force, u = -histories["horizontal"], histories["displacement"]
+    result = quasi_static(case, output, histories)
+    for name, value, sign in (("peak pushed", np.max(force), "push"),
+                              ("peak pulled", -np.min(force), "pull")):
+        result[name] = (float(abs(value / case[sign] - 1)), case["tolerance"])
+    work = np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(u))
+    path = np.sum(np.abs(np.diff(u)))
+    share = work / (path * np.max(np.abs(force)))
+    result["hysteresis, missing of a fifth"] = (float(max(0.0, 0.2 - share)),
+                                                1e-6)
+    return result
