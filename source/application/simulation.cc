@@ -71,7 +71,8 @@ namespace quoin
 
   void Simulation::make_model()
   {
-    const MeshData as_read = read_gmsh(parameters.mesh_file, communicator);
+    const MeshData as_read
+        = read_gmsh(parameters.mesh_file, communicator, parameters.triangles);
     split_into_blocks(as_read, parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 

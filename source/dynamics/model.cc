@@ -154,9 +154,16 @@ namespace quoin
     if (parameters.initial_stresses.empty())
       return;
     cell_stress.assign(block_mesh.n_cells(), {});
+    const bool plane_stress = parameters.plane == PlaneAssumption::plane_stress;
     for (const LoadParameters &load : parameters.initial_stresses)
     {
       const auto groups = groups_of_names(block_mesh, load.groups, load.name);
+      if (plane_stress && load.stress_zz)
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Stress zz' is the stress out of the plane, "
+                           "which is zero with 'Plane assumption = plane "
+                           "stress'. Leave it at "
+                           "'elastic'.");
       for (unsigned int c = 0; c < block_mesh.n_cells(); ++c)
       {
         if (!groups.empty()
@@ -166,8 +173,19 @@ namespace quoin
         double y = 0.;
         for (const unsigned int v : block_mesh.cells[c])
           y += block_mesh.vertices[v][1] / 3.;
+        std::array<double, 3> stress;
         for (unsigned int k = 0; k < 3; ++k)
-          cell_stress[c][k] += load.stress[k] + y * load.stress_gradient[k];
+        {
+          stress[k] = load.stress[k] + y * load.stress_gradient[k];
+          cell_stress[c][k] += stress[k];
+        }
+        const double poisson
+            = parameters.materials[material_of_cell(c)].elastic.poisson;
+        if (!plane_stress)
+          cell_stress[c][3]
+              += load.stress_zz
+                     ? (*load.stress_zz)[0] + y * (*load.stress_zz)[1]
+                     : poisson * (stress[0] + stress[1]);
       }
     }
   }
@@ -187,8 +205,14 @@ namespace quoin
                                       - node_0);
     }
     for (const MaterialParameters &material : parameters.materials)
+    {
       data.stiffness.push_back(
           plane_stiffness(material.elastic, parameters.plane));
+      data.laws.emplace_back();
+      if (material.strength)
+        data.laws.back().emplace(material.elastic, *material.strength,
+                                 parameters.plane);
+    }
     for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
       data.cell_stiffness.push_back(material_of_cell(cell_0 + c));
@@ -331,6 +355,7 @@ namespace quoin
     {
       ground.materials.push_back(parameters.materials[m].elastic);
       ground.is_rigid.push_back(parameters.materials[m].rigid);
+      ground.yields.push_back(parameters.materials[m].strength.has_value());
     }
     ground.plane     = parameters.plane;
     ground.thickness = parameters.thickness;
@@ -350,6 +375,20 @@ namespace quoin
     return result;
   }
 
+  void Model::forget_yielding(const unsigned int block,
+                              PlasticHistory &history) const
+  {
+    const PlasticHistory start = block_forces.initial_history();
+    for (unsigned int c = block_mesh.block_first_cell[block];
+         c < block_mesh.block_first_cell[block + 1]
+         && block_forces.is_plastic();
+         ++c)
+    {
+      const unsigned int own = c - first_cell();
+      set_plastic_point(plastic_point(start, own), own, history);
+    }
+  }
+
   State Model::initial_state() const
   {
     State state;
@@ -357,6 +396,7 @@ namespace quoin
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
       state.nodes.push_back(at_rest(block_mesh.vertices[nodes->global(i)]));
     state.velocity.assign(nodes->n_local(), NodeVector{ { 0., 0. } });
+    state.plastic = block_forces.initial_history();
     state.joints.resize(matched_joints.n_points(), matched_joints.can_soften());
     if (!cell_stress.empty())
     {

@@ -83,6 +83,62 @@ namespace quoin
         result             = (Value)((Bits)a & Bits{ all, all, all, all });
       }
 
+      static QUOIN_INLINE void minimum(const Value &a, Value &result)
+      {
+        result = a < result ? a : result;
+      }
+
+      /** Bit l says that a > b in lane l. */
+      static QUOIN_INLINE std::uint8_t greater(const Value &a, const Value &b)
+      {
+#ifdef __AVX__
+        return _mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_GT_OQ));
+#else
+        return (a[0] > b[0]) | (a[1] > b[1]) << 1 | (a[2] > b[2]) << 2
+               | (a[3] > b[3]) << 3;
+#endif
+      }
+
+      /** Transposes the four doubles that @p of names for each lane. */
+      template <typename Of>
+      static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
+      {
+        const Value a = four(of(0)), b = four(of(1)), c = four(of(2)),
+                    d    = four(of(3));
+        const Value ab_0 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+        const Value ab_1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+        const Value cd_0 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+        const Value cd_1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+        v[0]             = __builtin_shufflevector(ab_0, cd_0, 0, 1, 4, 5);
+        v[1]             = __builtin_shufflevector(ab_1, cd_1, 0, 1, 4, 5);
+        v[2]             = __builtin_shufflevector(ab_0, cd_0, 2, 3, 6, 7);
+        v[3]             = __builtin_shufflevector(ab_1, cd_1, 2, 3, 6, 7);
+      }
+
+      /** The opposite, to where @p to says. */
+      template <typename To>
+      static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
+      {
+        const Value xy_02 = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6);
+        const Value xy_13 = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
+        const Value zw_02 = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6);
+        const Value zw_13 = __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
+        four(to(0))       = __builtin_shufflevector(xy_02, zw_02, 0, 1, 4, 5);
+        four(to(1))       = __builtin_shufflevector(xy_13, zw_13, 0, 1, 4, 5);
+        four(to(2))       = __builtin_shufflevector(xy_02, zw_02, 2, 3, 6, 7);
+        four(to(3))       = __builtin_shufflevector(xy_13, zw_13, 2, 3, 6, 7);
+      }
+
+      static QUOIN_INLINE const Value &four(const double *p)
+      {
+        return *reinterpret_cast<const Value *>(p);
+      }
+
+      static QUOIN_INLINE Value &four(double *p)
+      {
+        return *reinterpret_cast<Value *>(p);
+      }
+
       /** Transposes the pairs found at base + scale * offset. */
       static QUOIN_INLINE void load(const char *base, const std::size_t scale,
                                     const std::uint32_t *offset, Value &x,
@@ -152,6 +208,47 @@ namespace quoin
         constexpr auto all = std::numeric_limits<std::int64_t>::max();
         result
             = (Value)((Bits)a & Bits{ all, all, all, all, all, all, all, all });
+      }
+
+      static QUOIN_INLINE void minimum(const Value &a, Value &result)
+      {
+        result = a < result ? a : result;
+      }
+
+      static QUOIN_INLINE std::uint8_t greater(const Value &a, const Value &b)
+      {
+        return Lanes<4>::greater(low(a), low(b))
+               | Lanes<4>::greater(high(a), high(b)) << 4;
+      }
+
+      template <typename Of>
+      static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
+      {
+        Lanes<4>::Value v0[4], v1[4];
+        Lanes<4>::load_four(of, v0);
+        Lanes<4>::load_four([&](const int l) { return of(l + 4); }, v1);
+        for (int i = 0; i < 4; ++i)
+          v[i] = __builtin_shufflevector(v0[i], v1[i], 0, 1, 2, 3, 4, 5, 6, 7);
+      }
+
+      template <typename To>
+      static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
+      {
+        Lanes<4>::store_four(to,
+                             { low(v[0]), low(v[1]), low(v[2]), low(v[3]) });
+        Lanes<4>::store_four(
+            [&](const int l) { return to(l + 4); },
+            { high(v[0]), high(v[1]), high(v[2]), high(v[3]) });
+      }
+
+      static QUOIN_INLINE Lanes<4>::Value low(const Value &a)
+      {
+        return __builtin_shufflevector(a, a, 0, 1, 2, 3);
+      }
+
+      static QUOIN_INLINE Lanes<4>::Value high(const Value &a)
+      {
+        return __builtin_shufflevector(a, a, 4, 5, 6, 7);
       }
 
       static QUOIN_INLINE void load(const char *base, const std::size_t scale,

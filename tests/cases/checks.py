@@ -23,8 +23,7 @@ def energies(output):
 
 def peak_energy(table):
     names = ("kinetic", "strain", "joint", "friction", "fracture", "crushing",
-             "damping",
-             "viscous", "contact", "external")
+             "plastic", "damping", "viscous", "contact", "external")
     return max(np.max(np.abs(table[name])) for name in names)
 
 

@@ -10,6 +10,7 @@
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/mesh/block_splitter.h>
+#include <quoin/mesh/gmsh_reader.h>
 
 #include <string>
 #include <vector>
@@ -28,6 +29,7 @@ namespace quoin
     BoundaryElementParameters boundary;
 
     std::string mesh_file; /**< relative to the working directory */
+    TriangleKind triangles = TriangleKind::plain;
     SplitOptions split;
 
     ModelParameters model;

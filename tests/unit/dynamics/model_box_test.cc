@@ -354,7 +354,7 @@ TEST(ModelBox, DeletedBlocksAreNotWritten)
       EXPECT_EQ(p[1], mesh.vertices[mesh.cells[cell][k]][1]);
     }
     EXPECT_EQ(fields.stress[c],
-              run.model.blocks().cell_stress(run.state.nodes.data(), cell));
+              run.model.blocks().cell_stress(run.state.nodes.data(), {}, cell));
   }
 }
 

@@ -138,7 +138,7 @@ TEST(Model, InitialStressOfAGroupAndWithDepth)
     for (const unsigned int v : mesh.cells[c])
       y += mesh.vertices[v][1] / 3.;
     const bool upper  = mesh.block_of_cell(c) == 1;
-    const auto stress = model.blocks().cell_stress(state.nodes.data(), c);
+    const auto stress = model.blocks().cell_stress(state.nodes.data(), {}, c);
     EXPECT_NEAR(stress[0], upper ? -5e5 : 0., 1e-6);
     EXPECT_NEAR(stress[1], -1e6 + 3e5 * y, 1e-6);
     EXPECT_NEAR(stress[2], upper ? 1e5 : 0., 1e-6);
