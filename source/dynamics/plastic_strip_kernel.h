@@ -166,102 +166,85 @@ namespace quoin
                                             NodeVector *force,
                                             Prefetcher &prefetcher) const
     {
-      const char *const records = reinterpret_cast<const char *>(nodes);
-      char *const sums          = reinterpret_cast<char *>(force);
+      char *const sums = reinterpret_cast<char *>(force);
 
       const std::uint32_t *offset    = sequence.offsets;
       const std::uint32_t *const end = offset + lanes * sequence.n_steps;
       const std::uint8_t *mask       = sequence.masks + 2;
       const std::uint32_t *cell      = cells + 2 * lanes;
 
-      struct Edge
-      {
-        Vector<lanes> e, w;
-      };
-      Vector<lanes> X{}, u{}; // of the newest node
-      Edge edge0, edge1, edge2;
+      StripWalk<lanes> walk(nodes);
       Vector<lanes> f0{}, f1{}, f2;
       double dissipated = 0.;
 
-      const auto enter = [&](const std::uint32_t *at, Edge &edge)
-          __attribute__((always_inline))
+      const auto first_stage
+          = [&](const int ahead, const StripStep<lanes> &before,
+                StripStep<lanes> &now) __attribute__((always_inline))
       {
-        Vector<lanes> new_X, new_u;
-        L::load(records, 2, at, new_X.x, new_X.y);
-        L::load(records + 16, 2, at, new_u.x, new_u.y);
-        edge.e = { new_X.x - X.x, new_X.y - X.y };
-        edge.w = { new_u.x - u.x, new_u.y - u.y };
-        X      = new_X;
-        u      = new_u;
+        for (int l = 0; l < lanes; ++l)
+          __builtin_prefetch(&history.cells[cell[ahead * lanes + l]], 1);
+        walk.first_stage(offset + ahead * lanes, before, now);
       };
 
-      const auto step
-          = [&](const std::uint32_t *at, const std::uint8_t m,
-                const std::uint32_t *of, const Edge &edge1, Edge &edge2,
-                Vector<lanes> &oldest, Vector<lanes> &middle,
-                Vector<lanes> &newest) __attribute__((always_inline))
+      const auto last_stage
+          = [&](const int ahead, const StripStep<lanes> &before,
+                const StripStep<lanes> &now, Vector<lanes> &oldest,
+                Vector<lanes> &middle, Vector<lanes> &newest)
+              __attribute__((always_inline))
       {
-        enter(at, edge2);
-        const Vector<lanes> &e1 = edge1.e, &e2 = edge2.e;
-        const Gradient<lanes> G(e1, e2, edge1.w, edge2.w);
+        const std::uint32_t *const of = cell + ahead * lanes;
+        // CorotatedStrain; R times the sign of the determinant is (c, s).
+        const Value r          = 1. / now.denominator;
+        const Value inverse_D  = 2. * r * now.y;
+        const Value inverse_N  = r * now.D2 * (now.N + now.D2);
+        const Value c          = now.A * inverse_N;
+        const Value s          = now.B * inverse_N;
+        const Value trace      = 2. * now.top * (now.N * r);
+        const Value difference = inverse_D * (c * now.h1 + s * now.h2);
+        const Value e12        = 0.5 * inverse_D * (c * now.h2 - s * now.h1);
 
-        // What is no triangle of the mesh gets a determinant without limit:
-        // no strain, and no weight.
-        const Value det = e1.x * e2.y - e1.y * e2.x;
-        Value divisor   = det;
-        L::keep(m, divisor);
-        const Value r    = 1. / divisor;
-        const Value sum  = G.sum * r;
-        const Value skew = G.skew * r;
-        const Value h1   = G.h1 * r;
-        const Value h2   = G.h2 * r;
-
-        // CorotatedStrain
-        const Value A = 2. + sum;
-        Value n;
-        L::square_root(A * A + skew * skew, n);
-        const Value both       = 1. / (n * (n + 2.));
-        const Value inverse_n  = both * (n + 2.);
-        const Value c          = A * inverse_n;
-        const Value sn         = skew * inverse_n;
-        const Value trace      = (sum * (2. + A) + skew * skew) * (both * n);
-        const Value difference = c * h1 + sn * h2;
-        const Value e12        = 0.5 * (c * h2 - sn * h1);
-
-        Stress s = trial_stress(of, trace, difference, e12);
-        Value area;
-        L::absolute(det, area);
-        const std::uint8_t beyond = exceeding(s) & m;
+        Stress t                  = trial_stress(of, trace, difference, e12);
+        const std::uint8_t beyond = exceeding(t) & mask[ahead];
         if (__builtin_expect(beyond != 0, 0))
-          dissipated += yield(of, beyond, 0.5 * thickness * area, s);
-        keep_stress(of, m, s);
+          dissipated += yield(of, beyond, 0.25 * thickness * now.D2, t);
+        keep_stress(of, mask[ahead], t);
 
-        // piola_stress(), with half the thickness and the sign of det.
-        Value sign;
-        L::absolute(r, sign);
-        const Value w = 0.5 * thickness * det * sign;
-        const Value turn
-            = (2. * s.half * e12 - s.shear * difference) * inverse_n;
-        const Value mean_c = s.mean * c - turn * sn;
-        const Value mean_s = s.mean * sn + turn * c;
-        const Value k1     = s.half * c - s.shear * sn;
-        const Value k2     = s.half * sn + s.shear * c;
-        const Piola<lanes> P{ w * (mean_c + k1), w * (k2 - mean_s),
-                              w * (mean_s + k2), w * (mean_c - k1) };
-        add_strip_forces(P, e1, e2, oldest, middle, newest);
-        L::add(sums, at - 2 * lanes, oldest.x, oldest.y);
+        // piola_stress()
+        const Value turn = 0.5 * now.D2 * inverse_N
+                           * (2. * t.half * e12 - t.shear * difference);
+        const Value a  = t.mean * c - turn * s;
+        const Value b  = t.mean * s + turn * c;
+        const Value k1 = t.half * c - t.shear * s;
+        const Value k2 = t.half * s + t.shear * c;
+        const Value w  = Value{} + 0.5 * thickness;
+        const Piola<lanes> P{ w * (a + k1), w * (k2 - b), w * (b + k2),
+                              w * (a - k1) };
+        add_strip_forces(P, before.e, now.e, oldest, middle, newest);
+        L::add(sums, offset + (ahead - 2) * lanes, oldest.x, oldest.y);
       };
 
-      enter(offset, edge0);
-      enter(offset + lanes, edge0);
-      for (offset += 2 * lanes; offset < end;
-           offset += 3 * lanes, mask += 3, cell += 3 * lanes)
+      // As elastic_strips().
+      StripStep<lanes> s0, s1, s2;
+      walk.enter(offset, s0.e, s0.w);
+      walk.enter(offset + lanes, s0.e, s0.w);
+      offset += 2 * lanes;
+      first_stage(0, s0, s1);
+      walk.second_stage(mask[0], s1);
+      first_stage(1, s1, s2);
+      for (; offset < end; offset += 3 * lanes, mask += 3, cell += 3 * lanes)
       {
         prefetcher.fetch();
-        step(offset, mask[0], cell, edge0, edge1, f0, f1, f2);
-        step(offset + lanes, mask[1], cell + lanes, edge1, edge2, f1, f2, f0);
-        step(offset + 2 * lanes, mask[2], cell + 2 * lanes, edge2, edge0, f2,
-             f0, f1);
+        last_stage(0, s0, s1, f0, f1, f2);
+        walk.second_stage(mask[1], s2);
+        first_stage(2, s2, s0);
+
+        last_stage(1, s1, s2, f1, f2, f0);
+        walk.second_stage(mask[2], s0);
+        first_stage(3, s0, s1);
+
+        last_stage(2, s2, s0, f2, f0, f1);
+        walk.second_stage(mask[3], s1);
+        first_stage(4, s1, s2);
       }
       L::add(sums, end - 2 * lanes, f0.x, f0.y);
       L::add(sums, end - lanes, f1.x, f1.y);

@@ -396,30 +396,23 @@ namespace quoin
       Value N, y, denominator;         /**< left by the second */
     };
 
-    template <int lanes, bool with_stress>
-    __attribute__((noinline)) void
-    elastic_strips(const StripSequence sequence, const ScaledModuli moduli,
-                   const double *stress, const NodeRecord *nodes,
-                   NodeVector *force, Prefetcher &prefetcher)
+    /** The way along the strips, to the second stage of a step. */
+    template <int lanes>
+    struct StripWalk
     {
       using L     = Lanes<lanes>;
       using Value = typename L::Value;
 
-      const Value bulk  = Value{} + moduli.bulk;
-      const Value shear = Value{} + moduli.shear;
+      const char *records;
+      Vector<lanes> X{}, u{}; /**< of the newest node */
 
-      const char *const records = reinterpret_cast<const char *>(nodes);
-      char *const sums          = reinterpret_cast<char *>(force);
+      explicit StripWalk(const NodeRecord *nodes)
+        : records(reinterpret_cast<const char *>(nodes))
+      {
+      }
 
-      const std::uint32_t *offset    = sequence.offsets;
-      const std::uint32_t *const end = offset + lanes * sequence.n_steps;
-      const std::uint8_t *mask       = sequence.masks + 2;
-
-      Vector<lanes> X{}, u{}; // of the newest node
-      Vector<lanes> f0{}, f1{}, f2;
-
-      const auto enter = [&](const std::uint32_t *at, Vector<lanes> &e,
-                             Vector<lanes> &w) __attribute__((always_inline))
+      QUOIN_INLINE void enter(const std::uint32_t *at, Vector<lanes> &e,
+                              Vector<lanes> &w)
       {
         Vector<lanes> new_X, new_u;
         L::load(records, 2, at, new_X.x, new_X.y);
@@ -428,11 +421,11 @@ namespace quoin
         w = { new_u.x - u.x, new_u.y - u.y };
         X = new_X;
         u = new_u;
-      };
+      }
 
-      const auto first_stage
-          = [&](const std::uint32_t *at, const StripStep<lanes> &before,
-                StripStep<lanes> &now) __attribute__((always_inline))
+      QUOIN_INLINE void first_stage(const std::uint32_t *at,
+                                    const StripStep<lanes> &before,
+                                    StripStep<lanes> &now)
       {
         enter(at, now.e, now.w);
         const Vector<lanes> &e1 = before.e, &e2 = now.e;
@@ -448,10 +441,10 @@ namespace quoin
         now.h2  = G.h2;
         now.NN  = now.A * now.A + BB;
         now.top = G.sum * (now.A + det2) + BB;
-      };
+      }
 
-      const auto second_stage = [&](const std::uint8_t m, StripStep<lanes> &now)
-          __attribute__((always_inline))
+      static QUOIN_INLINE void second_stage(const std::uint8_t m,
+                                            StripStep<lanes> &now)
       {
         L::square_root(now.NN, now.N);
         now.y = now.NN + now.D2 * now.N;
@@ -459,7 +452,29 @@ namespace quoin
         // makes its force zero.
         now.denominator = now.D2 * now.y;
         L::keep(m, now.denominator);
-      };
+      }
+    };
+
+    template <int lanes, bool with_stress>
+    __attribute__((noinline)) void
+    elastic_strips(const StripSequence sequence, const ScaledModuli moduli,
+                   const double *stress, const NodeRecord *nodes,
+                   NodeVector *force, Prefetcher &prefetcher)
+    {
+      using L     = Lanes<lanes>;
+      using Value = typename L::Value;
+
+      const Value bulk  = Value{} + moduli.bulk;
+      const Value shear = Value{} + moduli.shear;
+
+      char *const sums = reinterpret_cast<char *>(force);
+
+      const std::uint32_t *offset    = sequence.offsets;
+      const std::uint32_t *const end = offset + lanes * sequence.n_steps;
+      const std::uint8_t *mask       = sequence.masks + 2;
+
+      StripWalk<lanes> walk(nodes);
+      Vector<lanes> f0{}, f1{}, f2;
 
       const auto last_stage
           = [&](const std::uint32_t *at, const StripStep<lanes> &before,
@@ -501,27 +516,27 @@ namespace quoin
       if constexpr (with_stress)
         stress += 2 * 3 * lanes;
       StripStep<lanes> s0, s1, s2;
-      enter(offset, s0.e, s0.w);
-      enter(offset + lanes, s0.e, s0.w);
+      walk.enter(offset, s0.e, s0.w);
+      walk.enter(offset + lanes, s0.e, s0.w);
       offset += 2 * lanes;
-      first_stage(offset, s0, s1);
-      second_stage(mask[0], s1);
-      first_stage(offset + lanes, s1, s2);
+      walk.first_stage(offset, s0, s1);
+      walk.second_stage(mask[0], s1);
+      walk.first_stage(offset + lanes, s1, s2);
       // Two more steps begin than end; their results are not used.
       for (; offset < end; offset += 3 * lanes, mask += 3)
       {
         prefetcher.fetch();
         last_stage(offset, s0, s1, f0, f1, f2);
-        second_stage(mask[1], s2);
-        first_stage(offset + 2 * lanes, s2, s0);
+        walk.second_stage(mask[1], s2);
+        walk.first_stage(offset + 2 * lanes, s2, s0);
 
         last_stage(offset + lanes, s1, s2, f1, f2, f0);
-        second_stage(mask[2], s0);
-        first_stage(offset + 3 * lanes, s0, s1);
+        walk.second_stage(mask[2], s0);
+        walk.first_stage(offset + 3 * lanes, s0, s1);
 
         last_stage(offset + 2 * lanes, s2, s0, f2, f0, f1);
-        second_stage(mask[3], s1);
-        first_stage(offset + 4 * lanes, s1, s2);
+        walk.second_stage(mask[3], s1);
+        walk.first_stage(offset + 4 * lanes, s1, s2);
       }
       L::add(sums, end - 2 * lanes, f0.x, f0.y);
       L::add(sums, end - lanes, f1.x, f1.y);
