@@ -1,6 +1,7 @@
 // A quarter of a ring, radii 1 and 5 m.
-n = 16; // edges along the wall
-m = 26; // and from the wall outwards
+DefineConstant[ n = 16 ];   // edges along the wall
+DefineConstant[ m = 26 ];   // and from the wall outwards,
+DefineConstant[ g = 1.07 ]; // each so much longer than the one before
 r = 5;
 Point(1) = {0, 0, 0};
 Point(2) = {1, 0, 0};
@@ -14,8 +15,8 @@ Circle(4) = {5, 1, 2};
 Curve Loop(1) = {1, 2, 3, 4};
 Plane Surface(1) = {1};
 Transfinite Curve{2, 4} = n + 1;
-Transfinite Curve{1} = m + 1 Using Progression 1.07;
-Transfinite Curve{3} = m + 1 Using Progression 1 / 1.07;
+Transfinite Curve{1} = m + 1 Using Progression g;
+Transfinite Curve{3} = m + 1 Using Progression 1 / g;
 Transfinite Surface{1} Alternate;
 Physical Curve("bottom") = {1};
 Physical Curve("outside") = {2};
