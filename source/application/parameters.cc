@@ -445,6 +445,11 @@ namespace quoin
           section.fail("Material", "leads to '" + material->name
                                        + "', which is rigid: boundary elements "
                                          "need 'Law = linear elastic'.");
+        if (material->strength && !coupled)
+          section.fail("Material", "leads to '" + material->name
+                                       + "', whose law is Mohr-Coulomb: "
+                                         "boundary elements alone are elastic, "
+                                         "they need 'Law = linear elastic'.");
         choose_resolution(ElasticMedium::from_young(material->elastic.density,
                                                     material->elastic.young,
                                                     material->elastic.poisson),
