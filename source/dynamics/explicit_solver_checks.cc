@@ -83,7 +83,7 @@ namespace quoin
             << ") m and is now at (" << at[2] << ", " << at[3]
             << ") m, found at time " << state.time << " s, step " << state.step
             << ". The usual causes are a load or an impact that crushes the "
-               "block, whose law is elastic (check the units of the load, "
+               "block (check the units of the load, "
                "'Density' and 'Young's modulus'), a cell that is thin where "
                "the load acts (refine the mesh there), joints or contacts so "
                "soft that blocks run into each other (raise 'Normal "
