@@ -880,7 +880,7 @@ def salencon(case, folder, output, histories):
     area = 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1]
                         - (b - a)[:, 1] * (c - a)[:, 0])
     yielded = np.sum(area[grid.cell_data["yielding"] > 0])
-    yielded = np.sqrt(1 + yielded / (np.pi / 4))
+    yielded = np.sqrt(1 + yielded / (case.get("quarters", 1) * np.pi / 4))
     print("  wall %.3f mm, plastic radius %.3f m"
           % (1e3 * np.mean(radial[wall]), yielded))
     return {
