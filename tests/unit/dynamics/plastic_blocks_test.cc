@@ -407,3 +407,30 @@ TEST(PlasticBlocks, SimpleShear)
   }
   EXPECT_NEAR(block.lost, 1e6 * (1e-3 - 1e6 / modulus), 1e-5 * 1e3);
 }
+
+// What the initial stress has beyond the strength is gone after one step, in
+// which nothing moves, and booked.
+TEST(PlasticBlocks, InitialStressBeyondTheStrength)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  ModelParameters parameters = two_blocks();
+  for (auto &material : parameters.materials)
+    material.strength = MohrCoulombStrength{ 1e6, 0., 0. };
+  LoadParameters stress;
+  stress.name                 = "insitu";
+  stress.type                 = LoadType::initial_stress;
+  stress.stress               = { { -4e6, 0., 0. } };
+  parameters.initial_stresses = { stress };
+  TestRun run(mesh, parameters,
+              { motion("bottom", "bottom", "0", "0"), stress });
+  run.begin(stage_with({ "bottom" }));
+  run.solver.step(run.state, { true, false });
+  EXPECT_LT(run.solver.energies().strain, 0.);
+  EXPECT_NEAR(run.solver.energies().residual(), 0.,
+              1e-9 * run.state.energy.plastic);
+  for (unsigned int i = 0; i < 200; ++i)
+    run.solver.step(run.state, { true, false });
+  EXPECT_NEAR(run.solver.energies().residual(), 0.,
+              1e-6 * run.state.energy.plastic);
+}
