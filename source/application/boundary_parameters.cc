@@ -401,7 +401,9 @@ namespace quoin
   void BoundaryElementParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry("Material", "", Anything(),
-                      "Of the domain; empty: the only one there is.");
+                      "Of the domain; empty: the only one there is. What "
+                      "lies beyond blocks of a Mohr-Coulomb material has its "
+                      "elasticity and does not yield.");
     prm.declare_entry(
         "Formulation", "Galerkin",
         Selection("Galerkin|collocation|convolution quadrature"),

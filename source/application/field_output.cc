@@ -13,7 +13,7 @@ namespace quoin
     const BlockMesh<2> &mesh = model.mesh();
     std::vector<std::array<double, 4>> stress;
     std::vector<PlaneTensor> strain;
-    model.blocks().stresses(state.nodes.data(), stress, strain);
+    model.blocks().stresses(state.nodes.data(), state.plastic, stress, strain);
     stress.resize(model.n_cells(), { { 0., 0., 0., 0. } }); // rigid
     strain.resize(model.n_cells(), { { 0., 0., 0. } });
     for (unsigned int b = 0; b < model.n_blocks(); ++b)
@@ -42,6 +42,13 @@ namespace quoin
               = static_cast<std::int32_t>(model.cells()[own][k]) + shift;
         fields.stress.push_back(stress[own]);
         fields.strain.push_back(strain[own]);
+        if (model.blocks().is_plastic())
+        {
+          const bool is_rigid = own >= model.n_deformable_cells();
+          fields.yielding.push_back(is_rigid ? 0 : state.plastic.yielding[own]);
+          fields.plastic_shear.push_back(is_rigid ? 0.
+                                                  : state.plastic.shear[own]);
+        }
         fields.block.push_back(block);
         fields.material.push_back(model.material_of_cell(c));
       }

@@ -74,6 +74,7 @@ namespace quoin
         consider(mesh.vertices[model.exchange().global(i)], i);
       break;
     case HistoryQuantity::stress:
+    case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
       for (unsigned int c = 0; c < model.n_cells(); ++c)
       {
@@ -175,13 +176,22 @@ namespace quoin
     {
       if (probe.entity >= model.n_deformable_cells())
         return 0.;
-      const auto stress
-          = model.blocks().cell_stress(state.nodes.data(), probe.entity);
+      const auto stress = model.blocks().cell_stress(
+          state.nodes.data(), state.plastic, probe.entity);
       if (wanted.component < 4)
         return stress[wanted.component];
       const PrincipalStress principal
           = principal_stress(stress[0], stress[1], stress[2]);
       return wanted.component == 4 ? principal.s1 : principal.s2;
+    }
+    case HistoryQuantity::yielding:
+    {
+      if (probe.entity >= model.n_deformable_cells()
+          || !model.blocks().cell_law(probe.entity))
+        return 0.;
+      const PlasticPoint point = model.blocks().cell_history(
+          state.nodes.data(), state.plastic, probe.entity);
+      return wanted.component == 0 ? point.state : point.plastic_shear;
     }
     case HistoryQuantity::joint:
     {

@@ -30,6 +30,8 @@ namespace quoin
         { "stress zz", { Q::stress, 3, "Pa" } },
         { "stress 1", { Q::stress, 4, "Pa" } },
         { "stress 2", { Q::stress, 5, "Pa" } },
+        { "yielding", { Q::yielding, 0, "-" } },
+        { "plastic shear strain", { Q::yielding, 1, "-" } },
         { "rotation", { Q::rotation, 0, "deg" } },
         { "joint opening", { Q::joint, 0, "m" } },
         { "joint slip", { Q::joint, 1, "m" } },
@@ -84,7 +86,10 @@ namespace quoin
         dealii::Patterns::Selection(kind_names("|")),
         "What the column holds, in SI units; 'stress 1' and "
         "'stress 2' are the larger and the smaller principal "
-        "stress; 'kinetic energy share' is kinetic energy by "
+        "stress; 'yielding' is 0 in a cell that never yielded, else a sum of 1 "
+        "for shear and 2 for tension in the last step, 4 and 8 for either "
+        "before it; 'plastic shear strain' is accumulated; 'kinetic energy "
+        "share' is kinetic energy by "
         "all energy that went through the model; 'joint damage' the share of "
         "tensile strength and "
         "cohesion that a composite law has lost; 'contacts' the "

@@ -74,6 +74,10 @@ namespace quoin
                         "gmsh geometry (.geo) or mesh (.msh), relative to "
                         "the folder of this file; coordinates in [m]. Empty "
                         "with a wall of section 'Wall'.");
+      prm.declare_entry("Triangles", "plain", Selection("plain|crossed"),
+                        "plain: the file's or gmsh's triangles; crossed: "
+                        "quadrangles, each cut into four triangles by its "
+                        "diagonals, which do not lock in plastic flow.");
       prm.declare_entry("Joints along", "", Anything(),
                         "Physical curves along which the mesh is split into "
                         "blocks; empty with a wall of section 'Wall': all of "
@@ -321,6 +325,9 @@ namespace quoin
     {
       const bool generated = lay_wall(top, parameters);
       const ParameterSection section(top, "Mesh");
+      parameters.triangles = section.choice<TriangleKind>(
+          "Triangles", { { "plain", TriangleKind::plain },
+                         { "crossed", TriangleKind::crossed } });
       if (!generated)
         read_mesh_file(section, parameters);
       if (!generated || !section.text("Joints along").empty())
@@ -483,6 +490,11 @@ namespace quoin
           section.fail("Material", "leads to '" + material->name
                                        + "', which is rigid: boundary elements "
                                          "need 'Law = linear elastic'.");
+        if (material->strength && !coupled)
+          section.fail("Material", "leads to '" + material->name
+                                       + "', whose law is Mohr-Coulomb: "
+                                         "boundary elements alone are elastic, "
+                                         "they need 'Law = linear elastic'.");
         choose_resolution(ElasticMedium::from_young(material->elastic.density,
                                                     material->elastic.young,
                                                     material->elastic.poisson),

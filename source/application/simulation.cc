@@ -72,8 +72,10 @@ namespace quoin
   {
     const MeshData as_read
         = parameters.wall_geometry.empty()
-              ? read_gmsh(parameters.mesh_file, communicator)
-              : mesh_gmsh_geometry(parameters.wall_geometry, communicator);
+              ? read_gmsh(parameters.mesh_file, communicator,
+                          parameters.triangles)
+              : mesh_gmsh_geometry(parameters.wall_geometry, communicator,
+                                   parameters.triangles);
     split_into_blocks(as_read, parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 

@@ -36,9 +36,9 @@ namespace quoin
         output + "/energies.csv",
         std::vector<std::string>{
              "time [s]", "kinetic [J]", "strain [J]", "joint [J]",
-             "friction [J]", "fracture [J]", "crushing [J]", "damping [J]",
-             "viscous [J]", "contact [J]", "radiated [J]", "far field [J]",
-             "external [J]", "residual [J]" });
+             "friction [J]", "fracture [J]", "crushing [J]", "plastic [J]",
+             "damping [J]", "viscous [J]", "contact [J]", "radiated [J]",
+             "far field [J]", "external [J]", "residual [J]" });
     if (solver->far_field())
       far_field_table = std::make_unique<CsvTable>(
           output + "/far_field.csv",
@@ -75,7 +75,8 @@ namespace quoin
           if (!parameters.wall_geometry.empty() && !options.resume)
           {
             write_text("wall.geo", parameters.wall_geometry);
-            write_gmsh_mesh(output + "/wall.geo", output + "/wall.msh");
+            write_gmsh_mesh(output + "/wall.geo", output + "/wall.msh",
+                            parameters.triangles);
           }
         });
     record.block_output.start();
@@ -102,9 +103,10 @@ namespace quoin
       energy_table->add_row(
           { record.state.time - solver->get_time_step(), energies.kinetic,
             energies.strain, energies.joint, accounts.friction,
-            accounts.fracture, accounts.crushing, accounts.damping,
-            accounts.viscous, accounts.contact, accounts.radiated,
-            energies.far_field, accounts.external, energies.residual() });
+            accounts.fracture, accounts.crushing, accounts.plastic,
+            accounts.damping, accounts.viscous, accounts.contact,
+            accounts.radiated, energies.far_field, accounts.external,
+            energies.residual() });
   }
 
   void Simulation::write_fields()
@@ -113,10 +115,10 @@ namespace quoin
     if (state.time == record.fields_time)
       return;
     record.fields_time = state.time;
-    record.block_output.write(state.time, block_fields(*model, state));
     // Histories are those of the step before.
     State now = state;
     solver->update_histories(now);
+    record.block_output.write(state.time, block_fields(*model, now));
     record.joint_output.write(state.time, joint_fields(*model, now));
     if (solver->contacts())
       record.contact_output.write(state.time,

@@ -8,7 +8,7 @@
 #include <limits>
 #include <string>
 
-#include "strip_kernel.h"
+#include "plastic_strip_kernel.h"
 
 namespace quoin
 {
@@ -18,14 +18,6 @@ namespace quoin
     std::size_t padded_steps(const std::size_t n)
     {
       return 2 + 3 * ((std::max<std::size_t>(n, 3) - 2 + 2) / 3);
-    }
-
-    std::array<double, 4> displacement_gradient(const Triangle &triangle,
-                                                const NodeRecord &a,
-                                                const NodeRecord &b,
-                                                const NodeRecord &c)
-    {
-      return triangle.gradient(a.u, b.u, c.u);
     }
   } // namespace
 
@@ -40,6 +32,7 @@ namespace quoin
     offsets.clear();
     masks.clear();
     lane_stress.clear();
+    lane_cells.clear();
     node_groups.clear();
     make_tiles(options.tile_bytes);
     for (Tile &tile : tiles)
@@ -84,8 +77,7 @@ namespace quoin
     const auto finish = [&](const unsigned int s)
     {
       if (!members[s].empty())
-        append_run(make_strips(data.cells, members[s], &statistics), tile,
-                   data.stiffness[s]);
+        append_run(make_strips(data.cells, members[s], &statistics), tile, s);
       members[s].clear();
     };
     for (std::size_t cell = tile.cells.begin; cell < tile.cells.end; ++cell)
@@ -102,8 +94,7 @@ namespace quoin
   }
 
   void BlockForces::append_run(const std::vector<StripEntry> &strips,
-                               const Tile &tile,
-                               const PlaneStiffness &stiffness)
+                               const Tile &tile, const unsigned int s)
   {
     // Each lane takes an equal piece of the sequence, wherever that cuts a
     // strip, after the two nodes before the piece: all lanes end together.
@@ -118,8 +109,8 @@ namespace quoin
     std::sort(groups, node_groups.end());
     node_groups.erase(std::unique(groups, node_groups.end()),
                       node_groups.end());
-    runs.push_back({ first, n, stiffness.bulk() * data.thickness,
-                     stiffness.c33 * data.thickness, first_group,
+    runs.push_back({ first, n, data.stiffness[s].bulk() * data.thickness,
+                     data.stiffness[s].c33 * data.thickness, s, first_group,
                      node_groups.size() - first_group });
 
     // The kernel begins two steps more than it ends.
@@ -128,6 +119,8 @@ namespace quoin
     masks.resize(first + n_rows, 0);
     if (!data.initial_stress.empty())
       lane_stress.resize(3 * (first + n_rows) * n_lanes, 0.);
+    if (is_plastic())
+      lane_cells.resize((first + n_rows) * n_lanes, tile.cells.begin);
 
     for (std::size_t lane = 0; lane < n_lanes; ++lane)
     {
@@ -145,14 +138,16 @@ namespace quoin
         if (!in_piece || strips[k].cell == StripEntry::no_cell)
           continue;
         masks[row] |= 1u << lane;
+        if (is_plastic())
+          lane_cells[row * n_lanes + lane] = strips[k].cell;
         if (!data.initial_stress.empty())
         {
-          const PlaneTensor &s = data.initial_stress[strips[k].cell];
-          double *to           = &lane_stress[3 * row * n_lanes + lane];
-          const double half    = 0.5 * data.thickness;
-          to[0]                = half * 0.5 * (s[0] + s[1]);
-          to[n_lanes]          = half * 0.5 * (s[0] - s[1]);
-          to[2 * n_lanes]      = half * s[2];
+          const auto &s     = data.initial_stress[strips[k].cell];
+          double *to        = &lane_stress[3 * row * n_lanes + lane];
+          const double half = 0.5 * data.thickness;
+          to[0]             = half * 0.5 * (s[0] + s[1]);
+          to[n_lanes]       = half * 0.5 * (s[0] - s[1]);
+          to[2 * n_lanes]   = half * s[2];
         }
       }
     }
@@ -166,10 +161,12 @@ namespace quoin
   }
 
   template <int lanes>
-  void BlockForces::add_forces_in_lanes(const Tile &tile,
-                                        const NodeRecord *nodes,
-                                        NodeVector *force) const
+  double BlockForces::add_forces_in_lanes(const Tile &tile,
+                                          const NodeRecord *nodes,
+                                          PlasticHistory &history,
+                                          NodeVector *force) const
   {
+    double dissipated = 0.;
     for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
     {
       const Run &run  = runs[r];
@@ -182,7 +179,17 @@ namespace quoin
       ScaledModuli moduli{ run.bulk, run.shear };
       const NodeRecord *tile_records = nodes + tile.nodes.begin;
       NodeVector *tile_force         = force + tile.nodes.begin;
-      if (lane_stress.empty())
+      if (const MohrCoulomb *yields = law(run.stiffness))
+      {
+        const PlasticStrips<lanes> strips(
+            *yields, data.stiffness[run.stiffness], data.thickness,
+            &lane_cells[run.first_step * lanes],
+            lane_stress.empty() ? nullptr : data.initial_stress.data(),
+            history);
+        dissipated += strips.add_forces(sequence, tile_records, tile_force,
+                                        prefetcher);
+      }
+      else if (lane_stress.empty())
         elastic_strips<lanes, false>(sequence, moduli, nullptr, tile_records,
                                      tile_force, prefetcher);
       else
@@ -190,6 +197,7 @@ namespace quoin
                                     &lane_stress[3 * run.first_step * lanes],
                                     tile_records, tile_force, prefetcher);
     }
+    return dissipated;
   }
 
   template <int lanes>
@@ -210,13 +218,18 @@ namespace quoin
     }
   }
 
-  void BlockForces::add_forces(const unsigned int tile, const NodeRecord *nodes,
-                               NodeVector *force) const
+  double BlockForces::add_forces(const unsigned int tile,
+                                 const NodeRecord *nodes,
+                                 PlasticHistory &history,
+                                 NodeVector *force) const
   {
-    if (n_lanes == 8)
-      add_forces_in_lanes<8>(tiles[tile], nodes, force);
-    else
-      add_forces_in_lanes<4>(tiles[tile], nodes, force);
+    if (is_plastic())
+      for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
+           ++k)
+        history.yielding[k] = MohrCoulomb::past(history.yielding[k]);
+    return n_lanes == 8
+               ? add_forces_in_lanes<8>(tiles[tile], nodes, history, force)
+               : add_forces_in_lanes<4>(tiles[tile], nodes, history, force);
   }
 
   void BlockForces::add_viscous_forces(const unsigned int tile,
@@ -229,106 +242,5 @@ namespace quoin
       add_viscous_forces_in_lanes<8>(tiles[tile], nodes, velocity, beta, force);
     else
       add_viscous_forces_in_lanes<4>(tiles[tile], nodes, velocity, beta, force);
-  }
-
-  void BlockForces::add_forces_by_cell(const unsigned int tile,
-                                       const NodeRecord *nodes,
-                                       NodeVector *force) const
-  {
-    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
-         ++k)
-    {
-      const auto [a, b, c] = data.cells[k];
-      const Triangle triangle(nodes[a], nodes[b], nodes[c]);
-      const CorotatedStrain strain(
-          displacement_gradient(triangle, nodes[a], nodes[b], nodes[c]));
-      add_nodal_forces(triangle, data.thickness,
-                       piola_stress(strain,
-                                    elastic_stress(cell_stiffness(k), strain.e),
-                                    initial_stress(k)),
-                       force[a], force[b], force[c]);
-    }
-  }
-
-  void BlockForces::add_viscous_forces_by_cell(const unsigned int tile,
-                                               const NodeRecord *nodes,
-                                               const NodeVector *velocity,
-                                               const double beta,
-                                               NodeVector *force) const
-  {
-    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
-         ++k)
-    {
-      const auto [a, b, c] = data.cells[k];
-      const Triangle triangle(nodes[a], nodes[b], nodes[c]);
-      const CorotatedStrain strain(
-          displacement_gradient(triangle, nodes[a], nodes[b], nodes[c]));
-      const auto L
-          = triangle.gradient(velocity[a].v, velocity[b].v, velocity[c].v);
-      // sym(R^T L)
-      const double cs = strain.c, sn = strain.s;
-      const PlaneTensor rate{ beta * (cs * L[0] + sn * L[2]),
-                              beta * (cs * L[3] - sn * L[1]),
-                              0.5 * beta
-                                  * (cs * (L[1] + L[2]) + sn * (L[3] - L[0])) };
-      add_nodal_forces(triangle, data.thickness,
-                       piola_stress(strain,
-                                    elastic_stress(cell_stiffness(k), rate),
-                                    { 0., 0., 0. }),
-                       force[a], force[b], force[c]);
-    }
-  }
-
-  double BlockForces::strain_energy(const NodeRecord *nodes,
-                                    const unsigned int begin_tile,
-                                    const unsigned int end_tile) const
-  {
-    double energy = 0.;
-    for (unsigned int tile = begin_tile; tile < end_tile; ++tile)
-      for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
-           ++k)
-      {
-        const auto [a, b, c] = data.cells[k];
-        const Triangle triangle(nodes[a], nodes[b], nodes[c]);
-        const auto e
-            = CorotatedStrain(
-                  displacement_gradient(triangle, nodes[a], nodes[b], nodes[c]))
-                  .e;
-        const auto s  = elastic_stress(cell_stiffness(k), e);
-        const auto s0 = initial_stress(k);
-        energy += data.thickness * triangle.area()
-                  * ((0.5 * s[0] + s0[0]) * e[0] + (0.5 * s[1] + s0[1]) * e[1]
-                     + 2. * (0.5 * s[2] + s0[2]) * e[2]);
-      }
-    return energy;
-  }
-
-  std::array<double, 4> BlockForces::cell_stress(const NodeRecord *nodes,
-                                                 const std::size_t cell,
-                                                 PlaneTensor *strain_out) const
-  {
-    const auto [a, b, c] = data.cells[cell];
-    const Triangle triangle(nodes[a], nodes[b], nodes[c]);
-    const CorotatedStrain strain(
-        displacement_gradient(triangle, nodes[a], nodes[b], nodes[c]));
-    auto s        = elastic_stress(cell_stiffness(cell), strain.e);
-    const auto s0 = initial_stress(cell);
-    for (unsigned int i = 0; i < 3; ++i)
-      s[i] += s0[i];
-    if (strain_out)
-      *strain_out = strain.to_global(strain.e);
-    const double zz = cell_stiffness(cell).zz_over_sum * (s[0] + s[1]);
-    const auto g    = strain.to_global(s);
-    return { g[0], g[1], g[2], zz };
-  }
-
-  void BlockForces::stresses(const NodeRecord *nodes,
-                             std::vector<std::array<double, 4>> &stress_out,
-                             std::vector<PlaneTensor> &strain_out) const
-  {
-    stress_out.resize(data.cells.size());
-    strain_out.resize(data.cells.size());
-    for (std::size_t k = 0; k < data.cells.size(); ++k)
-      stress_out[k] = cell_stress(nodes, k, &strain_out[k]);
   }
 } // namespace quoin

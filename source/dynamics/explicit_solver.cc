@@ -27,11 +27,11 @@ namespace quoin
 
   double Energies::throughput() const
   {
-    return std::max({ std::abs(accounts.external),
-                      kinetic + strain + joint + far_field,
-                      accounts.friction + accounts.fracture + accounts.crushing
-                          + accounts.damping + accounts.viscous
-                          + accounts.contact + accounts.radiated });
+    return std::max(
+        { std::abs(accounts.external), kinetic + strain + joint + far_field,
+          accounts.friction + accounts.fracture + accounts.crushing
+              + accounts.plastic + accounts.damping + accounts.viscous
+              + accounts.contact + accounts.radiated });
   }
 
   ExplicitSolver::ExplicitSolver(const Model &model,
@@ -88,7 +88,8 @@ namespace quoin
     viscous_force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
 
     const State rest = model.initial_state();
-    strain_at_start  = sum(model.blocks().strain_energy(rest.nodes.data()));
+    strain_at_start
+        = sum(model.blocks().strain_energy(rest.nodes.data(), rest.plastic));
     joint_at_start
         = sum(model.joints().stored_energy(rest.nodes.data(), rest.joints));
   }
@@ -133,7 +134,9 @@ namespace quoin
     double strain = 0., joint = 0.;
     if (requests.energies)
     {
-      strain = model.blocks().strain_energy(state.nodes.data());
+      plastic_now = state.plastic;
+      model.blocks().update(state.nodes.data(), plastic_now);
+      strain = model.blocks().strain_energy(state.nodes.data(), plastic_now);
       joint  = model.joints().stored_energy(state.nodes.data(), state.joints);
       if (block_contacts)
         joint += block_contacts->stored_energy(state.contacts);
@@ -276,6 +279,8 @@ namespace quoin
     }
     model.joints().add_forces(state.nodes.data(), state.joints, state.energy,
                               unused.data());
+    state.energy.plastic
+        += model.blocks().update(state.nodes.data(), state.plastic);
   }
 
   void ExplicitSolver::capture(CapturedNode &node, const State &state) const
@@ -311,7 +316,8 @@ namespace quoin
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
     {
       const NodeRange range = blocks.tile_nodes(tile);
-      blocks.add_forces(tile, state.nodes.data(), force.data());
+      state.energy.plastic += blocks.add_forces(tile, state.nodes.data(),
+                                                state.plastic, force.data());
       if (viscous)
         blocks.add_viscous_forces(
             tile, state.nodes.data(), state.velocity.data(),
@@ -415,7 +421,7 @@ namespace quoin
   void ExplicitSolver::find_energies(State &state, const double strain,
                                      const double joint, const double kinetic)
   {
-    double values[11] = { kinetic,
+    double values[12] = { kinetic,
                           strain,
                           joint,
                           state.energy.external,
@@ -425,8 +431,9 @@ namespace quoin
                           state.energy.damping,
                           state.energy.viscous,
                           state.energy.contact,
-                          state.energy.radiated };
-    MPI_Allreduce(MPI_IN_PLACE, values, 11, MPI_DOUBLE, MPI_SUM, communicator);
+                          state.energy.radiated,
+                          state.energy.plastic };
+    MPI_Allreduce(MPI_IN_PLACE, values, 12, MPI_DOUBLE, MPI_SUM, communicator);
     last_energies.kinetic           = values[0];
     last_energies.strain            = values[1] - strain_at_start;
     last_energies.joint             = values[2] - joint_at_start;
@@ -439,6 +446,7 @@ namespace quoin
     last_energies.accounts.viscous  = values[8];
     last_energies.accounts.contact  = values[9];
     last_energies.accounts.radiated = values[10];
+    last_energies.accounts.plastic  = values[11];
   }
 
   void ExplicitSolver::find_ratio(State &state, const StepContext &context,

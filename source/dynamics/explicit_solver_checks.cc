@@ -83,7 +83,7 @@ namespace quoin
             << ") m and is now at (" << at[2] << ", " << at[3]
             << ") m, found at time " << state.time << " s, step " << state.step
             << ". The usual causes are a load or an impact that crushes the "
-               "block, whose law is elastic (check the units of the load, "
+               "block (check the units of the load, "
                "'Density' and 'Young's modulus'), a cell that is thin where "
                "the load acts (refine the mesh there), joints or contacts so "
                "soft that blocks run into each other (raise 'Normal "
@@ -150,9 +150,14 @@ namespace quoin
     // those of the cells change its strain energy by as much as its kinetic
     // energy, so both are taken as they would be after that half step.
     const double dt = state.previous_time_step;
-    double energy
-        = model.joints().stored_energy(state.nodes.data(), state.joints)
-          + model.blocks().strain_energy(state.nodes.data());
+    state.energy.plastic
+        += model.blocks().update(state.nodes.data(), state.plastic);
+    const auto stored = [&]()
+    {
+      return model.joints().stored_energy(state.nodes.data(), state.joints)
+             + model.blocks().strain_energy(state.nodes.data(), state.plastic);
+    };
+    double energy         = stored();
     const auto is_removed = [&](const unsigned int block) {
       return state.contacts.outside[block] == BlockContacts::removed_from_model;
     };
@@ -174,7 +179,8 @@ namespace quoin
     const RigidBlocks &rigid = model.rigid_blocks();
     const auto rigid_0       = state.rigid_blocks;
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
-      model.blocks().add_forces(tile, state.nodes.data(), force.data());
+      model.blocks().add_forces(tile, state.nodes.data(), state.plastic,
+                                force.data());
     for (const BlockOutside &block : found)
     {
       if (!block.removed || block.block < model.first_block()
@@ -193,8 +199,11 @@ namespace quoin
           v = 0.;
         }
       if (!is_rigid)
+      {
         for (std::size_t i = range.begin; i < range.end; ++i)
           std::copy(mean, mean + 2, state.nodes[i].u);
+        model.forget_yielding(block.block, state.plastic);
+      }
     }
     std::fill(force.begin(), force.end(), NodeVector{ { 0., 0. } });
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
@@ -205,8 +214,7 @@ namespace quoin
     energy += rigid.kinetic_energy(rigid_stage, rigid_0, rigid_0, 1.)
               - rigid.kinetic_energy(rigid_stage, state.rigid_blocks,
                                      state.rigid_blocks, 1.)
-              - model.joints().stored_energy(state.nodes.data(), state.joints)
-              - model.blocks().strain_energy(state.nodes.data());
+              - stored();
     state.energy.external -= energy;
     hold_removed_blocks(state);
     model.exchange().update_ghosts(state.nodes.data());

@@ -57,20 +57,21 @@ namespace quoin
       throw InputError(message.str());
     }
 
-    // Joints follow the positions in the first step.
+    // Joints and cells that yield follow the positions in the first step.
     State moving = state, rest = model.initial_state();
     AlignedArray<NodeVector> unused(state.nodes.size(),
                                     NodeVector{ { 0., 0. } });
     EnergyAccounts lost;
     model.joints().add_forces(moving.nodes.data(), moving.joints, lost,
                               unused.data());
+    lost.plastic = model.blocks().update(moving.nodes.data(), moving.plastic);
     const auto stored = [&](const State &s)
     {
-      return model.blocks().strain_energy(s.nodes.data())
+      return model.blocks().strain_energy(s.nodes.data(), s.plastic)
              + model.joints().stored_energy(s.nodes.data(), s.joints);
     };
     double energy = stored(moving) - stored(rest) + lost.friction
-                    + lost.fracture + lost.crushing;
+                    + lost.fracture + lost.crushing + lost.plastic;
     for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
       for (const double v : state.velocity[i].v)
         energy += 0.5 * mass[i] * v * v;

@@ -4,7 +4,6 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/triangle.h>
-#include <quoin/loads/nodal_load.h>
 
 #include <algorithm>
 #include <cmath>
@@ -149,29 +148,6 @@ namespace quoin
                   density, parameters.thickness);
   }
 
-  void Model::find_initial_stress()
-  {
-    if (parameters.initial_stresses.empty())
-      return;
-    cell_stress.assign(block_mesh.n_cells(), {});
-    for (const LoadParameters &load : parameters.initial_stresses)
-    {
-      const auto groups = groups_of_names(block_mesh, load.groups, load.name);
-      for (unsigned int c = 0; c < block_mesh.n_cells(); ++c)
-      {
-        if (!groups.empty()
-            && std::find(groups.begin(), groups.end(), block_mesh.cell_group[c])
-                   == groups.end())
-          continue;
-        double y = 0.;
-        for (const unsigned int v : block_mesh.cells[c])
-          y += block_mesh.vertices[v][1] / 3.;
-        for (unsigned int k = 0; k < 3; ++k)
-          cell_stress[c][k] += load.stress[k] + y * load.stress_gradient[k];
-      }
-    }
-  }
-
   void Model::pack_blocks()
   {
     BlockForcesData data;
@@ -187,8 +163,14 @@ namespace quoin
                                       - node_0);
     }
     for (const MaterialParameters &material : parameters.materials)
+    {
       data.stiffness.push_back(
           plane_stiffness(material.elastic, parameters.plane));
+      data.laws.emplace_back();
+      if (material.strength)
+        data.laws.back().emplace(material.elastic, *material.strength,
+                                 parameters.plane);
+    }
     for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
       data.cell_stiffness.push_back(material_of_cell(cell_0 + c));
@@ -331,6 +313,7 @@ namespace quoin
     {
       ground.materials.push_back(parameters.materials[m].elastic);
       ground.is_rigid.push_back(parameters.materials[m].rigid);
+      ground.yields.push_back(parameters.materials[m].strength.has_value());
     }
     ground.plane     = parameters.plane;
     ground.thickness = parameters.thickness;
@@ -348,29 +331,5 @@ namespace quoin
     result.is_rigid          = rigid_block;
     result.thickness         = parameters.thickness;
     return result;
-  }
-
-  State Model::initial_state() const
-  {
-    State state;
-    state.rigid_blocks.resize(rigid.n_blocks());
-    for (unsigned int i = 0; i < nodes->n_local(); ++i)
-      state.nodes.push_back(at_rest(block_mesh.vertices[nodes->global(i)]));
-    state.velocity.assign(nodes->n_local(), NodeVector{ { 0., 0. } });
-    state.joints.resize(matched_joints.n_points(), matched_joints.can_soften());
-    if (!cell_stress.empty())
-    {
-      std::vector<std::array<double, 3>> face_stress;
-      for (const JointFace &face : block_mesh.joint_faces)
-      {
-        face_stress.emplace_back();
-        for (unsigned int k = 0; k < 3; ++k)
-          face_stress.back()[k] = 0.5
-                                  * (cell_stress[face.cells[0]][k]
-                                     + cell_stress[face.cells[1]][k]);
-      }
-      matched_joints.initialise(face_stress, state, state.joints);
-    }
-    return state;
   }
 } // namespace quoin

@@ -83,6 +83,62 @@ namespace quoin
         result             = (Value)((Bits)a & Bits{ all, all, all, all });
       }
 
+      static QUOIN_INLINE void minimum(const Value &a, Value &result)
+      {
+        result = a < result ? a : result;
+      }
+
+      /** Bit l says that a > b in lane l. */
+      static QUOIN_INLINE std::uint8_t greater(const Value &a, const Value &b)
+      {
+#ifdef __AVX__
+        return _mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_GT_OQ));
+#else
+        return (a[0] > b[0]) | (a[1] > b[1]) << 1 | (a[2] > b[2]) << 2
+               | (a[3] > b[3]) << 3;
+#endif
+      }
+
+      /** Transposes the four doubles that @p of names for each lane. */
+      template <typename Of>
+      static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
+      {
+        const Value a = four(of(0)), b = four(of(1)), c = four(of(2)),
+                    d    = four(of(3));
+        const Value ab_0 = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+        const Value ab_1 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+        const Value cd_0 = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+        const Value cd_1 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+        v[0]             = __builtin_shufflevector(ab_0, cd_0, 0, 1, 4, 5);
+        v[1]             = __builtin_shufflevector(ab_1, cd_1, 0, 1, 4, 5);
+        v[2]             = __builtin_shufflevector(ab_0, cd_0, 2, 3, 6, 7);
+        v[3]             = __builtin_shufflevector(ab_1, cd_1, 2, 3, 6, 7);
+      }
+
+      /** The opposite, to where @p to says. */
+      template <typename To>
+      static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
+      {
+        const Value xy_02 = __builtin_shufflevector(v[0], v[1], 0, 4, 2, 6);
+        const Value xy_13 = __builtin_shufflevector(v[0], v[1], 1, 5, 3, 7);
+        const Value zw_02 = __builtin_shufflevector(v[2], v[3], 0, 4, 2, 6);
+        const Value zw_13 = __builtin_shufflevector(v[2], v[3], 1, 5, 3, 7);
+        four(to(0))       = __builtin_shufflevector(xy_02, zw_02, 0, 1, 4, 5);
+        four(to(1))       = __builtin_shufflevector(xy_13, zw_13, 0, 1, 4, 5);
+        four(to(2))       = __builtin_shufflevector(xy_02, zw_02, 2, 3, 6, 7);
+        four(to(3))       = __builtin_shufflevector(xy_13, zw_13, 2, 3, 6, 7);
+      }
+
+      static QUOIN_INLINE const Value &four(const double *p)
+      {
+        return *reinterpret_cast<const Value *>(p);
+      }
+
+      static QUOIN_INLINE Value &four(double *p)
+      {
+        return *reinterpret_cast<Value *>(p);
+      }
+
       /** Transposes the pairs found at base + scale * offset. */
       static QUOIN_INLINE void load(const char *base, const std::size_t scale,
                                     const std::uint32_t *offset, Value &x,
@@ -152,6 +208,47 @@ namespace quoin
         constexpr auto all = std::numeric_limits<std::int64_t>::max();
         result
             = (Value)((Bits)a & Bits{ all, all, all, all, all, all, all, all });
+      }
+
+      static QUOIN_INLINE void minimum(const Value &a, Value &result)
+      {
+        result = a < result ? a : result;
+      }
+
+      static QUOIN_INLINE std::uint8_t greater(const Value &a, const Value &b)
+      {
+        return Lanes<4>::greater(low(a), low(b))
+               | Lanes<4>::greater(high(a), high(b)) << 4;
+      }
+
+      template <typename Of>
+      static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
+      {
+        Lanes<4>::Value v0[4], v1[4];
+        Lanes<4>::load_four(of, v0);
+        Lanes<4>::load_four([&](const int l) { return of(l + 4); }, v1);
+        for (int i = 0; i < 4; ++i)
+          v[i] = __builtin_shufflevector(v0[i], v1[i], 0, 1, 2, 3, 4, 5, 6, 7);
+      }
+
+      template <typename To>
+      static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
+      {
+        Lanes<4>::store_four(to,
+                             { low(v[0]), low(v[1]), low(v[2]), low(v[3]) });
+        Lanes<4>::store_four(
+            [&](const int l) { return to(l + 4); },
+            { high(v[0]), high(v[1]), high(v[2]), high(v[3]) });
+      }
+
+      static QUOIN_INLINE Lanes<4>::Value low(const Value &a)
+      {
+        return __builtin_shufflevector(a, a, 0, 1, 2, 3);
+      }
+
+      static QUOIN_INLINE Lanes<4>::Value high(const Value &a)
+      {
+        return __builtin_shufflevector(a, a, 4, 5, 6, 7);
       }
 
       static QUOIN_INLINE void load(const char *base, const std::size_t scale,
@@ -299,30 +396,23 @@ namespace quoin
       Value N, y, denominator;         /**< left by the second */
     };
 
-    template <int lanes, bool with_stress>
-    __attribute__((noinline)) void
-    elastic_strips(const StripSequence sequence, const ScaledModuli moduli,
-                   const double *stress, const NodeRecord *nodes,
-                   NodeVector *force, Prefetcher &prefetcher)
+    /** The way along the strips, to the second stage of a step. */
+    template <int lanes>
+    struct StripWalk
     {
       using L     = Lanes<lanes>;
       using Value = typename L::Value;
 
-      const Value bulk  = Value{} + moduli.bulk;
-      const Value shear = Value{} + moduli.shear;
+      const char *records;
+      Vector<lanes> X{}, u{}; /**< of the newest node */
 
-      const char *const records = reinterpret_cast<const char *>(nodes);
-      char *const sums          = reinterpret_cast<char *>(force);
+      explicit StripWalk(const NodeRecord *nodes)
+        : records(reinterpret_cast<const char *>(nodes))
+      {
+      }
 
-      const std::uint32_t *offset    = sequence.offsets;
-      const std::uint32_t *const end = offset + lanes * sequence.n_steps;
-      const std::uint8_t *mask       = sequence.masks + 2;
-
-      Vector<lanes> X{}, u{}; // of the newest node
-      Vector<lanes> f0{}, f1{}, f2;
-
-      const auto enter = [&](const std::uint32_t *at, Vector<lanes> &e,
-                             Vector<lanes> &w) __attribute__((always_inline))
+      QUOIN_INLINE void enter(const std::uint32_t *at, Vector<lanes> &e,
+                              Vector<lanes> &w)
       {
         Vector<lanes> new_X, new_u;
         L::load(records, 2, at, new_X.x, new_X.y);
@@ -331,11 +421,11 @@ namespace quoin
         w = { new_u.x - u.x, new_u.y - u.y };
         X = new_X;
         u = new_u;
-      };
+      }
 
-      const auto first_stage
-          = [&](const std::uint32_t *at, const StripStep<lanes> &before,
-                StripStep<lanes> &now) __attribute__((always_inline))
+      QUOIN_INLINE void first_stage(const std::uint32_t *at,
+                                    const StripStep<lanes> &before,
+                                    StripStep<lanes> &now)
       {
         enter(at, now.e, now.w);
         const Vector<lanes> &e1 = before.e, &e2 = now.e;
@@ -351,10 +441,10 @@ namespace quoin
         now.h2  = G.h2;
         now.NN  = now.A * now.A + BB;
         now.top = G.sum * (now.A + det2) + BB;
-      };
+      }
 
-      const auto second_stage = [&](const std::uint8_t m, StripStep<lanes> &now)
-          __attribute__((always_inline))
+      static QUOIN_INLINE void second_stage(const std::uint8_t m,
+                                            StripStep<lanes> &now)
       {
         L::square_root(now.NN, now.N);
         now.y = now.NN + now.D2 * now.N;
@@ -362,7 +452,29 @@ namespace quoin
         // makes its force zero.
         now.denominator = now.D2 * now.y;
         L::keep(m, now.denominator);
-      };
+      }
+    };
+
+    template <int lanes, bool with_stress>
+    __attribute__((noinline)) void
+    elastic_strips(const StripSequence sequence, const ScaledModuli moduli,
+                   const double *stress, const NodeRecord *nodes,
+                   NodeVector *force, Prefetcher &prefetcher)
+    {
+      using L     = Lanes<lanes>;
+      using Value = typename L::Value;
+
+      const Value bulk  = Value{} + moduli.bulk;
+      const Value shear = Value{} + moduli.shear;
+
+      char *const sums = reinterpret_cast<char *>(force);
+
+      const std::uint32_t *offset    = sequence.offsets;
+      const std::uint32_t *const end = offset + lanes * sequence.n_steps;
+      const std::uint8_t *mask       = sequence.masks + 2;
+
+      StripWalk<lanes> walk(nodes);
+      Vector<lanes> f0{}, f1{}, f2;
 
       const auto last_stage
           = [&](const std::uint32_t *at, const StripStep<lanes> &before,
@@ -404,27 +516,27 @@ namespace quoin
       if constexpr (with_stress)
         stress += 2 * 3 * lanes;
       StripStep<lanes> s0, s1, s2;
-      enter(offset, s0.e, s0.w);
-      enter(offset + lanes, s0.e, s0.w);
+      walk.enter(offset, s0.e, s0.w);
+      walk.enter(offset + lanes, s0.e, s0.w);
       offset += 2 * lanes;
-      first_stage(offset, s0, s1);
-      second_stage(mask[0], s1);
-      first_stage(offset + lanes, s1, s2);
+      walk.first_stage(offset, s0, s1);
+      walk.second_stage(mask[0], s1);
+      walk.first_stage(offset + lanes, s1, s2);
       // Two more steps begin than end; their results are not used.
       for (; offset < end; offset += 3 * lanes, mask += 3)
       {
         prefetcher.fetch();
         last_stage(offset, s0, s1, f0, f1, f2);
-        second_stage(mask[1], s2);
-        first_stage(offset + 2 * lanes, s2, s0);
+        walk.second_stage(mask[1], s2);
+        walk.first_stage(offset + 2 * lanes, s2, s0);
 
         last_stage(offset + lanes, s1, s2, f1, f2, f0);
-        second_stage(mask[2], s0);
-        first_stage(offset + 3 * lanes, s0, s1);
+        walk.second_stage(mask[2], s0);
+        walk.first_stage(offset + 3 * lanes, s0, s1);
 
         last_stage(offset + 2 * lanes, s2, s0, f2, f0, f1);
-        second_stage(mask[3], s1);
-        first_stage(offset + 4 * lanes, s1, s2);
+        walk.second_stage(mask[3], s1);
+        walk.first_stage(offset + 4 * lanes, s1, s2);
       }
       L::add(sums, end - 2 * lanes, f0.x, f0.y);
       L::add(sums, end - lanes, f1.x, f1.y);

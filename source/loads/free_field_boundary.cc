@@ -105,6 +105,12 @@ namespace quoin
       if (ground.is_rigid[group])
         fail("Boundary", "meets a rigid block at " + at(a[0], a[1])
                              + ", in which no waves run: make it deformable.");
+      if (ground.yields[group])
+        fail("Boundary", "meets ground of the law 'Mohr-Coulomb' at "
+                             + at(a[0], a[1])
+                             + ", but the column beside it is elastic: give "
+                               "the ground along the sides a material of its "
+                               "own with 'Law = linear elastic'.");
       edges.push_back({ std::min(a[1], b[1]), std::max(a[1], b[1]), group });
     }
     std::sort(edges.begin(), edges.end(),

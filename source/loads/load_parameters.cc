@@ -170,6 +170,11 @@ namespace quoin
                       "[Pa]");
     prm.declare_entry("Stress gradient", "0, 0, 0", Anything(),
                       "Change of the initial stress with y [Pa/m]");
+    prm.declare_entry("Stress zz", "elastic", Anything(),
+                      "Initial stress out of the plane, in plane strain: its "
+                      "value at y = 0 [Pa] and its change with y [Pa/m]; "
+                      "'elastic': Poisson's ratio times (xx + yy). Laws that "
+                      "yield depend on it.");
   }
 
   LoadParameters LoadParameters::read(const ParameterSection &section,
@@ -232,6 +237,8 @@ namespace quoin
       load.groups          = section.list("Groups");
       load.stress          = section.numbers<3>("Stress");
       load.stress_gradient = section.numbers<3>("Stress gradient");
+      if (section.text("Stress zz") != "elastic")
+        load.stress_zz = section.numbers<2>("Stress zz");
       break;
     case LoadType::boundary_elements:
       if (!load.boundaries.empty())

@@ -3,8 +3,34 @@
 
 #include <quoin/materials/material_parameters.h>
 
+#include <deal.II/base/numbers.h>
+
 namespace quoin
 {
+  namespace
+  {
+    MohrCoulombStrength read_strength(const ParameterSection &section)
+    {
+      constexpr double degree = dealii::numbers::PI / 180.;
+      MohrCoulombStrength strength;
+      const double phi        = section.within("Friction angle", 0., 80.);
+      strength.friction_angle = phi * degree;
+      strength.dilation_angle
+          = section.within("Dilation angle", 0., phi) * degree;
+      strength.cohesion = section.nonnegative("Cohesion");
+      if (section.text("Tensile strength") != "none")
+        strength.tension = section.numbers<1>("Tensile strength").front();
+      if (!(strength.tension >= 0.))
+        section.fail("Tensile strength",
+                     "must not be negative; 'none' leaves the limit "
+                     "c / tan(phi) alone.");
+      if (strength.cohesion == 0. && phi == 0.)
+        section.fail("Cohesion", "must be positive if 'Friction angle' is 0: "
+                                 "the material would have no strength.");
+      return strength;
+    }
+  } // namespace
+
   using dealii::Patterns::Anything;
   using dealii::Patterns::Double;
   using dealii::Patterns::Selection;
@@ -16,14 +42,23 @@ namespace quoin
                       "material; empty: the one that bears its name; "
                       "'none': no block, only what is beyond.");
     prm.declare_entry("Law", "linear elastic",
-                      Selection("linear elastic|rigid"),
-                      "Whether blocks of this material deform; rigid blocks "
-                      "need only the density.");
+                      Selection("linear elastic|Mohr-Coulomb|rigid"),
+                      "linear elastic; Mohr-Coulomb: elastic up to a shear "
+                      "and a tensile strength, then perfectly plastic; rigid: "
+                      "needs only the density.");
     prm.declare_entry("Density", "0", Double(), "rho [kg/m^3]");
     prm.declare_entry("Young's modulus", "0", Double(),
                       "E [Pa]; not read if 'Law = rigid'");
     prm.declare_entry("Poisson's ratio", "0", Double(),
                       "nu [-]; not read if 'Law = rigid'");
+    prm.declare_entry(
+        "Cohesion", "0", Double(),
+        "c [Pa]; read if 'Law = Mohr-Coulomb', as the next three");
+    prm.declare_entry("Friction angle", "0", Double(), "phi [deg]");
+    prm.declare_entry("Dilation angle", "0", Double(),
+                      "psi [deg], not above the friction angle");
+    prm.declare_entry("Tensile strength", "none", Anything(),
+                      "sigma_t [Pa], or 'none'; at most c / tan(phi) counts");
   }
 
   MaterialParameters MaterialParameters::read(const ParameterSection &section,
@@ -42,6 +77,8 @@ namespace quoin
       return material;
     material.elastic.young   = section.positive("Young's modulus");
     material.elastic.poisson = section.within("Poisson's ratio", -0.99, 0.4999);
+    if (section.text("Law") == "Mohr-Coulomb")
+      material.strength = read_strength(section);
     return material;
   }
 } // namespace quoin

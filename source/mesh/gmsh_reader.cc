@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/mesh/crossed_triangles.h>
 #include <quoin/mesh/gmsh_reader.h>
 
 #include <deal.II/base/mpi.h>
@@ -25,6 +26,7 @@ namespace quoin
   {
     constexpr int gmsh_line     = 1;
     constexpr int gmsh_triangle = 2;
+    constexpr int gmsh_quad     = 3;
     constexpr double plane_tolerance
         = 1e-9; // of the mesh's size: what binary and text files round to
 
@@ -64,11 +66,24 @@ namespace quoin
       }
     };
 
+    void mesh_surfaces(const TriangleKind kind)
+    {
+      if (kind == TriangleKind::crossed)
+      {
+        gmsh::vectorpair surfaces;
+        gmsh::model::getEntities(surfaces, 2);
+        for (const auto &[dim, surface] : surfaces)
+          gmsh::model::mesh::setRecombine(dim, surface);
+      }
+      gmsh::model::mesh::generate(2);
+    }
+
     /** Starts every message with the file. */
     class Reader
     {
     public:
-      explicit Reader(const std::string &filename) : filename(filename)
+      Reader(const std::string &filename, const TriangleKind kind)
+        : filename(filename), kind(kind)
       {
         mesh.source = filename;
       }
@@ -83,6 +98,8 @@ namespace quoin
 
       void check_file() const;
       void open_and_mesh() const;
+      [[noreturn]] void refuse_elements(int type,
+                                        const std::string &where) const;
       std::vector<int> physical_groups(const int dim, const int entity) const;
       std::string physical_name(const int dim, const int group) const;
       void read_triangles();
@@ -90,11 +107,14 @@ namespace quoin
       void read_vertices();
 
       const std::string filename;
+      const TriangleKind kind;
       MeshData mesh;
+      Quadrangles quadrangles;
 
       /** Node tags of gmsh, until read_vertices() turns them to indices. */
       std::vector<std::array<std::size_t, 3>> triangle_tags;
       std::vector<std::array<std::size_t, 2>> line_tags;
+      std::vector<std::array<std::size_t, 4>> quad_tags;
     };
 
     void Reader::check_file() const
@@ -129,7 +149,7 @@ namespace quoin
           std::vector<std::vector<std::size_t>> elements, element_nodes;
           gmsh::model::mesh::getElements(types, elements, element_nodes, 2);
           if (types.empty())
-            gmsh::model::mesh::generate(2);
+            mesh_surfaces(kind);
         }
       }
       catch (const std::exception &exception)
@@ -202,6 +222,19 @@ namespace quoin
       return result;
     }
 
+    void Reader::refuse_elements(const int type, const std::string &where) const
+    {
+      std::string name;
+      int element_dim, order, n_nodes, n_primary;
+      std::vector<double> coordinates;
+      gmsh::model::mesh::getElementProperties(type, name, element_dim, order,
+                                              n_nodes, coordinates, n_primary);
+      fail(where + " has elements of the kind '" + name
+           + "'. Only three-node triangles can be used: remove Recombine, or "
+             "set 'Triangles = crossed' in section 'Mesh', which cuts "
+             "quadrangles, and keep Mesh.ElementOrder = 1.");
+    }
+
     void Reader::read_triangles()
     {
       gmsh::vectorpair surfaces;
@@ -230,30 +263,30 @@ namespace quoin
 
         for (std::size_t t = 0; t < types.size(); ++t)
         {
-          if (types[t] != gmsh_triangle)
-          {
-            std::string name;
-            int element_dim, order, n_nodes, n_primary;
-            std::vector<double> coordinates;
-            gmsh::model::mesh::getElementProperties(types[t], name, element_dim,
-                                                    order, n_nodes, coordinates,
-                                                    n_primary);
-            fail(where + " has elements of the kind '" + name
-                 + "'. Only three-node triangles can be used: remove "
-                   "Recombine, and keep Mesh.ElementOrder = 1.");
-          }
-          for (std::size_t i = 0; i < nodes[t].size(); i += 3)
-            triangle_tags.push_back(
-                { { nodes[t][i], nodes[t][i + 1], nodes[t][i + 2] } });
+          if (types[t] == gmsh_quad && kind == TriangleKind::crossed)
+            for (std::size_t i = 0; i < nodes[t].size(); i += 4)
+              quad_tags.push_back({ { nodes[t][i], nodes[t][i + 1],
+                                      nodes[t][i + 2], nodes[t][i + 3] } });
+          else if (types[t] == gmsh_triangle)
+            for (std::size_t i = 0; i < nodes[t].size(); i += 3)
+              triangle_tags.push_back(
+                  { { nodes[t][i], nodes[t][i + 1], nodes[t][i + 2] } });
+          else
+            refuse_elements(types[t], where);
         }
         mesh.triangle_group.resize(triangle_tags.size(), group);
+        quadrangles.group.resize(quad_tags.size(), group);
       }
       if (!without_group.empty())
         fail("no physical group holds the surface"
              + std::string(without_group.size() > 1 ? "s " : " ")
              + list(without_group)
              + ". Name every surface: Physical Surface(\"rock\") = {...};");
-      if (triangle_tags.empty())
+      if (kind == TriangleKind::crossed && quad_tags.empty())
+        fail("there are no quadrangles in it, which 'Triangles = crossed' in "
+             "section 'Mesh' needs. Give the geometry (.geo), save the mesh "
+             "recombined, or set 'Triangles = plain'.");
+      if (triangle_tags.empty() && quad_tags.empty())
         fail("there are no triangles in it. Save the mesh in two dimensions "
              "(gmsh -2) with its physical surfaces.");
     }
@@ -334,6 +367,7 @@ namespace quoin
           }
       };
       mark(triangle_tags);
+      mark(quad_tags);
       mark(line_tags);
 
       // 2. Number the nodes in use and copy their coordinates.
@@ -366,6 +400,10 @@ namespace quoin
       for (const auto &t : triangle_tags)
         mesh.triangles.push_back(
             { { vertex[t[0]], vertex[t[1]], vertex[t[2]] } });
+      for (const auto &q : quad_tags)
+        quadrangles.nodes.push_back(
+            { { vertex[q[0]], vertex[q[1]], vertex[q[2]], vertex[q[3]] } });
+      add_crossed_triangles(quadrangles, mesh);
       mesh.lines.reserve(line_tags.size());
       for (const auto &l : line_tags)
         mesh.lines.push_back({ { vertex[l[0]], vertex[l[1]] } });
@@ -384,9 +422,9 @@ namespace quoin
     }
   } // namespace
 
-  MeshData read_gmsh(const std::string &filename)
+  MeshData read_gmsh(const std::string &filename, const TriangleKind kind)
   {
-    return Reader(filename).read();
+    return Reader(filename, kind).read();
   }
 
   namespace
@@ -446,29 +484,33 @@ namespace quoin
     };
   } // namespace
 
-  MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator)
+  MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator,
+                     const TriangleKind kind)
   {
-    return read_and_send(communicator, [&]() { return read_gmsh(filename); });
+    return read_and_send(communicator,
+                         [&]() { return read_gmsh(filename, kind); });
   }
 
   MeshData mesh_gmsh_geometry(const std::string &geometry,
-                              const MPI_Comm &communicator)
+                              const MPI_Comm &communicator,
+                              const TriangleKind kind)
   {
     return read_and_send(communicator,
                          [&]()
                          {
                            const TemporaryGeometry file(geometry);
-                           return read_gmsh(file.name);
+                           return read_gmsh(file.name, kind);
                          });
   }
 
-  void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file)
+  void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file,
+                       const TriangleKind kind)
   {
     const GmshSession session;
     try
     {
       gmsh::open(geo_file);
-      gmsh::model::mesh::generate(2);
+      mesh_surfaces(kind);
       gmsh::write(msh_file);
     }
     catch (...)

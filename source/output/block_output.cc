@@ -59,6 +59,12 @@ namespace quoin
             { "strain", 3, flat(fields.strain), { "xx", "yy", "xy" } },
             { "block", 1, fields.block },
             { "material", 1, fields.material } };
+    if (!fields.yielding.empty())
+    {
+      grid.cell_data.push_back({ "yielding", 1, fields.yielding });
+      grid.cell_data.push_back(
+          { "plastic shear strain", 1, fields.plastic_shear });
+    }
     write_grid(std::move(grid));
   }
 } // namespace quoin

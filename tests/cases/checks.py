@@ -5,6 +5,7 @@
 Each takes the case's entry, its folder, the output folder and the histories,
 and returns {what: (error, tolerance)}.
 """
+import importlib.util
 import json
 import os
 import sys
@@ -23,8 +24,7 @@ def energies(output):
 
 def peak_energy(table):
     names = ("kinetic", "strain", "joint", "friction", "fracture", "crushing",
-             "damping",
-             "viscous", "contact", "external")
+             "plastic", "damping", "viscous", "contact", "external")
     return max(np.max(np.abs(table[name])) for name in names)
 
 
@@ -790,3 +790,79 @@ def cavity_blocks(case, folder, output, histories):
                             + histories["hoop_outer"]))
     error = np.abs(mean - reference["hoop"]) / np.max(reference["hoop"])
     return {"hoop stress": (float(np.max(error[late])), case["tolerance"])}
+
+
+def closed_form(folder):
+    """The module make_reference.py of a case."""
+    path = os.path.join(folder, "make_reference.py")
+    spec = importlib.util.spec_from_file_location("closed_form", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def salencon(case, folder, output, histories):
+    """Displacements relative to the largest one, those of the wall and at the
+    edge of the plastic zone relative to themselves; its radius by the area of
+    the cells that have yielded; stresses of all cells relative to the pressure."""
+    sys.path.insert(0, os.path.join(os.path.dirname(HERE), os.pardir,
+                                    "scripts"))
+    import vtu  # noqa: E402
+
+    exact = closed_form(folder)
+    reference = np.genfromtxt(os.path.join(folder, case["profile"]),
+                              delimiter=",", skip_header=1)
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    x, u = grid.points[:, :2], grid.point_data["displacement"][:, :2]
+    r = np.hypot(x[:, 0], x[:, 1])
+    radial = np.sum(x * u, axis=1) / r
+    wanted = np.interp(r, reference[:, 0], reference[:, 1])
+    wall = r < 1 + 1e-6
+    edge = exact.plastic_radius()
+    near = np.abs(r - edge) < 0.15
+    ratio_wall = np.mean(radial[wall] / wanted[wall])
+    ratio_edge = np.mean(radial[near] / wanted[near])
+
+    centre = x[grid.cells].mean(axis=1)
+    rc = np.hypot(centre[:, 0], centre[:, 1])
+    n = centre / rc[:, None]
+    s = grid.cell_data["stress"]
+    along = (s[:, 0] * n[:, 0]**2 + s[:, 1] * n[:, 1]**2
+             + 2 * s[:, 2] * n[:, 0] * n[:, 1])
+    around = s[:, 0] + s[:, 1] - along
+    errors = np.array([along, around]) - exact.stresses(rc)
+    a, b, c = np.moveaxis(x[grid.cells], 1, 0)
+    area = 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1]
+                        - (b - a)[:, 1] * (c - a)[:, 0])
+    yielded = np.sum(area[grid.cell_data["yielding"] > 0])
+    yielded = np.sqrt(1 + yielded / (case.get("quarters", 1) * np.pi / 4))
+    print("  wall %.3f mm, plastic radius %.3f m"
+          % (1e3 * np.mean(radial[wall]), yielded))
+    return {
+        "displacement of the wall": (float(abs(ratio_wall - 1)), 0.02),
+        "displacement at R0": (float(abs(ratio_edge - 1)), 0.02),
+        "displacement of a node / largest": (
+            float(np.max(np.abs(radial - wanted)) / np.max(np.abs(wanted))),
+            0.025),
+        "plastic radius": (float(abs(yielded / edge - 1)), 0.02),
+        "stress / pressure, mean": (
+            float(np.mean(np.abs(errors)) / exact.PRESSURE), 0.015),
+        "energy residual": (residual_of(energies(output)), 1e-8),
+    }
+
+
+def prandtl(case, folder, output, histories):
+    """Pressure over cohesion in the last fifth of the settlement, the force
+    of the edge node spread over half an edge more if 'edge' gives one."""
+    wanted = closed_form(folder).factors(0)[0]
+    half_width = 2.0 + 0.5 * case.get("edge", 0.0)
+    settled = histories["settlement"] / histories["settlement"][-1]
+    pressure = -histories["force"][settled > 0.8] / half_width / 1e3
+    print("  pressure over cohesion %.4f to %.4f, formula %.4f"
+          % (np.min(pressure), np.max(pressure), wanted))
+    return {
+        "pressure": (float(np.max(np.abs(pressure / wanted - 1))),
+                     case["tolerance"]),
+        "range of the pressure": (float(np.ptp(pressure) / wanted), 0.01),
+        "energy residual": (residual_of(energies(output)), 1e-8),
+    }

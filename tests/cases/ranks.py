@@ -6,9 +6,10 @@
 The five blocks of the patch test, loaded suddenly and undamped: deformable ones
 on their base, rigid ones flying freely. The sled: contacts between deformable
 and rigid blocks of different ranks, some of them joints at first, some of them
-new. Motion with many impacts would not agree: it multiplies rounding. The
-cavity: boundary elements, whose history and points the ranks share. A static far
-field, which every rank has as a whole, and dashpots that hold what it carried.
+new. The patch test once more with blocks that yield. Motion with many impacts
+would not agree: it multiplies rounding. The cavity: boundary elements, whose
+history and points the ranks share. A static far field, which every rank has as a
+whole, and dashpots that hold what it carried.
 """
 import json
 import os
@@ -32,6 +33,12 @@ UNSETTLED = ["Stages/settle/Static ratio=0.1"]
 VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "rigid": (PATCH_TEST, SETS + ["Materials/rock/Law=rigid",
                                           "Loads/base/Type=traction"]),
+            "yielding": (PATCH_TEST, SETS + [
+                "Materials/rock/Law=Mohr-Coulomb",
+                "Materials/rock/Cohesion=150",
+                "Materials/rock/Friction angle=20",
+                "Materials/rock/Dilation angle=10",
+                "Materials/rock/Tensile strength=100"]),
             "sled": (common.SLED, []),
             "couplet": (os.path.join(common.VERIFICATION, "masonry_couplet",
                                      "tension.prm"), []),

@@ -36,6 +36,10 @@ CASES = {
                    ["Output/Checkpoint interval=0.05",
                     "Stages/shake/Duration=2",
                     "Initial motion/Velocity=1e-3*exp(-x*x); 0"], 1, 2),
+    # cells that yield
+    "salencon": (os.path.join(common.VERIFICATION, "salencon", "case.prm"),
+                 ["Output/Checkpoint interval=0.05",
+                  "Output/Field interval=2e-2"], 1, 2),
     # joints that soften
     "couplet": (os.path.join(common.VERIFICATION, "masonry_couplet",
                              "shear.prm"),

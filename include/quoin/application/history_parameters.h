@@ -16,6 +16,7 @@ namespace quoin
     displacement,
     velocity,
     stress,
+    yielding,
     rotation,
     joint,
     reaction,

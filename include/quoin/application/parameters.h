@@ -10,6 +10,7 @@
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/mesh/block_splitter.h>
+#include <quoin/mesh/gmsh_reader.h>
 
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ namespace quoin
     /** Instead of the file: the geometry of a generated wall; or empty. */
     std::string wall_geometry;
     std::string wall_report; /**< what was laid, in a line */
+    TriangleKind triangles = TriangleKind::plain;
     SplitOptions split;
 
     ModelParameters model;

@@ -116,6 +116,40 @@ namespace quoin
   };
 
   /**
+   * A cell of a material that yields, in the frame that turns with it:
+   * components xx, yy, xy (the tensor's) and zz. One cache line.
+   */
+  struct alignas(64) PlasticCell
+  {
+    double strain[4]{}; /**< plastic strain [-] */
+    double stress[4]{}; /**< as last computed, tension positive [Pa] */
+  };
+
+  /**
+   * Histories of the deformable cells of this rank; empty unless one of them
+   * yields. See MohrCoulomb.
+   */
+  struct PlasticHistory
+  {
+    AlignedArray<PlasticCell> cells;
+    AlignedArray<double> shear;          /**< accumulated plastic shear [-] */
+    AlignedArray<std::uint8_t> yielding; /**< bits of namespace yielding */
+
+    void resize(const std::size_t n)
+    {
+      cells.resize(n);
+      shear.resize(n, 0.);
+      yielding.resize(n, 0);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &cells &shear &yielding;
+    }
+  };
+
+  /**
    * Work and energy accumulated since the start of the run [J]. Each work is
    * the exact trapezoidal one of the central difference scheme, so that with
    * elastic forces the balance closes to rounding.
@@ -126,6 +160,7 @@ namespace quoin
     double friction = 0.; /**< dissipated in slip and dilation of joints */
     double fracture = 0.; /**< lost when joints break */
     double crushing = 0.; /**< dissipated by crushed joints */
+    double plastic  = 0.; /**< dissipated by blocks that yield */
     double damping  = 0.; /**< taken by local, adaptive, Rayleigh damping */
     double viscous  = 0.; /**< left through viscous boundaries */
     double contact  = 0.; /**< lost as contacts changed their length */
@@ -137,6 +172,7 @@ namespace quoin
       friction += other.friction;
       fracture += other.fracture;
       crushing += other.crushing;
+      plastic += other.plastic;
       damping += other.damping;
       viscous += other.viscous;
       contact += other.contact;
@@ -147,8 +183,8 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &external &friction &fracture &crushing &damping &viscous &contact
-          &radiated;
+      archive &external &friction &fracture &crushing &plastic &damping &viscous
+          &contact &radiated;
     }
   };
 
@@ -331,6 +367,7 @@ namespace quoin
 
     AlignedArray<NodeRecord> nodes;
     AlignedArray<NodeVector> velocity; /**< at time - dt/2 */
+    PlasticHistory plastic;
     JointHistory joints;
     ContactState contacts;            /**< empty if displacements are small */
     std::vector<PlatenState> platens; /**< in the order of the loads */
@@ -350,7 +387,7 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &time &step &stage &stage_start &stage_step &load_time &load_rate
-          &load_rate_growth &nodes &velocity &joints &contacts &platens
+          &load_rate_growth &nodes &velocity &plastic &joints &contacts &platens
               &rigid_blocks &far_field &static_far_field &viscous_boundaries
                   &free_fields &adaptive_damping &previous_time_step
                       &unbalanced_ratio &energy &pending;

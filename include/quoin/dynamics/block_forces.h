@@ -8,10 +8,13 @@
 #include <quoin/dynamics/triangle.h>
 #include <quoin/dynamics/triangle_strips.h>
 #include <quoin/materials/linear_elastic.h>
+#include <quoin/materials/mohr_coulomb.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace quoin
@@ -29,11 +32,14 @@ namespace quoin
     /** Index into stiffness of each cell; empty if there is only one. */
     std::vector<unsigned int> cell_stiffness;
 
+    /** How cells of each stiffness yield, if they do; empty: none does. */
+    std::vector<std::optional<MohrCoulomb>> laws;
+
     /**
-     * Stress of each cell at zero strain [Pa]; it turns with the cell. Empty:
-     * none.
+     * Stress xx, yy, xy, zz of each cell at zero strain [Pa]; it turns with
+     * the cell. zz is 0 in plane stress. Empty: none.
      */
-    std::vector<PlaneTensor> initial_stress;
+    AlignedArray<std::array<double, 4>> initial_stress;
 
     double thickness = 1.; /**< [m] */
   };
@@ -66,9 +72,9 @@ namespace quoin
   };
 
   /**
-   * Internal forces of linear elastic blocks that undergo any rotation
-   * (triangle.h has the element). Tension is positive, and a force is what
-   * the cells exert on their nodes [N].
+   * Internal forces of blocks that undergo any rotation (triangle.h has the
+   * element), linear elastic or with a law by which they yield. Tension is
+   * positive, and a force is what the cells exert on their nodes [N].
    *
    * The work comes in tiles, consecutive whole blocks whose nodes fit into
    * the second level cache, so that the caller can do everything else with a
@@ -76,7 +82,7 @@ namespace quoin
    * @code
    *   for (unsigned int tile = 0; tile < forces.n_tiles(); ++tile)
    *     {
-   *       forces.add_forces(tile, nodes, force);
+   *       forces.add_forces(tile, nodes, history, force);
    *       advance_nodes(forces.tile_nodes(tile).begin, ...);
    *     }
    * @endcode
@@ -87,6 +93,10 @@ namespace quoin
    * strip, computes the triangle from scratch, keeps the forces of the
    * strip's three current nodes in registers and adds that of the node which
    * leaves to memory, lane after lane, so that lanes may share nodes.
+   *
+   * Cells that yield have their own kernel, which also loads each cell's
+   * plastic strain, compares the trial stress with the limits in lanes and
+   * hands the triangles that exceed them to the law one by one.
    */
   class BlockForces
   {
@@ -110,23 +120,32 @@ namespace quoin
       return tiles[tile].cells;
     }
 
-    /** Adds the internal forces of a tile's cells. */
-    void add_forces(unsigned int tile, const NodeRecord *nodes,
-                    NodeVector *force) const;
+    /** Histories of cells without strain; empty if none of them yields. */
+    PlasticHistory initial_history() const;
+
+    /**
+     * Adds the internal forces of a tile's cells. Brings @p history to the
+     * positions and returns what that dissipated [J].
+     */
+    double add_forces(unsigned int tile, const NodeRecord *nodes,
+                      PlasticHistory &history, NodeVector *force) const;
+
+    /** What add_forces() of all tiles does to @p history; returns the same. */
+    double update(const NodeRecord *nodes, PlasticHistory &history) const;
 
     /**
      * Adds the forces of stiffness-proportional damping: the stress
      * @p beta [s] times the stiffness times the strain rate in the rotating
      * frame, sym(R^T dF/dt). Linear in @p velocity, zero for rigid motion,
-     * never doing positive work.
+     * never doing positive work; cells that yield have it unchanged.
      */
     void add_viscous_forces(unsigned int tile, const NodeRecord *nodes,
                             const NodeVector *velocity, double beta,
                             NodeVector *force) const;
 
     /** add_forces() cell by cell: what the strips are compared with. */
-    void add_forces_by_cell(unsigned int tile, const NodeRecord *nodes,
-                            NodeVector *force) const;
+    double add_forces_by_cell(unsigned int tile, const NodeRecord *nodes,
+                              PlasticHistory &history, NodeVector *force) const;
 
     /** add_viscous_forces() cell by cell. */
     void add_viscous_forces_by_cell(unsigned int tile, const NodeRecord *nodes,
@@ -134,29 +153,26 @@ namespace quoin
                                     NodeVector *force) const;
 
     /**
-     * Energy of the cells of tiles [begin_tile, end_tile) [J]; minus its
-     * gradient are the forces. With initial stress it counts from the
+     * Energy of all cells with the plastic strain of @p history [J]; minus
+     * its gradient are the forces. With initial stress it counts from the
      * undeformed state and may be negative.
      */
-    double strain_energy(const NodeRecord *nodes, unsigned int begin_tile,
-                         unsigned int end_tile) const;
-
-    /** Of all cells. */
-    double strain_energy(const NodeRecord *nodes) const
-    {
-      return strain_energy(nodes, 0, n_tiles());
-    }
+    double strain_energy(const NodeRecord *nodes,
+                         const PlasticHistory &history) const;
 
     /**
      * Stress xx, yy, xy, zz [Pa] and, if asked for, strain xx, yy, xy of a
      * cell in the fixed frame: R S R^T and R e R^T. The initial stress is
-     * part of the stress, in zz by the same factor as the elastic one.
+     * part of the stress. A cell that yields has the stress to which the
+     * positions bring its @p history.
      */
-    std::array<double, 4> cell_stress(const NodeRecord *nodes, std::size_t cell,
+    std::array<double, 4> cell_stress(const NodeRecord *nodes,
+                                      const PlasticHistory &history,
+                                      std::size_t cell,
                                       PlaneTensor *strain = nullptr) const;
 
     /** cell_stress() of all cells. */
-    void stresses(const NodeRecord *nodes,
+    void stresses(const NodeRecord *nodes, const PlasticHistory &history,
                   std::vector<std::array<double, 4>> &stress,
                   std::vector<PlaneTensor> &strain) const;
 
@@ -166,6 +182,24 @@ namespace quoin
           .stiffness[data.cell_stiffness.empty() ? 0
                                                  : data.cell_stiffness[cell]];
     }
+
+    /** Whether any cell yields. */
+    bool is_plastic() const
+    {
+      return std::any_of(data.laws.begin(), data.laws.end(),
+                         [](const auto &law) { return law.has_value(); });
+    }
+
+    /** How a cell yields; null if it is elastic. */
+    const MohrCoulomb *cell_law(const unsigned int cell) const
+    {
+      return law(data.cell_stiffness.empty() ? 0 : data.cell_stiffness[cell]);
+    }
+
+    /** History of a cell that yields, brought to the positions. */
+    PlasticPoint cell_history(const NodeRecord *nodes,
+                              const PlasticHistory &history,
+                              unsigned int cell) const;
 
     const StripStatistics &strip_statistics() const
     {
@@ -183,6 +217,7 @@ namespace quoin
       std::size_t n_steps;
       double bulk;             /**< plane bulk modulus times thickness [N/m] */
       double shear;            /**< shear modulus times thickness [N/m] */
+      unsigned int stiffness;  /**< of which of the different ones */
       std::size_t first_group; /**< into node_groups */
       std::size_t n_groups;
     };
@@ -200,20 +235,36 @@ namespace quoin
     void make_runs(Tile &tile, std::size_t max_run_cells);
 
     void append_run(const std::vector<StripEntry> &strips, const Tile &tile,
-                    const PlaneStiffness &stiffness);
+                    unsigned int s);
 
     template <int lanes>
-    void add_forces_in_lanes(const Tile &tile, const NodeRecord *nodes,
-                             NodeVector *force) const;
+    double add_forces_in_lanes(const Tile &tile, const NodeRecord *nodes,
+                               PlasticHistory &history,
+                               NodeVector *force) const;
 
     template <int lanes>
     void add_viscous_forces_in_lanes(const Tile &tile, const NodeRecord *nodes,
                                      const NodeVector *velocity, double beta,
                                      NodeVector *force) const;
 
-    PlaneTensor initial_stress(const unsigned int cell) const
+    const MohrCoulomb *law(const unsigned int stiffness) const
     {
-      return data.initial_stress.empty() ? PlaneTensor{ 0., 0., 0. }
+      return data.laws.empty() || !data.laws[stiffness]
+                 ? nullptr
+                 : &*data.laws[stiffness];
+    }
+
+    /** Strain in the rotating frame, and area if it is asked for. */
+    CorotatedStrain cell_strain(const NodeRecord *nodes, std::size_t cell,
+                                double *area = nullptr) const;
+
+    /** Brings @p history of a cell that yields to @p strain [J/m^3]. */
+    double update_cell(std::size_t cell, const PlaneTensor &strain,
+                       PlasticHistory &history) const;
+
+    std::array<double, 4> initial_stress(const unsigned int cell) const
+    {
+      return data.initial_stress.empty() ? std::array<double, 4>{}
                                          : data.initial_stress[cell];
     }
 
@@ -237,6 +288,9 @@ namespace quoin
 
     /** Bit l says that lane l completes a triangle. */
     std::vector<std::uint8_t> masks;
+
+    /** As offsets, the triangles' cells; empty if none yields. */
+    AlignedArray<std::uint32_t> lane_cells;
 
     /**
      * Half the thickness times the initial stress, per step its mean, half

@@ -35,9 +35,9 @@ namespace quoin
     double residual() const
     {
       return kinetic + strain + joint + far_field + accounts.friction
-             + accounts.fracture + accounts.crushing + accounts.damping
-             + accounts.viscous + accounts.contact + accounts.radiated
-             - accounts.external;
+             + accounts.fracture + accounts.crushing + accounts.plastic
+             + accounts.damping + accounts.viscous + accounts.contact
+             + accounts.radiated - accounts.external;
     }
 
     /** All energy that went through the model, to judge the residual by. */
@@ -127,8 +127,8 @@ namespace quoin
     void step(State &state, const Requests &requests);
 
     /**
-     * Brings the histories of joints and contacts of @p state, a copy, to its
-     * positions, as the step to come would do. Collective.
+     * Brings the histories of cells, joints and contacts of @p state, a copy,
+     * to its positions, as the step to come would do. Collective.
      */
     void update_histories(State &state);
 
@@ -271,6 +271,7 @@ namespace quoin
     double applied_force    = 0.;
     double unbalanced_force = 0.;
 
+    PlasticHistory plastic_now; /**< when energies are due */
     double strain_at_start = 0., joint_at_start = 0.;
     Energies last_energies;
   };

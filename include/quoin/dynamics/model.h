@@ -147,6 +147,8 @@ namespace quoin
       return { first[block] - first[block_begin],
                first[block + 1] - first[block_begin] };
     }
+    /** Makes cells of @p block, which this rank owns, as at the start. */
+    void forget_yielding(unsigned int block, PlasticHistory &history) const;
     unsigned int first_cell() const
     {
       return block_mesh.block_first_cell[block_begin];
@@ -193,7 +195,7 @@ namespace quoin
     std::unique_ptr<NodeExchange> nodes;
     std::vector<double> node_mass;
     std::vector<std::array<unsigned int, 3>> local_cells;
-    std::vector<std::array<double, 3>> cell_stress; /**< or empty */
+    std::vector<std::array<double, 4>> cell_stress; /**< or empty */
     BlockForces block_forces;
     RigidBlocks rigid;
     MatchedJoints matched_joints;

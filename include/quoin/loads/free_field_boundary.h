@@ -22,6 +22,7 @@ namespace quoin
   {
     std::vector<LinearElastic> materials; /**< of each cell group */
     std::vector<bool> is_rigid;           /**< of each cell group */
+    std::vector<bool> yields; /**< of each group, whether by a law */
     PlaneAssumption plane = PlaneAssumption::plane_strain;
     double thickness      = 1.; /**< [m] */
   };

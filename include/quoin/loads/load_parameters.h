@@ -8,6 +8,7 @@
 #include <quoin/loads/time_function.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -73,6 +74,8 @@ namespace quoin
 
     std::array<double, 3> stress{};          /**< xx, yy, xy at y = 0 [Pa] */
     std::array<double, 3> stress_gradient{}; /**< per metre of y [Pa/m] */
+    /** zz at y = 0 [Pa] and per metre of y [Pa/m]; none: nu (xx + yy). */
+    std::optional<std::array<double, 2>> stress_zz;
 
     static void declare(dealii::ParameterHandler &prm);
     static LoadParameters read(const ParameterSection &section,

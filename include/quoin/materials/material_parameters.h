@@ -6,7 +6,9 @@
 
 #include <quoin/base/parameter_section.h>
 #include <quoin/materials/linear_elastic.h>
+#include <quoin/materials/mohr_coulomb.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,7 @@ namespace quoin
     std::vector<std::string> groups; /**< physical surfaces of the mesh */
     bool rigid = false;              /**< then only the density counts */
     LinearElastic elastic{};
+    std::optional<MohrCoulombStrength> strength; /**< none: elastic */
 
     static void declare(dealii::ParameterHandler &prm);
     static MaterialParameters read(const ParameterSection &section,

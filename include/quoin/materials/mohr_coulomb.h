@@ -4,6 +4,7 @@
 #ifndef quoin_materials_mohr_coulomb_h
 #define quoin_materials_mohr_coulomb_h
 
+#include <quoin/base/state.h>
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/materials/plane_assumption.h>
 
@@ -53,6 +54,26 @@ namespace quoin
     double plastic_shear = 0.;
     std::uint8_t state   = 0; /**< bits of yielding */
   };
+
+  inline PlasticPoint plastic_point(const PlasticHistory &history,
+                                    const std::size_t cell)
+  {
+    PlasticPoint point;
+    std::copy_n(history.cells[cell].strain, 4, point.plastic_strain.begin());
+    std::copy_n(history.cells[cell].stress, 4, point.stress.begin());
+    point.plastic_shear = history.shear[cell];
+    point.state         = history.yielding[cell];
+    return point;
+  }
+
+  inline void set_plastic_point(const PlasticPoint &point,
+                                const std::size_t cell, PlasticHistory &history)
+  {
+    std::copy_n(point.plastic_strain.begin(), 4, history.cells[cell].strain);
+    std::copy_n(point.stress.begin(), 4, history.cells[cell].stress);
+    history.shear[cell]    = point.plastic_shear;
+    history.yielding[cell] = point.state;
+  }
 
   /** Yield functions [Pa]; negative inside the elastic domain. */
   struct YieldFunctions
@@ -163,6 +184,30 @@ namespace quoin
       return limits.tension;
     }
 
+    /** 2 c sqrt(N_phi) [Pa]: strength of a free cube in compression. */
+    double compressive_strength() const
+    {
+      return limits.strength;
+    }
+
+    PlaneAssumption plane_assumption() const
+    {
+      return assumption;
+    }
+
+    /** N_phi [-]. */
+    double friction_number() const
+    {
+      return n_phi;
+    }
+
+    /** State after a step that is elastic. */
+    static std::uint8_t past(const std::uint8_t state)
+    {
+      return (state | (state << 2))
+             & (yielding::shear_past | yielding::tension_past);
+    }
+
   private:
     using Principal = std::array<double, 3>;
 
@@ -208,12 +253,6 @@ namespace quoin
       double radius;                  /**< half the in-plane difference [Pa] */
       double cos2, sin2; /**< of twice the angle of the major direction */
     };
-
-    static std::uint8_t past(const std::uint8_t state)
-    {
-      return (state | (state << 2))
-             & (yielding::shear_past | yielding::tension_past);
-    }
 
     double shear_function(const double major, const double minor) const
     {

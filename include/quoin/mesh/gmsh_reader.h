@@ -12,6 +12,13 @@
 
 namespace quoin
 {
+  /** What becomes of the cells of a mesh file. */
+  enum class TriangleKind
+  {
+    plain,  /**< triangles, as they are */
+    crossed /**< quadrangles, each cut by its diagonals */
+  };
+
   /**
    * Read a gmsh mesh (.msh 2.2 or 4.1, ascii or binary) or mesh a gmsh geometry
    * (.geo) in the x-y plane. Every triangle must belong to exactly one named
@@ -22,29 +29,37 @@ namespace quoin
    * The user's own gmsh configuration is not read, so that a geometry gives
    * the same mesh everywhere.
    *
+   * With TriangleKind::crossed a geometry is meshed with quadrangles, and a
+   * mesh must have some; add_crossed_triangles() cuts them. Triangles that are
+   * left among them, because gmsh found no partner, stay as they are.
+   *
    * Throws InputError with the file, the entity and the cure: no such file, an
-   * error of gmsh, no triangles, quadrangles or curved elements, a surface in
+   * error of gmsh, no triangles, quadrangles (unless they are to be crossed,
+   * and then if there are none), curved elements, a surface in
    * no, several or unnamed physical groups, a curve in several, nodes off the
    * plane z = 0, triangles without area.
    */
-  MeshData read_gmsh(const std::string &filename);
+  MeshData read_gmsh(const std::string &filename,
+                     TriangleKind kind = TriangleKind::plain);
 
   /**
    * The same on all ranks: the first one reads and sends to the others. An
    * InputError is thrown on all of them.
    */
-  MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator);
+  MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator,
+                     TriangleKind kind = TriangleKind::plain);
 
   /** Mesh the text @p geometry of a .geo file, on all ranks. */
   MeshData mesh_gmsh_geometry(const std::string &geometry,
-                              const MPI_Comm &communicator);
+                              const MPI_Comm &communicator,
+                              TriangleKind kind = TriangleKind::plain);
 
   /**
    * Mesh the geometry @p geo_file and write the mesh to @p msh_file (.msh), for
    * users to look at and change. Throws RunError if it cannot be written.
    */
-  void write_gmsh_mesh(const std::string &geo_file,
-                       const std::string &msh_file);
+  void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file,
+                       TriangleKind kind = TriangleKind::plain);
 } // namespace quoin
 
 #endif

@@ -25,6 +25,9 @@ namespace quoin
     std::vector<std::array<std::int32_t, 3>> cells;  /**< vertices */
     std::vector<std::array<double, 4>> stress;       /**< xx, yy, xy, zz [Pa] */
     std::vector<std::array<double, 3>> strain; /**< xx, yy, xy (tensor) [-] */
+    /** Bits: 1 shear now, 2 tension now, 4 shear past, 8 tension past. */
+    std::vector<std::int32_t> yielding; /**< empty if no cell can yield */
+    std::vector<double> plastic_shear;  /**< accumulated [-]; or empty */
     std::vector<std::int32_t> block;
     std::vector<std::int32_t> material;
   };

@@ -296,7 +296,8 @@ TEST(ExplicitSolver, ReactionInTheStaticLimit)
   EXPECT_NEAR(run.solver.resultant("pull")[2], stiffness * u,
               1e-6 * stiffness * u);
   EXPECT_LT(run.state.unbalanced_ratio, 1e-8);
-  const auto stress = run.model.blocks().cell_stress(run.state.nodes.data(), 3);
+  const auto stress
+      = run.model.blocks().cell_stress(run.state.nodes.data(), {}, 3);
   EXPECT_NEAR(stress[1], stiffness * u / A, 1e-6 * stiffness * u);
   EXPECT_NEAR(stress[0], 0., 1e-6 * stiffness * u);
   const double strain = stiffness * u / A / E;

@@ -73,8 +73,9 @@ namespace quoin
                         { 1e-12 * std::sin(7. * p[0] + 3. * p[1]),
                           1e-12 * std::cos(5. * p[0] - 4. * p[1]) } });
     AlignedArray<NodeVector> force(nodes.size(), NodeVector{ { 0., 0. } });
+    PlasticHistory none;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
-      blocks.add_forces(tile, nodes.data(), force.data());
+      blocks.add_forces(tile, nodes.data(), none, force.data());
 
     // - integral of B^T C B u with Lame's constants of plane strain.
     const dealii::FESystem<2> element(dealii::FE_SimplexP<2>(1), 2);

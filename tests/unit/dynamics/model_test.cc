@@ -138,7 +138,7 @@ TEST(Model, InitialStressOfAGroupAndWithDepth)
     for (const unsigned int v : mesh.cells[c])
       y += mesh.vertices[v][1] / 3.;
     const bool upper  = mesh.block_of_cell(c) == 1;
-    const auto stress = model.blocks().cell_stress(state.nodes.data(), c);
+    const auto stress = model.blocks().cell_stress(state.nodes.data(), {}, c);
     EXPECT_NEAR(stress[0], upper ? -5e5 : 0., 1e-6);
     EXPECT_NEAR(stress[1], -1e6 + 3e5 * y, 1e-6);
     EXPECT_NEAR(stress[2], upper ? 1e5 : 0., 1e-6);
@@ -149,6 +149,38 @@ TEST(Model, InitialStressOfAGroupAndWithDepth)
     EXPECT_NEAR(state.joints.normal_traction[p], -1e6 + 3e5, 1e-6);
     EXPECT_NEAR(state.joints.shear_traction[p], 0.5e5, 1e-6);
   }
+}
+
+TEST(Model, InitialStressOutOfThePlane)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 1, 1);
+  ModelParameters parameters = two_blocks();
+  parameters.plane           = PlaneAssumption::plane_strain;
+  parameters.initial_stresses
+      = { initial_stress({ { -3e6, -1e6, 0. } }, { { 0., 3e5, 0. } }),
+          initial_stress({ { -5e5, 0., 1e5 } }, {}, { "upper" }) };
+  parameters.initial_stresses[1].stress_zz = { { -7e5, 2e5 } };
+  for (auto &material : parameters.materials)
+    material.strength = MohrCoulombStrength{ 1e9, 0., 0. };
+  const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+  const State state = model.initial_state();
+  for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+  {
+    double y = 0.;
+    for (const unsigned int v : mesh.cells[c])
+      y += mesh.vertices[v][1] / 3.;
+    const double elastic = 0.2 * (-4e6 + 3e5 * y);
+    const double wanted
+        = mesh.block_of_cell(c) == 1 ? elastic - 7e5 + 2e5 * y : elastic;
+    EXPECT_NEAR(state.plastic.cells[c].stress[3], wanted, 1e-6);
+    EXPECT_NEAR(
+        model.blocks().cell_stress(state.nodes.data(), state.plastic, c)[3],
+        wanted, 1e-6);
+  }
+  parameters.plane = PlaneAssumption::plane_stress;
+  expect_input_error([&] { make_model(mesh, parameters); },
+                     { "Loads/insitu", "Stress zz", "plane stress" });
 }
 
 TEST(Model, RefusesGroupsWithoutMaterialAndJointsWithoutSet)

@@ -540,7 +540,7 @@ TEST(RigidBlocks, PatchWithDeformableBlocks)
   for (unsigned int c = 0; c < 8; ++c)
   {
     const auto stress
-        = run.model.blocks().cell_stress(run.state.nodes.data(), c);
+        = run.model.blocks().cell_stress(run.state.nodes.data(), {}, c);
     EXPECT_NEAR(stress[0], 0., 1e-2);
     EXPECT_NEAR(stress[1], -1e5, 1e-2);
     EXPECT_NEAR(stress[2], 0., 1e-2);

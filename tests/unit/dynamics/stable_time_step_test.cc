@@ -21,7 +21,8 @@ namespace
     model.joints().add_forces(state.nodes.data(), state.joints, energy,
                               force.data());
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
-      model.blocks().add_forces(tile, state.nodes.data(), force.data());
+      model.blocks().add_forces(tile, state.nodes.data(), state.plastic,
+                                force.data());
     std::vector<double> result;
     for (const NodeVector &f : force)
       result.insert(result.end(), { f.v[0], f.v[1] });

@@ -40,8 +40,9 @@ namespace
     for (unsigned int k = 0; k < 3000; ++k)
     {
       AlignedArray<NodeVector> force(mesh.nodes.size(), NodeVector{});
+      PlasticHistory none;
       for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
-        blocks.add_forces_by_cell(tile, x.nodes.data(), force.data());
+        blocks.add_forces_by_cell(tile, x.nodes.data(), none, force.data());
       double before = 0., after = 0.;
       for (std::size_t i = 0; i < force.size(); ++i)
         for (unsigned int d = 0; d < 2; ++d)

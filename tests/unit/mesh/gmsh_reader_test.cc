@@ -88,6 +88,44 @@ TEST(GmshReader, MeshesAGeometry)
   expect_two_squares(read_gmsh(path, MPI_COMM_WORLD));
 }
 
+TEST(GmshReader, CutsQuadranglesCrosswise)
+{
+  const std::string path = write("crossed.geo", two_squares + names);
+  const MeshData data    = read_gmsh(path, TriangleKind::crossed);
+  expect_two_squares(data);
+  expect_two_squares(read_gmsh(path, MPI_COMM_WORLD, TriangleKind::crossed));
+  EXPECT_EQ(data.triangles.size() % 4, 0U);
+
+  // A quadrangle beside two triangles.
+  const std::string mixed = "4\n1 1 2 7 1 2 5\n2 3 2 1 1 1 2 5 4\n"
+                            "3 2 2 2 2 2 3 60\n4 2 2 2 2 2 60 5\n";
+  const std::string file  = write("mixed.msh", msh2(nodes, mixed));
+  const MeshData some     = read_gmsh(file, TriangleKind::crossed);
+  EXPECT_EQ(some.triangles.size(), 6U);
+  EXPECT_EQ(some.vertices.size(), 7U);
+  EXPECT_EQ(some.triangle_group,
+            (std::vector<unsigned int>{ 1, 1, 0, 0, 0, 0 }));
+  double area = 0.;
+  for (const auto &t : some.triangles)
+    area += 0.5
+            * ((some.vertices[t[1]][0] - some.vertices[t[0]][0])
+                   * (some.vertices[t[2]][1] - some.vertices[t[0]][1])
+               - (some.vertices[t[1]][1] - some.vertices[t[0]][1])
+                     * (some.vertices[t[2]][0] - some.vertices[t[0]][0]));
+  EXPECT_DOUBLE_EQ(area, 2.);
+  expect_refused(file, { "surface 1", "Quad", "Triangles = crossed" });
+  try
+  {
+    read_gmsh(write("uncut.msh", msh2(nodes, elements)), TriangleKind::crossed);
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("no quadrangles"),
+              std::string::npos);
+  }
+}
+
 TEST(GmshReader, ReadsFormat22)
 {
   const MeshData data = read_gmsh(write("two22.msh", msh2(nodes, elements)));
