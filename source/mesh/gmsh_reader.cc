@@ -69,7 +69,8 @@ namespace quoin
     class Reader
     {
     public:
-      Reader(const std::string &filename, const TriangleKind kind)
+      explicit Reader(const std::string &filename,
+                      const TriangleKind kind = TriangleKind::plain)
         : filename(filename), kind(kind)
       {
         mesh.source = filename;
