@@ -72,6 +72,10 @@ namespace quoin
       prm.declare_entry("File", "", Anything(),
                         "gmsh geometry (.geo) or mesh (.msh), relative to "
                         "the folder of this file; coordinates in [m].");
+      prm.declare_entry("Triangles", "plain", Selection("plain|crossed"),
+                        "plain: the file's or gmsh's triangles; crossed: "
+                        "quadrangles, each cut into four triangles by its "
+                        "diagonals, which do not lock in plastic flow.");
       prm.declare_entry("Joints along", "", Anything(),
                         "Physical curves along which the mesh is split into "
                         "blocks.");
@@ -82,10 +86,6 @@ namespace quoin
                         Selection("keep|refuse"),
                         "Joints that end inside a block: keep them as "
                         "cracks, or stop.");
-      prm.declare_entry("Triangles", "plain", Selection("plain|crossed"),
-                        "plain: the file's or gmsh's triangles; crossed: "
-                        "quadrangles, each cut into four triangles by its "
-                        "diagonals, which do not lock in plastic flow.");
       prm.leave_subsection();
 
       prm.enter_subsection("Contact");
@@ -283,6 +283,9 @@ namespace quoin
           = std::filesystem::path(parameters.mesh_file).extension();
       if (extension != ".geo" && extension != ".msh")
         section.fail("File", "must end in .geo or .msh.");
+      parameters.triangles = section.choice<TriangleKind>(
+          "Triangles", { { "plain", TriangleKind::plain },
+                         { "crossed", TriangleKind::crossed } });
       parameters.split.joints_along = section.list("Joints along");
       for (const std::string &pair : section.list("Joints between"))
       {
@@ -300,9 +303,6 @@ namespace quoin
       parameters.split.joint_ends = section.choice<SplitOptions::JointEnds>(
           "Joint ends inside blocks", { { "keep", SplitOptions::keep },
                                         { "refuse", SplitOptions::refuse } });
-      parameters.triangles = section.choice<TriangleKind>(
-          "Triangles", { { "plain", TriangleKind::plain },
-                         { "crossed", TriangleKind::crossed } });
     }
 
     void read_stages(const ParameterSection &top, Parameters &parameters)

@@ -69,8 +69,7 @@ namespace quoin
     class Reader
     {
     public:
-      explicit Reader(const std::string &filename,
-                      const TriangleKind kind = TriangleKind::plain)
+      Reader(const std::string &filename, const TriangleKind kind)
         : filename(filename), kind(kind)
       {
         mesh.source = filename;

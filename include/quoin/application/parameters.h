@@ -29,8 +29,8 @@ namespace quoin
     BoundaryElementParameters boundary;
 
     std::string mesh_file; /**< relative to the working directory */
-    SplitOptions split;
     TriangleKind triangles = TriangleKind::plain;
+    SplitOptions split;
 
     ModelParameters model;
     std::vector<LoadParameters> loads; /**< initial stresses included */
