@@ -132,11 +132,49 @@ namespace quoin
     const bool slips = tau_trial + sigma_trial * law.friction_at(bond_start)
                        > law.cohesion * bond_start;
     CompositeFlow flow;
+    if (slips && !opens && law.dilation == 0. && slide(flow))
+      return flow;
     if ((opens || slips)
         && (iterate(flow, opens, slips)
             || (opens != slips && iterate(flow, true, true))))
       return flow;
     return opened();
+  }
+
+  bool CompositeReturnMap::slide(CompositeFlow &flow) const
+  {
+    const double ks = law.shear_stiffness, softening = law.slip_softening();
+    const double most = tolerance(sigma_trial);
+    // |tau| + sigma tan(phi) - c = drive - ks slip - loss bond
+    const double drive = tau_trial + sigma_trial * law.residual_friction;
+    const double loss
+        = law.cohesion - sigma_trial * (law.friction - law.residual_friction);
+    flow.bond = bond_start;
+    for (unsigned int i = 0; i < 10; ++i)
+    {
+      const double excess = drive - ks * flow.slip - loss * flow.bond;
+      if (i > 0 && std::abs(excess) <= most)
+      {
+        flow.sigma    = sigma_trial;
+        flow.tau      = tau_trial - ks * flow.slip;
+        flow.crushing = crushing_start;
+        return opening_excess(flow) <= most && within_cap(flow);
+      }
+      const double slope = ks - softening * loss * flow.bond;
+      flow.slip += excess / slope;
+      if (!(slope > 0. && flow.slip >= 0. && ks * flow.slip <= tau_trial))
+        return false;
+      flow.bond = bond_start * std::exp(-softening * flow.slip);
+    }
+    return false;
+  }
+
+  bool CompositeReturnMap::within_cap(const CompositeFlow &flow) const
+  {
+    // The cap itself needs a root or an exponential: only near it.
+    const double load = law.cap_load(flow.sigma, flow.tau);
+    return load <= law.lowest_cap_load()
+           || load <= square(law.cap(crushing_start));
   }
 
   bool CompositeReturnMap::iterate(CompositeFlow &flow, const bool opens,
@@ -156,9 +194,7 @@ namespace quoin
       const double f2   = slip_excess(flow);
       const double most = tolerance(sigma);
       if ((!opens || std::abs(f1) <= most) && (!slips || std::abs(f2) <= most))
-        return f1 <= most && f2 <= most
-               && law.cap_load(flow.sigma, flow.tau) <= std::max(
-                      law.lowest_cap_load(), square(law.cap(crushing_start)));
+        return f1 <= most && f2 <= most && within_cap(flow);
 
       // Of bond = exp(-root((a dl1)^2 + (b dl2)^2)) by what is left of the
       // trial tractions.
@@ -289,6 +325,11 @@ namespace quoin
     else
       flow.sigma = (before - taken) / (1. + taken / law.dilation_pressure);
 
+    flow.tau      = tau;
+    flow.cap      = 0.;
+    flow.crushing = crushing_start;
+    if (share == 1.)
+      return;
     const double ratio = law.shear_stiffness * law.cap_shear
                          / (law.normal_stiffness * law.cap_normal);
     flow.tau = tau * share / (share + ratio * (1. - share));

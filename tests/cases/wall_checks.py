@@ -26,7 +26,9 @@ def joint_faces(output):
 
 
 def quasi_static(case, output, histories):
-    """What every slow run must show."""
+    """What every slow run must show. The energy of matched joints is off by
+    traction times slip times the angle by which they turn (theory.md, 5), some
+    1e-3 where joints slip by millimetres."""
     table = checks.energies(output)
     return {
         "kinetic energy share": (
@@ -34,7 +36,7 @@ def quasi_static(case, output, histories):
             case.get("kinetic tolerance", 1e-3)),
         "energy residual": (
             float(np.max(np.abs(table["residual"]))
-                  / checks.peak_energy(table)), 1e-3)}
+                  / checks.peak_energy(table)), 3e-3)}
 
 
 def wall_stiffness(case, folder, output, histories):

@@ -59,6 +59,12 @@ namespace quoin
      */
     bool iterate(CompositeFlow &flow, bool opens, bool slips) const;
 
+    /** The same for slip alone without dilation, which is one equation. */
+    bool slide(CompositeFlow &flow) const;
+
+    /** Whether the tractions of @p flow leave the cap as it was. */
+    bool within_cap(const CompositeFlow &flow) const;
+
     /** With whatever opening there must be. */
     CompositeFlow opened() const;
 

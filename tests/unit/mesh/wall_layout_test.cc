@@ -11,10 +11,10 @@
 #include <map>
 #include <set>
 
+using namespace quoin;
+
 namespace
 {
-  using namespace quoin;
-
   WallParameters small_wall(const WallBond bond)
   {
     WallParameters wall;
@@ -46,120 +46,6 @@ namespace
       EXPECT_NEAR(x[i], expected[i], 1e-12) << "row " << row;
   }
 
-  TEST(WallLayout, LaysEveryBondAsMasonsDo)
-  {
-    auto layout = lay_wall(small_wall(WallBond::running));
-    expect_joints(layout, 0, { 0.25, 0.5, 0.75 });
-    expect_joints(layout, 1, { 0.125, 0.375, 0.625, 0.875 });
-
-    layout = lay_wall(small_wall(WallBond::stack));
-    expect_joints(layout, 1, { 0.25, 0.5, 0.75 });
-
-    layout = lay_wall(small_wall(WallBond::header));
-    expect_joints(layout, 0, { 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875 });
-    expect_joints(
-        layout, 1,
-        { 0.0625, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375 });
-
-    // Header, queen closer, then every joint a quarter from those below.
-    layout = lay_wall(small_wall(WallBond::english));
-    expect_joints(layout, 0, { 0.25, 0.5, 0.75 });
-    expect_joints(
-        layout, 1,
-        { 0.125, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375 });
-
-    // Headers centred on stretchers.
-    layout = lay_wall(small_wall(WallBond::flemish));
-    expect_joints(layout, 0, { 0.25, 0.375, 0.625, 0.75 });
-    expect_joints(layout, 1, { 0.125, 0.1875, 0.4375, 0.5625, 0.8125, 0.9375 });
-  }
-
-  TEST(WallLayout, TheFirstCourseMayBeTheShiftedOne)
-  {
-    WallParameters wall = small_wall(WallBond::running);
-    wall.begins_shifted = true;
-    const auto layout   = lay_wall(wall);
-    expect_joints(layout, 0, { 0.125, 0.375, 0.625, 0.875 });
-    expect_joints(layout, 1, { 0.25, 0.5, 0.75 });
-  }
-
-  TEST(WallLayout, JoinsPiecesThatAreTooShort)
-  {
-    WallParameters wall = small_wall(WallBond::running);
-    wall.length         = 1.03; // 0.03 is left of a fifth unit
-    const auto layout   = lay_wall(wall);
-    expect_joints(layout, 0, { 0.25, 0.5, 0.75 });
-    expect_joints(layout, 1, { 0.125, 0.375, 0.625, 0.875 });
-    EXPECT_EQ(layout.n_joined, 1);
-  }
-
-  TEST(WallLayout, CutsUnitsAtOpeningsAndLaysLintels)
-  {
-    WallParameters wall = small_wall(WallBond::running);
-    wall.n_courses      = 4;
-    wall.openings       = { { 0.4, 0.6, 2, 2 } };
-    wall.lintel_bearing = 0.1;
-    const auto layout   = lay_wall(wall);
-    // course 2: pieces of 0.025 m at the opening join their neighbours
-    std::vector<std::pair<double, double>> units;
-    for (const WallUnit &unit : layout.units)
-      if (unit.row == 1)
-        units.emplace_back(unit.left, unit.right);
-    ASSERT_EQ(units.size(), 4);
-    EXPECT_DOUBLE_EQ(units[1].first, 0.125);
-    EXPECT_DOUBLE_EQ(units[1].second, 0.4);
-    EXPECT_DOUBLE_EQ(units[2].first, 0.6);
-    EXPECT_DOUBLE_EQ(units[2].second, 0.875);
-    unsigned int n_lintels = 0;
-    for (const WallUnit &unit : layout.units)
-      if (unit.kind == WallUnit::lintel)
-      {
-        ++n_lintels;
-        EXPECT_EQ(unit.row, 2);
-        EXPECT_NEAR(unit.left, 0.3, 1e-12);
-        EXPECT_NEAR(unit.right, 0.7, 1e-12);
-      }
-    EXPECT_EQ(n_lintels, 1);
-  }
-
-  TEST(WallLayout, RandomLengthsKeepTheirBoundsAndTheOverlap)
-  {
-    WallParameters wall  = small_wall(WallBond::random);
-    wall.structured      = false;
-    wall.length          = 10.;
-    wall.n_courses       = 20;
-    wall.random_shortest = 0.15;
-    wall.random_longest  = 0.45;
-    wall.random_overlap  = 0.05;
-    const auto layout    = lay_wall(wall);
-    std::vector<double> below;
-    std::set<double> lengths;
-    for (unsigned int row = 0; row < wall.n_courses; ++row)
-    {
-      const auto here = joints(layout, row);
-      double left     = 0.;
-      for (const double x : here)
-      {
-        if (x < here.back()) // the last may have taken up a short piece
-        {
-          EXPECT_GE(x - left, 0.15 - 1e-12);
-          EXPECT_LE(x - left, 0.45 + 1e-12);
-        }
-        lengths.insert(x - left);
-        left = x;
-        for (const double other : below)
-          EXPECT_GE(std::abs(other - x), 0.05);
-      }
-      below = here;
-    }
-    EXPECT_GT(lengths.size(), 500);
-
-    const auto again = lay_wall(wall);
-    EXPECT_EQ(joints(again, 7), joints(layout, 7));
-    wall.random_seed = 2;
-    EXPECT_NE(joints(lay_wall(wall), 7), joints(layout, 7));
-  }
-
   /** The mesh of a wall, split at all of its joints. */
   struct MeshedWall
   {
@@ -186,102 +72,216 @@ namespace
       }
     }
   };
-
-  TEST(WallGeometry, MeshesABlockForEveryHalfUnit)
-  {
-    for (const bool structured : { true, false })
-    {
-      WallParameters wall = small_wall(WallBond::running);
-      wall.n_courses      = 4;
-      wall.cracks         = true;
-      wall.bottom_platen  = 0.1;
-      wall.top_platen     = 0.2;
-      wall.structured     = structured;
-      MeshedWall meshed(wall);
-      // 2 x 4 and 2 x 5 units, 14 of them whole, and two platens
-      EXPECT_EQ(meshed.mesh.n_blocks(), 2 * 4 + 2 * 5 + 14 + 2);
-      EXPECT_NEAR(meshed.area, 0.7, 1e-12);
-      EXPECT_NEAR(meshed.joint_length["bed"], 3., 1e-12);
-      EXPECT_NEAR(meshed.joint_length["platen_joint"], 2., 1e-12);
-      EXPECT_NEAR(meshed.joint_length["head"], 0.1 * (2 * 3 + 2 * 4), 1e-12);
-      EXPECT_NEAR(meshed.joint_length["crack"], 1.4, 1e-12);
-    }
-  }
-
-  TEST(WallGeometry, LeavesOpeningsOpen)
-  {
-    WallParameters wall = small_wall(WallBond::flemish);
-    wall.n_courses      = 6;
-    wall.openings       = { { 0.375, 0.75, 2, 4 } };
-    wall.lintel_bearing = 0.125;
-    MeshedWall meshed(wall);
-    EXPECT_NEAR(meshed.area, 0.6 - 0.375 * 0.3, 1e-12);
-    // The opening takes four beds' length within, two of them its rim.
-    EXPECT_NEAR(meshed.joint_length["bed"], 5. - 4 * 0.375, 1e-12);
-  }
-
-  TEST(WallGeometry, HasTheBlocksAndJointsOfTheTests)
-  {
-    // Raijmakers & Vermeltfoort 1992
-    WallParameters wall = small_wall(WallBond::running);
-    wall.length         = 0.99;
-    wall.n_courses      = 16;
-    wall.unit_length    = 0.22;
-    wall.unit_height    = 0.0625;
-    wall.bottom_platen = wall.top_platen = 0.0625;
-    wall.cracks                          = true;
-    wall.element_size                    = 0.032;
-    MeshedWall meshed(wall);
-    const BlockMesh<2> &mesh = meshed.mesh;
-
-    EXPECT_NEAR(meshed.area, 0.99 * (1. + 2 * 0.0625), 1e-12);
-    EXPECT_EQ(mesh.n_blocks(), 16U * 9U + 2U);
-    EXPECT_NEAR(meshed.joint_length["bed"], 15 * 0.99, 1e-9);
-    EXPECT_NEAR(meshed.joint_length["platen_joint"], 2 * 0.99, 1e-9);
-    EXPECT_NEAR(meshed.joint_length["head"], 64 * 0.0625, 1e-9);
-    EXPECT_NEAR(meshed.joint_length["crack"], 64 * 0.0625, 1e-9);
-
-    // Odd courses have their first head joint after a unit, even ones after
-    // half a unit; the other columns of half units are cracks.
-    std::map<std::string, std::set<std::pair<long, long>>> places;
-    for (const JointFace &face : mesh.joint_faces)
-      for (const unsigned int v : face.lower)
-      {
-        const auto &p = mesh.vertices[v];
-        if (std::abs(p[1] / 0.0625 - std::lround(p[1] / 0.0625)) < 1e-6)
-          places[mesh.line_names[face.name]].insert(
-              { std::lround(p[0] / 0.11), std::lround(p[1] / 0.0625) });
-      }
-    EXPECT_EQ(places["head"].size(), 128U);
-    EXPECT_EQ(places["head"].count({ 2, 0 }), 1U);
-    EXPECT_EQ(places["head"].count({ 2, 1 }), 1U);
-    EXPECT_EQ(places["head"].count({ 1, 0 }), 0U);
-    EXPECT_EQ(places["head"].count({ 1, 2 }), 1U);
-    EXPECT_EQ(places["crack"].count({ 1, 0 }), 1U);
-
-    // Two triangles in each corner of a half unit.
-    std::vector<unsigned int> n_cells(mesh.n_vertices(), 0);
-    for (const auto &cell : mesh.cells)
-      for (const unsigned int v : cell)
-        ++n_cells[v];
-    for (const unsigned int n : n_cells)
-      EXPECT_GE(n, 2U);
-  }
-
-  TEST(WallGeometry, RefusesSliversInStructuredMeshes)
-  {
-    WallParameters wall = small_wall(WallBond::running);
-    wall.offset         = 0.49;
-    wall.cracks         = true; // at 0.5, next to joints at 0.49
-    try
-    {
-      wall_geometry(wall, lay_wall(wall));
-      FAIL();
-    }
-    catch (const InputError &error)
-    {
-      EXPECT_NE(std::string(error.what()).find("Elements = free"),
-                std::string::npos);
-    }
-  }
 } // namespace
+
+TEST(WallLayout, LaysEveryBondAsMasonsDo)
+{
+  auto layout = lay_wall(small_wall(WallBond::running));
+  expect_joints(layout, 0, { 0.25, 0.5, 0.75 });
+  expect_joints(layout, 1, { 0.125, 0.375, 0.625, 0.875 });
+
+  layout = lay_wall(small_wall(WallBond::stack));
+  expect_joints(layout, 1, { 0.25, 0.5, 0.75 });
+
+  layout = lay_wall(small_wall(WallBond::header));
+  expect_joints(layout, 0, { 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875 });
+  expect_joints(
+      layout, 1,
+      { 0.0625, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375 });
+
+  // Header, queen closer, then every joint a quarter from those below.
+  layout = lay_wall(small_wall(WallBond::english));
+  expect_joints(layout, 0, { 0.25, 0.5, 0.75 });
+  expect_joints(
+      layout, 1,
+      { 0.125, 0.1875, 0.3125, 0.4375, 0.5625, 0.6875, 0.8125, 0.9375 });
+
+  // Headers centred on stretchers.
+  layout = lay_wall(small_wall(WallBond::flemish));
+  expect_joints(layout, 0, { 0.25, 0.375, 0.625, 0.75 });
+  expect_joints(layout, 1, { 0.125, 0.1875, 0.4375, 0.5625, 0.8125, 0.9375 });
+}
+
+TEST(WallLayout, TheFirstCourseMayBeTheShiftedOne)
+{
+  WallParameters wall = small_wall(WallBond::running);
+  wall.begins_shifted = true;
+  const auto layout   = lay_wall(wall);
+  expect_joints(layout, 0, { 0.125, 0.375, 0.625, 0.875 });
+  expect_joints(layout, 1, { 0.25, 0.5, 0.75 });
+}
+
+TEST(WallLayout, JoinsPiecesThatAreTooShort)
+{
+  WallParameters wall = small_wall(WallBond::running);
+  wall.length         = 1.03; // 0.03 is left of a fifth unit
+  const auto layout   = lay_wall(wall);
+  expect_joints(layout, 0, { 0.25, 0.5, 0.75 });
+  expect_joints(layout, 1, { 0.125, 0.375, 0.625, 0.875 });
+  EXPECT_EQ(layout.n_joined, 1);
+}
+
+TEST(WallLayout, CutsUnitsAtOpeningsAndLaysLintels)
+{
+  WallParameters wall = small_wall(WallBond::running);
+  wall.n_courses      = 4;
+  wall.openings       = { { 0.4, 0.6, 2, 2 } };
+  wall.lintel_bearing = 0.1;
+  const auto layout   = lay_wall(wall);
+  // course 2: pieces of 0.025 m at the opening join their neighbours
+  std::vector<std::pair<double, double>> units;
+  for (const WallUnit &unit : layout.units)
+    if (unit.row == 1)
+      units.emplace_back(unit.left, unit.right);
+  ASSERT_EQ(units.size(), 4);
+  EXPECT_DOUBLE_EQ(units[1].first, 0.125);
+  EXPECT_DOUBLE_EQ(units[1].second, 0.4);
+  EXPECT_DOUBLE_EQ(units[2].first, 0.6);
+  EXPECT_DOUBLE_EQ(units[2].second, 0.875);
+  unsigned int n_lintels = 0;
+  for (const WallUnit &unit : layout.units)
+    if (unit.kind == WallUnit::lintel)
+    {
+      ++n_lintels;
+      EXPECT_EQ(unit.row, 2);
+      EXPECT_NEAR(unit.left, 0.3, 1e-12);
+      EXPECT_NEAR(unit.right, 0.7, 1e-12);
+    }
+  EXPECT_EQ(n_lintels, 1);
+}
+
+TEST(WallLayout, RandomLengthsKeepTheirBoundsAndTheOverlap)
+{
+  WallParameters wall  = small_wall(WallBond::random);
+  wall.structured      = false;
+  wall.length          = 10.;
+  wall.n_courses       = 20;
+  wall.random_shortest = 0.15;
+  wall.random_longest  = 0.45;
+  wall.random_overlap  = 0.05;
+  const auto layout    = lay_wall(wall);
+  std::vector<double> below;
+  std::set<double> lengths;
+  for (unsigned int row = 0; row < wall.n_courses; ++row)
+  {
+    const auto here = joints(layout, row);
+    double left     = 0.;
+    for (const double x : here)
+    {
+      if (x < here.back()) // the last may have taken up a short piece
+      {
+        EXPECT_GE(x - left, 0.15 - 1e-12);
+        EXPECT_LE(x - left, 0.45 + 1e-12);
+      }
+      lengths.insert(x - left);
+      left = x;
+      for (const double other : below)
+        EXPECT_GE(std::abs(other - x), 0.05);
+    }
+    below = here;
+  }
+  EXPECT_GT(lengths.size(), 500);
+
+  const auto again = lay_wall(wall);
+  EXPECT_EQ(joints(again, 7), joints(layout, 7));
+  wall.random_seed = 2;
+  EXPECT_NE(joints(lay_wall(wall), 7), joints(layout, 7));
+}
+
+TEST(WallGeometry, MeshesABlockForEveryHalfUnit)
+{
+  for (const bool structured : { true, false })
+  {
+    WallParameters wall = small_wall(WallBond::running);
+    wall.n_courses      = 4;
+    wall.cracks         = true;
+    wall.bottom_platen  = 0.1;
+    wall.top_platen     = 0.2;
+    wall.structured     = structured;
+    MeshedWall meshed(wall);
+    // 2 x 4 and 2 x 5 units, 14 of them whole, and two platens
+    EXPECT_EQ(meshed.mesh.n_blocks(), 2 * 4 + 2 * 5 + 14 + 2);
+    EXPECT_NEAR(meshed.area, 0.7, 1e-12);
+    EXPECT_NEAR(meshed.joint_length["bed"], 3., 1e-12);
+    EXPECT_NEAR(meshed.joint_length["platen_joint"], 2., 1e-12);
+    EXPECT_NEAR(meshed.joint_length["head"], 0.1 * (2 * 3 + 2 * 4), 1e-12);
+    EXPECT_NEAR(meshed.joint_length["crack"], 1.4, 1e-12);
+  }
+}
+
+TEST(WallGeometry, LeavesOpeningsOpen)
+{
+  WallParameters wall = small_wall(WallBond::flemish);
+  wall.n_courses      = 6;
+  wall.openings       = { { 0.375, 0.75, 2, 4 } };
+  wall.lintel_bearing = 0.125;
+  MeshedWall meshed(wall);
+  EXPECT_NEAR(meshed.area, 0.6 - 0.375 * 0.3, 1e-12);
+  // The opening takes four beds' length within, two of them its rim.
+  EXPECT_NEAR(meshed.joint_length["bed"], 5. - 4 * 0.375, 1e-12);
+}
+
+TEST(WallGeometry, HasTheBlocksAndJointsOfTheTests)
+{
+  // Raijmakers & Vermeltfoort 1992
+  WallParameters wall = small_wall(WallBond::running);
+  wall.length         = 0.99;
+  wall.n_courses      = 16;
+  wall.unit_length    = 0.22;
+  wall.unit_height    = 0.0625;
+  wall.bottom_platen = wall.top_platen = 0.0625;
+  wall.cracks                          = true;
+  wall.element_size                    = 0.032;
+  MeshedWall meshed(wall);
+  const BlockMesh<2> &mesh = meshed.mesh;
+
+  EXPECT_NEAR(meshed.area, 0.99 * (1. + 2 * 0.0625), 1e-12);
+  EXPECT_EQ(mesh.n_blocks(), 16U * 9U + 2U);
+  EXPECT_NEAR(meshed.joint_length["bed"], 15 * 0.99, 1e-9);
+  EXPECT_NEAR(meshed.joint_length["platen_joint"], 2 * 0.99, 1e-9);
+  EXPECT_NEAR(meshed.joint_length["head"], 64 * 0.0625, 1e-9);
+  EXPECT_NEAR(meshed.joint_length["crack"], 64 * 0.0625, 1e-9);
+
+  // Odd courses have their first head joint after a unit, even ones after
+  // half a unit; the other columns of half units are cracks.
+  std::map<std::string, std::set<std::pair<long, long>>> places;
+  for (const JointFace &face : mesh.joint_faces)
+    for (const unsigned int v : face.lower)
+    {
+      const auto &p = mesh.vertices[v];
+      if (std::abs(p[1] / 0.0625 - std::lround(p[1] / 0.0625)) < 1e-6)
+        places[mesh.line_names[face.name]].insert(
+            { std::lround(p[0] / 0.11), std::lround(p[1] / 0.0625) });
+    }
+  EXPECT_EQ(places["head"].size(), 128U);
+  EXPECT_EQ(places["head"].count({ 2, 0 }), 1U);
+  EXPECT_EQ(places["head"].count({ 2, 1 }), 1U);
+  EXPECT_EQ(places["head"].count({ 1, 0 }), 0U);
+  EXPECT_EQ(places["head"].count({ 1, 2 }), 1U);
+  EXPECT_EQ(places["crack"].count({ 1, 0 }), 1U);
+
+  // Two triangles in each corner of a half unit.
+  std::vector<unsigned int> n_cells(mesh.n_vertices(), 0);
+  for (const auto &cell : mesh.cells)
+    for (const unsigned int v : cell)
+      ++n_cells[v];
+  for (const unsigned int n : n_cells)
+    EXPECT_GE(n, 2U);
+}
+
+TEST(WallGeometry, RefusesSliversInStructuredMeshes)
+{
+  WallParameters wall = small_wall(WallBond::running);
+  wall.offset         = 0.49;
+  wall.cracks         = true; // at 0.5, next to joints at 0.49
+  try
+  {
+    wall_geometry(wall, lay_wall(wall));
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("Elements = free"),
+              std::string::npos);
+  }
+}
