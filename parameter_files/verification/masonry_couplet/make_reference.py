@@ -1,15 +1,17 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
-"""Tension and shear of one joint by the composite law, in closed form.
+"""Tension and shear of joints by the composite law, in closed form.
 
 Tension: opening u = sigma/kn + w, sigma = ft exp(-ft w/GfI) once failed. Shear
 under the pressure p: slip v = tau/ks + k, tau = c exp(-c k/GfII) + p tan(phi).
+Triplet: the same in two joints, each of which gives tau A to an outer unit.
 """
 import os
 
 import numpy as np
 
+AREA = 0.21 * 0.1
 HERE = os.path.dirname(os.path.abspath(__file__))
 KN, KS, FT, GI, C, GII, TAN, P = (82e9, 36e9, 0.25e6, 18.0, 0.35e6, 125.0,
                                   np.tan(np.radians(36.8698976)), 0.5e6)
@@ -42,3 +44,8 @@ slip = 1e-3 * (1 - np.cos(np.pi * t / 0.4))
 tau, damage = softened(slip, KS, C, GII, P * TAN)
 write("reference_shear.csv", "time [s],slip [m],shear [Pa],damage [-]", t + 0.1,
       slip, tau, damage)
+for pressure in (0.1e6, 0.5e6, 1.0e6):
+    tau, _ = softened(slip, KS, C, GII, pressure * TAN)
+    write("reference_triplet_%g.csv" % (pressure / 1e6),
+          "time [s],slip [m],lower [Pa],upper [Pa],below [N],above [N]",
+          t + 0.1, slip, tau, -tau, -tau * AREA, -tau * AREA)
