@@ -107,7 +107,7 @@ def run_case(case, options):
     common.write_result(
         common.results_folder(options), name, title=case["title"],
         reference=case["source"], error=worst, tolerance=tolerance,
-        seconds=round(seconds, 2), passed=not failed,
+        seconds=round(seconds, 2), passed=not failed, wall=case.get("wall"),
         errors={**{k: v[0] for k, v in errors.items()},
                 **{k: v[0] for k, v in extra.items()}})
     if failed:
