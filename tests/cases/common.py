@@ -13,6 +13,7 @@ import numpy as np
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(
     os.path.abspath(__file__))))
 VERIFICATION = os.path.join(ROOT, "parameter_files", "verification")
+MASONRY = os.path.join(ROOT, "parameter_files", "masonry")
 SLED = os.path.join(ROOT, "tests", "cases", "sled.prm")
 
 MPI_ENVIRONMENT = {

@@ -40,7 +40,7 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                 "Materials/rock/Dilation angle=10",
                 "Materials/rock/Tensile strength=100"]),
             "sled": (common.SLED, []),
-            "couplet": (os.path.join(common.VERIFICATION, "masonry_couplet",
+            "couplet": (os.path.join(common.MASONRY, "couplet",
                                      "tension.prm"), []),
             # a column in each rank, and joints across it
             "free field": (os.path.join(common.VERIFICATION,

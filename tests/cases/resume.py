@@ -41,13 +41,12 @@ CASES = {
                  ["Output/Checkpoint interval=0.05",
                   "Output/Field interval=2e-2"], 1, 2),
     # joints that soften
-    "couplet": (os.path.join(common.VERIFICATION, "masonry_couplet",
+    "couplet": (os.path.join(common.MASONRY, "couplet",
                              "shear.prm"),
                 ["Output/Checkpoint interval=0.02",
                  "Output/Field interval=2e-2"], 1, 2),
     # a generated wall, cracks that close, loads that slow down
-    "wall": (os.path.join(common.VERIFICATION, os.pardir, "masonry",
-                          "tue_walls", "j4d.prm"),
+    "wall": (os.path.join(common.MASONRY, "tue_walls", "j4d.prm"),
              ["Output/Checkpoint interval=0.05", "Output/Field interval=1e-2",
               "Joints/mortar/Cracks=close", "Stages/push/Duration=4e-3"], 1, 2),
     # contacts searched, handed over and taken up in between

@@ -16,8 +16,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import common  # noqa: E402
 from common import Failure  # noqa: E402
 
-WALL = os.path.join(common.VERIFICATION, os.pardir, "masonry", "tue_walls",
-                    "j4d.prm")
+WALL = os.path.join(common.MASONRY, "tue_walls", "j4d.prm")
 TOLERANCE = 0.02
 # The peak is at 2 mm: 2.5 mm are enough.
 SHORT = ["Stages/push/Duration=0.1255", "Output/Field interval=0"]
