@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/application/mesh_parameters.h>
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/mesh/wall_layout.h>
 #include <quoin/tdbem/elastic_medium.h>
 
 #include <algorithm>
@@ -69,31 +69,7 @@ namespace quoin
       prm.declare_entry("Output directory", "output", Anything(),
                         "Relative to the folder of this file.");
 
-      prm.enter_subsection("Mesh");
-      prm.declare_entry("File", "", Anything(),
-                        "gmsh geometry (.geo) or mesh (.msh), relative to "
-                        "the folder of this file; coordinates in [m]. Empty "
-                        "with a wall of section 'Wall'.");
-      prm.declare_entry("Triangles", "plain", Selection("plain|crossed"),
-                        "plain: the file's or gmsh's triangles; crossed: "
-                        "quadrangles, each cut into four triangles by its "
-                        "diagonals, which do not lock in plastic flow.");
-      prm.declare_entry("Joints along", "", Anything(),
-                        "Physical curves along which the mesh is split into "
-                        "blocks; empty with a wall of section 'Wall': all of "
-                        "its joints.");
-      prm.declare_entry("Joints between", "", Anything(),
-                        "Pairs a:b of physical surfaces between which it is "
-                        "split, or 'all'.");
-      prm.declare_entry("Joint ends inside blocks", "keep",
-                        Selection("keep|refuse"),
-                        "Joints that end inside a block: keep them as "
-                        "cracks, or stop.");
-      prm.leave_subsection();
-
-      prm.enter_subsection("Wall");
-      WallParameters::declare(prm);
-      prm.leave_subsection();
+      declare_mesh(prm);
 
       prm.enter_subsection("Contact");
       ContactParameters::declare(prm);
@@ -271,83 +247,6 @@ namespace quoin
       for (const std::string &name : section.list("Names"))
         result.push_back(T::read(ParameterSection(section, name), name));
       return result;
-    }
-
-    /** The wall of section 'Wall', if there is one. */
-    bool lay_wall(const ParameterSection &top, Parameters &parameters)
-    {
-      WallParameters wall;
-      {
-        const ParameterSection section(top, "Wall");
-        wall = WallParameters::read(section);
-      }
-      if (wall.bond == WallBond::none)
-        return false;
-      const ParameterSection section(top, "Mesh");
-      if (!section.text("File").empty())
-        section.fail("File", "does not go with a wall of section 'Wall': leave "
-                             "it empty, or set 'Wall/Bond = none'.");
-      try
-      {
-        const WallLayout layout       = quoin::lay_wall(wall);
-        const WallGeometry geometry   = quoin::wall_geometry(wall, layout);
-        parameters.wall_geometry      = geometry.text;
-        parameters.wall_report        = quoin::wall_report(layout);
-        parameters.split.joints_along = geometry.joint_curves;
-      }
-      catch (const InputError &error)
-      {
-        throw InputError(top.file() + ", " + error.what());
-      }
-      return true;
-    }
-
-    void read_mesh_file(const ParameterSection &section, Parameters &parameters)
-    {
-      const std::string name = section.text("File");
-      if (name.empty())
-        section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
-                             "a bond.");
-      parameters.mesh_file
-          = name.front() == '/' ? name : section.folder() + name;
-      if (!std::filesystem::exists(parameters.mesh_file))
-        section.fail("File",
-                     "does not exist: there is no file '" + parameters.mesh_file
-                         + "'. Give the path from the folder of the parameter "
-                           "file.");
-      const auto extension
-          = std::filesystem::path(parameters.mesh_file).extension();
-      if (extension != ".geo" && extension != ".msh")
-        section.fail("File", "must end in .geo or .msh.");
-    }
-
-    void read_mesh(const ParameterSection &top, Parameters &parameters)
-    {
-      const bool generated = lay_wall(top, parameters);
-      const ParameterSection section(top, "Mesh");
-      parameters.triangles = section.choice<TriangleKind>(
-          "Triangles", { { "plain", TriangleKind::plain },
-                         { "crossed", TriangleKind::crossed } });
-      if (!generated)
-        read_mesh_file(section, parameters);
-      if (!generated || !section.text("Joints along").empty())
-        parameters.split.joints_along = section.list("Joints along");
-      for (const std::string &pair : section.list("Joints between"))
-      {
-        if (pair == "all")
-        {
-          parameters.split.between_all = true;
-          continue;
-        }
-        const auto names = dealii::Utilities::split_string_list(pair, ':');
-        if (names.size() != 2)
-          section.fail("Joints between",
-                       "must be 'all' or pairs such as rock:concrete.");
-        parameters.split.joints_between.emplace_back(names[0], names[1]);
-      }
-      parameters.split.joint_ends = section.choice<SplitOptions::JointEnds>(
-          "Joint ends inside blocks", { { "keep", SplitOptions::keep },
-                                        { "refuse", SplitOptions::refuse } });
     }
 
     void read_stages(const ParameterSection &top, Parameters &parameters)

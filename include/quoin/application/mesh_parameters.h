@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_application_mesh_parameters_h
+#define quoin_application_mesh_parameters_h
+
+#include <quoin/application/parameters.h>
+
+namespace quoin
+{
+  /** Sections 'Mesh' and 'Wall'. */
+  void declare_mesh(dealii::ParameterHandler &prm);
+
+  /**
+   * Reads both into @p parameters: a file, or the geometry of a wall, and where
+   * the joints are. Throws an InputError that names file, section and cure.
+   */
+  void read_mesh(const ParameterSection &top, Parameters &parameters);
+} // namespace quoin
+
+#endif
