@@ -39,8 +39,7 @@ namespace quoin
         "their residual values at failure; composite: these "
         "soften with fracture energies, and a cap crushes, for "
         "masonry; elastic: never fails; no tension: Coulomb without tension "
-        "whose "
-        "cohesion is never lost.");
+        "whose cohesion is never lost.");
     prm.declare_entry("Normal stiffness", "0", Double(), "kn [Pa/m]");
     prm.declare_entry("Shear stiffness", "0", Double(), "ks [Pa/m]");
     prm.declare_entry("Cohesion", "0", Double(), "Peak cohesion c [Pa]");
