@@ -144,7 +144,7 @@ namespace quoin
     template <bool with_tangent>
     CompositeDissipation advance(const CompositeLaw &law, CompositePoint &point,
                                  const double opening, const double slip,
-                                 CompositeTangent &tangent)
+                                 JointTangent &tangent)
     {
       const double kn = law.normal_stiffness, ks = law.shear_stiffness;
       const double sigma_before = point.normal_traction;
@@ -220,14 +220,14 @@ namespace quoin
                                                     const double opening,
                                                     const double slip) const
   {
-    CompositeTangent unused;
+    JointTangent unused;
     return advance<false>(*this, point, opening, slip, unused);
   }
 
   CompositeDissipation CompositeLaw::update(CompositePoint &point,
                                             const double opening,
                                             const double slip,
-                                            CompositeTangent &tangent) const
+                                            JointTangent &tangent) const
   {
     tangent = { normal_stiffness, 0., 0., shear_stiffness };
     return update_elastic(point, opening, slip)

@@ -5,6 +5,7 @@
 #define quoin_joints_composite_law_h
 
 #include <quoin/base/state.h>
+#include <quoin/joints/joint_tangent.h>
 
 #include <cmath>
 #include <limits>
@@ -42,15 +43,6 @@ namespace quoin
     {
       return tension + shear + friction + crushing;
     }
-  };
-
-  /** Derivative of the tractions by opening and slip [Pa/m]. */
-  struct CompositeTangent
-  {
-    double normal_opening = 0.;
-    double normal_slip    = 0.;
-    double shear_opening  = 0.;
-    double shear_slip     = 0.;
   };
 
   /**
@@ -128,7 +120,7 @@ namespace quoin
      * once it has converged.
      */
     CompositeDissipation update(CompositePoint &point, double opening,
-                                double slip, CompositeTangent &tangent) const;
+                                double slip, JointTangent &tangent) const;
 
     /** The same, if the joint is elastic there and no crack closes; else
         false. */

@@ -5,6 +5,7 @@
 #define quoin_joints_coulomb_law_h
 
 #include <quoin/base/state.h>
+#include <quoin/joints/joint_tangent.h>
 
 #include <algorithm>
 #include <cmath>
@@ -75,6 +76,15 @@ namespace quoin
     JointDissipation update(JointPoint &point, const double opening,
                             const double slip) const;
 
+    /**
+     * The same with the consistent tangent, for a Newton solver, which
+     * updates a copy of the point that it began with and keeps the last copy
+     * once it has converged. Where a joint breaks its tractions jump; the
+     * tangent is then that beyond the jump.
+     */
+    JointDissipation update(JointPoint &point, const double opening,
+                            const double slip, JointTangent &tangent) const;
+
     /** The same, if the joint neither fails, slips nor is open; else false. */
     bool update_elastic(JointPoint &point, double opening, double slip) const;
 
@@ -97,6 +107,10 @@ namespace quoin
     }
 
   private:
+    /** Derivative of update_failing(), at the point as it was before. */
+    JointTangent failing_tangent(const JointPoint &point, double opening,
+                                 double slip) const;
+
     /** Of a failed joint, whose traction is cut off at the residual one. */
     double normal_energy(const double sigma_trial) const
     {
@@ -190,6 +204,52 @@ namespace quoin
     point.plastic_opening += psi * dp;
     point.state = JointState::slipping;
     return dissipation;
+  }
+
+  inline JointDissipation CoulombLaw::update(JointPoint &point,
+                                             const double opening,
+                                             const double slip,
+                                             JointTangent &tangent) const
+  {
+    const JointPoint before = point;
+    if (update_elastic(point, opening, slip))
+    {
+      tangent = { normal_stiffness, 0., 0., shear_stiffness };
+      return {};
+    }
+    tangent = failing_tangent(before, opening, slip);
+    return update_failing(point, opening, slip);
+  }
+
+  inline JointTangent CoulombLaw::failing_tangent(const JointPoint &point,
+                                                  const double opening,
+                                                  const double slip) const
+  {
+    const double kn = normal_stiffness, ks = shear_stiffness;
+    const double sigma_trial = kn * (opening - point.plastic_opening);
+    const double tau_trial   = ks * (slip - point.plastic_slip);
+    if (sigma_trial > residual.tension)
+      return {}; // open: the residual tension, no shear
+
+    const double direction = tau_trial < 0. ? -1. : 1.;
+    const double psi       = std::abs(slip) < critical_shear_displacement
+                                 ? (direction * slip >= 0. ? dilation : -dilation)
+                                 : 0.;
+    const double excess    = std::abs(tau_trial) - residual.cohesion
+                          + sigma_trial * residual.friction;
+    if (excess <= 0.) // the residual strength is above the peak's
+      return { kn, 0., 0., ks };
+    double stiffness = ks + kn * psi * residual.friction;
+    if (!(stiffness > 0.1 * ks))
+      stiffness = ks;
+
+    // Of the plastic slip dp by opening and slip; all of it at the bound.
+    const bool is_bounded = excess / stiffness > std::abs(tau_trial) / ks;
+    const double by_opening
+        = is_bounded ? 0. : kn * residual.friction / stiffness;
+    const double by_slip = direction * (is_bounded ? 1. : ks / stiffness);
+    return { kn - kn * psi * by_opening, -kn * psi * by_slip,
+             -direction * ks * by_opening, ks - direction * ks * by_slip };
   }
 } // namespace quoin
 

@@ -268,7 +268,7 @@ TEST(CompositeLaw, TangentOfACrackThatCloses)
                                        std::array<double, 2>{ -1e-5, 9e-5 } })
   {
     CompositePoint end = walk.point;
-    CompositeTangent tangent;
+    JointTangent tangent;
     law.update(end, opening, slip, tangent);
     const auto moved = [&](const double du, const double dv)
     {

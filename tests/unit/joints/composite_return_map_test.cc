@@ -186,7 +186,7 @@ namespace
       return point;
     };
     CompositePoint point = start;
-    CompositeTangent tangent;
+    JointTangent tangent;
     law.update(point, opening, slip, tangent);
     const double h      = 1e-9;
     const auto by_u     = tractions(opening + h, slip);
@@ -270,7 +270,7 @@ TEST(CompositeReturnMap, NewtonConvergesQuadratically)
       for (unsigned int i = 0; i < 30; ++i)
       {
         CompositePoint point;
-        CompositeTangent d;
+        JointTangent d;
         law.update(point, u, v, d);
         const double r = kn * (target[0] - u) - point.normal_traction;
         const double s = ks * (target[1] - v) - point.shear_traction;

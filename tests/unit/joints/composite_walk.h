@@ -119,7 +119,7 @@ namespace quoin
         for (unsigned int i = 0; i < 30; ++i)
         {
           CompositePoint trial = point;
-          CompositeTangent tangent;
+          JointTangent tangent;
           law.update(trial, next, new_slip, tangent);
           const double rest = sigma - trial.normal_traction;
           if (std::abs(rest) < 1e-9 * std::abs(sigma))
