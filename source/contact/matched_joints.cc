@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joint_points.h"
+
 namespace quoin
 {
   namespace
@@ -42,62 +44,6 @@ namespace quoin
           set = s;
         }
       return set_of_line;
-    }
-
-    // Points of both laws, from and to the arrays of the history.
-
-    JointPoint read_point(const CoulombLaw &, const JointHistory &history,
-                          const unsigned int p)
-    {
-      return { history.normal_traction[p], history.shear_traction[p],
-               history.plastic_slip[p], history.plastic_opening[p],
-               history.state[p] };
-    }
-
-    CompositePoint read_point(const CompositeLaw &, const JointHistory &history,
-                              const unsigned int p)
-    {
-      return { history.normal_traction[p],
-               history.shear_traction[p],
-               history.plastic_slip[p],
-               history.plastic_opening[p],
-               history.bond[p],
-               history.crushing[p],
-               history.crack_opening[p],
-               history.state[p] };
-    }
-
-    /** What only a failing update changes. */
-    void write_flow(const JointPoint &point, JointHistory &history,
-                    const unsigned int p)
-    {
-      history.plastic_slip[p]    = point.plastic_slip;
-      history.plastic_opening[p] = point.plastic_opening;
-    }
-
-    void write_flow(const CompositePoint &point, JointHistory &history,
-                    const unsigned int p)
-    {
-      history.plastic_slip[p]    = point.plastic_slip;
-      history.plastic_opening[p] = point.plastic_opening;
-      history.bond[p]            = point.bond;
-      history.crushing[p]        = point.crushing;
-      history.crack_opening[p]   = point.crack_opening;
-    }
-
-    void book(const JointDissipation &lost, const double weight,
-              EnergyAccounts &energy)
-    {
-      energy.friction += weight * lost.friction;
-      energy.fracture += weight * lost.fracture;
-    }
-
-    void book(const CompositeDissipation &lost, const double weight,
-              EnergyAccounts &energy)
-    {
-      energy.friction += weight * lost.friction;
-      energy.fracture += weight * (lost.tension + lost.shear);
-      energy.crushing += weight * lost.crushing;
     }
 
     double energy_of(const CoulombLaw &law, const JointPoint &point,
@@ -286,9 +232,7 @@ namespace quoin
                segment.area * segment.share, energy);
           write_flow(point, history, p);
         }
-        history.normal_traction[p] = point.normal_traction;
-        history.shear_traction[p]  = point.shear_traction;
-        history.state[p]           = point.state;
+        write_tractions(point, history, p);
 
         const double sigma = segment.area * point.normal_traction;
         const double tau   = segment.area * point.shear_traction;

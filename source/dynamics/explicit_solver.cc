@@ -4,7 +4,6 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
-#include <quoin/loads/prescribed_motion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,78 +24,20 @@ namespace quoin
     }
   } // namespace
 
-  double Energies::throughput() const
-  {
-    return std::max(
-        { std::abs(accounts.external), kinetic + strain + joint + far_field,
-          accounts.friction + accounts.fracture + accounts.crushing
-              + accounts.plastic + accounts.damping + accounts.viscous
-              + accounts.contact + accounts.radiated });
-  }
-
   ExplicitSolver::ExplicitSolver(const Model &model,
                                  const std::vector<LoadParameters> &loads,
                                  const std::vector<StageParameters> &stages,
                                  std::unique_ptr<FarField> far_field,
                                  std::unique_ptr<StaticFarField> static_field)
-    : model(model), communicator(model.exchange().communicator()),
+    : Solver(model, loads, std::move(far_field), std::move(static_field)),
       mass(model.mass()), box(model), all_stages(stages)
   {
-    const auto &mesh       = model.mesh();
-    const auto &exchange   = model.exchange();
-    unsigned int n_platens = 0, n_viscous = 0;
-    for (const LoadParameters &load : loads)
-    {
-      known_loads.push_back(load.name);
-      switch (load.type)
-      {
-      case LoadType::viscous_boundary:
-        all_constraints.push_back(std::make_unique<ViscousBoundary>(
-            load, n_viscous++, mesh, exchange, model.impedance_beyond(load),
-            model.thickness()));
-        break;
-      case LoadType::prescribed_motion:
-        all_constraints.push_back(
-            std::make_unique<PrescribedMotion>(load, mesh, exchange));
-        break;
-      case LoadType::platen:
-        all_constraints.push_back(
-            std::make_unique<Platen>(load, n_platens++, mesh, exchange));
-        break;
-      case LoadType::traction:
-      case LoadType::gravity:
-        all_loads.emplace_back(load, mesh, exchange, model.mass(),
-                               model.thickness());
-        break;
-      case LoadType::boundary_elements:
-        far = far_field.get();
-        all_constraints.push_back(std::move(far_field));
-        static_far = static_field.get();
-        if (static_field)
-          all_constraints.push_back(std::move(static_field));
-        break;
-      case LoadType::initial_stress:
-      case LoadType::free_field:
-        break;
-      }
-    }
-    make_free_fields(loads);
+    const NodeExchange &exchange = model.exchange();
     if (model.large_displacements())
-      block_contacts = std::make_unique<BlockContacts>(mesh, exchange,
+      block_contacts = std::make_unique<BlockContacts>(model.mesh(), exchange,
                                                        model.contact_model());
     force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
     viscous_force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
-
-    const State rest = model.initial_state();
-    strain_at_start
-        = sum(model.blocks().strain_energy(rest.nodes.data(), rest.plastic));
-    joint_at_start
-        = sum(model.joints().stored_energy(rest.nodes.data(), rest.joints));
-  }
-
-  double ExplicitSolver::sum(const double value) const
-  {
-    return dealii::Utilities::MPI::sum(value, communicator);
   }
 
   void ExplicitSolver::step(State &state, const Requests &wanted)
@@ -190,10 +131,10 @@ namespace quoin
     else
     {
       state.load_time += advance;
-      if (requests.balance && last_energies.throughput() > 0.)
+      if (requests.balance && energies().throughput() > 0.)
         state.load_rate_growth = loading_rate::growth(
-            last_energies.kinetic
-                / (stage.kinetic_limit * last_energies.throughput()),
+            energies().kinetic
+                / (stage.kinetic_limit * energies().throughput()),
             balance_interval);
       state.load_rate
           = loading_rate::next(state.load_rate, state.load_rate_growth);
@@ -418,37 +359,6 @@ namespace quoin
       state.adaptive_damping /= adaptive_change;
   }
 
-  void ExplicitSolver::find_energies(State &state, const double strain,
-                                     const double joint, const double kinetic)
-  {
-    double values[12] = { kinetic,
-                          strain,
-                          joint,
-                          state.energy.external,
-                          state.energy.friction,
-                          state.energy.fracture,
-                          state.energy.crushing,
-                          state.energy.damping,
-                          state.energy.viscous,
-                          state.energy.contact,
-                          state.energy.radiated,
-                          state.energy.plastic };
-    MPI_Allreduce(MPI_IN_PLACE, values, 12, MPI_DOUBLE, MPI_SUM, communicator);
-    last_energies.kinetic           = values[0];
-    last_energies.strain            = values[1] - strain_at_start;
-    last_energies.joint             = values[2] - joint_at_start;
-    last_energies.far_field         = state.static_far_field.stored;
-    last_energies.accounts.external = values[3];
-    last_energies.accounts.friction = values[4];
-    last_energies.accounts.fracture = values[5];
-    last_energies.accounts.crushing = values[6];
-    last_energies.accounts.damping  = values[7];
-    last_energies.accounts.viscous  = values[8];
-    last_energies.accounts.contact  = values[9];
-    last_energies.accounts.radiated = values[10];
-    last_energies.accounts.plastic  = values[11];
-  }
-
   void ExplicitSolver::find_ratio(State &state, const StepContext &context,
                                   double applied, double unbalanced)
   {
@@ -480,21 +390,4 @@ namespace quoin
     state.unbalanced_ratio = sums[0] > 0. ? sums[1] / sums[0] : 0.;
   }
 
-  std::array<double, 3> ExplicitSolver::resultant(const std::string &load) const
-  {
-    for (const auto &constraint : all_constraints)
-      if (constraint->name() == load
-          && (constraint.get() != static_far || static_far_field_acts())
-          && (constraint.get() != far || !static_far_field_acts()))
-      {
-        auto values = constraint->resultant();
-        if (!constraint->is_global())
-          MPI_Allreduce(MPI_IN_PLACE, values.data(), 3, MPI_DOUBLE, MPI_SUM,
-                        communicator);
-        return values;
-      }
-    throw InputError("'" + load
-                     + "' is no prescribed motion, platen, viscous or "
-                       "free-field boundary, so it has no reaction.");
-  }
 } // namespace quoin

@@ -4,92 +4,14 @@
 // What ExplicitSolver does where a stage begins; explicit_solver.cc has its
 // steps.
 
-#include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
-#include <quoin/dynamics/free_bodies.h>
 #include <quoin/dynamics/loading_rate.h>
-#include <quoin/loads/free_field_boundary.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <sstream>
 
 namespace quoin
 {
-  namespace
-  {
-    bool contains(const std::vector<std::string> &names,
-                  const std::string &name)
-    {
-      return std::find(names.begin(), names.end(), name) != names.end();
-    }
-  } // namespace
-
-  void ExplicitSolver::activate(const StageParameters &new_stage)
-  {
-    stage = new_stage;
-    for (const std::string &name : stage.loads)
-      if (!contains(known_loads, name))
-      {
-        std::string known;
-        for (const auto &load : known_loads)
-          known += (known.empty() ? "" : ", ") + load;
-        throw InputError("section 'Stages/" + stage.name + "': 'Loads' names '"
-                         + name + "', which is no load. Loads are: " + known
-                         + ".");
-      }
-
-    for (const auto &constraint : all_constraints)
-      if (contains(stage.loads, constraint->name())
-          && !constraint->companion().empty()
-          && !contains(stage.loads, constraint->companion()))
-        throw InputError(
-            "section 'Stages/" + stage.name + "': 'Loads' names '"
-            + constraint->name() + "', whose columns stand on the base '"
-            + constraint->companion() + "', but not that. Add it.");
-
-    if (stage.slows_loads())
-      for (const auto &constraint : all_constraints)
-        if (constraint->moves_all() && !constraint->is_global()
-            && acts_in(*constraint, stage))
-          throw InputError("section 'Stages/" + stage.name
-                           + "': 'Kinetic energy limit' slows loads down, "
-                             "which waves through the boundary of the load '"
-                           + constraint->name()
-                           + "' cannot follow. Set it to 0, or use that load "
-                             "in another stage.");
-
-    // Viscous boundaries act first, so that what is prescribed prevails;
-    // platens last, because they move all of their nodes.
-    constraints_on.clear();
-    for (const int rank : { 0, 1, 2 })
-      for (const auto &constraint : all_constraints)
-        if (acts_in(*constraint, stage)
-            && rank
-                   == (dynamic_cast<Platen *>(constraint.get()) ? 2
-                       : constraint->moves_all()                ? 0
-                                                                : 1))
-          constraints_on.push_back(constraint.get());
-    loads_on.clear();
-    for (const NodalLoad &load : all_loads)
-      if (contains(stage.loads, load.name()))
-        loads_on.push_back(&load);
-
-    // With large displacements blocks may rest on others without a joint.
-    if (stage.end == StageEnd::static_ratio && !model.large_displacements())
-      check_no_free_bodies(model, constraints_on, stage.name);
-  }
-
-  bool ExplicitSolver::acts_in(const NodeConstraint &constraint,
-                               const StageParameters &any) const
-  {
-    const bool is_static = any.end == StageEnd::static_ratio;
-    return contains(any.loads, constraint.name())
-           && !(&constraint == far && is_static)
-           && !(&constraint == static_far && !is_static);
-  }
-
   void ExplicitSolver::scale_masses(const StageParameters &stage, State &state)
   {
     const RigidBlocks &rigid = model.rigid_blocks();
@@ -194,7 +116,7 @@ namespace quoin
     }
 
     refuse_shared_platens();
-    find_held_blocks();
+    rigid_stage.held = find_held_blocks();
 
     captured_begin.clear();
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
@@ -216,92 +138,16 @@ namespace quoin
     hold_removed_blocks(state);
   }
 
-  void ExplicitSolver::find_held_blocks()
-  {
-    constexpr unsigned int none = -1;
-    const RigidBlocks &rigid    = model.rigid_blocks();
-    rigid_stage.held.assign(rigid.n_blocks(), false);
-    for (const NodeConstraint *constraint : constraints_on)
-    {
-      const auto &nodes  = constraint->nodes();
-      unsigned int wrong = none;
-      for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
-      {
-        const RigidBlocks::Block &block = rigid.block(b);
-        const auto first
-            = std::lower_bound(nodes.begin(), nodes.end(), block.begin);
-        const auto last = std::lower_bound(first, nodes.end(), block.end);
-        if (first == last)
-          continue;
-        if (constraint->is_global() && last - first == block.end - block.begin)
-          rigid_stage.held[b] = true;
-        else if (wrong == none)
-          wrong = model.exchange().global(*first);
-      }
-      wrong = dealii::Utilities::MPI::min(wrong, communicator);
-      if (wrong == none)
-        continue;
-      const auto &p = model.mesh().vertices[wrong];
-      std::ostringstream message;
-      message << "section 'Stages/" << stage.name << "': the load '"
-              << constraint->name() << "' moves the node at (" << p[0] << ", "
-              << p[1]
-              << ") m by itself, but its block is rigid. Hold or drive rigid "
-                 "blocks as a whole, by a load with 'Type = platen' and their "
-                 "'Group', or make the block deformable.";
-      throw InputError(message.str());
-    }
-  }
-
-  void ExplicitSolver::refuse_shared_platens() const
-  {
-    constexpr unsigned int none = -1;
-    for (const NodeConstraint *a : constraints_on)
-      for (const NodeConstraint *b : constraints_on)
-      {
-        if (a == b || !a->is_global() || !b->is_global())
-          continue;
-        std::vector<unsigned int> shared;
-        std::set_intersection(a->nodes().begin(), a->nodes().end(),
-                              b->nodes().begin(), b->nodes().end(),
-                              std::back_inserter(shared));
-        const unsigned int first = dealii::Utilities::MPI::min(
-            shared.empty() ? none : model.exchange().global(shared.front()),
-            communicator);
-        if (first == none)
-          continue;
-        const auto &p = model.mesh().vertices[first];
-        std::ostringstream message;
-        message << "section 'Stages/" << stage.name << "': the platens '"
-                << a->name() << "' and '" << b->name()
-                << "' share the node at (" << p[0] << ", " << p[1]
-                << ") m. A node can belong to one rigid platen: use one of "
-                   "them, or leave a gap.";
-        throw InputError(message.str());
-      }
-  }
-
   void ExplicitSolver::begin_stage(const StageParameters &new_stage,
                                    const StageParameters *previous,
                                    State &state)
   {
     activate(new_stage);
     scale_masses(stage, state);
-    unsigned int n_platens = 0, n_viscous = 0, n_free_fields = 0;
-    for (const auto &constraint : all_constraints)
-    {
-      n_platens += dynamic_cast<const Platen *>(constraint.get()) != nullptr;
-      n_viscous
-          += dynamic_cast<const ViscousBoundary *>(constraint.get()) != nullptr;
-      n_free_fields += dynamic_cast<const FreeFieldBoundary *>(constraint.get())
-                       != nullptr;
-    }
-    state.platens.resize(n_platens);
-    state.viscous_boundaries.resize(n_viscous);
-    state.free_fields.resize(n_free_fields);
+    make_room(state);
     loads_begun.clear();
     for (const NodalLoad *load : loads_on)
-      if (previous && !contains(previous->loads, load->name()))
+      if (previous && !names_load(*previous, load->name()))
         loads_begun.push_back(load);
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
@@ -335,41 +181,4 @@ namespace quoin
     collect_constrained_nodes(state);
   }
 
-  bool ExplicitSolver::far_field_acts() const
-  {
-    return far && acts_in(*far, stage);
-  }
-
-  bool ExplicitSolver::static_far_field_acts() const
-  {
-    return static_far && acts_in(*static_far, stage);
-  }
-
-  void ExplicitSolver::save(State &state) const
-  {
-    for (const auto &constraint : all_constraints)
-      constraint->save(state);
-  }
-
-  void ExplicitSolver::check_start(const State &state) const
-  {
-    for (const NodeConstraint *constraint : constraints_on)
-      constraint->check_start({ 0., state.time });
-  }
-
-  bool ExplicitSolver::loads_have_changed(const State &state,
-                                          const double duration) const
-  {
-    const double now        = state.load_time;
-    const double before     = std::max(0., now - duration);
-    const TimePoint times[] = { { before, state.stage_start + before },
-                                { now, state.stage_start + now } };
-    for (const NodalLoad *load : loads_on)
-      if (load->amplitude(times[0]) != load->amplitude(times[1]))
-        return true;
-    for (const NodeConstraint *constraint : constraints_on)
-      if (constraint->values(times[0]) != constraint->values(times[1]))
-        return true;
-    return false;
-  }
 } // namespace quoin

@@ -5,38 +5,11 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
-#include <quoin/loads/free_field_boundary.h>
 
-#include <algorithm>
 #include <sstream>
 
 namespace quoin
 {
-  void
-  ExplicitSolver::make_free_fields(const std::vector<LoadParameters> &loads)
-  {
-    unsigned int n = 0;
-    for (const LoadParameters &load : loads)
-    {
-      if (load.type != LoadType::free_field)
-        continue;
-      const auto base = std::find_if(loads.begin(), loads.end(),
-                                     [&](const LoadParameters &other)
-                                     { return other.name == load.base; });
-      if (base == loads.end()
-          || (base->type != LoadType::viscous_boundary
-              && base->type != LoadType::prescribed_motion))
-        throw InputError("section 'Loads/" + load.name
-                         + "': 'Base = " + load.base
-                         + "' must name the load that drives the base of the "
-                           "model, of type 'viscous boundary' or 'prescribed "
-                           "motion'.");
-      all_constraints.push_back(std::make_unique<FreeFieldBoundary>(
-          load, n++, model.mesh(), model.exchange(), model.free_field_ground(),
-          FreeFieldBase{ *base, model.impedance_beyond(*base) }));
-    }
-  }
-
   void ExplicitSolver::account_for_initial_motion(State &state) const
   {
     unsigned int moved = -1;

@@ -333,6 +333,28 @@ namespace quoin
     }
   };
 
+  /** What the implicit solver keeps from step to step; see ImplicitSolver. */
+  struct ImplicitState
+  {
+    /** Out-of-balance forces with which the stage began, x, y of owned nodes
+        and three of each platen [N, N m]; empty: none. */
+    std::vector<double> held;
+    double released = 1.; /**< share of them that is gone [-] */
+    double step     = 0.; /**< to try next: of load time [s] or released */
+
+    bool follows_path  = false; /**< the load time is an unknown */
+    double path_step   = 0.;    /**< to try next, of the path's length [m] */
+    double path_length = 0.;    /**< in the stage so far [m] */
+    double farthest    = 0.;    /**< load time reached in the stage [s] */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &held &released &step &follows_path &path_step &path_length
+          &farthest;
+    }
+  };
+
   /** A rigid block: freedoms x [m], y [m], rotation [rad, anticlockwise]. */
   struct RigidBlockState
   {
@@ -376,9 +398,10 @@ namespace quoin
     StaticFarFieldState static_far_field;
     std::vector<ViscousBoundaryState> viscous_boundaries; /**< as platens */
     std::vector<FreeFieldState> free_fields; /**< in the order of the loads */
-    double adaptive_damping   = 0.;          /**< [1/s] */
-    double previous_time_step = 0.;          /**< [s] */
-    double unbalanced_ratio   = 1.;          /**< as last measured [-] */
+    ImplicitState implicit;
+    double adaptive_damping   = 0.; /**< [1/s] */
+    double previous_time_step = 0.; /**< [s] */
+    double unbalanced_ratio   = 1.; /**< as last measured [-] */
 
     /** Complete at time, and what the step under way adds for time + dt/2. */
     EnergyAccounts energy, pending;
@@ -389,7 +412,7 @@ namespace quoin
       archive &time &step &stage &stage_start &stage_step &load_time &load_rate
           &load_rate_growth &nodes &velocity &plastic &joints &contacts &platens
               &rigid_blocks &far_field &static_far_field &viscous_boundaries
-                  &free_fields &adaptive_damping &previous_time_step
+                  &free_fields &implicit &adaptive_damping &previous_time_step
                       &unbalanced_ratio &energy &pending;
     }
   };

@@ -17,6 +17,24 @@
 namespace quoin
 {
   /**
+   * A segment's nodal forces and minus their derivative by the displacements
+   * of its nodes, lower[0], lower[1], upper[0], upper[1]: entry 2 i + d is
+   * node i, component d.
+   */
+  struct JointLinearisation
+  {
+    std::array<unsigned int, 4> nodes;
+    std::array<double, 8> force;                    /**< [N] */
+    std::array<std::array<double, 8>, 8> stiffness; /**< [N/m] */
+    /**
+     * Sum over the points of area times increment of inelastic opening and
+     * slip [m^3], and its derivative [m^2].
+     */
+    double inelastic;
+    std::array<double, 8> inelastic_gradient;
+  };
+
+  /**
    * The zero-thickness joints between coincident edges of two blocks, or of
    * the two lips of a crack.
    *
@@ -74,6 +92,26 @@ namespace quoin
                             const JointHistory &history,
                             const NodeVector *velocity, double beta,
                             NodeVector *force) const;
+
+    /**
+     * What add_forces() does for segment @p i, with its derivative, consistent
+     * with the update of @p history; books the dissipation.
+     *
+     * The tractions of a brittle joint jump when it breaks, which no Newton
+     * iteration survives. So intact points of a Coulomb law stay elastic here
+     * beyond their strength unless @p broken, an entry for each point, says
+     * that they break; see excess().
+     */
+    void linearise(unsigned int i, const NodeRecord *nodes,
+                   const std::vector<std::uint8_t> &broken,
+                   JointHistory &history, EnergyAccounts &energy,
+                   JointLinearisation &result) const;
+
+    /**
+     * By how much a point of segment @p i / 2 that linearise() left elastic
+     * exceeds its strength, as a share of its stress; zero or less: it holds.
+     */
+    double excess(unsigned int point, const JointHistory &history) const;
 
     /** Recoverable energy [J] of this rank's share of the joints. */
     double stored_energy(const NodeRecord *nodes,

@@ -60,6 +60,19 @@ namespace quoin
     unsigned int n_lanes = 0;
   };
 
+  /**
+   * A cell's nodal forces and minus their derivative by the displacements of
+   * its nodes: entry 2 i + d is node i, component d.
+   */
+  struct CellLinearisation
+  {
+    unsigned int n_nodes = 3;
+    std::array<unsigned int, 6> nodes;
+    std::array<double, 12> force;                     /**< [N] */
+    std::array<std::array<double, 12>, 12> stiffness; /**< [N/m] */
+    double dissipated; /**< by the update of the history [J] */
+  };
+
   struct NodeRange
   {
     std::size_t begin;
@@ -129,6 +142,19 @@ namespace quoin
      */
     double add_forces(unsigned int tile, const NodeRecord *nodes,
                       PlasticHistory &history, NodeVector *force) const;
+
+    unsigned int n_cells() const
+    {
+      return data.cells.size();
+    }
+
+    /**
+     * What add_forces() does for one cell, with its derivative, consistent
+     * with the update of @p history. Does nothing and returns false for a
+     * cell without weight.
+     */
+    bool linearise(unsigned int cell, const NodeRecord *nodes,
+                   PlasticHistory &history, CellLinearisation &result) const;
 
     /** What add_forces() of all tiles does to @p history; returns the same. */
     double update(const NodeRecord *nodes, PlasticHistory &history) const;
@@ -253,6 +279,21 @@ namespace quoin
                  ? nullptr
                  : &*data.laws[stiffness];
     }
+
+    /** Nodes of a cell, the gradients of their shape functions at its point
+        [1/m] and the area that the point counts for [m^2]. */
+    struct CellPoint
+    {
+      unsigned int n_nodes;
+      std::array<unsigned int, 6> nodes;
+      std::array<std::array<double, 2>, 6> gradients;
+      double area;
+
+      /** Of the displacements: [[11, 12], [21, 22]]. */
+      std::array<double, 4>
+      displacement_gradient(const NodeRecord *records) const;
+    };
+    CellPoint cell_point(const NodeRecord *nodes, unsigned int cell) const;
 
     /** Strain in the rotating frame, and area if it is asked for. */
     CorotatedStrain cell_strain(const NodeRecord *nodes, std::size_t cell,

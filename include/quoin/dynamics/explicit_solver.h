@@ -5,45 +5,16 @@
 #define quoin_dynamics_explicit_solver_h
 
 #include <quoin/base/state.h>
-#include <quoin/coupling/far_field.h>
-#include <quoin/coupling/static_far_field.h>
-#include <quoin/dynamics/model.h>
 #include <quoin/dynamics/model_box.h>
 #include <quoin/dynamics/node_update.h>
-#include <quoin/dynamics/stage_parameters.h>
-#include <quoin/loads/nodal_load.h>
-#include <quoin/loads/node_constraint.h>
-#include <quoin/loads/platen.h>
+#include <quoin/dynamics/solver.h>
 
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
 namespace quoin
 {
-  /** Energies of the whole model at one time [J]. */
-  struct Energies
-  {
-    double kinetic   = 0.;
-    double strain    = 0.; /**< of the blocks, since the start */
-    double joint     = 0.; /**< recoverable, since the start */
-    double far_field = 0.; /**< of static boundary elements, since then */
-    EnergyAccounts accounts;
-
-    /** What the balance leaves over; zero but for rounding and kinks. */
-    double residual() const
-    {
-      return kinetic + strain + joint + far_field + accounts.friction
-             + accounts.fracture + accounts.crushing + accounts.plastic
-             + accounts.damping + accounts.viscous + accounts.contact
-             + accounts.radiated - accounts.external;
-    }
-
-    /** All energy that went through the model, to judge the residual by. */
-    double throughput() const;
-  };
-
   /**
    * Central differences with velocities at half steps (@cite
    * JinWangZhang1998, Eqs. 4-5) for one stage after the other.
@@ -52,7 +23,7 @@ namespace quoin
    * the trapezoidal work of the forces, every account is kept with that rule
    * and the balance of an elastic model closes to rounding.
    */
-  class ExplicitSolver
+  class ExplicitSolver : public Solver
   {
   public:
     /**
@@ -126,16 +97,7 @@ namespace quoin
      */
     void step(State &state, const Requests &requests);
 
-    /**
-     * Brings the histories of cells, joints and contacts of @p state, a copy,
-     * to its positions, as the step to come would do. Collective.
-     */
-    void update_histories(State &state);
-
-    /** Throws a RunError if the state is no longer finite; collective. */
-    void check_finite(const State &state) const;
-    /** The same if a cell has turned inside out; collective. */
-    void check_cells(const State &state) const;
+    void update_histories(State &state) override;
 
     /** Blocks found outside the box since the last call. */
     std::vector<BlockOutside> take_blocks_outside()
@@ -143,59 +105,12 @@ namespace quoin
       return std::exchange(blocks_outside, {});
     }
 
-    /** As of the last step with Requests::energies; collective then. */
-    const Energies &energies() const
-    {
-      return last_energies;
-    }
-    /**
-     * Whether loads have changed in the last @p duration of the stage [s]: a
-     * static stage is not over before they rest.
-     */
-    bool loads_have_changed(const State &state, double duration) const;
-
-    /** Throws an InputError about loads that would begin with a jump. */
-    void check_start(const State &state) const;
-    /** Force x, y [N] and moment [N m] of a load; collective. */
-    std::array<double, 3> resultant(const std::string &load) const;
-
-    /** Null if there is none. */
-    FarField *far_field() const
-    {
-      return far;
-    }
-    /** Whether it acts in the stage that has begun. */
-    bool far_field_acts() const;
-
-    /** Null if there is none. */
-    const StaticFarField *static_far_field() const
-    {
-      return static_far;
-    }
-    /** Whether that acts in the stage that has begun. */
-    bool static_far_field_acts() const;
-
-    /** Called before a checkpoint: completes @p state. */
-    void save(State &state) const;
-
-    /** Null if displacements are small. */
-    const BlockContacts *contacts() const
+    const BlockContacts *contacts() const override
     {
       return block_contacts.get();
     }
 
-    /** Of all loads, acting in this stage or not. */
-    const std::vector<std::unique_ptr<NodeConstraint>> &constraints() const
-    {
-      return all_constraints;
-    }
-
   private:
-    void make_free_fields(const std::vector<LoadParameters> &loads);
-    void activate(const StageParameters &stage);
-    /** Whether @p stage names it and, of far fields, is of its kind. */
-    bool acts_in(const NodeConstraint &constraint,
-                 const StageParameters &stage) const;
     /** CapturedNode::begun of the stage's first step. */
     void find_begun_forces(const StepContext &context);
     void scale_masses(const StageParameters &stage, State &state);
@@ -204,13 +119,6 @@ namespace quoin
     void find_moved_blocks(const State &state);
     /** Makes removed blocks stay where they are. */
     void hold_removed_blocks(const State &state);
-    /**
-     * Finds the rigid blocks that platens move. Throws an InputError about
-     * one that is held in part or by something else.
-     */
-    void find_held_blocks();
-    /** Throws an InputError if two platens of the stage share a node. */
-    void refuse_shared_platens() const;
     void look_at_box(State &state);
     /**
      * Leaves blocks at rest and without strain, and books what energy they
@@ -224,26 +132,11 @@ namespace quoin
     void move_constrained_nodes(State &state, const StepContext &context);
     void account_for_new_step(State &state, const StepContext &context) const;
     void adapt_damping(State &state, const DampingWork &work) const;
-    void find_energies(State &state, double strain, double joint,
-                       double kinetic);
     void find_ratio(State &state, const StepContext &context, double applied,
                     double unbalanced);
-    double sum(double value) const;
-
-    const Model &model;
-    MPI_Comm communicator;
 
     std::unique_ptr<BlockContacts> block_contacts;
-    std::vector<std::unique_ptr<NodeConstraint>> all_constraints;
-    FarField *far              = nullptr; /**< one of them */
-    StaticFarField *static_far = nullptr; /**< one of them */
-    std::vector<NodalLoad> all_loads;
-    std::vector<std::string> known_loads;
-
-    std::vector<NodeConstraint *> constraints_on; /**< in order of action */
-    std::vector<const NodalLoad *> loads_on;
     std::vector<const NodalLoad *> loads_begun; /**< not on in the last one */
-    StageParameters stage;
 
     std::vector<double> mass;         /**< scaled, local nodes [kg] */
     std::vector<double> moving_mass;  /**< zero at constrained nodes [kg] */
@@ -272,8 +165,6 @@ namespace quoin
     double unbalanced_force = 0.;
 
     PlasticHistory plastic_now; /**< when energies are due */
-    double strain_at_start = 0., joint_at_start = 0.;
-    Energies last_energies;
   };
 } // namespace quoin
 

@@ -50,6 +50,10 @@ namespace quoin
     {
       return last_unbalanced;
     }
+    const std::array<LoadComponent, 3> &parts() const
+    {
+      return components;
+    }
     std::array<double, 3> values(const TimePoint &time) const override
     {
       return component_values(components, time);

@@ -24,6 +24,10 @@ namespace quoin
     void account(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
                  State &state) override;
+    const std::array<LoadComponent, 3> &parts() const
+    {
+      return components;
+    }
     std::array<double, 3> values(const TimePoint &time) const override
     {
       return component_values(components, time);

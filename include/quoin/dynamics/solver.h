@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_dynamics_solver_h
+#define quoin_dynamics_solver_h
+
+#include <quoin/base/state.h>
+#include <quoin/coupling/far_field.h>
+#include <quoin/coupling/static_far_field.h>
+#include <quoin/dynamics/model.h>
+#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/loads/nodal_load.h>
+#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/platen.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** Energies of the whole model at one time [J]. */
+  struct Energies
+  {
+    double kinetic   = 0.;
+    double strain    = 0.; /**< of the blocks, since the start */
+    double joint     = 0.; /**< recoverable, since the start */
+    double far_field = 0.; /**< of static boundary elements, since then */
+    EnergyAccounts accounts;
+
+    /** What the balance leaves over; zero but for rounding and kinks. */
+    double residual() const
+    {
+      return kinetic + strain + joint + far_field + accounts.friction
+             + accounts.fracture + accounts.crushing + accounts.plastic
+             + accounts.damping + accounts.viscous + accounts.contact
+             + accounts.radiated - accounts.external;
+    }
+
+    /** All energy that went through the model, to judge the residual by. */
+    double throughput() const;
+  };
+
+  /**
+   * What all solvers share: the loads of a run, which of them act in the
+   * stage, the energies, and looks at whether the state is sound.
+   */
+  class Solver
+  {
+  public:
+    /**
+     * Keeps a reference to @p model. @p loads: all loads of the run;
+     * @p far_field and @p static_far_field: of the load that is of the type
+     * 'boundary elements', or null; the second acts in static stages.
+     */
+    Solver(const Model &model, const std::vector<LoadParameters> &loads,
+           std::unique_ptr<FarField> far_field,
+           std::unique_ptr<StaticFarField> static_far_field);
+
+    virtual ~Solver() = default;
+
+    /**
+     * Brings the histories of cells, joints and contacts of @p state, a copy,
+     * to its positions. Collective.
+     */
+    virtual void update_histories(State &state) = 0;
+
+    /** Throws a RunError if the state is no longer finite; collective. */
+    void check_finite(const State &state) const;
+    /** The same if a cell has turned inside out; collective. */
+    void check_cells(const State &state) const;
+
+    /** As last computed. */
+    const Energies &energies() const
+    {
+      return last_energies;
+    }
+    /**
+     * Whether loads have changed in the last @p duration of the stage [s]: a
+     * static stage is not over before they rest.
+     */
+    bool loads_have_changed(const State &state, double duration) const;
+
+    /** Throws an InputError about loads that would begin with a jump. */
+    void check_start(const State &state) const;
+
+    /** Force x, y [N] and moment [N m] of a load; collective. */
+    virtual std::array<double, 3> resultant(const std::string &load) const;
+
+    /** Null if there is none. */
+    FarField *far_field() const
+    {
+      return far;
+    }
+    /** Whether it acts in the stage that has begun. */
+    bool far_field_acts() const;
+
+    /** Null if there is none. */
+    const StaticFarField *static_far_field() const
+    {
+      return static_far;
+    }
+    /** Whether that acts in the stage that has begun. */
+    bool static_far_field_acts() const;
+
+    /** Called before a checkpoint: completes @p state. */
+    void save(State &state) const;
+
+    /** Null if displacements are small. */
+    virtual const BlockContacts *contacts() const
+    {
+      return nullptr;
+    }
+
+    /** Of all loads, acting in this stage or not. */
+    const std::vector<std::unique_ptr<NodeConstraint>> &constraints() const
+    {
+      return all_constraints;
+    }
+
+  protected:
+    /**
+     * Switches to the loads of @p stage. Throws an InputError about unknown
+     * loads, or bodies that a static stage would let drift.
+     */
+    void activate(const StageParameters &stage);
+    /** Whether @p stage names it and, of far fields, is of its kind. */
+    bool acts_in(const NodeConstraint &constraint,
+                 const StageParameters &stage) const;
+    /** Makes room in @p state for what loads keep there. */
+    void make_room(State &state) const;
+    /**
+     * The rigid blocks that platens of the stage move. Throws an InputError
+     * about one that is held in part or by something else.
+     */
+    std::vector<bool> find_held_blocks() const;
+    /** Throws an InputError if two platens of the stage share a node. */
+    void refuse_shared_platens() const;
+    /** Sums the energies of all ranks; those given are this rank's [J]. */
+    void find_energies(const State &state, double strain, double joint,
+                       double kinetic);
+    double sum(double value) const;
+
+    const Model &model;
+    MPI_Comm communicator;
+
+    std::vector<std::unique_ptr<NodeConstraint>> all_constraints;
+    FarField *far              = nullptr; /**< one of them */
+    StaticFarField *static_far = nullptr; /**< one of them */
+    std::vector<NodalLoad> all_loads;
+    std::vector<std::string> known_loads;
+
+    std::vector<NodeConstraint *> constraints_on; /**< in order of action */
+    std::vector<const NodalLoad *> loads_on;
+    StageParameters stage;
+
+  private:
+    void make_free_fields(const std::vector<LoadParameters> &loads);
+
+    double strain_at_start = 0., joint_at_start = 0.;
+    Energies last_energies;
+  };
+
+  /** Whether @p stage names the load @p name. */
+  bool names_load(const StageParameters &stage, const std::string &name);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/dynamics/free_bodies.h>
+#include <quoin/dynamics/solver.h>
+#include <quoin/loads/free_field_boundary.h>
+#include <quoin/loads/prescribed_motion.h>
+#include <quoin/loads/viscous_boundary.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+
+namespace quoin
+{
+  bool names_load(const StageParameters &stage, const std::string &name)
+  {
+    return std::find(stage.loads.begin(), stage.loads.end(), name)
+           != stage.loads.end();
+  }
+
+  double Energies::throughput() const
+  {
+    return std::max(
+        { std::abs(accounts.external), kinetic + strain + joint + far_field,
+          accounts.friction + accounts.fracture + accounts.crushing
+              + accounts.plastic + accounts.damping + accounts.viscous
+              + accounts.contact + accounts.radiated });
+  }
+
+  Solver::Solver(const Model &model, const std::vector<LoadParameters> &loads,
+                 std::unique_ptr<FarField> far_field,
+                 std::unique_ptr<StaticFarField> static_field)
+    : model(model), communicator(model.exchange().communicator())
+  {
+    const auto &mesh       = model.mesh();
+    const auto &exchange   = model.exchange();
+    unsigned int n_platens = 0, n_viscous = 0;
+    for (const LoadParameters &load : loads)
+    {
+      known_loads.push_back(load.name);
+      switch (load.type)
+      {
+      case LoadType::viscous_boundary:
+        all_constraints.push_back(std::make_unique<ViscousBoundary>(
+            load, n_viscous++, mesh, exchange, model.impedance_beyond(load),
+            model.thickness()));
+        break;
+      case LoadType::prescribed_motion:
+        all_constraints.push_back(
+            std::make_unique<PrescribedMotion>(load, mesh, exchange));
+        break;
+      case LoadType::platen:
+        all_constraints.push_back(
+            std::make_unique<Platen>(load, n_platens++, mesh, exchange));
+        break;
+      case LoadType::traction:
+      case LoadType::gravity:
+        all_loads.emplace_back(load, mesh, exchange, model.mass(),
+                               model.thickness());
+        break;
+      case LoadType::boundary_elements:
+        far = far_field.get();
+        all_constraints.push_back(std::move(far_field));
+        static_far = static_field.get();
+        if (static_field)
+          all_constraints.push_back(std::move(static_field));
+        break;
+      case LoadType::initial_stress:
+      case LoadType::free_field:
+        break;
+      }
+    }
+    make_free_fields(loads);
+
+    const State rest = model.initial_state();
+    strain_at_start
+        = sum(model.blocks().strain_energy(rest.nodes.data(), rest.plastic));
+    joint_at_start
+        = sum(model.joints().stored_energy(rest.nodes.data(), rest.joints));
+  }
+
+  void Solver::make_free_fields(const std::vector<LoadParameters> &loads)
+  {
+    unsigned int n = 0;
+    for (const LoadParameters &load : loads)
+    {
+      if (load.type != LoadType::free_field)
+        continue;
+      const auto base = std::find_if(loads.begin(), loads.end(),
+                                     [&](const LoadParameters &other)
+                                     { return other.name == load.base; });
+      if (base == loads.end()
+          || (base->type != LoadType::viscous_boundary
+              && base->type != LoadType::prescribed_motion))
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Base = " + load.base
+                         + "' must name the load that drives the base of the "
+                           "model, of type 'viscous boundary' or 'prescribed "
+                           "motion'.");
+      all_constraints.push_back(std::make_unique<FreeFieldBoundary>(
+          load, n++, model.mesh(), model.exchange(), model.free_field_ground(),
+          FreeFieldBase{ *base, model.impedance_beyond(*base) }));
+    }
+  }
+
+  void Solver::activate(const StageParameters &new_stage)
+  {
+    stage = new_stage;
+    for (const std::string &name : stage.loads)
+      if (std::find(known_loads.begin(), known_loads.end(), name)
+          == known_loads.end())
+      {
+        std::string known;
+        for (const auto &load : known_loads)
+          known += (known.empty() ? "" : ", ") + load;
+        throw InputError("section 'Stages/" + stage.name + "': 'Loads' names '"
+                         + name + "', which is no load. Loads are: " + known
+                         + ".");
+      }
+
+    for (const auto &constraint : all_constraints)
+      if (names_load(stage, constraint->name())
+          && !constraint->companion().empty()
+          && !names_load(stage, constraint->companion()))
+        throw InputError(
+            "section 'Stages/" + stage.name + "': 'Loads' names '"
+            + constraint->name() + "', whose columns stand on the base '"
+            + constraint->companion() + "', but not that. Add it.");
+
+    if (stage.slows_loads())
+      for (const auto &constraint : all_constraints)
+        if (constraint->moves_all() && !constraint->is_global()
+            && acts_in(*constraint, stage))
+          throw InputError("section 'Stages/" + stage.name
+                           + "': 'Kinetic energy limit' slows loads down, "
+                             "which waves through the boundary of the load '"
+                           + constraint->name()
+                           + "' cannot follow. Set it to 0, or use that load "
+                             "in another stage.");
+
+    // Viscous boundaries act first, so that what is prescribed prevails;
+    // platens last, because they move all of their nodes.
+    constraints_on.clear();
+    for (const int rank : { 0, 1, 2 })
+      for (const auto &constraint : all_constraints)
+        if (acts_in(*constraint, stage)
+            && rank
+                   == (dynamic_cast<Platen *>(constraint.get()) ? 2
+                       : constraint->moves_all()                ? 0
+                                                                : 1))
+          constraints_on.push_back(constraint.get());
+    loads_on.clear();
+    for (const NodalLoad &load : all_loads)
+      if (names_load(stage, load.name()))
+        loads_on.push_back(&load);
+
+    // With large displacements blocks may rest on others without a joint.
+    if (stage.end == StageEnd::static_ratio && !model.large_displacements())
+      check_no_free_bodies(model, constraints_on, stage.name);
+  }
+
+  bool Solver::acts_in(const NodeConstraint &constraint,
+                       const StageParameters &any) const
+  {
+    const bool is_static = any.end == StageEnd::static_ratio;
+    return names_load(any, constraint.name())
+           && !(&constraint == far && is_static)
+           && !(&constraint == static_far && !is_static);
+  }
+
+  void Solver::make_room(State &state) const
+  {
+    unsigned int n_platens = 0, n_viscous = 0, n_free_fields = 0;
+    for (const auto &constraint : all_constraints)
+    {
+      n_platens += dynamic_cast<const Platen *>(constraint.get()) != nullptr;
+      n_viscous
+          += dynamic_cast<const ViscousBoundary *>(constraint.get()) != nullptr;
+      n_free_fields += dynamic_cast<const FreeFieldBoundary *>(constraint.get())
+                       != nullptr;
+    }
+    state.platens.resize(n_platens);
+    state.viscous_boundaries.resize(n_viscous);
+    state.free_fields.resize(n_free_fields);
+  }
+
+  std::vector<bool> Solver::find_held_blocks() const
+  {
+    constexpr unsigned int none = -1;
+    const RigidBlocks &rigid    = model.rigid_blocks();
+    std::vector<bool> held(rigid.n_blocks(), false);
+    for (const NodeConstraint *constraint : constraints_on)
+    {
+      const auto &nodes  = constraint->nodes();
+      unsigned int wrong = none;
+      for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+      {
+        const RigidBlocks::Block &block = rigid.block(b);
+        const auto first
+            = std::lower_bound(nodes.begin(), nodes.end(), block.begin);
+        const auto last = std::lower_bound(first, nodes.end(), block.end);
+        if (first == last)
+          continue;
+        if (constraint->is_global() && last - first == block.end - block.begin)
+          held[b] = true;
+        else if (wrong == none)
+          wrong = model.exchange().global(*first);
+      }
+      wrong = dealii::Utilities::MPI::min(wrong, communicator);
+      if (wrong == none)
+        continue;
+      const auto &p = model.mesh().vertices[wrong];
+      std::ostringstream message;
+      message << "section 'Stages/" << stage.name << "': the load '"
+              << constraint->name() << "' moves the node at (" << p[0] << ", "
+              << p[1]
+              << ") m by itself, but its block is rigid. Hold or drive rigid "
+                 "blocks as a whole, by a load with 'Type = platen' and their "
+                 "'Group', or make the block deformable.";
+      throw InputError(message.str());
+    }
+    return held;
+  }
+
+  void Solver::refuse_shared_platens() const
+  {
+    constexpr unsigned int none = -1;
+    for (const NodeConstraint *a : constraints_on)
+      for (const NodeConstraint *b : constraints_on)
+      {
+        if (a == b || !a->is_global() || !b->is_global())
+          continue;
+        std::vector<unsigned int> shared;
+        std::set_intersection(a->nodes().begin(), a->nodes().end(),
+                              b->nodes().begin(), b->nodes().end(),
+                              std::back_inserter(shared));
+        const unsigned int first = dealii::Utilities::MPI::min(
+            shared.empty() ? none : model.exchange().global(shared.front()),
+            communicator);
+        if (first == none)
+          continue;
+        const auto &p = model.mesh().vertices[first];
+        std::ostringstream message;
+        message << "section 'Stages/" << stage.name << "': the platens '"
+                << a->name() << "' and '" << b->name()
+                << "' share the node at (" << p[0] << ", " << p[1]
+                << ") m. A node can belong to one rigid platen: use one of "
+                   "them, or leave a gap.";
+        throw InputError(message.str());
+      }
+  }
+
+  bool Solver::far_field_acts() const
+  {
+    return far && acts_in(*far, stage);
+  }
+
+  bool Solver::static_far_field_acts() const
+  {
+    return static_far && acts_in(*static_far, stage);
+  }
+
+  void Solver::save(State &state) const
+  {
+    for (const auto &constraint : all_constraints)
+      constraint->save(state);
+  }
+
+  void Solver::check_start(const State &state) const
+  {
+    for (const NodeConstraint *constraint : constraints_on)
+      constraint->check_start({ 0., state.time });
+  }
+
+  bool Solver::loads_have_changed(const State &state,
+                                  const double duration) const
+  {
+    const double now        = state.load_time;
+    const double before     = std::max(0., now - duration);
+    const TimePoint times[] = { { before, state.stage_start + before },
+                                { now, state.stage_start + now } };
+    for (const NodalLoad *load : loads_on)
+      if (load->amplitude(times[0]) != load->amplitude(times[1]))
+        return true;
+    for (const NodeConstraint *constraint : constraints_on)
+      if (constraint->values(times[0]) != constraint->values(times[1]))
+        return true;
+    return false;
+  }
+
+  double Solver::sum(const double value) const
+  {
+    return dealii::Utilities::MPI::sum(value, communicator);
+  }
+
+  void Solver::find_energies(const State &state, const double strain,
+                             const double joint, const double kinetic)
+  {
+    double values[12] = { kinetic,
+                          strain,
+                          joint,
+                          state.energy.external,
+                          state.energy.friction,
+                          state.energy.fracture,
+                          state.energy.crushing,
+                          state.energy.damping,
+                          state.energy.viscous,
+                          state.energy.contact,
+                          state.energy.radiated,
+                          state.energy.plastic };
+    MPI_Allreduce(MPI_IN_PLACE, values, 12, MPI_DOUBLE, MPI_SUM, communicator);
+    last_energies.kinetic           = values[0];
+    last_energies.strain            = values[1] - strain_at_start;
+    last_energies.joint             = values[2] - joint_at_start;
+    last_energies.far_field         = state.static_far_field.stored;
+    last_energies.accounts.external = values[3];
+    last_energies.accounts.friction = values[4];
+    last_energies.accounts.fracture = values[5];
+    last_energies.accounts.crushing = values[6];
+    last_energies.accounts.damping  = values[7];
+    last_energies.accounts.viscous  = values[8];
+    last_energies.accounts.contact  = values[9];
+    last_energies.accounts.radiated = values[10];
+    last_energies.accounts.plastic  = values[11];
+  }
+
+  std::array<double, 3> Solver::resultant(const std::string &load) const
+  {
+    for (const auto &constraint : all_constraints)
+      if (constraint->name() == load
+          && (constraint.get() != static_far || static_far_field_acts())
+          && (constraint.get() != far || !static_far_field_acts()))
+      {
+        auto values = constraint->resultant();
+        if (!constraint->is_global())
+          MPI_Allreduce(MPI_IN_PLACE, values.data(), 3, MPI_DOUBLE, MPI_SUM,
+                        communicator);
+        return values;
+      }
+    throw InputError("'" + load
+                     + "' is no prescribed motion, platen, viscous or "
+                       "free-field boundary, so it has no reaction.");
+  }
+} // namespace quoin

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// Whether the state of a Solver is still sound.
+
+#include <quoin/base/exceptions.h>
+#include <quoin/dynamics/solver.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace quoin
+{
+  void Solver::check_finite(const State &state) const
+  {
+    unsigned int bad     = -1;
+    const unsigned int n = model.exchange().n_owned();
+    for (unsigned int i = 0; i < n && bad == -1U; ++i)
+      // A comparison with NaN is false.
+      if (!(std::abs(state.nodes[i].u[0]) < 1e100
+            && std::abs(state.nodes[i].u[1]) < 1e100))
+        bad = i;
+    const unsigned int first = dealii::Utilities::MPI::min(
+        bad == -1U ? bad : model.exchange().global(bad), communicator);
+    if (first == -1U)
+      return;
+    const auto &p = model.mesh().vertices[first];
+    std::ostringstream message;
+    message << "the motion is no longer finite in block "
+            << model.mesh().block_of_vertex(first) << " at (" << p[0] << ", "
+            << p[1] << ") m, found at time " << state.time << " s, step "
+            << state.step << ". The usual causes are a load that grows "
+            << "without bound, a value that is not a number in a function of "
+            << "time, or a collapse: look at the last fields, reduce 'Share "
+            << "of critical time step' or end the stage earlier. The last "
+            << "checkpoint is kept.";
+    throw RunError(message.str());
+  }
+
+  void Solver::check_cells(const State &state) const
+  {
+    constexpr unsigned int none = -1;
+    const BlockMesh<2> &mesh    = model.mesh();
+    const auto twice_the_area   = [&](const unsigned int cell)
+    {
+      const auto &[a, b, c] = model.cells()[cell];
+      const auto edge       = [&](const unsigned int to, const unsigned int d)
+      {
+        return state.nodes[to].X[d] - state.nodes[a].X[d]
+               + (state.nodes[to].u[d] - state.nodes[a].u[d]);
+      };
+      return edge(b, 0) * edge(c, 1) - edge(b, 1) * edge(c, 0);
+    };
+    unsigned int bad     = none;
+    const unsigned int n = model.n_deformable_cells();
+    for (unsigned int cell = 0; cell < n && bad == none; ++cell)
+      if (!(twice_the_area(cell) > 0.)) // cells run anticlockwise
+        bad = model.first_cell() + cell;
+    const unsigned int first = dealii::Utilities::MPI::min(bad, communicator);
+    if (first == none)
+      return;
+
+    // The rank that has the cell tells where it is now.
+    double at[4]{};
+    for (const unsigned int v : mesh.cells[first])
+    {
+      const bool is_own = model.exchange().owns(v);
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        at[d] += mesh.vertices[v][d] / 3.;
+        if (is_own)
+          at[2 + d] += (mesh.vertices[v][d]
+                        + state.nodes[model.exchange().local(v)].u[d])
+                       / 3.;
+      }
+    }
+    MPI_Allreduce(MPI_IN_PLACE, at + 2, 2, MPI_DOUBLE, MPI_SUM, communicator);
+    std::ostringstream message;
+    message << "a cell of block " << mesh.block_of_vertex(mesh.cells[first][0])
+            << " has turned inside out; it was at (" << at[0] << ", " << at[1]
+            << ") m and is now at (" << at[2] << ", " << at[3]
+            << ") m, found at time " << state.time << " s, step " << state.step
+            << ". The usual causes are a load or an impact that crushes the "
+               "block (check the units of the load, "
+               "'Density' and 'Young's modulus'), a cell that is thin where "
+               "the load acts (refine the mesh there), joints or contacts so "
+               "soft that blocks run into each other (raise 'Normal "
+               "stiffness'), or a time step too long (lower 'Share of "
+               "critical time step'). The last checkpoint is kept.";
+    throw RunError(message.str());
+  }
+} // namespace quoin
