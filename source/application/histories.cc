@@ -17,7 +17,7 @@
 namespace quoin
 {
   Histories::Histories(const std::vector<HistoryParameters> &parameters,
-                       const Model &model, const ExplicitSolver &solver,
+                       const Model &model, const Solver &solver,
                        const BoundaryGeometry &geometry,
                        const BoundaryElementParameters &boundaries)
     : model(model), solver(solver),

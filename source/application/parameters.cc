@@ -62,6 +62,11 @@ namespace quoin
                         Selection("blocks|boundary elements"),
                         "Blocks on joints; or a domain with boundary elements "
                         "alone, which needs no mesh, joints, loads or stages.");
+      prm.declare_entry("Solver", "explicit", Selection("explicit|implicit"),
+                        "Motion by central differences; or equilibrium by "
+                        "Newton's method, without inertia and damping: for "
+                        "blocks at small displacements, as section 'Implicit' "
+                        "says.");
       prm.declare_entry("Plane assumption", "plane strain",
                         Selection("plane strain|plane stress"),
                         "Of all blocks.");
@@ -85,6 +90,10 @@ namespace quoin
 
       prm.enter_subsection("Initial motion");
       InitialMotion::declare(prm);
+      prm.leave_subsection();
+
+      prm.enter_subsection("Implicit");
+      ImplicitParameters::declare(prm);
       prm.leave_subsection();
 
       prm.enter_subsection("Time stepping");
@@ -547,6 +556,11 @@ namespace quoin
           = InitialMotion::read(ParameterSection(top, "Initial motion"));
       read_stages(top, parameters);
       check_loads(parameters);
+      parameters.implicit
+          = ImplicitParameters::read(ParameterSection(top, "Implicit"));
+      if (parameters.is_implicit && parameters.initial_motion.is_given)
+        top.fail("Solver", "leaves out inertia, but section 'Initial motion' "
+                           "gives one: remove that, or take 'explicit'.");
     }
   } // namespace
 
@@ -598,6 +612,11 @@ namespace quoin
         { { "plane strain", PlaneAssumption::plane_strain },
                { "plane stress", PlaneAssumption::plane_stress } });
     parameters.is_boundary_model = top.text("Model") == "boundary elements";
+    parameters.is_implicit       = top.text("Solver") == "implicit";
+    if (parameters.is_implicit && parameters.is_boundary_model)
+      top.fail("Solver", "is for blocks: with 'Model = boundary elements' "
+                         "leave it 'explicit'; statics of these is 'Analysis = "
+                         "static'.");
     if (!parameters.is_boundary_model)
       read_mesh(top, parameters);
     parameters.model.materials

@@ -64,7 +64,10 @@ namespace quoin
     }
     last_checkpoint = WallClock::now();
     for (unsigned int i = record.state.stage; i < parameters.stages.size(); ++i)
-      run_stage(i);
+      if (implicit_solver)
+        run_implicit_stage(i);
+      else
+        run_stage(i);
     write_summary(true);
   }
 
@@ -89,13 +92,9 @@ namespace quoin
           order_by_part(rank_of_block,
                         find_rigid_blocks(mesh, parameters.model.materials)));
       std::sort(rank_of_block.begin(), rank_of_block.end());
-      model    = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
+      model = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
                                       communicator);
-      auto far = make_far_field(parameters, as_read, *model, boundary_geometry);
-      auto static_far = make_static_far_field(parameters, *model, far.get());
-      solver          = std::make_unique<ExplicitSolver>(
-          *model, parameters.loads, parameters.stages, std::move(far),
-          std::move(static_far));
+      make_solver(as_read);
       histories
           = std::make_unique<Histories>(parameters.histories, *model, *solver,
                                         boundary_geometry, parameters.boundary);
@@ -109,11 +108,33 @@ namespace quoin
     }
   }
 
+  void Simulation::make_solver(const MeshData &as_read)
+  {
+    if (parameters.is_implicit)
+    {
+      std::vector<std::string> joint_sets;
+      for (const JointSetParameters &set : parameters.model.joints)
+        joint_sets.push_back(set.name);
+      auto made = std::make_unique<ImplicitSolver>(
+          *model, parameters.loads, parameters.implicit, joint_sets);
+      implicit_solver = made.get();
+      solver          = std::move(made);
+      return;
+    }
+    auto far = make_far_field(parameters, as_read, *model, boundary_geometry);
+    auto static_far = make_static_far_field(parameters, *model, far.get());
+    auto made       = std::make_unique<ExplicitSolver>(
+        *model, parameters.loads, parameters.stages, std::move(far),
+        std::move(static_far));
+    explicit_solver = made.get();
+    solver          = std::move(made);
+  }
+
   void Simulation::set_initial_motion()
   {
     all_or_none<InputError>(communicator, [&]()
                             { parameters.initial_motion.apply(record.state); });
-    solver->account_for_initial_motion(record.state);
+    explicit_solver->account_for_initial_motion(record.state);
   }
 
   void Simulation::report_model()
@@ -143,6 +164,9 @@ namespace quoin
                   "symmetric to "
                   + number_text(far->asymmetry()) + " of its largest entry");
 
+    if (implicit_solver)
+      return report_implicit_model();
+
     // Each stage's step is found without starting it.
     State state = record.state;
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
@@ -150,8 +174,8 @@ namespace quoin
       const StageParameters &stage = parameters.stages[i];
       try
       {
-        solver->begin_stage(stage, i == 0 ? nullptr : &parameters.stages[i - 1],
-                            state);
+        explicit_solver->begin_stage(
+            stage, i == 0 ? nullptr : &parameters.stages[i - 1], state);
         if (i == 0)
           solver->check_start(state);
       }
@@ -162,18 +186,18 @@ namespace quoin
       choose_time_step(stage);
       log.message(
           "stage " + stage.name + ": time step "
-          + number_text(solver->get_time_step()) + " s, "
-          + number_text(100. * solver->get_time_step()
-                        / solver->critical_time_step())
-          + " % of the critical " + number_text(solver->critical_time_step())
-          + " s"
+          + number_text(explicit_solver->get_time_step()) + " s, "
+          + number_text(100. * explicit_solver->get_time_step()
+                        / explicit_solver->critical_time_step())
+          + " % of the critical "
+          + number_text(explicit_solver->critical_time_step()) + " s"
           + (stage.end == StageEnd::time
                  ? ", " + std::to_string(steps_of_stage)
                        + (stage.slows_loads() ? " steps or more" : " steps")
                  : "")
-          + (solver->added_mass_share() > 0.
+          + (explicit_solver->added_mass_share() > 0.
                  ? ", mass scaling adds "
-                       + number_text(100. * solver->added_mass_share())
+                       + number_text(100. * explicit_solver->added_mass_share())
                        + " % of mass"
                  : ""));
     }
@@ -181,7 +205,7 @@ namespace quoin
 
   void Simulation::choose_time_step(const StageParameters &stage)
   {
-    const double critical = solver->critical_time_step();
+    const double critical = explicit_solver->critical_time_step();
     double dt             = parameters.time_step;
     if (dt > critical)
       throw InputError(parameters.file
@@ -211,7 +235,7 @@ namespace quoin
       steps_of_stage = std::ceil(stage.duration / dt * (1. - 1e-12));
       dt             = stage.duration / steps_of_stage;
     }
-    solver->set_time_step(dt);
+    explicit_solver->set_time_step(dt);
   }
 
   void Simulation::check_start() const
@@ -231,10 +255,10 @@ namespace quoin
     const StageParameters &stage = parameters.stages[index];
     State &state                 = record.state;
     if (record.stage_begun)
-      solver->resume_stage(stage, state);
+      explicit_solver->resume_stage(stage, state);
     else
     {
-      solver->begin_stage(
+      explicit_solver->begin_stage(
           stage, index == 0 ? nullptr : &parameters.stages[index - 1], state);
       check_start();
       record.stage_begun = true;
@@ -257,11 +281,15 @@ namespace quoin
       checkpoint_if_due();
     }
     progress.finish(progress_figures(stage));
+    end_stage(index);
+  }
 
-    solver->check_finite(state);
-    solver->check_cells(state);
+  void Simulation::end_stage(const unsigned int index)
+  {
+    solver->check_finite(record.state);
+    solver->check_cells(record.state);
     record.stage_begun = false;
-    state.stage        = index + 1;
+    record.state.stage = index + 1;
     write_fields();
     write_summary(false);
     save_checkpoint();
@@ -270,7 +298,7 @@ namespace quoin
   bool Simulation::take_step(const StageParameters &stage)
   {
     State &state       = record.state;
-    const double dt    = solver->get_time_step();
+    const double dt    = explicit_solver->get_time_step();
     const bool balance = state.stage_step % balance_interval == 0;
     if (field_control.is_due(state.time, dt))
       write_fields();
@@ -290,7 +318,7 @@ namespace quoin
       histories->before_step(state);
     try
     {
-      solver->step(state, requests);
+      explicit_solver->step(state, requests);
     }
     catch (const RunError &error)
     {
@@ -312,7 +340,7 @@ namespace quoin
 
   void Simulation::report_blocks_outside()
   {
-    for (const BlockOutside &block : solver->take_blocks_outside())
+    for (const BlockOutside &block : explicit_solver->take_blocks_outside())
       log.warning("block " + std::to_string(block.block) + ", at ("
                   + number_text(block.position[0]) + ", "
                   + number_text(block.position[1])
@@ -351,7 +379,7 @@ namespace quoin
     }
     if (balance
         && !solver->loads_have_changed(
-            record.state, balance_interval * solver->get_time_step())
+            record.state, balance_interval * explicit_solver->get_time_step())
         && record.state.time - record.state.stage_start
                >= stage.minimum_duration
         && record.state.stage_step > balance_interval
@@ -379,14 +407,21 @@ namespace quoin
   Simulation::progress_figures(const StageParameters &stage) const
   {
     ProgressFigures figures;
-    figures.stage    = stage.name;
-    figures.time     = record.state.time;
-    figures.step     = record.state.step;
-    figures.fraction = stage.end == StageEnd::time
-                           ? record.state.load_time / stage.duration
-                           : -1.;
-    figures.share_of_critical
-        = solver->get_time_step() / solver->critical_time_step();
+    figures.stage = stage.name;
+    figures.time  = record.state.time;
+    figures.step  = record.state.step;
+    if (implicit_solver)
+      figures.fraction
+          = record.state.implicit.released < 1.
+                ? 0.
+                : record.state.load_time / implicit_solver->duration();
+    else
+      figures.fraction = stage.end == StageEnd::time
+                             ? record.state.load_time / stage.duration
+                             : -1.;
+    if (explicit_solver)
+      figures.share_of_critical = explicit_solver->get_time_step()
+                                  / explicit_solver->critical_time_step();
     figures.unbalanced_ratio = record.state.unbalanced_ratio;
     figures.energy_residual  = energy_residual();
     return figures;

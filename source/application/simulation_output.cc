@@ -45,6 +45,13 @@ namespace quoin
           std::vector<std::string>{ "time [s]", "steps [-]", "radiated [J]",
                                     "substeps [J]", "incident [J]", "given [J]",
                                     "mismatch [-]" });
+    if (implicit_solver)
+      convergence_table = std::make_unique<CsvTable>(
+          output + "/convergence.csv",
+          std::vector<std::string>{ "step [-]", "attempt [-]", "iteration [-]",
+                                    "load time [s]", "unbalanced ratio [-]",
+                                    "line search [-]",
+                                    "linear iterations [-]" });
     open_log(parameters, output, options.resume, communicator, log, record);
 
     all_or_none<RunError>(
@@ -59,12 +66,16 @@ namespace quoin
             energy_table->resume(record.energies_bytes);
             if (far_field_table)
               far_field_table->resume(record.far_field_bytes);
+            if (convergence_table)
+              convergence_table->resume(record.convergence_bytes);
           }
           else
           {
             std::filesystem::remove_all(output + "/checkpoint");
             history_table->start();
             energy_table->start();
+            if (convergence_table)
+              convergence_table->start();
             if (far_field_table)
             {
               far_field_table->start();
@@ -101,12 +112,13 @@ namespace quoin
         = std::max(record.largest_residual, std::abs(energies.residual()));
     if (is_first_rank)
       energy_table->add_row(
-          { record.state.time - solver->get_time_step(), energies.kinetic,
-            energies.strain, energies.joint, accounts.friction,
-            accounts.fracture, accounts.crushing, accounts.plastic,
-            accounts.damping, accounts.viscous, accounts.contact,
-            accounts.radiated, energies.far_field, accounts.external,
-            energies.residual() });
+          { record.state.time
+                - (explicit_solver ? explicit_solver->get_time_step() : 0.),
+            energies.kinetic, energies.strain, energies.joint,
+            accounts.friction, accounts.fracture, accounts.crushing,
+            accounts.plastic, accounts.damping, accounts.viscous,
+            accounts.contact, accounts.radiated, energies.far_field,
+            accounts.external, energies.residual() });
   }
 
   void Simulation::write_fields()
@@ -134,6 +146,8 @@ namespace quoin
                               energy_table->flush();
                               if (far_field_table)
                                 far_field_table->flush();
+                              if (convergence_table)
+                                convergence_table->flush();
                             }
                           });
   }
@@ -168,6 +182,12 @@ namespace quoin
                                 far_field_table->sync();
                                 record.far_field_bytes
                                     = far_field_table->size();
+                              }
+                              if (convergence_table)
+                              {
+                                convergence_table->sync();
+                                record.convergence_bytes
+                                    = convergence_table->size();
                               }
                               record.histories_bytes = history_table->size();
                               record.energies_bytes  = energy_table->size();
@@ -205,16 +225,26 @@ namespace quoin
             { "smallest angle [deg]", mesh_report.smallest_angle },
             { "time [s]", record.state.time },
             { "steps", record.state.step },
-            { "time step [s]", solver->get_time_step() },
-            { "critical time step [s]", solver->critical_time_step() },
-            { "added mass share", solver->added_mass_share() },
             { "wall time [s]", record.wall_time },
-            { "element updates per second", updates },
             { "unbalanced ratio", record.state.unbalanced_ratio },
             { "energy throughput [J]", solver->energies().throughput() },
             { "energy residual [J]", solver->energies().residual() },
             { "largest energy residual [J]", record.largest_residual },
             { "energy residual share", energy_residual() } };
+    if (explicit_solver)
+    {
+      summary["time step [s]"]          = explicit_solver->get_time_step();
+      summary["critical time step [s]"] = explicit_solver->critical_time_step();
+      summary["added mass share"]       = explicit_solver->added_mass_share();
+      summary["element updates per second"] = updates;
+    }
+    if (implicit_solver)
+    {
+      summary["unknowns"]   = implicit_solver->n_unknowns();
+      summary["iterations"] = record.iterations;
+      summary["cut steps"]  = record.cuts;
+    }
+    summary["solver"] = implicit_solver ? "implicit" : "explicit";
     if (parameters.model.contact.has_box)
     {
       const auto &marks         = record.state.contacts.outside;
@@ -260,9 +290,12 @@ namespace quoin
       return;
     log.message("finished: " + std::to_string(record.state.step) + " steps in "
                 + duration_text(record.wall_time) + ", "
-                + number_text(updates / 1e6)
-                + " million element updates a second, energy residual "
-                + number_text(energy_residual()) + " of what went through");
+                + (implicit_solver
+                       ? std::to_string(record.iterations) + " iterations"
+                       : number_text(updates / 1e6)
+                             + " million element updates a second")
+                + ", energy residual " + number_text(energy_residual())
+                + " of what went through");
     if (solver->contacts())
       log.message(
           "contacts: "

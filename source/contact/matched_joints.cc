@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joint_frame.h"
 #include "joint_points.h"
 
 namespace quoin
@@ -119,38 +120,6 @@ namespace quoin
                                                [s](const Segment &a)
                                                { return a.set <= s; })
                           - segments.begin());
-  }
-
-  inline MatchedJoints::Frame MatchedJoints::frame(const Segment &segment,
-                                                   const NodeRecord *nodes)
-  {
-    const NodeRecord &a0 = nodes[segment.lower[0]];
-    const NodeRecord &a1 = nodes[segment.lower[1]];
-    const NodeRecord &b0 = nodes[segment.upper[0]];
-    const NodeRecord &b1 = nodes[segment.upper[1]];
-
-    // Twice the mean edge of the two sides; the lower block is on its left.
-    const double x = (a1.X[0] - a0.X[0]) + (b1.X[0] - b0.X[0])
-                     + (a1.u[0] - a0.u[0]) + (b1.u[0] - b0.u[0]);
-    const double y = (a1.X[1] - a0.X[1]) + (b1.X[1] - b0.X[1])
-                     + (a1.u[1] - a0.u[1]) + (b1.u[1] - b0.u[1]);
-    const double inverse_length = 1. / std::sqrt(x * x + y * y);
-    const double nx = y * inverse_length, ny = -x * inverse_length;
-    return { { nx, ny }, { ny, -nx } };
-  }
-
-  inline std::array<double, 2> MatchedJoints::gap(const Segment &segment,
-                                                  const Frame &frame,
-                                                  const NodeRecord *nodes,
-                                                  const unsigned int k)
-  {
-    const NodeRecord &a = nodes[segment.lower[k]];
-    const NodeRecord &b = nodes[segment.upper[k]];
-
-    const double x = (b.X[0] - a.X[0]) + (b.u[0] - a.u[0]);
-    const double y = (b.X[1] - a.X[1]) + (b.u[1] - a.u[1]);
-    return { { x * frame.normal[0] + y * frame.normal[1],
-               x * frame.tangent[0] + y * frame.tangent[1] } };
   }
 
   std::array<std::array<double, 2>, 2>

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "joint_frame.h"
 #include "joint_points.h"
 
 namespace quoin

@@ -7,7 +7,7 @@
 #include <quoin/application/boundary_histories.h>
 #include <quoin/application/history_parameters.h>
 #include <quoin/base/state.h>
-#include <quoin/dynamics/explicit_solver.h>
+#include <quoin/dynamics/solver.h>
 #include <quoin/dynamics/model.h>
 
 #include <memory>
@@ -31,7 +31,7 @@ namespace quoin
      * Throws an InputError about loads and curves that do not exist.
      */
     Histories(const std::vector<HistoryParameters> &parameters,
-              const Model &model, const ExplicitSolver &solver,
+              const Model &model, const Solver &solver,
               const BoundaryGeometry &geometry,
               const BoundaryElementParameters &boundaries);
 
@@ -65,7 +65,7 @@ namespace quoin
 
     std::vector<Probe> probes;
     const Model &model;
-    const ExplicitSolver &solver;
+    const Solver &solver;
     std::unique_ptr<BoundaryHistories> of_boundary; /**< or null */
     MPI_Comm communicator;
     std::array<double, 2> load_clock{}; /**< its time [s] and rate */

@@ -9,6 +9,7 @@
 #include <quoin/application/initial_motion.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/stage_parameters.h>
+#include <quoin/implicit/implicit_parameters.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
 
@@ -39,6 +40,10 @@ namespace quoin
     std::vector<LoadParameters> loads; /**< initial stresses included */
     std::vector<StageParameters> stages;
     InitialMotion initial_motion;
+
+    /** Equilibrium by Newton's method instead of motion. */
+    bool is_implicit = false;
+    ImplicitParameters implicit;
 
     double share_of_critical_step = 0.8;
     double time_step              = 0.; /**< [s]; 0: automatic */

@@ -12,6 +12,7 @@
 #include <quoin/base/time_control.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/model.h>
+#include <quoin/implicit/implicit_solver.h>
 #include <quoin/mesh/block_mesh.h>
 #include <quoin/mesh/mesh_report.h>
 #include <quoin/output/block_output.h>
@@ -53,12 +54,14 @@ namespace quoin
       JointOutput joint_output;
       JointOutput contact_output;
       BoundaryOutput boundary_output;
-      std::uint64_t far_field_bytes = 0;
-      double wall_time              = 0.;  /**< of the time loop [s] */
-      double largest_residual       = 0.;  /**< of the energy balance */
-      double largest_throughput     = 0.;  /**< boundary elements' too [J] */
-      double fields_time            = -1.; /**< of the last VTU files [s] */
-      bool stage_begun              = false;
+      std::uint64_t far_field_bytes   = 0;
+      double wall_time                = 0.;  /**< of the time loop [s] */
+      double largest_residual         = 0.;  /**< of the energy balance */
+      double largest_throughput       = 0.;  /**< boundary elements' too [J] */
+      double fields_time              = -1.; /**< of the last VTU files [s] */
+      bool stage_begun                = false;
+      std::uint64_t convergence_bytes = 0;
+      std::uint64_t iterations = 0, cuts = 0; /**< of the implicit solver */
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
@@ -66,15 +69,22 @@ namespace quoin
         archive &state &histories_bytes &energies_bytes &block_output
             &joint_output &contact_output &boundary_output &far_field_bytes
                 &wall_time &largest_residual &largest_throughput &fields_time
-                    &stage_begun;
+                    &stage_begun &convergence_bytes &iterations &cuts;
       }
     };
 
     void make_model();
+    void make_solver(const MeshData &as_read);
     void set_initial_motion();
     void report_model();
     void open_outputs();
     void run_stage(unsigned int index);
+    void end_stage(unsigned int index);
+    void report_implicit_model();
+    void run_implicit_stage(unsigned int index);
+    void take_implicit_step(const StageParameters &stage);
+    void write_implicit_rows();
+    void write_iterations();
     void choose_time_step(const StageParameters &stage);
     /**
      * Makes a step of the boundary elements a whole number of block steps not
@@ -115,9 +125,12 @@ namespace quoin
     std::unique_ptr<Model> model;
     BoundaryGeometry boundary_geometry;
     std::unique_ptr<IncidentWaves> waves;
-    std::unique_ptr<ExplicitSolver> solver;
+    std::unique_ptr<Solver> solver;
+    ExplicitSolver *explicit_solver = nullptr; /**< it, or null */
+    ImplicitSolver *implicit_solver = nullptr; /**< it, or null */
     std::unique_ptr<Histories> histories;
-    std::unique_ptr<CsvTable> history_table, energy_table, far_field_table;
+    std::unique_ptr<CsvTable> history_table, energy_table, far_field_table,
+        convergence_table;
     std::unique_ptr<PassivityReport> passivity;
     TimeControl history_control, field_control;
     Record record;

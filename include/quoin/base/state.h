@@ -340,18 +340,20 @@ namespace quoin
         and three of each platen [N, N m]; empty: none. */
     std::vector<double> held;
     double released = 1.; /**< share of them that is gone [-] */
-    double step     = 0.; /**< to try next: of load time [s] or released */
+    double step      = 0.; /**< to try next, share of the stage [-] */
+    double last_step = 0.; /**< of the loads that converged last, likewise */
 
     bool follows_path  = false; /**< the load time is an unknown */
     double path_step   = 0.;    /**< to try next, of the path's length [m] */
     double path_length = 0.;    /**< in the stage so far [m] */
     double farthest    = 0.;    /**< load time reached in the stage [s] */
+    unsigned int ahead = 0;     /**< steps on the path that reached farther */
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &held &released &step &follows_path &path_step &path_length
-          &farthest;
+      archive &held &released &step &last_step &follows_path &path_step
+          &path_length &farthest &ahead;
     }
   };
 

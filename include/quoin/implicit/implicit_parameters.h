@@ -28,10 +28,10 @@ namespace quoin
   /** Section 'Implicit': the equilibrium iterations. */
   struct ImplicitParameters
   {
-    double first_step     = 0.01; /**< share of the stage [-] */
-    double largest_step   = 0.05; /**< share of the stage [-] */
-    double smallest_step  = 1e-7; /**< share of the stage [-] */
-    double force_ratio    = 1e-7; /**< unbalanced to applied force [-] */
+    double first_step    = 0.01; /**< share of the stage [-] */
+    double largest_step  = 0.05; /**< share of the stage [-] */
+    double smallest_step = 1e-7; /**< share of the stage [-] */
+    double force_ratio   = 1e-7; /**< unbalanced to applied force [-] */
     unsigned int wanted_iterations  = 8;
     unsigned int maximum_iterations = 25;
     bool line_search                = true;

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_implicit_equilibrium_h
+#define quoin_implicit_equilibrium_h
+
+#include <quoin/implicit/freedoms.h>
+#include <quoin/loads/nodal_load.h>
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <memory>
+#include <vector>
+
+namespace quoin
+{
+  /** What acts at a configuration, and what brought it there. */
+  struct Balance
+  {
+    AlignedArray<NodeVector> force;    /**< out of balance, owned nodes [N] */
+    AlignedArray<NodeVector> external; /**< of loads, part of it [N] */
+    /** Of bodies, besides what acts on their nodes [N, N m]. */
+    std::vector<std::array<double, 3>> drives, held;
+    double unbalanced = 0.; /**< summed over unknowns of all ranks [N] */
+    double applied    = 0.; /**< by joints, loads and reactions [N] */
+
+    JointHistory joints; /**< brought to the configuration */
+    PlasticHistory plastic;
+    EnergyAccounts lost; /**< by joints and cells on the way, this rank [J] */
+
+    /** Inelastic opening and slip on the way, mean over the joints that
+        measure the path [m]. */
+    double path = 0.;
+
+    double ratio() const
+    {
+      return applied > 0. ? unbalanced / applied : unbalanced > 0. ? 1. : 0.;
+    }
+  };
+
+  /** Where a step goes from a configuration. */
+  struct Advance
+  {
+    double load_time = 0.;          /**< there [s] */
+    double released  = 1.;          /**< there [-] */
+    AlignedArray<NodeVector> given; /**< motion on the way, local nodes [m] */
+  };
+
+  /**
+   * The equations of equilibrium in a stage: residuals by the operators of the
+   * explicit solver, and their derivative.
+   */
+  class Equilibrium
+  {
+  public:
+    using Vector = Freedoms::Vector;
+
+    /**
+     * Keeps references. @p path_sets: of each joint set, whether its inelastic
+     * motion measures the path.
+     */
+    Equilibrium(const Model &model, Freedoms &freedoms,
+                const std::vector<const NodalLoad *> &loads,
+                const std::vector<bool> &path_sets, double stage_start);
+
+    /**
+     * Forces at @p configuration, to which the histories of @p committed are
+     * brought. @p broken: see MatchedJoints::linearise(). Collective.
+     */
+    void find_forces(const State &committed, const Configuration &configuration,
+                     const std::vector<std::uint8_t> &broken, Balance &balance);
+
+    /**
+     * The same and derivatives: stiffness() of the unknowns; @p by_advance,
+     * the change of the residual as loads and given motions go all of
+     * @p advance; @p by_unknown and @p path_by_advance, those of
+     * Balance::path.
+     */
+    void linearise(const State &committed, const Configuration &configuration,
+                   const std::vector<std::uint8_t> &broken,
+                   const Advance &advance, Balance &balance, Vector &by_advance,
+                   Vector &by_unknown, double &path_by_advance);
+
+    const dealii::TrilinosWrappers::SparseMatrix &stiffness() const
+    {
+      return matrix;
+    }
+
+    Vector make_vector() const;
+
+  private:
+    void make_pattern();
+    void add_forces(const State &committed, const Configuration &configuration,
+                    const std::vector<std::uint8_t> &broken, Balance &balance,
+                    bool with_derivatives);
+    void add_loads(const State &committed, const Configuration &configuration,
+                   Balance &balance);
+    void find_ratio(const AlignedArray<NodeVector> &applied, Balance &balance);
+    /** Adds the rows of owned nodes of an element with @p n nodes. */
+    template <std::size_t size>
+    void
+    add_stiffness(const unsigned int *nodes, unsigned int n,
+                  const std::array<std::array<double, size>, size> &element);
+    void fill_unused_rows();
+    void add_turning(const AlignedArray<NodeVector> &force);
+
+    const Model &model;
+    Freedoms &freedoms;
+    const std::vector<const NodalLoad *> loads;
+    const std::vector<bool> path_sets;
+    const double stage_start;
+    MPI_Comm communicator;
+    double path_area = 0.; /**< of the joints that measure the path [m^2] */
+
+    dealii::TrilinosWrappers::SparseMatrix matrix;
+    const Advance *under_way = nullptr;
+    AlignedArray<NodeVector> by_given; /**< forces, as it goes [N] */
+    AlignedArray<NodeVector> path_gradient, joint_force;
+    double path_by_given = 0.;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_implicit_implicit_solver_h
+#define quoin_implicit_implicit_solver_h
+
+#include <quoin/dynamics/solver.h>
+#include <quoin/implicit/equilibrium.h>
+#include <quoin/implicit/freedoms.h>
+#include <quoin/implicit/implicit_parameters.h>
+#include <quoin/implicit/linear_solver.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** One iteration of a step, for convergence.csv. */
+  struct IterationReport
+  {
+    std::uint64_t step;
+    unsigned int attempt;    /**< 0, and one more for each cut */
+    unsigned int iteration;  /**< 0: before the first correction */
+    double load_time;        /**< [s] */
+    double unbalanced_ratio; /**< [-] */
+    double line_search;      /**< share of the correction that came here [-] */
+    double linear_iterations;
+  };
+
+  /**
+   * Equilibrium instead of motion: the same blocks, joints and loads without
+   * inertia, by Newton's method with consistent tangents and line search
+   * (@cite Crisfield1991), one stage after the other.
+   *
+   * A stage begins with what is out of balance, by loads that begin or end
+   * there or by supports that go, which is let go step by step while time
+   * stands still; then the load time runs to the stage's end. Steps are cut
+   * where iterations do not converge and grow where they do. Where steps of
+   * the loads meet a snap-back, the load time becomes an unknown, and steps
+   * are those of the mean inelastic opening and slip of joints, which grows on
+   * any path (@cite Lourenco1996; as the dissipation of
+   * @cite VerhooselRemmersGutierrez2009).
+   */
+  class ImplicitSolver : public Solver
+  {
+  public:
+    /**
+     * Keeps a reference to @p model. @p joint_sets: their names, for
+     * 'Path joints'. Throws an InputError about loads that need inertia.
+     */
+    ImplicitSolver(const Model &model, const std::vector<LoadParameters> &loads,
+                   const ImplicitParameters &parameters,
+                   const std::vector<std::string> &joint_sets);
+
+    /** As ExplicitSolver::begin_stage(). */
+    void begin_stage(const StageParameters &stage,
+                     const StageParameters *previous, State &state);
+    void resume_stage(const StageParameters &stage, State &state);
+
+    /** Load time at which the stage ends [s]. */
+    double duration() const
+    {
+      return stage_duration;
+    }
+    bool is_over(const State &state) const
+    {
+      return state.implicit.released == 1. && state.load_time >= stage_duration;
+    }
+
+    /**
+     * Takes @p state to the next equilibrium. Throws a RunError, which names
+     * where forces are out of balance most, if there is none within the
+     * smallest step; the state is then the last equilibrium.
+     */
+    void step(State &state);
+
+    /** Histories of an equilibrium are those of its positions. */
+    void update_histories(State &) override
+    {
+    }
+
+    std::array<double, 3> resultant(const std::string &load) const override;
+
+    /** Iterations since the last call. */
+    std::vector<IterationReport> take_reports()
+    {
+      return std::exchange(reports, {});
+    }
+    std::uint64_t n_iterations() const
+    {
+      return iterations_done;
+    }
+    std::uint64_t n_cuts() const
+    {
+      return cuts_done;
+    }
+    Freedoms::Index n_unknowns() const
+    {
+      return freedoms ? freedoms->n_unknowns() : 0;
+    }
+    /** Whether the linear solver of the stage is the direct one. */
+    bool is_direct() const
+    {
+      return linear_solver->is_direct();
+    }
+
+  private:
+    /** Where a step is to go. */
+    struct Target
+    {
+      double load_time;
+      double released;
+      double path; /**< increment of Balance::path [m]; 0: as the loads say */
+    };
+    enum class Outcome
+    {
+      converged,
+      failed
+    };
+
+    void prepare_stage(const State &state);
+    double rest_time() const;
+    void hold_what_is_out_of_balance(State &state);
+    Target choose_target(const State &state) const;
+    Outcome iterate(const State &state, const Target &target,
+                    Configuration &configuration);
+    Outcome solve(const State &state, const Target &target,
+                  Configuration &configuration);
+    /** Share of the advance that goes with a correction; false: none. */
+    bool find_correction(const Target &target,
+                         const Configuration &configuration, bool is_first,
+                         double path_by_advance, double &share);
+    void correct(const State &state, double share,
+                 Configuration &configuration);
+    bool break_joints();
+    void commit(const Configuration &configuration, State &state);
+    void book_work(const State &state, const Configuration &configuration,
+                   EnergyAccounts &energy) const;
+    void adapt_step(const State &before, State &state) const;
+    /** Makes the next attempt a smaller one; false: there is none. */
+    bool cut_step(State &state) const;
+    [[noreturn]] void fail(const State &state) const;
+    std::string describe_node(unsigned int node) const;
+
+    const ImplicitParameters parameters;
+    std::vector<bool> path_sets;
+    std::vector<std::string> set_names;
+
+    double stage_start = 0., stage_duration = 0.;
+    std::vector<bool> held_blocks;
+    std::unique_ptr<Freedoms> freedoms;
+    std::unique_ptr<Equilibrium> equilibrium;
+    std::unique_ptr<LinearSolver> linear_solver;
+
+    Balance start;   /**< at the last equilibrium */
+    Balance balance; /**< at the configuration */
+    Balance trial;   /**< in a line search */
+    Advance advance;
+    std::vector<std::uint8_t> broken; /**< joint points, in this step */
+    Freedoms::Vector residual, by_advance, by_unknown, correction, advanced;
+
+    unsigned int attempt = 0, iteration = 0;
+    double last_share = 1.; /**< of the line search */
+    std::vector<IterationReport> reports;
+    std::uint64_t iterations_done = 0, cuts_done = 0, current_step = 0;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_implicit_linear_solver_h
+#define quoin_implicit_linear_solver_h
+
+#include <quoin/implicit/freedoms.h>
+#include <quoin/implicit/implicit_parameters.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_solver.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <Epetra_MultiVector.h>
+
+#include <memory>
+
+namespace quoin
+{
+  /**
+   * Solves with the stiffness matrix, by LU factors or by GMRES that is
+   * preconditioned by smoothed aggregation multigrid. The latter is given the
+   * three rigid motions, which it must represent on all levels to be fast.
+   */
+  class LinearSolver
+  {
+  public:
+    using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+    using Vector = Freedoms::Vector;
+
+    LinearSolver(LinearSolverType type, const Model &model,
+                 const Freedoms &freedoms);
+
+    /** Factorises, or sets the preconditioner up; returns whether it could. */
+    bool prepare(const Matrix &matrix, const Configuration &configuration);
+
+    /** Returns whether it could. */
+    bool solve(const Vector &right_hand_side, Vector &solution);
+
+    bool is_direct() const
+    {
+      return direct;
+    }
+    /** Of the last solve; 0 if direct. */
+    unsigned int n_iterations() const
+    {
+      return iterations;
+    }
+
+  private:
+    void find_rigid_motions(const Matrix &matrix,
+                            const Configuration &configuration);
+
+    const Model &model;
+    const Freedoms &freedoms;
+    bool direct;
+    const Matrix *matrix = nullptr;
+    dealii::SolverControl control;
+    std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors;
+    std::unique_ptr<Epetra_MultiVector> rigid_motions;
+    dealii::TrilinosWrappers::PreconditionAMG multigrid;
+    unsigned int iterations = 0;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/implicit/implicit_solver.h>
+#include <quoin/loads/prescribed_motion.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Of a step that failed, what is tried next. */
+    constexpr double cut         = 0.3;
+    constexpr double most_growth = 1.5;
+    /** Cuts of a step of the loads before the path is followed. */
+    constexpr double path_share = 0.03;
+    /** Steps ahead on the path before the loads lead again. */
+    constexpr unsigned int steps_ahead = 5;
+    /** Error of the path's length that is let pass, as a share. */
+    constexpr double path_tolerance = 1e-3;
+    /** Shares of a correction that the line search tries. */
+    constexpr double search_shares[] = { 1., 0.5, 0.25, 0.1 };
+    /** A correction must bring this much of its share of the force down. */
+    constexpr double least_gain = 0.1;
+  } // namespace
+
+  bool ImplicitSolver::find_correction(const Target &target,
+                                       const Configuration &configuration,
+                                       const bool is_first,
+                                       const double path_by_advance,
+                                       double &share)
+  {
+    auto loads = balance.drives;
+    for (unsigned int b = 0; b < loads.size(); ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+        loads[b][d] += balance.held[b][d];
+    freedoms->project(balance.force, loads, residual);
+    if (!linear_solver->prepare(equilibrium->stiffness(), configuration)
+        || !linear_solver->solve(residual, correction))
+      return false;
+
+    const bool on_path = target.path > 0.;
+    share              = is_first ? 1.
+                         : configuration.load_time != target.load_time
+                    || configuration.released != target.released
+                             ? 1.
+                             : 0.;
+    if (on_path || share != 0.)
+    {
+      if (!linear_solver->solve(by_advance, advanced))
+        return false;
+    }
+    if (on_path && !is_first)
+    {
+      const double slope = by_unknown * advanced + path_by_advance;
+      if (slope == 0.)
+        return false;
+      share = (target.path - balance.path - by_unknown * correction) / slope;
+    }
+    if (share != 0.)
+      correction.add(share, advanced);
+    return true;
+  }
+
+  void ImplicitSolver::correct(const State &state, const double share,
+                               Configuration &configuration)
+  {
+    const Configuration from = configuration;
+    const auto go            = [&](const double eta)
+    {
+      configuration = from;
+      configuration.released
+          += eta * share * (advance.released - from.released);
+      const double load_time
+          = share * eta == 1.
+                ? advance.load_time
+                : from.load_time
+                      + eta * share * (advance.load_time - from.load_time);
+      freedoms->move(correction, eta, load_time, state.stage_start,
+                     configuration);
+    };
+    last_share = 1.;
+    if (!parameters.line_search || iteration == 0)
+      return go(1.);
+
+    double best = std::numeric_limits<double>::infinity(), best_share = 1.;
+    for (const double eta : search_shares)
+    {
+      go(eta);
+      equilibrium->find_forces(state, configuration, broken, trial);
+      if (trial.unbalanced < best)
+      {
+        best       = trial.unbalanced;
+        best_share = eta;
+      }
+      if (trial.unbalanced <= (1. - least_gain * eta) * balance.unbalanced)
+        break;
+    }
+    last_share = best_share;
+    go(best_share);
+  }
+
+  ImplicitSolver::Outcome ImplicitSolver::iterate(const State &state,
+                                                  const Target &target,
+                                                  Configuration &configuration)
+  {
+    double path_by_advance = 0.;
+    std::vector<double> ratios;
+    for (unsigned int i = 0;; ++i)
+    {
+      advance.load_time = target.load_time;
+      advance.released  = target.released;
+      if (target.path > 0.) // the load time is an unknown
+        advance.load_time
+            = configuration.load_time + target.load_time - state.load_time;
+      advance.given = freedoms->given_motion(configuration, advance.load_time,
+                                             state.stage_start);
+      equilibrium->linearise(state, configuration, broken, advance, balance,
+                             by_advance, by_unknown, path_by_advance);
+      if (iteration == 0)
+        start = balance;
+      const double ratio = balance.ratio();
+      reports.push_back({ current_step, attempt, iteration,
+                          configuration.load_time, ratio, last_share,
+                          double(linear_solver->n_iterations()) });
+      if (!std::isfinite(ratio))
+        return Outcome::failed;
+      ratios.push_back(ratio);
+      const bool there = target.path > 0.
+                             ? std::abs(balance.path - target.path)
+                                   <= path_tolerance * target.path
+                             : configuration.load_time == target.load_time
+                                   && configuration.released == target.released;
+      if (iteration > 0 && there && ratio <= parameters.force_ratio)
+        return Outcome::converged;
+      if (i >= parameters.maximum_iterations
+          || (i >= 10 && ratio > 0.5 * ratios[i - 6]))
+        return Outcome::failed;
+
+      double share = 0.;
+      if (!find_correction(target, configuration, iteration == 0,
+                           path_by_advance, share))
+        return Outcome::failed;
+      correct(state, share, configuration);
+      ++iteration;
+      ++iterations_done;
+    }
+  }
+
+  bool ImplicitSolver::break_joints()
+  {
+    double largest = 0.;
+    for (unsigned int p = 0; p < model.joints().n_points(); ++p)
+      if (!broken[p])
+        largest = std::max(largest, model.joints().excess(p, balance.joints));
+    largest = dealii::Utilities::MPI::max(largest, communicator);
+    if (largest <= 1e-9)
+      return false;
+    // The worst, and what would follow at once.
+    for (unsigned int p = 0; p < model.joints().n_points(); ++p)
+      if (!broken[p]
+          && model.joints().excess(p, balance.joints) >= 0.7 * largest)
+        broken[p] = 1;
+    return true;
+  }
+
+  ImplicitSolver::Outcome ImplicitSolver::solve(const State &state,
+                                                const Target &target,
+                                                Configuration &configuration)
+  {
+    configuration = freedoms->configuration(state);
+    broken.assign(model.joints().n_points(), 0);
+    iteration  = 0;
+    last_share = 1.;
+    // Brittle joints break one after the other, each at an equilibrium.
+    do
+      if (iterate(state, target, configuration) == Outcome::failed)
+        return Outcome::failed;
+    while (break_joints());
+    return Outcome::converged;
+  }
+
+  ImplicitSolver::Target ImplicitSolver::choose_target(const State &state) const
+  {
+    const ImplicitState &now = state.implicit;
+    if (now.released < 1.)
+    {
+      const double next = now.released + now.step;
+      return { state.load_time, next > 1. - 1e-9 ? 1. : next, 0. };
+    }
+    double next = state.load_time + now.step * stage_duration;
+    if (now.follows_path)
+      return { next, 1., now.path_step };
+    if (next > stage_duration * (1. - 1e-9))
+      next = stage_duration;
+    return { next, 1., 0. };
+  }
+
+  void ImplicitSolver::step(State &state)
+  {
+    current_step = state.step;
+    Configuration configuration;
+    for (attempt = 0;; ++attempt)
+    {
+      const Target target = choose_target(state);
+      Outcome outcome     = solve(state, target, configuration);
+      if (outcome == Outcome::converged && target.path > 0.
+          && configuration.load_time > stage_duration)
+      {
+        // The stage's end is near: go there and not beyond.
+        state.implicit.follows_path = false;
+        state.implicit.step
+            = (stage_duration - state.load_time) / stage_duration;
+        continue;
+      }
+      if (outcome == Outcome::converged)
+        break;
+      ++cuts_done;
+      if (!cut_step(state))
+        fail(state);
+    }
+    const State before = state;
+    commit(configuration, state);
+    adapt_step(before, state);
+  }
+
+  bool ImplicitSolver::cut_step(State &state) const
+  {
+    ImplicitState &now = state.implicit;
+    if (now.follows_path)
+    {
+      now.path_step *= cut;
+      now.step *= cut;
+      return now.path_step
+             > parameters.smallest_step * parameters.largest_path_step;
+    }
+    const bool may_follow = parameters.path != PathFollowing::never
+                            && now.released == 1. && now.path_step > 0.;
+    now.step *= cut;
+    if (may_follow && now.step < path_share * now.last_step)
+    {
+      now.follows_path = true;
+      now.ahead        = 0;
+      now.step         = 0.5 * now.last_step;
+      now.path_step *= 0.5;
+      return true;
+    }
+    return now.step >= parameters.smallest_step;
+  }
+
+  void ImplicitSolver::adapt_step(const State &before, State &state) const
+  {
+    ImplicitState &now = state.implicit;
+    const double went
+        = before.implicit.released < 1.
+              ? now.released - before.implicit.released
+              : (state.load_time - before.load_time) / stage_duration;
+    const double growth
+        = std::min(most_growth, std::sqrt(double(parameters.wanted_iterations)
+                                          / std::max(1U, iteration)));
+    if (before.implicit.released < 1.)
+    {
+      now.step = std::min(growth * std::max(went, now.step),
+                          parameters.largest_step);
+      if (now.released == 1.)
+        now.step = parameters.first_step;
+      return;
+    }
+    now.path_length += balance.path;
+    now.farthest = std::max(now.farthest, state.load_time);
+    if (now.follows_path)
+    {
+      const double longer
+          = std::min(growth, parameters.largest_path_step / now.path_step);
+      now.path_step *= longer;
+      now.step = longer * went;
+      now.ahead
+          = went > 0. && state.load_time >= now.farthest ? now.ahead + 1 : 0;
+      if (now.ahead > steps_ahead && parameters.path != PathFollowing::always)
+        now.follows_path = false;
+      now.step = std::clamp(now.step, -parameters.largest_step,
+                            parameters.largest_step);
+    }
+    else
+    {
+      now.path_step = std::min(balance.path, parameters.largest_path_step);
+      now.last_step = went;
+      now.step      = std::min(growth * std::max(went, now.step),
+                               parameters.largest_step);
+      if (parameters.path == PathFollowing::always
+          && balance.path > 1e-3 * parameters.largest_path_step)
+        now.follows_path = true;
+    }
+  }
+} // namespace quoin

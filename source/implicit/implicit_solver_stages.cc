@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// What ImplicitSolver does where a stage begins and where a step ends;
+// implicit_solver.cc has its steps.
+
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
+#include <quoin/dynamics/free_bodies.h>
+#include <quoin/implicit/implicit_solver.h>
+#include <quoin/loads/prescribed_motion.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    /** What a static stage lasts whose loads never change [s]. */
+    constexpr double resting_duration = 1.;
+
+    void refuse_dynamic_loads(const std::vector<LoadParameters> &loads)
+    {
+      for (const LoadParameters &load : loads)
+      {
+        const std::string what
+            = load.type == LoadType::viscous_boundary ? "a viscous boundary"
+              : load.type == LoadType::free_field     ? "a free field"
+              : load.type == LoadType::boundary_elements
+                  ? "a far field of boundary elements"
+                  : "";
+        if (!what.empty())
+          throw InputError("section 'Loads/" + load.name + "': 'Type' makes it "
+                           + what
+                           + ", which the implicit solver does not know. Take "
+                             "'Solver = explicit', or hold that boundary.");
+      }
+    }
+  } // namespace
+
+  ImplicitSolver::ImplicitSolver(const Model &model,
+                                 const std::vector<LoadParameters> &loads,
+                                 const ImplicitParameters &parameters,
+                                 const std::vector<std::string> &joint_sets)
+    : Solver((refuse_dynamic_loads(loads), model), loads, nullptr, nullptr),
+      parameters(parameters),
+      path_sets(joint_sets.size(), parameters.path_joints.empty()),
+      set_names(joint_sets)
+  {
+    if (model.large_displacements())
+      throw InputError("section 'Contact': 'Displacements = large' asks for "
+                       "contacts that come and go, which the implicit solver "
+                       "does not follow. Take 'small', or 'Solver = "
+                       "explicit'.");
+    for (const std::string &name : parameters.path_joints)
+    {
+      const auto found = std::find(joint_sets.begin(), joint_sets.end(), name);
+      if (found == joint_sets.end())
+        throw InputError("section 'Implicit': 'Path joints' names '" + name
+                         + "', which is no set of section 'Joints'.");
+      path_sets[found - joint_sets.begin()] = true;
+    }
+  }
+
+  double ImplicitSolver::rest_time() const
+  {
+    using Values      = std::vector<std::array<double, 3>>;
+    const auto values = [&](const double t)
+    {
+      const TimePoint time{ t, stage_start + t };
+      Values result;
+      for (const NodalLoad *load : loads_on)
+        result.push_back(load->amplitude(time));
+      for (const NodeConstraint *constraint : constraints_on)
+        result.push_back(constraint->values(time));
+      return result;
+    };
+    constexpr double late = 1e9;
+    const Values last     = values(late);
+    if (values(1.7 * late) != last)
+      throw InputError("section 'Stages/" + stage.name
+                       + "': 'End = static ratio', but its loads never rest. "
+                         "Take 'End = time' and a 'Duration', or functions of "
+                         "time that become constant.");
+    for (const NodeConstraint *constraint : constraints_on)
+    {
+      const auto check = [&](const std::array<LoadComponent, 3> &parts)
+      {
+        for (const LoadComponent &part : parts)
+          if (part.quantity == LoadQuantity::velocity
+              && part.value({ late, stage_start + late }) != 0.)
+            throw InputError("section 'Loads/" + constraint->name()
+                             + "': a velocity that does not become zero never "
+                               "lets the stage '"
+                             + stage.name
+                             + "' rest, whose 'End' is 'static "
+                               "ratio'. Take 'End = time' and a 'Duration'.");
+      };
+      if (const auto *platen = dynamic_cast<const Platen *>(constraint))
+        check(platen->parts());
+      else if (const auto *motion
+               = dynamic_cast<const PrescribedMotion *>(constraint))
+        check(motion->parts());
+    }
+    double rests = late, moves = 0.;
+    for (double t = late; t > 1e-9; t *= 0.9)
+      if (values(t) == last)
+        rests = t;
+      else
+      {
+        moves = t;
+        break;
+      }
+    if (moves == 0. && values(0.) == last)
+      rests = 0.;
+    while (rests - moves > 1e-9 * rests)
+    {
+      const double middle                      = 0.5 * (rests + moves);
+      (values(middle) == last ? rests : moves) = middle;
+    }
+    return rests;
+  }
+
+  void ImplicitSolver::prepare_stage(const State &state)
+  {
+    stage_start = state.stage_start;
+    check_no_free_bodies(model, constraints_on, stage.name);
+    refuse_shared_platens();
+    held_blocks = find_held_blocks();
+    if (stage.end == StageEnd::time)
+      stage_duration = stage.duration;
+    else
+    {
+      stage_duration = std::max(rest_time(), stage.minimum_duration);
+      if (stage_duration == 0.)
+        stage_duration = resting_duration;
+    }
+    freedoms
+        = std::make_unique<Freedoms>(model, constraints_on, held_blocks, state);
+    equilibrium   = std::make_unique<Equilibrium>(model, *freedoms, loads_on,
+                                                path_sets, stage_start);
+    linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver,
+                                                   model, *freedoms);
+    residual      = equilibrium->make_vector();
+    by_advance = by_unknown = correction = advanced = residual;
+    broken.assign(model.joints().n_points(), 0);
+  }
+
+  void ImplicitSolver::begin_stage(const StageParameters &new_stage,
+                                   const StageParameters *previous,
+                                   State &state)
+  {
+    activate(new_stage);
+    make_room(state);
+    for (const auto &constraint : all_constraints)
+      if (const auto *platen = dynamic_cast<const Platen *>(constraint.get()))
+        if (!acts_in(*constraint, stage))
+          state.platens[platen->index()].active = false;
+    for (NodeConstraint *constraint : constraints_on)
+    {
+      if (auto *platen = dynamic_cast<Platen *>(constraint))
+        platen->set_mass(model.mass());
+      constraint->begin_stage(state,
+                              previous && acts_in(*constraint, *previous));
+    }
+    state.stage_start = state.time;
+    state.stage_step  = 0;
+    state.load_time   = 0.;
+    state.load_rate   = 1.;
+    state.implicit    = ImplicitState();
+    prepare_stage(state);
+    hold_what_is_out_of_balance(state);
+  }
+
+  void ImplicitSolver::resume_stage(const StageParameters &resumed,
+                                    State &state)
+  {
+    activate(resumed);
+    for (NodeConstraint *constraint : constraints_on)
+      if (auto *platen = dynamic_cast<Platen *>(constraint))
+        platen->set_mass(model.mass());
+    prepare_stage(state);
+  }
+
+  void ImplicitSolver::hold_what_is_out_of_balance(State &state)
+  {
+    ImplicitState &now = state.implicit;
+    now.released       = 1.;
+    now.step           = parameters.first_step;
+    equilibrium->find_forces(state, freedoms->configuration(state), broken,
+                             balance);
+    if (balance.ratio() <= parameters.force_ratio)
+      return;
+    now.released               = 0.;
+    const unsigned int n_owned = model.exchange().n_owned();
+    for (unsigned int i = 0; i < n_owned; ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        now.held.push_back(freedoms->is_free(i, d) ? -balance.force[i].v[d]
+                                                   : 0.);
+    const auto forces = freedoms->body_forces(balance.force);
+    for (unsigned int b = 0; b < forces.size(); ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+        now.held.push_back(freedoms->bodies()[b].given[d]
+                               ? 0.
+                               : -forces[b][d] - balance.drives[b][d]);
+  }
+
+  void ImplicitSolver::commit(const Configuration &configuration, State &state)
+  {
+    EnergyAccounts done = balance.lost;
+    book_work(state, configuration, done);
+    state.energy += done;
+    const double went = std::abs(configuration.load_time - state.load_time);
+
+    freedoms->write(configuration, state);
+    state.joints  = balance.joints;
+    state.plastic = balance.plastic;
+    RigidBlockStage rigid;
+    rigid.held = held_blocks;
+    model.rigid_blocks().follow_nodes(rigid, state);
+    state.unbalanced_ratio = balance.ratio();
+    if (state.implicit.released == 1.)
+      state.implicit.held.clear();
+    ++state.step;
+    ++state.stage_step;
+    // On the way back the run's time goes on.
+    state.time += went;
+    if (state.load_time == stage_duration && state.implicit.path_length == 0.
+        && balance.path == 0.)
+      state.time = state.stage_start + stage_duration;
+    find_energies(
+        state, model.blocks().strain_energy(state.nodes.data(), state.plastic),
+        model.joints().stored_energy(state.nodes.data(), state.joints), 0.);
+  }
+
+  void ImplicitSolver::book_work(const State &state,
+                                 const Configuration &configuration,
+                                 EnergyAccounts &energy) const
+  {
+    // The trapezoidal rule: of loads and of the reactions of what is given;
+    // what was held at the stage's start goes the way of damping.
+    const auto &held    = state.implicit.held;
+    const double left_0 = 1. - state.implicit.released;
+    const double left_1 = 1. - configuration.released;
+    const double mean   = 0.5 * (left_0 + left_1);
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double u = configuration.nodes[i].u[d] - state.nodes[i].u[d];
+        double force
+            = 0.5 * (start.external[i].v[d] + balance.external[i].v[d]);
+        if (!freedoms->is_free(i, d) && !freedoms->is_in_body(i))
+          force -= 0.5 * (start.force[i].v[d] + balance.force[i].v[d]);
+        energy.external += force * u;
+        if (!held.empty())
+          energy.damping -= mean * held[2 * i + d] * u;
+      }
+    const Configuration before = freedoms->configuration(state);
+    const auto forces_0        = freedoms->body_forces(start.force);
+    const auto forces_1        = freedoms->body_forces(balance.force);
+    for (unsigned int b = 0; b < before.bodies.size(); ++b)
+    {
+      const Freedoms::Body &body = freedoms->bodies()[b];
+      if (!body.counts)
+        continue;
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double u = configuration.bodies[b][d] - before.bodies[b][d];
+        energy.external
+            += 0.5 * u
+               * (body.given[d] ? -forces_0[b][d] - forces_1[b][d]
+                                : start.drives[b][d] + balance.drives[b][d]);
+        energy.damping -= 0.5 * u * (start.held[b][d] + balance.held[b][d]);
+      }
+    }
+  }
+
+  std::array<double, 3> ImplicitSolver::resultant(const std::string &load) const
+  {
+    std::array<double, 3> result{};
+    const auto found
+        = std::find_if(constraints_on.begin(), constraints_on.end(),
+                       [&](const NodeConstraint *constraint)
+                       { return constraint->name() == load; });
+    if (found == constraints_on.end() || balance.force.empty())
+      return result;
+    if (const auto *platen = dynamic_cast<const Platen *>(*found))
+    {
+      const auto forces = freedoms->body_forces(balance.force);
+      for (unsigned int b = 0; b < forces.size(); ++b)
+        if (freedoms->bodies()[b].platen == platen)
+          for (unsigned int d = 0; d < 3; ++d)
+            result[d] = freedoms->bodies()[b].given[d] ? -forces[b][d]
+                                                       : balance.drives[b][d];
+      return result;
+    }
+    const auto *motion = dynamic_cast<const PrescribedMotion *>(*found);
+    for (const Freedoms::Prescribed &given : freedoms->prescribed())
+    {
+      if (given.part != &motion->parts()[given.component])
+        continue;
+      const auto &X
+          = model.mesh().vertices[model.exchange().global(given.node)];
+      const double force = -balance.force[given.node].v[given.component];
+      result[given.component] += force;
+      result[2] += given.component == 0 ? -X[1] * force : X[0] * force;
+    }
+    MPI_Allreduce(MPI_IN_PLACE, result.data(), 3, MPI_DOUBLE, MPI_SUM,
+                  communicator);
+    return result;
+  }
+
+  void ImplicitSolver::fail(const State &state) const
+  {
+    // The node with the largest force that nothing balances.
+    double largest     = -1.;
+    unsigned int worst = 0;
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    {
+      double square = 0.;
+      for (unsigned int d = 0; d < 2; ++d)
+        if (freedoms->is_free(i, d) || freedoms->is_in_body(i))
+          square += balance.force[i].v[d] * balance.force[i].v[d];
+      if (!freedoms->is_in_body(i) && square > largest)
+      {
+        largest = square;
+        worst   = i;
+      }
+    }
+    std::string where;
+    const double most = dealii::Utilities::MPI::max(largest, communicator);
+    if (largest == most && largest >= 0.)
+      where = describe_node(worst);
+    const auto all = dealii::Utilities::MPI::all_gather(communicator, where);
+    for (const std::string &text : all)
+      if (!text.empty())
+      {
+        where = text;
+        break;
+      }
+    std::ostringstream message;
+    message << "no equilibrium was found beyond "
+            << (state.implicit.released < 1.
+                    ? number_text(100. * state.implicit.released)
+                          + " % of what was out of balance at the start"
+                    : "the load time " + number_text(state.load_time) + " of "
+                          + number_text(stage_duration) + " s")
+            << ", although steps were cut to "
+            << number_text(std::abs(state.implicit.step))
+            << " of the stage. Forces are out of balance most " << where
+            << ". The model may have come to its limit load there"
+            << (parameters.path == PathFollowing::never
+                    ? ": 'Path following = automatic' in section 'Implicit' "
+                      "could follow it down"
+                    : "")
+            << "; otherwise lower 'Largest step', raise 'Maximum "
+               "iterations', or look at the strengths of those joints. The "
+               "last equilibrium is kept.";
+    throw RunError(message.str());
+  }
+
+  std::string ImplicitSolver::describe_node(const unsigned int node) const
+  {
+    const BlockMesh<2> &mesh = model.mesh();
+    const unsigned int v     = model.exchange().global(node);
+    std::ostringstream text;
+    text << "in block " << mesh.block_of_vertex(v) << " at ("
+         << mesh.vertices[v][0] << ", " << mesh.vertices[v][1] << ") m";
+    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    {
+      const auto &segment = model.joints().segment(i);
+      for (unsigned int k = 0; k < 2; ++k)
+        if (segment.lower[k] == node || segment.upper[k] == node)
+        {
+          const JointFace &face = mesh.joint_faces[segment.face];
+          text << ", at a joint of the set '" << set_names[segment.set]
+               << "' between the blocks " << mesh.block_of_vertex(face.lower[k])
+               << " and " << mesh.block_of_vertex(face.upper[k]);
+          return text.str();
+        }
+    }
+    return text.str();
+  }
+} // namespace quoin

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/implicit/linear_solver.h>
+
+#include <Teuchos_ParameterList.hpp>
+
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Beyond, LU factors cost more than iterations [unknowns]. */
+    constexpr Freedoms::Index largest_direct = 200000;
+
+    /** Of the residual; Newton's iterations must not see it [-]. */
+    constexpr double iterative_tolerance   = 1e-10;
+    constexpr unsigned int most_iterations = 1000;
+  } // namespace
+
+  LinearSolver::LinearSolver(const LinearSolverType type, const Model &model,
+                             const Freedoms &freedoms)
+    : model(model), freedoms(freedoms),
+      direct(type == LinearSolverType::direct
+             || (type == LinearSolverType::automatic
+                 && freedoms.n_unknowns() <= largest_direct)),
+      control(most_iterations, 0.)
+  {
+  }
+
+  bool LinearSolver::prepare(const Matrix &new_matrix,
+                             const Configuration &configuration)
+  {
+    matrix = &new_matrix;
+    if (direct)
+    {
+      factors = std::make_unique<dealii::TrilinosWrappers::SolverDirect>(
+          control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(
+                       false, "Amesos_Klu"));
+      try
+      {
+        factors->initialize(*matrix);
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+        return false; // singular
+      }
+      return true;
+    }
+    find_rigid_motions(*matrix, configuration);
+    Teuchos::ParameterList list;
+    dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
+    data.elliptic              = true;
+    data.n_cycles              = 1;
+    data.smoother_sweeps       = 2;
+    data.aggregation_threshold = 0.02;
+    std::unique_ptr<Epetra_MultiVector> unused;
+    data.set_parameters(list, unused, matrix->trilinos_matrix());
+    list.set("PDE equations", 2);
+    list.set("null space: type", "pre-computed");
+    list.set("null space: dimension", rigid_motions->NumVectors());
+    list.set("null space: vectors", rigid_motions->Values());
+    multigrid.initialize(matrix->trilinos_matrix(), list);
+    return true;
+  }
+
+  void LinearSolver::find_rigid_motions(const Matrix &stiffness,
+                                        const Configuration &configuration)
+  {
+    rigid_motions = std::make_unique<Epetra_MultiVector>(
+        stiffness.trilinos_matrix().DomainMap(), 3);
+    const auto set = [&](const unsigned int mode, const Freedoms::Index unknown,
+                         const double value)
+    {
+      const int row = stiffness.trilinos_matrix().DomainMap().LID(
+          static_cast<int>(unknown));
+      (*rigid_motions)[mode][row] = value;
+    };
+    // About the first node, in units of the model's size.
+    const auto &mesh  = model.mesh();
+    const auto origin = mesh.vertices[0];
+    double size       = 0.;
+    for (const auto &p : mesh.vertices)
+      size = std::max(size, p.distance(origin));
+    const auto place = [&](const Freedoms::Index first, const double x,
+                           const double y, const bool(&free)[2])
+    {
+      if (free[0])
+      {
+        set(0, first, 1.);
+        set(2, first, -(y - origin[1]) / size);
+      }
+      if (free[1])
+      {
+        set(1, first + 1, 1.);
+        set(2, first + 1, (x - origin[0]) / size);
+      }
+    };
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    {
+      const NodeRecord &node = configuration.nodes[i];
+      const bool free[2] = { freedoms.is_free(i, 0), freedoms.is_free(i, 1) };
+      place(2 * Freedoms::Index(model.exchange().global(i)),
+            node.X[0] + node.u[0], node.X[1] + node.u[1], free);
+    }
+    for (unsigned int b = 0; b < freedoms.bodies().size(); ++b)
+    {
+      const Freedoms::Body &body = freedoms.bodies()[b];
+      if (!body.counts)
+        continue;
+      const auto &d      = configuration.bodies[b];
+      const bool free[2] = { !body.given[0], !body.given[1] };
+      place(body.first, body.centre[0] + d[0], body.centre[1] + d[1], free);
+      if (!body.given[2])
+        set(2, body.first + 2, 1. / size);
+    }
+  }
+
+  bool LinearSolver::solve(const Vector &right_hand_side, Vector &solution)
+  {
+    iterations         = 0;
+    solution           = 0.;
+    const double scale = right_hand_side.l2_norm();
+    if (scale == 0.)
+      return true;
+    try
+    {
+      if (direct)
+        factors->solve(solution, right_hand_side);
+      else
+      {
+        control.set_tolerance(iterative_tolerance * scale);
+        dealii::TrilinosWrappers::SolverGMRES gmres(
+            control,
+            dealii::TrilinosWrappers::SolverGMRES::AdditionalData(false, 100));
+        gmres.solve(*matrix, solution, right_hand_side, multigrid);
+        iterations = control.last_step();
+      }
+    }
+    catch (const dealii::ExceptionBase &)
+    {
+      return false;
+    }
+    return std::isfinite(solution.l2_norm());
+  }
+} // namespace quoin
