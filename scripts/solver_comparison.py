@@ -13,7 +13,6 @@ import vtu
 from csv_table import unit_of
 from curve_figure import CurveFigure, peak_of
 from joint_comparison import agreement
-from moments import recorded_times
 
 SOLVERS = ("explicit", "implicit")
 THRESHOLD = 1e-4                     # [m], above it a joint is open or slides
@@ -76,11 +75,11 @@ class Run:
         return np.interp(way, self.way[last], self.y[last])
 
     def fields(self):
-        """Times [s] of the fields of joints and the way there."""
-        if not os.path.exists(os.path.join(self.folder, "joints.pvd")):
-            return None
-        times = recorded_times(self.folder, "joints.pvd")
-        return times, np.interp(times, self.time, self.way)
+        """Times [s] of the fields of joints and the way there, or None."""
+        path = os.path.join(self.folder, "joints.pvd")
+        series = vtu.read_pvd(path) if os.path.exists(path) else []
+        times = np.array([time for time, _ in series])
+        return (times, np.interp(times, self.time, self.way)) if series else None
 
     def numbers(self, x_unit, y_unit):
         """What compare.json has of one run."""
@@ -173,8 +172,8 @@ class Comparison:
         for name, way in self.places().items():
             moments = self.moments(way)
             if moments is None:
-                self.notes.append("no joints.pvd in both folders: joints are "
-                                  "not compared")
+                self.notes.append("joints are not compared: a run has no "
+                                  "fields of them")
                 return None
             grids = [vtu.read_at(os.path.join(run.folder, "joints.pvd"), time)
                      for run, (time, _) in zip(self.runs, moments)]
