@@ -150,7 +150,7 @@ SLID = [[0., 0.], [-2e-4, 0.]]
 
 
 class Folders(unittest.TestCase):
-    """An explicit run that pauses, peaks at 40 kN and 2 mm and falls, and an
+    """An explicit run that settles, peaks at 40 kN and 2 mm and falls, and an
     implicit one that is 10 % lower and ends at 3 mm, in fewer rows."""
 
     def setUp(self):
@@ -160,7 +160,7 @@ class Folders(unittest.TestCase):
             os.path.join(self.folder.name, name)
             for name in solver_comparison.SOLVERS)
         u = 1e-3 * np.array([0., 0., 1., 2., 3., 4.])
-        f = -1e3 * np.array([0., 0., 20., 40., 30., 20.])
+        f = -1e3 * np.array([5., 0., 20., 40., 30., 20.])
         write_run(self.explicit, u, f, {
             1: joint_grid(NOTHING, NOTHING), 3: joint_grid(WIDE, SLID),
             4: joint_grid(WIDE, WIDE), 5: joint_grid(WIDE, WIDE)}, 50.)
@@ -216,6 +216,18 @@ class Numbers(Folders):
         # of these one slides in the other run
         self.assertAlmostEqual(end["same class"], 0.5)
         self.assertEqual(end["open in both"], 0.)
+
+    def test_the_implicit_field_follows_the_explicit_one(self):
+        rows = 1e-3 * np.array([0., 1.5, 2., 2.6, 2.7]), -1e3 * np.array(
+            [0., 30., 40., 34., 33.])
+        still = joint_grid(NOTHING, NOTHING)
+        for folder, fields in ((self.explicit, (0, 3)),
+                               (self.implicit, (0, 1, 4))):
+            shutil.rmtree(folder)
+            write_run(folder, *rows, {k: still for k in fields})
+        peak = self.compare().numbers()["joints"]["at the peak"]
+        self.assertAlmostEqual(peak["explicit at [mm]"], 2.6)
+        self.assertAlmostEqual(peak["implicit at [mm]"], 2.7)
 
     def test_a_run_that_stops_before_the_peak(self):
         shutil.rmtree(self.implicit)
