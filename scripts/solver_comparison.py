@@ -11,13 +11,27 @@ import numpy as np
 import run_parameters
 import vtu
 from csv_table import unit_of
-from curve_figure import CurveFigure, peak_of
+from curve_figure import CurveFigure, peak_of, read_specs
 from joint_comparison import agreement
 
 SOLVERS = ("explicit", "implicit")
 THRESHOLD = 1e-4                     # [m], above it a joint is open or slides
 TURN = 0.02                          # of the range of x
 FAR = 0.02                           # of the common way
+
+
+def spec_of(case=None, path=None):
+    """The first figure that describes a case, of the file @p path or of
+    CASE.plot.json or plot.json beside the case, and the folder of that."""
+    paths = [path] if path else [
+        os.path.splitext(case)[0] + ".plot.json",
+        os.path.join(os.path.dirname(case), "plot.json")] if case else []
+    for candidate in paths:
+        if path or os.path.exists(candidate):
+            return read_specs(candidate)[0], os.path.dirname(candidate)
+    raise ValueError("which curves? There is neither "
+                     + (" nor ".join(paths) or "a case")
+                     + ": give --spec plot.json")
 
 
 def turns_back(x):
