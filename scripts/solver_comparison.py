@@ -155,6 +155,8 @@ class Comparison:
             f"largest at{unit}": float(way[worst]),
             "mean difference": float(mean / (self.last - self.first)),
             f"from{unit}": float(self.first), f"to{unit}": float(self.last),
+            "share of the explicit curve": float(
+                (self.last - self.first) / (explicit.way[-1] - self.first)),
             "over": "the sum of all steps of x" if self.is_cyclic else "x"}
 
     def moments(self, way):

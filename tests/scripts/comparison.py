@@ -42,6 +42,7 @@ class Numbers(Folders):
                                0.1)
         self.assertEqual(curves["largest at [mm]"], 2.)
         self.assertEqual((curves["from [mm]"], curves["to [mm]"]), (0., 3.))
+        self.assertAlmostEqual(curves["share of the explicit curve"], 0.75)
         # a tenth of the triangle and of the trapezoid below the curve
         self.assertAlmostEqual(curves["mean difference"],
                                0.1 * (40. + 35.) / 3. / 40.)
