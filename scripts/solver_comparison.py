@@ -138,13 +138,14 @@ class Comparison:
         self.notes = []
 
     def curves(self):
-        """Differences of the curves by the peak of the explicit run, between
-        their points in the range that both have."""
+        """Differences of the curves by the peak of the explicit run, in the
+        range that both have and up to the earlier of both peaks: beyond it one
+        falls while the other still rises."""
         explicit, implicit = self.runs
         way = np.unique(np.concatenate([run.way for run in self.runs]))
         way = way[(way >= self.first) & (way <= self.last)]
         apart = np.abs(implicit.at(way) - explicit.at(way)) / abs(explicit.peak)
-        before = way <= self.peak_way
+        before = way <= min(run.way[run.peak_row] for run in self.runs)
         worst = int(apart.argmax())
         unit = bracketed(self.figure.x_label)
         mean = np.sum(0.5 * (apart[1:] + apart[:-1]) * np.diff(way))

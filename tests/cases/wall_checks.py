@@ -165,8 +165,8 @@ def compare_solvers(case, folder, output, histories):
 def solvers_agree(case, prm, explicit, implicit):
     """Both runs by the numbers of scripts/compare: the peak of the implicit
     one against the tests ("peak" [N], "tolerance") and against the explicit
-    one ("peak tolerance"), the largest difference of the curves up to the peak
-    by the peak ("curve tolerance"), the length of joints open at the peak in
+    one ("peak tolerance"), the largest difference of the curves up to the
+    earlier peak by the explicit one ("curve tolerance"), the length of joints open at the peak in
     one run only by that open in either ("joints tolerance"), and the part of
     the explicit curve that the implicit one does not reach ("range
     tolerance")."""

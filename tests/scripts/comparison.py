@@ -47,6 +47,15 @@ class Numbers(Folders):
         self.assertAlmostEqual(curves["mean difference"],
                                0.1 * (40. + 35.) / 3. / 40.)
 
+    def test_beyond_the_earlier_peak_is_not_before_the_peak(self):
+        shutil.rmtree(self.implicit)
+        write_run(self.implicit, 1e-3 * np.array([0., 1., 2.]),
+                  -1e3 * np.array([0., 22., 20.]), {})
+        curves = self.compare().numbers()["curves"]
+        self.assertAlmostEqual(curves["largest difference up to the peak"],
+                               0.05)
+        self.assertAlmostEqual(curves["largest difference"], 0.5)
+
     def test_fields_are_of_the_same_displacement(self):
         joints = self.compare().numbers()["joints"]
         peak, end = joints["at the peak"], joints["at the end"]
