@@ -134,7 +134,7 @@ class Comparison:
                 "the curves of the two runs have nothing in common: "
                 + ", ".join(f"{name} from {run.way[0]:g} to {run.way[-1]:g}"
                             for name, run in zip(SOLVERS, self.runs)))
-        self.peak_way = self.runs[0].way[self.runs[0].peak_row]
+        self.peak_ways = [run.way[run.peak_row] for run in self.runs]
         self.notes = []
 
     def curves(self):
@@ -145,7 +145,7 @@ class Comparison:
         way = np.unique(np.concatenate([run.way for run in self.runs]))
         way = way[(way >= self.first) & (way <= self.last)]
         apart = np.abs(implicit.at(way) - explicit.at(way)) / abs(explicit.peak)
-        before = way <= min(run.way[run.peak_row] for run in self.runs)
+        before = way <= min(self.peak_ways)
         worst = int(apart.argmax())
         unit = bracketed(self.figure.x_label)
         mean = np.sum(0.5 * (apart[1:] + apart[:-1]) * np.diff(way))
@@ -175,8 +175,9 @@ class Comparison:
         return found
 
     def places(self):
-        """The ways at which joints are compared."""
-        return {"at the peak": min(self.peak_way, self.last),
+        """The ways at which joints are compared: the earlier peak, up to which
+        both should crack alike, and the last that both reach."""
+        return {"at the peak": min(*self.peak_ways, self.last),
                 "at the end": self.last}
 
     def joints(self):
@@ -218,7 +219,7 @@ class Comparison:
             elif run.peaks_at_end:
                 self.notes.append(f"the {name} curve has its largest value at "
                                   f"its end: that may not be its peak")
-        if self.peak_way > self.last:
+        if self.peak_ways[0] > self.last:
             self.notes.append("the implicit run does not reach the peak of "
                               "the explicit one")
 

@@ -91,6 +91,8 @@ class Numbers(Folders):
         numbers = self.compare().numbers()
         self.assertAlmostEqual(numbers["curves"]["largest difference"], 0.)
         self.assertTrue(numbers["implicit"]["peak at its end"])
+        self.assertEqual(numbers["joints"]["at the peak"]["explicit at [mm]"],
+                         2.)
         self.assertTrue(any("does not reach the peak" in note
                             for note in numbers["notes"]))
         self.assertTrue(any("fields at the peak are far apart" in note
