@@ -60,11 +60,12 @@ def columns_for(n, ratio):
     return -(-n // -(-n // most))
 
 
-def draw_panel(picture, frames):
-    """A figure of several moments, in rows."""
+def draw_panel(picture, frames, n_columns=None):
+    """A figure of several moments, in rows of @p n_columns, by default as many
+    as fit."""
     ratio = picture.extent[0] / picture.extent[1]
     bars = picture.colour_bars()
-    n_columns = columns_for(len(frames), ratio)
+    n_columns = n_columns or columns_for(len(frames), ratio)
     n_rows = -(-len(frames) // n_columns)
     width = (PANEL_WIDTH - 0.9 * len(bars)) / n_columns - 0.1
     figure, all_axes = plt.subplots(

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
-"""Reads used_parameters.prm, which quoin leaves in the output folder."""
+"""Reads used_parameters.prm, which quoin leaves in the output folder, and
+where that is from a case's parameter file."""
 
 import os
+import re
 
 
 def read(output):
@@ -48,3 +50,26 @@ def peak_crushing(output):
         for name, peak in zip(joint_sets(output),
                               of_joint_sets(output, "Peak crushing"))
     ]
+
+
+def lines_of(path):
+    """Of a parameter file and those that it includes, without comments."""
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            line = line.split("#")[0].strip()
+            included = re.match(r"include\s+(.+)", line)
+            if included:
+                yield from lines_of(os.path.join(os.path.dirname(path),
+                                                 included.group(1)))
+            else:
+                yield line
+
+
+def output_of(case, overrides=()):
+    """The output directory that a parameter file, or "Name=value" that
+    overrides it, names."""
+    name = "output"
+    for line in (*lines_of(case), *("set " + text for text in overrides)):
+        found = re.match(r"set\s+Output directory\s*=\s*(.+)", line)
+        name = found.group(1) if found else name
+    return os.path.join(os.path.dirname(case), name)

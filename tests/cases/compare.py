@@ -86,6 +86,7 @@ def run_case(case, options):
                                           reference_units))
         extra = {}
         if "check" in case:
+            case["quoin"] = options.quoin
             room = checks if hasattr(checks, case["check"]) else wall_checks
             extra = getattr(room, case["check"])(case, folder, output,
                                                  histories)
@@ -108,6 +109,7 @@ def run_case(case, options):
         common.results_folder(options), name, title=case["title"],
         reference=case["source"], error=worst, tolerance=tolerance,
         seconds=round(seconds, 2), passed=not failed, wall=case.get("wall"),
+        solvers=case.get("solvers"),
         errors={**{k: v[0] for k, v in errors.items()},
                 **{k: v[0] for k, v in extra.items()}})
     if failed:

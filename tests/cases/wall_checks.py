@@ -3,7 +3,8 @@
 """Checks of masonry walls, as those of checks.py.
 
 Forces are reactions of the lower beam: negative where the upper one is pushed
-to the right. What scripts/table shows of a wall goes into the case's "wall".
+to the right. What scripts/table shows of a wall goes into the case's "wall", what
+it shows of both solvers into "solvers".
 """
 import os
 import sys
@@ -11,9 +12,14 @@ import sys
 import numpy as np
 
 import checks
+import common
+from common import Failure
 
 sys.path.insert(0, os.path.join(checks.HERE, os.pardir, os.pardir, "scripts"))
+import solver_comparison  # noqa: E402
 import vtu  # noqa: E402
+
+LOST_EQUILIBRIUM = 2                 # exit status: outputs are kept
 
 
 def note(case, tests, peak, histories):
@@ -143,3 +149,67 @@ def cyclic_wall(case, folder, output, histories):
     result["hysteresis, missing of a fifth"] = (float(max(0.0, 0.2 - share)),
                                                 1e-6)
     return result
+
+
+def compare_solvers(case, folder, output, histories):
+    """The case once more by the implicit solver, against the explicit run in
+    @p output; the implicit one may have lost its equilibrium."""
+    prm = os.path.join(folder, case["prm"])
+    implicit = os.path.join(output, "implicit")
+    common.run(case["quoin"], prm, implicit,
+               case.get("set", []) + ["Solver=implicit"],
+               accepted=(0, LOST_EQUILIBRIUM))
+    return solvers_agree(case, prm, output, implicit)
+
+
+def solvers_agree(case, prm, explicit, implicit):
+    """Both runs by the numbers of scripts/compare: the peak of the implicit
+    one against the tests ("peak" [N], "tolerance") and against the explicit
+    one ("peak tolerance"), the largest difference of the curves up to the
+    earlier peak by the explicit one ("curve tolerance"), the length of joints open at the peak in
+    one run only by that open in either ("joints tolerance"), and the part of
+    the explicit curve that the implicit one does not reach ("range
+    tolerance")."""
+    try:
+        numbers = solver_comparison.Comparison(
+            *solver_comparison.spec_of(prm), explicit, implicit).numbers()
+    except ValueError as error:
+        raise Failure(str(error)) from error
+    for note in numbers["notes"]:
+        print("  note: " + note)
+    if numbers["joints"] is None:
+        raise Failure("joints cannot be compared, see the note")
+    curves, joints = numbers["curves"], numbers["joints"]["at the peak"]
+    note_solvers(case, numbers)
+    # as shown: [kN], [mm]
+    peak = abs(numbers["implicit"]["peak [kN]"])
+    shared = joints["open in both"]
+    return {
+        "implicit peak of the tests": (
+            float(abs(1e3 * peak / case["peak"] - 1)), case["tolerance"]),
+        "peak, implicit by explicit": (
+            abs(numbers["peak, implicit by explicit"] - 1),
+            case["peak tolerance"]),
+        "curves up to the peak": (curves["largest difference up to the peak"],
+                                  case["curve tolerance"]),
+        "open in one run only": (0.0 if shared is None else 1.0 - shared,
+                                 case["joints tolerance"]),
+        "explicit curve, missing": (
+            1.0 - curves["share of the explicit curve"],
+            case["range tolerance"])}
+
+
+def note_solvers(case, numbers):
+    """What scripts/table shows of a wall by both solvers."""
+    wanted = ("peak [kN]", "at [mm]", "wall time [s]")
+    for name in wanted:
+        if numbers["implicit"].get(name) is None:
+            raise Failure("the implicit run has no '%s': is the figure of the "
+                          "case in [mm] and [kN]?" % name)
+    case["solvers"] = {
+        "tests [kN]": case["peak"] / 1e3,
+        **{solver: {name: numbers[solver][name] for name in wanted}
+           for solver in solver_comparison.SOLVERS},
+        "curve difference": numbers["curves"][
+            "largest difference up to the peak"],
+        "open in both": numbers["joints"]["at the peak"]["open in both"]}
