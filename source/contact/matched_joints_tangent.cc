@@ -44,10 +44,15 @@ namespace quoin
       return law.update(point, opening, slip, tangent);
     }
 
-    /** An increment counts if it opens, crushes or slips: by its size. */
-    double sign(const double increment)
+    /**
+     * How an increment counts that adds to @p total: as more of it, so that
+     * slip on the way back does not, or by its size where there is none yet.
+     */
+    double direction(const double total, const double increment)
     {
-      return increment > 0. ? 1. : increment < 0. ? -1. : 0.;
+      return total != 0.       ? std::copysign(1., total)
+             : increment != 0. ? std::copysign(1., increment)
+                               : 0.;
     }
   } // namespace
 
@@ -91,8 +96,9 @@ namespace quoin
       const auto [opening, slip] = gap(segment, local, nodes, k);
       const unsigned int p       = 2 * i + k;
       JointTangent tangent;
-      double plastic_opening = history.plastic_opening[p];
-      double plastic_slip    = history.plastic_slip[p];
+      const double total_opening = history.plastic_opening[p];
+      const double total_slip    = history.plastic_slip[p];
+      double plastic_opening = 0., plastic_slip = 0.; // increments
       const auto advance = [&, opening = opening, slip = slip](const auto &law)
       {
         auto point = read_point(law, history, p);
@@ -100,8 +106,8 @@ namespace quoin
              segment.area * segment.share, energy);
         write_flow(point, history, p);
         write_tractions(point, history, p);
-        plastic_opening = point.plastic_opening - plastic_opening;
-        plastic_slip    = point.plastic_slip - plastic_slip;
+        plastic_opening = point.plastic_opening - total_opening;
+        plastic_slip    = point.plastic_slip - total_slip;
       };
       if (composites[segment.set])
         advance(*composites[segment.set]);
@@ -111,10 +117,10 @@ namespace quoin
       const double sigma    = history.normal_traction[p];
       const double tau      = history.shear_traction[p];
       const CoulombLaw &law = laws[segment.set];
-      const double opens = sign(plastic_opening), slips = sign(plastic_slip);
+      const double opens    = direction(total_opening, plastic_opening);
+      const double slips    = direction(total_slip, plastic_slip);
       result.inelastic
-          += segment.area
-             * (std::abs(plastic_opening) + std::abs(plastic_slip));
+          += segment.area * (opens * plastic_opening + slips * plastic_slip);
       double traction[2];
       for (unsigned int d = 0; d < 2; ++d)
         traction[d] = sigma * local.normal[d] + tau * local.tangent[d];

@@ -21,8 +21,8 @@ namespace quoin
     constexpr unsigned int steps_ahead = 5;
     /** Error of the path's length that is let pass, as a share. */
     constexpr double path_tolerance = 1e-3;
-    /** Shares of a correction that the line search tries. */
-    constexpr double search_shares[] = { 1., 0.5, 0.25, 0.1 };
+    /** Of a correction, where the line search gives up. */
+    constexpr double least_search_share = 0.1;
     /** A correction must bring this much of its share of the force down. */
     constexpr double least_gain = 0.1;
   } // namespace
@@ -86,8 +86,12 @@ namespace quoin
     if (!parameters.line_search || iteration == 0)
       return go(1.);
 
+    // Along a correction the unbalanced force falls with the slope -1 of its
+    // own size, until a joint changes its ways: halve, or go to the minimum
+    // of the parabola.
+    const double base = balance.unbalanced;
     double best = std::numeric_limits<double>::infinity(), best_share = 1.;
-    for (const double eta : search_shares)
+    for (double eta = 1.; eta >= least_search_share;)
     {
       go(eta);
       equilibrium->find_forces(state, configuration, broken, trial);
@@ -96,8 +100,11 @@ namespace quoin
         best       = trial.unbalanced;
         best_share = eta;
       }
-      if (trial.unbalanced <= (1. - least_gain * eta) * balance.unbalanced)
+      if (trial.unbalanced <= (1. - least_gain * eta) * base)
         break;
+      const double parabola
+          = 0.5 * base * eta * eta / (trial.unbalanced - base + base * eta);
+      eta = std::clamp(parabola, 0.1 * eta, 0.5 * eta);
     }
     last_share = best_share;
     go(best_share);

@@ -27,8 +27,8 @@ namespace quoin
     std::array<double, 8> force;                    /**< [N] */
     std::array<std::array<double, 8>, 8> stiffness; /**< [N/m] */
     /**
-     * Sum over the points of area times increment of inelastic opening and
-     * slip [m^3], and its derivative [m^2].
+     * Sum over the points of area times what inelastic opening and slip grew
+     * by, less on the way back [m^3], and its derivative [m^2].
      */
     double inelastic;
     std::array<double, 8> inelastic_gradient;
