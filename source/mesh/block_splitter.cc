@@ -307,6 +307,13 @@ namespace quoin
         mesh.cells[h / 3][h % 3]           = vertex_of_corner[h];
       }
       mesh.cell_group = data.triangle_group;
+
+      mesh.quadratic = data.quadratic;
+      mesh.is_midside.assign(data.quadratic ? n_vertices : 0, false);
+      if (mesh.quadratic)
+        for (unsigned int c = 3; c < mesh.n_cells(); c += 4)
+          for (const unsigned int v : mesh.cells[c])
+            mesh.is_midside[v] = true;
     }
 
     void Splitter::check_joint_ends() const

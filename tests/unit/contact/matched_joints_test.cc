@@ -25,9 +25,10 @@ namespace
     EnergyAccounts energy;
 
     explicit Stack(const unsigned int nx = 1, const double angle = 0.,
-                   const JointSetParameters &set = elastic_joint(kn, ks))
+                   const JointSetParameters &set = elastic_joint(kn, ks),
+                   const bool quadratic          = false)
     {
-      make_stack(mesh, nx, 1);
+      make_stack(mesh, nx, 1, quadratic);
       const double c = std::cos(angle), s = std::sin(angle);
       for (auto &p : mesh.vertices)
         p = { c * p[0] - s * p[1], s * p[0] + c * p[1] };
@@ -99,12 +100,71 @@ TEST(MatchedJoints, TributaryAreasSumToTheJoint)
     double area = 0.;
     for (unsigned int i = 0; i < 3; ++i)
     {
-      EXPECT_NEAR(stack.joints.segment(i).area, 0.5 * thickness, 1e-15);
       EXPECT_EQ(stack.joints.segment(i).share, 1.f);
-      area += 2. * stack.joints.segment(i).area;
+      for (const double a : stack.joints.segment(i).area)
+      {
+        EXPECT_NEAR(a, 0.5 * thickness, 1e-15);
+        area += a;
+      }
     }
     EXPECT_NEAR(area, 3. * thickness, 1e-14);
   }
+}
+
+TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
+{
+  Stack stack(3, 50. * degree, elastic_joint(kn, ks), true);
+  ASSERT_EQ(stack.joints.n_segments(), 6U);
+  double area = 0.;
+  for (unsigned int i = 0; i < 6; ++i)
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      const auto &segment = stack.joints.segment(i);
+      const bool middle   = stack.mesh.is_midside[segment.lower[k]];
+      EXPECT_NEAR(segment.area[k], (middle ? 1. / 3. : 1. / 6.) * thickness,
+                  1e-15);
+      area += segment.area[k];
+    }
+  EXPECT_NEAR(area, 3. * thickness, 1e-14);
+
+  // The upper block turns a little about the lower left end of the joint:
+  // force and moment are those of the integrals of s and s^2 over the length
+  // of 3, which the trapezoidal rule on the same nodes misses by 1/72.
+  const double turn = 1e-9;
+  for (unsigned int v = stack.mesh.block_first_vertex[1];
+       v < stack.mesh.block_first_vertex[2]; ++v)
+  {
+    const auto &p  = stack.mesh.vertices[v];
+    const auto &o  = vertices_at(stack.mesh, -std::sin(50. * degree),
+                                 std::cos(50. * degree));
+    const auto arm = p - stack.mesh.vertices[o.front()];
+    stack.state.nodes[v].u[0] -= turn * arm[1];
+    stack.state.nodes[v].u[1] += turn * arm[0];
+  }
+  stack.find_forces();
+  double force = 0., moment = 0., bound = 0.;
+  const double c = std::cos(50. * degree), s = std::sin(50. * degree);
+  for (unsigned int v = 0; v < stack.mesh.block_first_vertex[1]; ++v)
+  {
+    const double along
+        = c * stack.mesh.vertices[v][0] + s * stack.mesh.vertices[v][1];
+    const double normal = -s * stack.force[v].v[0] + c * stack.force[v].v[1];
+    force += normal;
+    moment += along * normal;
+  }
+  const double unit = kn * turn * thickness;
+  EXPECT_NEAR(force, 4.5 * unit, 1e-6 * unit);
+  EXPECT_NEAR(moment, 9. * unit, 1e-6 * unit);
+
+  // The stiffness of a node is that of all its points.
+  std::vector<std::array<double, 3>> stiffness(stack.mesh.n_vertices(),
+                                               { { 0., 0., 0. } });
+  stack.joints.add_stiffness_bound(
+      stack.state.nodes.data(), [](unsigned int, unsigned int) { return 0.; },
+      stiffness);
+  for (unsigned int v = 0; v < stack.mesh.block_first_vertex[1]; ++v)
+    bound += stiffness[v][0] + stiffness[v][1];
+  EXPECT_NEAR(bound, 3. * thickness * (kn + ks), 1e-5 * kn);
 }
 
 TEST(MatchedJoints, UniformOpeningAndSlip)
