@@ -348,6 +348,8 @@ namespace quoin
         if (neighbour[h] == none)
           outer.push_back(h);
       }
+      if (data.quadratic) // an edge of a triangle is two half as long
+        shortest *= 2.;
       const double tolerance = options.coincidence_tolerance * shortest;
       const double width     = std::max(shortest, 4. * tolerance);
 

@@ -131,19 +131,18 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   // force and moment are those of the integrals of s and s^2 over the length
   // of 3, which the trapezoidal rule on the same nodes misses by 1/72.
   const double turn = 1e-9;
+  const double c = std::cos(50. * degree), s = std::sin(50. * degree);
+  std::vector<NodeVector> motion(stack.mesh.n_vertices(), { { 0., 0. } });
   for (unsigned int v = stack.mesh.block_first_vertex[1];
        v < stack.mesh.block_first_vertex[2]; ++v)
   {
-    const auto &p  = stack.mesh.vertices[v];
-    const auto &o  = vertices_at(stack.mesh, -std::sin(50. * degree),
-                                 std::cos(50. * degree));
-    const auto arm = p - stack.mesh.vertices[o.front()];
-    stack.state.nodes[v].u[0] -= turn * arm[1];
-    stack.state.nodes[v].u[1] += turn * arm[0];
+    const auto arm = stack.mesh.vertices[v] - dealii::Point<2>(-s, c);
+    motion[v]      = { { -turn * arm[1], turn * arm[0] } };
+    for (unsigned int d = 0; d < 2; ++d)
+      stack.state.nodes[v].u[d] = motion[v].v[d];
   }
   stack.find_forces();
-  double force = 0., moment = 0., bound = 0.;
-  const double c = std::cos(50. * degree), s = std::sin(50. * degree);
+  double force = 0., moment = 0.;
   for (unsigned int v = 0; v < stack.mesh.block_first_vertex[1]; ++v)
   {
     const double along
@@ -155,16 +154,36 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   const double unit = kn * turn * thickness;
   EXPECT_NEAR(force, 4.5 * unit, 1e-6 * unit);
   EXPECT_NEAR(moment, 9. * unit, 1e-6 * unit);
+  EXPECT_NEAR(
+      stack.joints.stored_energy(stack.state.nodes.data(), stack.state.joints),
+      4.5 * turn * unit, 1e-6 * turn * unit);
 
-  // The stiffness of a node is that of all its points.
+  // At the rate of this motion dampers of the joint's stiffness give the same
+  // force; that of each node has its own area.
+  std::vector<NodeVector> viscous(stack.mesh.n_vertices(), { { 0., 0. } });
+  stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.state.joints,
+                                  motion.data(), 1., viscous.data());
   std::vector<std::array<double, 3>> stiffness(stack.mesh.n_vertices(),
                                                { { 0., 0., 0. } });
   stack.joints.add_stiffness_bound(
       stack.state.nodes.data(), [](unsigned int, unsigned int) { return 0.; },
       stiffness);
   for (unsigned int v = 0; v < stack.mesh.block_first_vertex[1]; ++v)
-    bound += stiffness[v][0] + stiffness[v][1];
-  EXPECT_NEAR(bound, 3. * thickness * (kn + ks), 1e-5 * kn);
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+      EXPECT_NEAR(viscous[v].v[d], stack.force[v].v[d], 1e-6 * unit);
+    const double along
+        = c * stack.mesh.vertices[v][0] + s * stack.mesh.vertices[v][1];
+    const bool on_joint = std::abs(c * stack.mesh.vertices[v][1]
+                                   - s * stack.mesh.vertices[v][0] - 1.)
+                          < 1e-9;
+    const double share = !on_joint                    ? 0.
+                         : stack.mesh.is_midside[v]   ? 2. / 3.
+                         : along < 0.1 || along > 2.9 ? 1. / 6.
+                                                      : 1. / 3.;
+    EXPECT_NEAR(stiffness[v][0] + stiffness[v][1],
+                share * thickness * (kn + ks), 1e-5 * kn);
+  }
 }
 
 TEST(MatchedJoints, UniformOpeningAndSlip)

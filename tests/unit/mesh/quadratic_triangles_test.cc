@@ -163,6 +163,22 @@ TEST(QuadraticTriangles, CracksEndAtCorners)
                  && face.lower[1] == face.upper[1]);
 }
 
+TEST(QuadraticTriangles, BlocksApartTouchAsLinearOnesDo)
+{
+  for (const double gap : { 0.8e-3, 1.2e-3 })
+  {
+    MeshData data;
+    add_grid(data, 3, 1, "rock");
+    add_grid(data, 3, 1, "rock", 0., 1. + gap);
+    BlockMesh<2> linear, mesh;
+    split_into_blocks(data, {}, linear);
+    cut_into_quadratic_triangles(data);
+    split_into_blocks(data, {}, mesh);
+    EXPECT_EQ(linear.joint_faces.size(), gap < 1e-3 ? 3U : 0U);
+    EXPECT_EQ(mesh.joint_faces.size(), 2 * linear.joint_faces.size());
+  }
+}
+
 TEST(QuadraticTriangles, HaveSimpsonsWeights)
 {
   MeshData data;
