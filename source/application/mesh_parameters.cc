@@ -18,10 +18,13 @@ namespace quoin
                       "gmsh geometry (.geo) or mesh (.msh), relative to "
                       "the folder of this file; coordinates in [m]. Empty "
                       "with a wall of section 'Wall'.");
-    prm.declare_entry("Triangles", "plain", Selection("plain|crossed"),
+    prm.declare_entry("Triangles", "plain",
+                      Selection("plain|crossed|quadratic"),
                       "plain: the file's or gmsh's triangles; crossed: "
                       "quadrangles, each cut into four triangles by its "
-                      "diagonals, which do not lock in plastic flow.");
+                      "diagonals, which do not lock in plastic flow; "
+                      "quadratic: those of 'plain' with nodes in the middle "
+                      "of their edges, for the implicit solver.");
     prm.declare_entry("Joints along", "", Anything(),
                       "Physical curves along which the mesh is split into "
                       "blocks; empty with a wall of section 'Wall': all of "
@@ -97,7 +100,8 @@ namespace quoin
     const ParameterSection section(top, "Mesh");
     parameters.triangles = section.choice<TriangleKind>(
         "Triangles", { { "plain", TriangleKind::plain },
-                       { "crossed", TriangleKind::crossed } });
+                       { "crossed", TriangleKind::crossed },
+                       { "quadratic", TriangleKind::quadratic } });
     if (!generated)
       read_mesh_file(section, parameters);
     if (!generated || !section.text("Joints along").empty())
@@ -118,5 +122,16 @@ namespace quoin
     parameters.split.joint_ends = section.choice<SplitOptions::JointEnds>(
         "Joint ends inside blocks",
         { { "keep", SplitOptions::keep }, { "refuse", SplitOptions::refuse } });
+  }
+
+  void check_triangles(const ParameterSection &top,
+                       const Parameters &parameters)
+  {
+    if (parameters.triangles == TriangleKind::quadratic)
+      ParameterSection(top, "Mesh")
+          .fail("Triangles",
+                "needs 'Solver = implicit': explicit steps divide forces by "
+                "masses of nodes, and the corners of quadratic triangles have "
+                "none. Take 'plain' or 'crossed'.");
   }
 } // namespace quoin

@@ -631,6 +631,7 @@ namespace quoin
       read_boundary_model(top, parameters);
     else
       read_block_model(top, parameters);
+    check_triangles(top, parameters);
 
     std::ostringstream effective;
     prm.print_parameters(effective, ParameterHandler::ShortPRM);

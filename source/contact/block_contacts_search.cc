@@ -234,7 +234,7 @@ namespace quoin
         point.plastic_slip    = state.joints.plastic_slip[p];
         point.plastic_opening = state.joints.plastic_opening[p];
         point.state           = state.joints.state[p];
-        point.area            = segment.area;
+        point.area            = segment.area[k];
         // The vertices that coincided; the upper edge runs backwards.
         point.anchor_lower              = k;
         point.anchor_upper              = 1. - k;

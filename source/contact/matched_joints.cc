@@ -102,10 +102,10 @@ namespace quoin
       {
         segment.lower[k] = exchange.local(face.lower[k]);
         segment.upper[k] = exchange.local(face.upper[k]);
+        segment.area[k]  = mesh.edge_share(face.lower[k]) * thickness
+                          * mesh.vertices[face.lower[0]].distance(
+                              mesh.vertices[face.lower[1]]);
       }
-      segment.area = 0.5 * thickness
-                     * mesh.vertices[face.lower[0]].distance(
-                         mesh.vertices[face.lower[1]]);
       segment.share = 0.5f * sides;
       segment.set   = set;
       segment.face  = f;
@@ -198,13 +198,13 @@ namespace quoin
         if (!law.update_elastic(point, opening, slip))
         {
           book(law.update_failing(point, opening, slip),
-               segment.area * segment.share, energy);
+               segment.area[k] * segment.share, energy);
           write_flow(point, history, p);
         }
         write_tractions(point, history, p);
 
-        const double sigma = segment.area * point.normal_traction;
-        const double tau   = segment.area * point.shear_traction;
+        const double sigma = segment.area[k] * point.normal_traction;
+        const double tau   = segment.area[k] * point.shear_traction;
         NodeVector &lower  = force[segment.lower[k]];
         NodeVector &upper  = force[segment.upper[k]];
         for (unsigned int d = 0; d < 2; ++d)
@@ -258,7 +258,7 @@ namespace quoin
         const double tau   = beta * law.shear_stiffness * slip_rate;
         for (unsigned int d = 0; d < 2; ++d)
         {
-          const double f = segment.area
+          const double f = segment.area[k]
                            * (sigma * local.normal[d] + tau * local.tangent[d]);
           force[segment.lower[k]].v[d] += f;
           force[segment.upper[k]].v[d] -= f;
@@ -277,11 +277,10 @@ namespace quoin
         continue;
       const Segment &segment = segments[i];
       const auto gap         = gaps(nodes, i);
-      const double weight    = segment.area * segment.share;
       const auto sum         = [&](const auto &law)
       {
         for (unsigned int k = 0; k < 2; ++k)
-          energy += weight
+          energy += segment.area[k] * segment.share
                     * energy_of(law, read_point(law, history, 2 * i + k),
                                 gap[k][0]);
       };
@@ -302,17 +301,17 @@ namespace quoin
       const Frame local     = frame(segment, nodes);
       const CoulombLaw &law = laws[segment.set];
       const double *n = local.normal, *s = local.tangent;
-      const double kn = segment.area * law.normal_stiffness;
-      const double ks = segment.area * law.shear_stiffness;
-      const std::array<double, 3> spring
-          = { { kn * n[0] * n[0] + ks * s[0] * s[0],
-                kn * n[1] * n[1] + ks * s[1] * s[1],
-                kn * n[0] * n[1] + ks * s[0] * s[1] } };
       for (unsigned int k = 0; k < 2; ++k)
       {
         const unsigned int a = segment.lower[k], b = segment.upper[k];
         if (a == b) // the tip of a crack
           continue;
+        const double kn = segment.area[k] * law.normal_stiffness;
+        const double ks = segment.area[k] * law.shear_stiffness;
+        const std::array<double, 3> spring
+            = { { kn * n[0] * n[0] + ks * s[0] * s[0],
+                  kn * n[1] * n[1] + ks * s[1] * s[1],
+                  kn * n[0] * n[1] + ks * s[0] * s[1] } };
         const double ab = ratio(a, b), ba = ratio(b, a);
         for (unsigned int c = 0; c < 3; ++c)
         {

@@ -38,7 +38,8 @@ namespace quoin
     pack_blocks();
     matched_joints.prepare(mesh, *nodes, parameters.joints,
                            parameters.thickness);
-    find_stable_step();
+    if (!mesh.quadratic)
+      find_stable_step();
   }
 
   void Model::find_materials()
@@ -131,11 +132,11 @@ namespace quoin
     std::vector<double> mass(block_mesh.n_vertices(), 0.);
     for (unsigned int c = 0; c < block_mesh.n_cells(); ++c)
     {
-      const auto &cell = block_mesh.cells[c];
       const double third
-          = triangle(block_mesh, cell).area() * parameters.thickness
+          = triangle(block_mesh, block_mesh.cells[c]).area()
+            * parameters.thickness
             * parameters.materials[material_of_cell(c)].elastic.density / 3.;
-      for (const unsigned int v : cell)
+      for (const unsigned int v : block_mesh.mass_vertices(c))
         mass[v] += third;
     }
     for (unsigned int i = 0; i < nodes->n_local(); ++i)

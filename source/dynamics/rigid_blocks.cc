@@ -105,10 +105,9 @@ namespace quoin
                             * thickness * density[mesh.cell_group[c]]);
         mass += cell_mass.back();
         for (const unsigned int v : mesh.cells[c])
-        {
           centre += cell_mass.back() / 3. * (mesh.vertices[v] - origin);
+        for (const unsigned int v : mesh.mass_vertices(c))
           node_mass[v - first_vertex] += cell_mass.back() / 3.;
-        }
       }
       centre /= mass;
 

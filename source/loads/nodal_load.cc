@@ -95,9 +95,10 @@ namespace quoin
         if (exchange.owns(v))
         {
           const unsigned int node = exchange.local(v);
-          area[node] += 0.5 * edge.norm() * thickness;
-          inward_area[node].v[0] -= 0.5 * edge[1] * thickness;
-          inward_area[node].v[1] += 0.5 * edge[0] * thickness;
+          const double share      = mesh.edge_share(v);
+          area[node] += share * edge.norm() * thickness;
+          inward_area[node].v[0] -= share * edge[1] * thickness;
+          inward_area[node].v[1] += share * edge[0] * thickness;
         }
     }
     for (const auto &[node, weight] : area)

@@ -51,7 +51,9 @@ namespace quoin
       const std::vector<unsigned int> new_vertex
           = inverse_permutation(vertex_order);
 
-      mesh.vertices   = permuted(mesh.vertices, vertex_order);
+      mesh.vertices = permuted(mesh.vertices, vertex_order);
+      if (mesh.quadratic)
+        mesh.is_midside = permuted(mesh.is_midside, vertex_order);
       mesh.cells      = permuted(mesh.cells, cell_order);
       mesh.cell_group = permuted(mesh.cell_group, cell_order);
       for (auto &cell : mesh.cells)
@@ -80,18 +82,26 @@ namespace quoin
                 { return a.lower[0] < b.lower[0]; });
     }
 
-    /** Cells by block, within a block along a Hilbert curve. */
+    /**
+     * Cells by block, within a block along a Hilbert curve; the four of a
+     * quadratic triangle stay together.
+     */
     std::vector<unsigned int>
     order_cells(const BlockMesh<2> &mesh,
                 const std::vector<unsigned int> &block_of_cell)
     {
-      constexpr int bits = 31;
-      std::vector<dealii::Point<2>> centres(mesh.n_cells());
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        centres[c]
-            = (mesh.vertices[mesh.cells[c][0]] + mesh.vertices[mesh.cells[c][1]]
-               + mesh.vertices[mesh.cells[c][2]])
-              / 3.;
+      constexpr int bits            = 31;
+      const unsigned int n_together = mesh.quadratic ? 4 : 1;
+      const unsigned int n          = mesh.n_cells() / n_together;
+      std::vector<dealii::Point<2>> centres(n);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        // The last of four is in the middle.
+        const auto &cell = mesh.cells[n_together * i + n_together - 1];
+        centres[i]       = (mesh.vertices[cell[0]] + mesh.vertices[cell[1]]
+                      + mesh.vertices[cell[2]])
+                     / 3.;
+      }
       const auto places
           = dealii::Utilities::inverse_Hilbert_space_filling_curve(centres,
                                                                    bits);
@@ -99,22 +109,24 @@ namespace quoin
       struct Entry
       {
         unsigned int block;
-        unsigned int cell;
+        unsigned int first_cell;
         std::uint64_t place;
       };
-      std::vector<Entry> entries(mesh.n_cells());
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        entries[c] = { block_of_cell[c], c,
-                       dealii::Utilities::pack_integers<2>(places[c], bits) };
+      std::vector<Entry> entries(n);
+      for (unsigned int i = 0; i < n; ++i)
+        entries[i] = { block_of_cell[n_together * i], n_together * i,
+                       dealii::Utilities::pack_integers<2>(places[i], bits) };
       std::sort(entries.begin(), entries.end(),
                 [](const Entry &a, const Entry &b)
                 {
-                  return std::tie(a.block, a.place, a.cell)
-                         < std::tie(b.block, b.place, b.cell);
+                  return std::tie(a.block, a.place, a.first_cell)
+                         < std::tie(b.block, b.place, b.first_cell);
                 });
-      std::vector<unsigned int> order(mesh.n_cells());
-      for (unsigned int i = 0; i < order.size(); ++i)
-        order[i] = entries[i].cell;
+      std::vector<unsigned int> order;
+      order.reserve(mesh.n_cells());
+      for (const Entry &entry : entries)
+        for (unsigned int k = 0; k < n_together; ++k)
+          order.push_back(entry.first_cell + k);
       return order;
     }
 

@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/mesh/crossed_triangles.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/mesh/quadratic_triangles.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -418,6 +419,8 @@ namespace quoin
       read_lines();
       read_vertices();
       orient_triangles(mesh);
+      if (kind == TriangleKind::quadratic)
+        cut_into_quadratic_triangles(mesh);
       return std::move(mesh);
     }
   } // namespace

@@ -37,6 +37,12 @@ namespace quoin
           largest_cosine
               = std::max(largest_cosine, a * b / (length * b.norm()));
         }
+      // A quadratic triangle is its cells at twice the size.
+      if (mesh.quadratic)
+      {
+        report.shortest_edge *= 2.;
+        report.longest_edge *= 2.;
+      }
       report.smallest_angle = std::acos(std::min(1., largest_cosine)) * 180.
                               / dealii::numbers::PI;
 
@@ -139,6 +145,7 @@ namespace quoin
     report.n_cells            = mesh.n_cells();
     report.n_vertices         = mesh.n_vertices();
     report.n_joint_faces      = mesh.joint_faces.size();
+    report.quadratic          = mesh.quadratic;
     report.n_reoriented_cells = mesh.n_reoriented_cells;
     if (report.n_cells == 0)
       return report;
@@ -151,12 +158,14 @@ namespace quoin
   std::string MeshReport::to_text() const
   {
     std::ostringstream text;
-    text << n_blocks << " blocks, " << n_cells << " triangles, " << n_vertices
+    text << n_blocks << " blocks, " << n_cells / (quadratic ? 4 : 1)
+         << (quadratic ? " quadratic" : "") << " triangles, " << n_vertices
          << " nodes; x " << lower_left[0] << " to " << upper_right[0]
          << " m, y " << lower_left[1] << " to " << upper_right[1] << " m\n"
          << "edges " << shortest_edge << " to " << longest_edge
          << " m, smallest angle " << smallest_angle << " degrees\n"
-         << n_joint_faces << " joint faces, " << total_joint_length << " m";
+         << n_joint_faces / (quadratic ? 2 : 1) << " joint faces, "
+         << total_joint_length << " m";
     const char *separator = ": ";
     for (const auto &[name, length] : joint_length)
     {

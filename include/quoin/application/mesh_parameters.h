@@ -16,6 +16,10 @@ namespace quoin
    * the joints are. Throws an InputError that names file, section and cure.
    */
   void read_mesh(const ParameterSection &top, Parameters &parameters);
+
+  /** Throws an InputError if the solver cannot use the kind of triangles. */
+  void check_triangles(const ParameterSection &top,
+                       const Parameters &parameters);
 } // namespace quoin
 
 #endif

@@ -40,8 +40,9 @@ namespace quoin
    *
    * Each joint face is a segment with a contact point at either end: the
    * vertex of one side against the vertex of the other, with half the
-   * segment's length as tributary length (nodal quadrature, which keeps stiff
-   * joints free of traction oscillations). The local frame turns with the
+   * segment's length as tributary length, or that of Simpson's rule on the
+   * halves of a quadratic edge (nodal quadrature, which keeps stiff joints free
+   * of traction oscillations). The local frame turns with the
    * segment: normal n from the lower to the upper side, tangent s = (n_y,
    * -n_x), both from the mean of the two current edges. Opening and slip are
    * the components of the upper vertex's displacement relative to the lower
@@ -147,7 +148,7 @@ namespace quoin
     struct Segment
     {
       std::array<unsigned int, 2> lower, upper; /**< local nodes */
-      double area;                              /**< of each point [m^2] */
+      std::array<double, 2> area;               /**< of each point [m^2] */
       float share; /**< of the energy that this rank counts */
       unsigned int set;
       unsigned int face; /**< into BlockMesh::joint_faces */

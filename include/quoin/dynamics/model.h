@@ -111,11 +111,15 @@ namespace quoin
     {
       return matched_joints;
     }
+    /** Not of quadratic meshes: corners without mass have no stable step. */
     const StableTimeStep &stability() const
     {
       return *stable_step;
     }
-    /** Lumped masses of owned nodes and ghosts [kg]. */
+    /**
+     * Lumped masses of owned nodes and ghosts [kg]; zero at the corners of
+     * quadratic triangles.
+     */
     const std::vector<double> &mass() const
     {
       return node_mass;

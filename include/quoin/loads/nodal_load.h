@@ -15,7 +15,8 @@ namespace quoin
 {
   /**
    * A traction or gravity: forces a_x(t) w_i, a_y(t) w_i on nodes i with
-   * fixed weights w_i, the tributary area [m^2] or the mass [kg]. A pressure
+   * fixed weights w_i, the tributary area [m^2] (BlockMesh::edge_share()) or
+   * the mass [kg]. A pressure
    * adds a_p(t) n_i, with n_i the tributary area times the inward normal.
    * Tractions and pressures act on the reference area and keep their
    * direction.

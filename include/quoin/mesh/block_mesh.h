@@ -58,6 +58,11 @@ namespace quoin
    * other; cells and vertices are block-major, and within a block the
    * vertices on its boundary come first. Vertex numbers are those of the
    * triangulation; cell numbers its active cell indices.
+   *
+   * A quadratic mesh is one of six-node triangles, each of which is the four
+   * consecutive cells of cut_into_quadratic_triangles(); the fourth has the
+   * nodes in the middle of its edges as vertices. An edge of a quadratic
+   * triangle is two faces, each with a corner and a midside node.
    */
   template <int dim>
   struct BlockMesh
@@ -72,6 +77,9 @@ namespace quoin
 
     std::vector<std::string> group_names; /**< of physical surfaces */
     std::vector<std::string> line_names;  /**< of physical curves; [0] is "" */
+
+    bool quadratic = false;
+    std::vector<bool> is_midside; /**< by vertex; empty if not quadratic */
 
     std::vector<BlockFace> boundary_faces; /**< outer, not joints */
     std::vector<JointFace> joint_faces;
@@ -105,6 +113,27 @@ namespace quoin
       return std::upper_bound(block_first_vertex.begin(),
                               block_first_vertex.end(), vertex)
              - block_first_vertex.begin() - 1;
+    }
+
+    /**
+     * The share of a boundary or joint face that its end @p vertex stands for
+     * if a constant traction acts on it: a half; by Simpson's rule over the two
+     * faces of a quadratic edge a third at a corner, two thirds at a midside.
+     */
+    double edge_share(const unsigned int vertex) const
+    {
+      return !quadratic ? 0.5 : is_midside[vertex] ? 2. / 3. : 1. / 3.;
+    }
+
+    /**
+     * The vertices that carry the mass of @p cell in equal thirds: its own; of
+     * a quadratic triangle those in the middle of the edges, because the
+     * integrals of the corners' shape functions vanish.
+     */
+    const std::array<unsigned int, 3> &
+    mass_vertices(const unsigned int cell) const
+    {
+      return cells[quadratic ? cell | 3U : cell];
     }
   };
 

@@ -15,8 +15,9 @@ namespace quoin
   /** What becomes of the cells of a mesh file. */
   enum class TriangleKind
   {
-    plain,  /**< triangles, as they are */
-    crossed /**< quadrangles, each cut by its diagonals */
+    plain,    /**< triangles, as they are */
+    crossed,  /**< quadrangles, each cut by its diagonals */
+    quadratic /**< triangles with nodes in the middle of their edges */
   };
 
   /**
@@ -32,6 +33,9 @@ namespace quoin
    * With TriangleKind::crossed a geometry is meshed with quadrangles, and a
    * mesh must have some; add_crossed_triangles() cuts them. Triangles that are
    * left among them, because gmsh found no partner, stay as they are.
+   *
+   * With TriangleKind::quadratic cut_into_quadratic_triangles() gives the
+   * triangles, which are those of TriangleKind::plain, their midside nodes.
    *
    * Throws InputError with the file, the entity and the cure: no such file, an
    * error of gmsh, no triangles, quadrangles (unless they are to be crossed,

@@ -34,6 +34,9 @@ namespace quoin
     std::vector<std::string> group_names;         /**< of physical surfaces */
     std::vector<std::string> line_names = { "" }; /**< [0] is "", unnamed */
 
+    /** After cut_into_quadratic_triangles(). */
+    bool quadratic = false;
+
     unsigned int n_reoriented = 0;      /**< triangles that were clockwise */
     std::string source        = "mesh"; /**< the file, for messages */
 
@@ -41,7 +44,7 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &vertices &triangles &triangle_group &lines &line_name
-          &group_names &line_names &n_reoriented &source;
+          &group_names &line_names &quadratic &n_reoriented &source;
     }
   };
 

@@ -18,12 +18,14 @@ namespace quoin
     unsigned int n_cells       = 0;
     unsigned int n_vertices    = 0;
     unsigned int n_joint_faces = 0;
+    /** Four cells are one quadratic triangle then, two faces one edge. */
+    bool quadratic = false;
 
     /** By curve name; "" stands for joints without one [m]. */
     std::map<std::string, double> joint_length;
     double total_joint_length = 0.; /**< [m] */
 
-    double shortest_edge  = 0.; /**< [m] */
+    double shortest_edge  = 0.; /**< of a triangle, linear or quadratic [m] */
     double longest_edge   = 0.; /**< [m] */
     double smallest_angle = 0.; /**< of any cell [degree] */
 

@@ -25,9 +25,10 @@ namespace
     EnergyAccounts energy;
 
     explicit Stack(const unsigned int nx = 1, const double angle = 0.,
-                   const JointSetParameters &set = elastic_joint(kn, ks))
+                   const JointSetParameters &set = elastic_joint(kn, ks),
+                   const bool quadratic          = false)
     {
-      make_stack(mesh, nx, 1);
+      make_stack(mesh, nx, 1, quadratic);
       const double c = std::cos(angle), s = std::sin(angle);
       for (auto &p : mesh.vertices)
         p = { c * p[0] - s * p[1], s * p[0] + c * p[1] };
@@ -99,11 +100,89 @@ TEST(MatchedJoints, TributaryAreasSumToTheJoint)
     double area = 0.;
     for (unsigned int i = 0; i < 3; ++i)
     {
-      EXPECT_NEAR(stack.joints.segment(i).area, 0.5 * thickness, 1e-15);
       EXPECT_EQ(stack.joints.segment(i).share, 1.f);
-      area += 2. * stack.joints.segment(i).area;
+      for (const double a : stack.joints.segment(i).area)
+      {
+        EXPECT_NEAR(a, 0.5 * thickness, 1e-15);
+        area += a;
+      }
     }
     EXPECT_NEAR(area, 3. * thickness, 1e-14);
+  }
+}
+
+TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
+{
+  Stack stack(3, 50. * degree, elastic_joint(kn, ks), true);
+  ASSERT_EQ(stack.joints.n_segments(), 6U);
+  double area = 0.;
+  for (unsigned int i = 0; i < 6; ++i)
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      const auto &segment = stack.joints.segment(i);
+      const bool middle   = stack.mesh.is_midside[segment.lower[k]];
+      EXPECT_NEAR(segment.area[k], (middle ? 1. / 3. : 1. / 6.) * thickness,
+                  1e-15);
+      area += segment.area[k];
+    }
+  EXPECT_NEAR(area, 3. * thickness, 1e-14);
+
+  // The upper block turns a little about the lower left end of the joint:
+  // force and moment are those of the integrals of s and s^2 over the length
+  // of 3, which the trapezoidal rule on the same nodes misses by 1/72.
+  const double turn = 1e-9;
+  const double c = std::cos(50. * degree), s = std::sin(50. * degree);
+  std::vector<NodeVector> motion(stack.mesh.n_vertices(), { { 0., 0. } });
+  for (unsigned int v = stack.mesh.block_first_vertex[1];
+       v < stack.mesh.block_first_vertex[2]; ++v)
+  {
+    const auto arm = stack.mesh.vertices[v] - dealii::Point<2>(-s, c);
+    motion[v]      = { { -turn * arm[1], turn * arm[0] } };
+    for (unsigned int d = 0; d < 2; ++d)
+      stack.state.nodes[v].u[d] = motion[v].v[d];
+  }
+  stack.find_forces();
+  double force = 0., moment = 0.;
+  for (unsigned int v = 0; v < stack.mesh.block_first_vertex[1]; ++v)
+  {
+    const double along
+        = c * stack.mesh.vertices[v][0] + s * stack.mesh.vertices[v][1];
+    const double normal = -s * stack.force[v].v[0] + c * stack.force[v].v[1];
+    force += normal;
+    moment += along * normal;
+  }
+  const double unit = kn * turn * thickness;
+  EXPECT_NEAR(force, 4.5 * unit, 1e-6 * unit);
+  EXPECT_NEAR(moment, 9. * unit, 1e-6 * unit);
+  EXPECT_NEAR(
+      stack.joints.stored_energy(stack.state.nodes.data(), stack.state.joints),
+      4.5 * turn * unit, 1e-6 * turn * unit);
+
+  // At the rate of this motion dampers of the joint's stiffness give the same
+  // force; that of each node has its own area.
+  std::vector<NodeVector> viscous(stack.mesh.n_vertices(), { { 0., 0. } });
+  stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.state.joints,
+                                  motion.data(), 1., viscous.data());
+  std::vector<std::array<double, 3>> stiffness(stack.mesh.n_vertices(),
+                                               { { 0., 0., 0. } });
+  stack.joints.add_stiffness_bound(
+      stack.state.nodes.data(), [](unsigned int, unsigned int) { return 0.; },
+      stiffness);
+  for (unsigned int v = 0; v < stack.mesh.block_first_vertex[1]; ++v)
+  {
+    for (unsigned int d = 0; d < 2; ++d)
+      EXPECT_NEAR(viscous[v].v[d], stack.force[v].v[d], 1e-6 * unit);
+    const double along
+        = c * stack.mesh.vertices[v][0] + s * stack.mesh.vertices[v][1];
+    const bool on_joint = std::abs(c * stack.mesh.vertices[v][1]
+                                   - s * stack.mesh.vertices[v][0] - 1.)
+                          < 1e-9;
+    const double share = !on_joint                    ? 0.
+                         : stack.mesh.is_midside[v]   ? 2. / 3.
+                         : along < 0.1 || along > 2.9 ? 1. / 6.
+                                                      : 1. / 3.;
+    EXPECT_NEAR(stiffness[v][0] + stiffness[v][1],
+                share * thickness * (kn + ks), 1e-5 * kn);
   }
 }
 

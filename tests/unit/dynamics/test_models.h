@@ -9,6 +9,7 @@
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/mesh/block_splitter.h>
+#include <quoin/mesh/quadratic_triangles.h>
 
 #include <memory>
 #include <random>
@@ -21,7 +22,7 @@ namespace quoin::test
    * "top" and "sides".
    */
   inline void make_stack(BlockMesh<2> &mesh, const unsigned int nx,
-                         const unsigned int ny)
+                         const unsigned int ny, const bool quadratic = false)
   {
     MeshData data;
     for (const unsigned int i : { 0U, 1U })
@@ -34,6 +35,8 @@ namespace quoin::test
       if (i == 1)
         add_curve(data, "top", 0., y1, nx, y1);
     }
+    if (quadratic)
+      cut_into_quadratic_triangles(data);
     split_into_blocks(data, {}, mesh);
   }
 

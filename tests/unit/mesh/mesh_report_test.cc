@@ -5,6 +5,7 @@
 
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/mesh_report.h>
+#include <quoin/mesh/quadratic_triangles.h>
 
 using namespace quoin;
 using namespace quoin::test;
@@ -40,6 +41,30 @@ TEST(MeshReport, CountsAndMeasures)
   EXPECT_NE(text.find("3 blocks, 16 triangles"), std::string::npos) << text;
   EXPECT_NE(text.find("bed 4 m, crack 1 m"), std::string::npos) << text;
   EXPECT_EQ(text.find("without matching"), std::string::npos) << text;
+}
+
+TEST(MeshReport, SpeaksOfQuadraticTriangles)
+{
+  MeshData data;
+  add_grid(data, 4, 2, "rock");
+  add_curve(data, "bed", 0, 1, 4, 1);
+  cut_into_quadratic_triangles(data);
+  SplitOptions options;
+  options.joints_along = { "bed" };
+  BlockMesh<2> mesh;
+  split_into_blocks(data, options, mesh);
+  const MeshReport report = make_mesh_report(mesh);
+
+  EXPECT_EQ(report.n_cells, 64U);
+  EXPECT_EQ(report.n_joint_faces, 8U);
+  EXPECT_DOUBLE_EQ(report.total_joint_length, 4.);
+  EXPECT_DOUBLE_EQ(report.shortest_edge, 1.);
+  EXPECT_DOUBLE_EQ(report.longest_edge, std::sqrt(2.));
+  EXPECT_NEAR(report.smallest_angle, 45., 1e-9);
+  const std::string text = report.to_text();
+  EXPECT_NE(text.find("2 blocks, 16 quadratic triangles"), std::string::npos)
+      << text;
+  EXPECT_NE(text.find("4 joint faces, 4 m"), std::string::npos) << text;
 }
 
 TEST(MeshReport, CountsJointEnds)
