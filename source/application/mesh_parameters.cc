@@ -127,7 +127,8 @@ namespace quoin
   void check_triangles(const ParameterSection &top,
                        const Parameters &parameters)
   {
-    if (parameters.triangles == TriangleKind::quadratic)
+    if (parameters.triangles == TriangleKind::quadratic
+        && !parameters.is_implicit)
       ParameterSection(top, "Mesh")
           .fail("Triangles",
                 "needs 'Solver = implicit': explicit steps divide forces by "

@@ -111,8 +111,14 @@ namespace quoin
     ++steps_done;
     solver->check_finite(state);
     write_iterations();
-    // What is let go at the start takes no time: it has one row, its last.
-    if (state.implicit.released == 1.)
+    for (const JumpReport &jump : implicit_solver->take_jumps())
+      log.message("jumped to another equilibrium at the load time "
+                  + number_text(jump.load_time) + " s, in "
+                  + std::to_string(jump.n_steps) + " steps, losing "
+                  + number_text(jump.loss) + " J");
+    // What is let go at the start, and a jump, take no time: only where they
+    // end there is a row.
+    if (state.implicit.released == 1. && !state.implicit.jumps)
       write_implicit_rows();
     if (state.time > before
         && field_control.is_due(state.time, state.time - before))

@@ -103,7 +103,7 @@ namespace quoin
       {
         auto point = read_point(law, history, p);
         book(update(law, point, opening, slip, broken[p], tangent),
-             segment.area * segment.share, energy);
+             segment.area[k] * segment.share, energy);
         write_flow(point, history, p);
         write_tractions(point, history, p);
         plastic_opening = point.plastic_opening - total_opening;
@@ -120,15 +120,15 @@ namespace quoin
       const double opens    = direction(total_opening, plastic_opening);
       const double slips    = direction(total_slip, plastic_slip);
       result.inelastic
-          += segment.area * (opens * plastic_opening + slips * plastic_slip);
+          += segment.area[k] * (opens * plastic_opening + slips * plastic_slip);
       double traction[2];
       for (unsigned int d = 0; d < 2; ++d)
         traction[d] = sigma * local.normal[d] + tau * local.tangent[d];
       const unsigned int lower = 2 * k, upper = 4 + 2 * k;
       for (unsigned int d = 0; d < 2; ++d)
       {
-        result.force[lower + d] += segment.area * traction[d];
-        result.force[upper + d] -= segment.area * traction[d];
+        result.force[lower + d] += segment.area[k] * traction[d];
+        result.force[upper + d] -= segment.area[k] * traction[d];
       }
       for (unsigned int j = 0; j < 8; ++j)
       {
@@ -143,14 +143,14 @@ namespace quoin
         for (unsigned int e = 0; e < 2; ++e)
         {
           const double change
-              = segment.area
+              = segment.area[k]
                 * ((d_sigma + tau * turn[j]) * local.normal[e]
                    + (d_tau - sigma * turn[j]) * local.tangent[e]);
           result.stiffness[lower + e][j] -= change;
           result.stiffness[upper + e][j] += change;
         }
         result.inelastic_gradient[j]
-            += segment.area
+            += segment.area[k]
                * (opens * (d_opening - d_sigma / law.normal_stiffness)
                   + slips * (d_slip - d_tau / law.shear_stiffness));
       }

@@ -11,6 +11,13 @@ namespace quoin
                                            const std::size_t cell,
                                            double *area) const
   {
+    if (data.quadratic)
+    {
+      const CellPoint point = cell_point(nodes, cell);
+      if (area)
+        *area = point.area;
+      return CorotatedStrain(point.displacement_gradient(nodes));
+    }
     const auto [a, b, c] = data.cells[cell];
     const Triangle triangle(nodes[a], nodes[b], nodes[c]);
     if (area)

@@ -27,7 +27,12 @@ namespace quoin
   BlockForces::CellPoint BlockForces::cell_point(const NodeRecord *nodes,
                                                  const unsigned int cell) const
   {
-    const auto [a, b, c] = data.cells[cell];
+    std::array<unsigned int, 3> corners = data.cells[cell];
+    const unsigned int first            = cell & ~3U; // of a quadratic one
+    if (data.quadratic)
+      for (unsigned int i = 0; i < 3; ++i)
+        corners[i] = data.cells[first + i][0];
+    const auto [a, b, c] = corners;
     const Triangle triangle(nodes[a], nodes[b], nodes[c]);
     CellPoint point;
     point.n_nodes      = 3;
@@ -38,6 +43,31 @@ namespace quoin
     for (unsigned int d = 0; d < 2; ++d)
       point.gradients[0][d] = -point.gradients[1][d] - point.gradients[2][d];
     point.area = triangle.area();
+    if (!data.quadratic)
+      return point;
+
+    // The centroids of the three outer cells are the points of the rule that
+    // is exact for quadratic functions; the inner cell is for output.
+    const bool is_inner = cell == first + 3;
+    std::array<double, 3> lambda;
+    lambda.fill(is_inner ? 1. / 3. : 1. / 6.);
+    if (!is_inner)
+      lambda[cell - first] = 2. / 3.;
+    point.area = is_inner ? 0. : triangle.area() / 3.;
+    const std::array<std::array<double, 2>, 3> linear
+        = { { point.gradients[0], point.gradients[1], point.gradients[2] } };
+    point.n_nodes = 6;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      const unsigned int j = (i + 1) % 3;
+      point.nodes[3 + i]   = data.cells[first + 3][i]; // between i and j
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        point.gradients[i][d] = (4. * lambda[i] - 1.) * linear[i][d];
+        point.gradients[3 + i][d]
+            = 4. * (lambda[i] * linear[j][d] + lambda[j] * linear[i][d]);
+      }
+    }
     return point;
   }
 
@@ -46,11 +76,15 @@ namespace quoin
                               CellLinearisation &result) const
   {
     const CellPoint point = cell_point(nodes, cell);
-    if (point.area == 0.)
-      return false;
-    const double volume = data.thickness * point.area;
     const CorotatedStrain strain(point.displacement_gradient(nodes));
-    const auto initial = initial_stress(cell);
+    if (point.area == 0.)
+    {
+      if (cell_law(cell))
+        update_cell(cell, strain.e, history);
+      return false;
+    }
+    const double volume = data.thickness * point.area;
+    const auto initial  = initial_stress(cell);
 
     PlaneTensor stress;
     PlaneTangent tangent;

@@ -152,6 +152,7 @@ namespace quoin
   void Model::pack_blocks()
   {
     BlockForcesData data;
+    data.quadratic = block_mesh.quadratic;
     data.cells.assign(local_cells.begin(),
                       local_cells.begin() + n_deformable_cells());
     data.thickness            = parameters.thickness;

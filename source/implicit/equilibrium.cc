@@ -50,7 +50,7 @@ namespace quoin
     {
       const auto &segment = model.joints().segment(i);
       if (path_sets[segment.set])
-        path_area += 2. * segment.area * segment.share;
+        path_area += (segment.area[0] + segment.area[1]) * segment.share;
     }
     path_area = dealii::Utilities::MPI::sum(path_area, communicator);
     make_pattern();
@@ -89,9 +89,23 @@ namespace quoin
     CellLinearisation cell;
     PlasticHistory history = model.blocks().initial_history();
     const State rest       = model.initial_state();
+    double sums[3]         = { 0., 0., 0. }; // stiffness, mass, nodes
     for (unsigned int c = 0; c < model.blocks().n_cells(); ++c)
       if (model.blocks().linearise(c, rest.nodes.data(), history, cell))
+      {
         add(cell.nodes.data(), cell.n_nodes);
+        for (unsigned int i = 0; i < 2 * cell.n_nodes; ++i)
+          sums[0] += 0.5 * cell.stiffness[i][i];
+      }
+    for (unsigned int i = 0; i < n_owned; ++i)
+      sums[1] += model.mass()[i];
+    sums[2] = model.n_deformable_nodes();
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
+    const double by_mass
+        = (sums[2] > 0. ? sums[0] / sums[2] : joint_stiffness())
+          / (sums[1] / model.mesh().n_vertices());
+    for (const double mass : model.mass())
+      drag_stiffness.push_back(by_mass * mass);
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
     {
       const auto &segment = model.joints().segment(i);
@@ -104,6 +118,19 @@ namespace quoin
       pattern.add(row, row);
     pattern.compress();
     matrix.reinit(pattern);
+  }
+
+  double Equilibrium::joint_stiffness() const
+  {
+    double largest = 1.;
+    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    {
+      const auto &segment = model.joints().segment(i);
+      largest             = std::max(
+                      largest,
+                      segment.area[0] * model.joints().law(segment.set).normal_stiffness);
+    }
+    return dealii::Utilities::MPI::max(largest, communicator);
   }
 
   template <std::size_t size>
@@ -151,6 +178,28 @@ namespace quoin
                      scaled.data(), false, false);
         }
       }
+    }
+  }
+
+  void Equilibrium::add_drag(const State &committed,
+                             const Configuration &configuration,
+                             Balance &balance, const bool with_derivatives)
+  {
+    balance.drag.assign(model.exchange().n_local(), no_force);
+    if (drag == 0.)
+      return;
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    {
+      const double stiffness = drag * drag_stiffness[i];
+      for (unsigned int d = 0; d < 2; ++d)
+        balance.drag[i].v[d]
+            = -stiffness
+              * (configuration.nodes[i].u[d] - committed.nodes[i].u[d]);
+      if (!with_derivatives)
+        continue;
+      std::array<std::array<double, 2>, 2> element{};
+      element[0][0] = element[1][1] = stiffness;
+      add_stiffness(&i, 1, element);
     }
   }
 
@@ -264,17 +313,22 @@ namespace quoin
   void Equilibrium::find_ratio(const AlignedArray<NodeVector> &applied,
                                Balance &balance)
   {
-    double sums[2] = { 0., 0. }; // unbalanced, applied
+    double sums[3] = { 0., 0., 0. }; // unbalanced, applied, dragged
+    AlignedArray<NodeVector> total = balance.force;
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        total[i].v[d] += balance.drag[i].v[d];
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
     {
       sums[1] += norm(applied[i]);
-      NodeVector free = balance.force[i], given = balance.force[i];
+      sums[2] += norm(balance.drag[i]);
+      NodeVector free = total[i], given = total[i];
       for (unsigned int d = 0; d < 2; ++d)
         (freedoms.is_free(i, d) ? given : free).v[d] = 0.;
       sums[0] += norm(free);
       sums[1] += norm(given);
     }
-    const auto bodies = freedoms.body_forces(balance.force);
+    const auto bodies = freedoms.body_forces(total);
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       const Freedoms::Body &body = freedoms.bodies()[b];
@@ -289,9 +343,10 @@ namespace quoin
                               + balance.held[b][d])
                      / (d == 2 ? size : 1.);
     }
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     balance.unbalanced = sums[0];
     balance.applied    = sums[1];
+    balance.dragged    = sums[2];
   }
 
   void Equilibrium::find_forces(const State &committed,
@@ -301,6 +356,7 @@ namespace quoin
   {
     freedoms.update_arms(configuration);
     add_forces(committed, configuration, broken, balance, false);
+    add_drag(committed, configuration, balance, false);
     add_loads(committed, configuration, balance);
   }
 
@@ -319,6 +375,7 @@ namespace quoin
     path_gradient.assign(model.exchange().n_local(), no_force);
     path_by_given = 0.;
     add_forces(committed, configuration, broken, balance, true);
+    add_drag(committed, configuration, balance, true);
     add_loads(committed, configuration, balance);
     add_turning(balance.force);
     matrix.compress(dealii::VectorOperation::add);

@@ -24,7 +24,7 @@ namespace quoin
     prm.declare_entry("Smallest step", "1e-7", Double(),
                       "A stage fails that does not converge with this share "
                       "of it [-]");
-    prm.declare_entry("Force ratio", "1e-7", Double(),
+    prm.declare_entry("Force ratio", "1e-6", Double(),
                       "Unbalanced to applied force, each summed over nodes, "
                       "at which iterations end [-]");
     prm.declare_entry("Wanted iterations", "8", Integer(1),
@@ -34,7 +34,12 @@ namespace quoin
     prm.declare_entry("Line search", "yes", Selection("yes|no|true|false"),
                       "Shorten iterations that do not bring the unbalanced "
                       "force down.");
-    prm.declare_entry("Path following", "automatic",
+    prm.declare_entry("Jumps", "yes", Selection("yes|no|true|false"),
+                      "Where no equilibrium is near, move at constant loads "
+                      "against a drag until there is one, as a test under "
+                      "given displacements would; what the drag takes is "
+                      "booked as damping. If not, the stage fails there.");
+    prm.declare_entry("Path following", "never",
                       Selection("never|automatic|always"),
                       "The load time becomes an unknown, which may go back, "
                       "and steps are those of the mean inelastic opening and "
@@ -70,6 +75,7 @@ namespace quoin
       section.fail("Wanted iterations", "must not exceed 'Maximum "
                                         "iterations'.");
     parameters.line_search = section.flag("Line search");
+    parameters.jumps       = section.flag("Jumps");
     parameters.path        = section.choice<PathFollowing>(
         "Path following", { { "never", PathFollowing::never },
                                    { "automatic", PathFollowing::automatic },

@@ -17,6 +17,12 @@ namespace quoin
     constexpr double most_growth = 1.5;
     /** Cuts of a step of the loads before the path is followed. */
     constexpr double path_share = 0.03;
+    /** Steps of the way of a jump: drag is a typical stiffness over these. */
+    constexpr double first_drag_step = 0.1, least_drag_step = 1e-9;
+    constexpr double drag_growth = 2., drag_cut = 0.2;
+    constexpr unsigned int most_drag_steps = 2000;
+    /** Drag to applied force where a jump may have come to its end. */
+    constexpr double jump_ends = 1e-4;
     /** Steps ahead on the path before the loads lead again. */
     constexpr unsigned int steps_ahead = 5;
     /** Error of the path's length that is let pass, as a share. */
@@ -37,7 +43,11 @@ namespace quoin
     for (unsigned int b = 0; b < loads.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
         loads[b][d] += balance.held[b][d];
-    freedoms->project(balance.force, loads, residual);
+    AlignedArray<NodeVector> total = balance.force;
+    for (unsigned int i = 0; i < total.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        total[i].v[d] += balance.drag[i].v[d];
+    freedoms->project(total, loads, residual);
     if (!linear_solver->prepare(equilibrium->stiffness(), configuration)
         || !linear_solver->solve(residual, correction))
       return false;
@@ -199,6 +209,8 @@ namespace quoin
       return { state.load_time, next > 1. - 1e-9 ? 1. : next, 0. };
     }
     double next = state.load_time + now.step * stage_duration;
+    if (now.jumps)
+      return { now.jump_time, 1., 0. };
     if (now.follows_path)
       return { next, 1., now.path_step };
     if (next > stage_duration * (1. - 1e-9))
@@ -213,7 +225,9 @@ namespace quoin
     for (attempt = 0;; ++attempt)
     {
       const Target target = choose_target(state);
-      Outcome outcome     = solve(state, target, configuration);
+      equilibrium->set_drag(state.implicit.jumps ? 1. / state.implicit.drag_step
+                                                 : 0.);
+      Outcome outcome = solve(state, target, configuration);
       if (outcome == Outcome::converged && target.path > 0.
           && configuration.load_time > stage_duration)
       {
@@ -231,18 +245,69 @@ namespace quoin
     }
     const State before = state;
     commit(configuration, state);
-    adapt_step(before, state);
+    if (state.implicit.jumps)
+      go_on_jumping(before, state);
+    else
+      adapt_step(before, state);
+  }
+
+  void ImplicitSolver::go_on_jumping(const State &before, State &state)
+  {
+    ImplicitState &now = state.implicit;
+    now.jump_loss += state.energy.damping - before.energy.damping;
+    ++now.n_drag;
+    if (iteration <= parameters.wanted_iterations)
+      now.drag_step *= drag_growth;
+    if (balance.dragged > jump_ends * balance.applied)
+      return;
+    // Near an equilibrium: is it one without drag?
+    equilibrium->set_drag(0.);
+    Configuration configuration;
+    const Target target{ now.jump_time, 1., 0. };
+    if (solve(state, target, configuration) == Outcome::failed)
+      return;
+    commit(configuration, state);
+    now.jumps     = false;
+    now.path_step = 0.;
+    now.last_step = std::max(0.1 * now.last_step, 0.01 * parameters.first_step);
+    now.step      = now.last_step;
+    jumps_done.push_back(
+        { now.jump_time, now.n_drag,
+          dealii::Utilities::MPI::sum(now.jump_loss, communicator) });
+  }
+
+  bool ImplicitSolver::begin_jump(State &state) const
+  {
+    ImplicitState &now = state.implicit;
+    if (!parameters.jumps || now.released < 1.)
+      return false;
+    now.follows_path = false;
+    now.jumps        = true;
+    now.n_drag       = 0;
+    now.jump_loss    = 0.;
+    now.drag_step    = first_drag_step;
+    now.jump_time    = std::min(
+           stage_duration, state.load_time
+                               + std::max(now.step, 2. * parameters.smallest_step)
+                                     * stage_duration);
+    return true;
   }
 
   bool ImplicitSolver::cut_step(State &state) const
   {
     ImplicitState &now = state.implicit;
+    if (now.jumps)
+    {
+      now.drag_step *= drag_cut;
+      return now.drag_step > least_drag_step && now.n_drag < most_drag_steps;
+    }
     if (now.follows_path)
     {
       now.path_step *= cut;
       now.step *= cut;
       return now.path_step
-             > parameters.smallest_step * parameters.largest_path_step;
+                 > path_share * path_share * parameters.largest_path_step
+             || begin_jump(state);
     }
     const bool may_follow = parameters.path != PathFollowing::never
                             && now.released == 1. && now.path_step > 0.;
@@ -255,6 +320,10 @@ namespace quoin
       now.path_step *= 0.5;
       return true;
     }
+    if (now.step
+            < path_share * std::max(now.last_step, 0.1 * parameters.first_step)
+        && begin_jump(state))
+      return true;
     return now.step >= parameters.smallest_step;
   }
 

@@ -251,8 +251,12 @@ namespace quoin
         const double u = configuration.nodes[i].u[d] - state.nodes[i].u[d];
         double force
             = 0.5 * (start.external[i].v[d] + balance.external[i].v[d]);
-        if (!freedoms->is_free(i, d) && !freedoms->is_in_body(i))
-          force -= 0.5 * (start.force[i].v[d] + balance.force[i].v[d]);
+        const double out_of_balance
+            = 0.5 * (start.force[i].v[d] + balance.force[i].v[d]);
+        if (freedoms->is_free(i, d))
+          energy.damping += out_of_balance * u;
+        else if (!freedoms->is_in_body(i))
+          force -= out_of_balance;
         energy.external += force * u;
         if (!held.empty())
           energy.damping -= mean * held[2 * i + d] * u;
@@ -267,12 +271,12 @@ namespace quoin
         continue;
       for (unsigned int d = 0; d < 3; ++d)
       {
-        const double u = configuration.bodies[b][d] - before.bodies[b][d];
-        energy.external
-            += 0.5 * u
-               * (body.given[d] ? -forces_0[b][d] - forces_1[b][d]
-                                : start.drives[b][d] + balance.drives[b][d]);
-        energy.damping -= 0.5 * u * (start.held[b][d] + balance.held[b][d]);
+        const double u      = configuration.bodies[b][d] - before.bodies[b][d];
+        const double forces = 0.5 * (forces_0[b][d] + forces_1[b][d]);
+        const double drives = 0.5 * (start.drives[b][d] + balance.drives[b][d]);
+        energy.external += u * (body.given[d] ? -forces : drives);
+        if (!body.given[d])
+          energy.damping += u * (forces + drives);
       }
     }
   }

@@ -339,7 +339,7 @@ namespace quoin
     /** Out-of-balance forces with which the stage began, x, y of owned nodes
         and three of each platen [N, N m]; empty: none. */
     std::vector<double> held;
-    double released = 1.; /**< share of them that is gone [-] */
+    double released  = 1.; /**< share of them that is gone [-] */
     double step      = 0.; /**< to try next, share of the stage [-] */
     double last_step = 0.; /**< of the loads that converged last, likewise */
 
@@ -349,11 +349,18 @@ namespace quoin
     double farthest    = 0.;    /**< load time reached in the stage [s] */
     unsigned int ahead = 0;     /**< steps on the path that reached farther */
 
+    bool jumps          = false; /**< on the way to another equilibrium */
+    double jump_time    = 0.;    /**< load time of that [s] */
+    double drag_step    = 0.;    /**< to try next, of the way [-] */
+    unsigned int n_drag = 0;     /**< steps of the way so far */
+    double jump_loss    = 0.;    /**< taken by the drag since it began [J] */
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       archive &held &released &step &last_step &follows_path &path_step
-          &path_length &farthest &ahead;
+          &path_length &farthest &ahead &jumps &jump_time &drag_step &n_drag
+              &jump_loss;
     }
   };
 

@@ -42,6 +42,14 @@ namespace quoin
     AlignedArray<std::array<double, 4>> initial_stress;
 
     double thickness = 1.; /**< [m] */
+
+    /**
+     * Each four cells are one six-node triangle, as cut_into_quadratic_
+     * triangles() cuts it. What goes cell by cell, strains, stresses and
+     * linearise(), is then of that triangle at the centroids of the cells;
+     * add_forces() and what else goes in lanes is not.
+     */
+    bool quadratic = false;
   };
 
   /** How the block kernel cuts its work; the defaults suit usual caches. */

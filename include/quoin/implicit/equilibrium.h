@@ -21,8 +21,10 @@ namespace quoin
     AlignedArray<NodeVector> external; /**< of loads, part of it [N] */
     /** Of bodies, besides what acts on their nodes [N, N m]. */
     std::vector<std::array<double, 3>> drives, held;
-    double unbalanced = 0.; /**< summed over unknowns of all ranks [N] */
-    double applied    = 0.; /**< by joints, loads and reactions [N] */
+    AlignedArray<NodeVector> drag; /**< against the motion, not in force [N] */
+    double unbalanced = 0.;        /**< with it, summed over unknowns [N] */
+    double dragged    = 0.;        /**< the sum of the drag [N] */
+    double applied    = 0.;        /**< by joints, loads and reactions [N] */
 
     JointHistory joints; /**< brought to the configuration */
     PlasticHistory plastic;
@@ -64,6 +66,15 @@ namespace quoin
                 const std::vector<bool> &path_sets, double stage_start);
 
     /**
+     * From now on nodes drag: by @p drag times a typical stiffness, shared out
+     * by mass, times what they moved since the last equilibrium; 0: not.
+     */
+    void set_drag(const double new_drag)
+    {
+      drag = new_drag;
+    }
+
+    /**
      * Forces at @p configuration, to which the histories of @p committed are
      * brought. @p broken: see MatchedJoints::linearise(). Collective.
      */
@@ -90,11 +101,15 @@ namespace quoin
 
   private:
     void make_pattern();
+    /** For models without deformable blocks: the stiffest point [N/m]. */
+    double joint_stiffness() const;
     void add_forces(const State &committed, const Configuration &configuration,
                     const std::vector<std::uint8_t> &broken, Balance &balance,
                     bool with_derivatives);
     void add_loads(const State &committed, const Configuration &configuration,
                    Balance &balance);
+    void add_drag(const State &committed, const Configuration &configuration,
+                  Balance &balance, bool with_derivatives);
     void find_ratio(const AlignedArray<NodeVector> &applied, Balance &balance);
     /** Adds the rows of owned nodes of an element with @p n nodes. */
     template <std::size_t size>
@@ -111,6 +126,8 @@ namespace quoin
     const double stage_start;
     MPI_Comm communicator;
     double path_area = 0.; /**< of the joints that measure the path [m^2] */
+    double drag      = 0.; /**< [-] */
+    std::vector<double> drag_stiffness; /**< of local nodes, for 1 [N/m] */
 
     dealii::TrilinosWrappers::SparseMatrix matrix;
     const Advance *under_way = nullptr;

@@ -31,12 +31,13 @@ namespace quoin
     double first_step    = 0.01; /**< share of the stage [-] */
     double largest_step  = 0.05; /**< share of the stage [-] */
     double smallest_step = 1e-7; /**< share of the stage [-] */
-    double force_ratio   = 1e-7; /**< unbalanced to applied force [-] */
+    double force_ratio   = 1e-6; /**< unbalanced to applied force [-] */
     unsigned int wanted_iterations  = 8;
     unsigned int maximum_iterations = 25;
     bool line_search                = true;
+    bool jumps                      = true;
 
-    PathFollowing path = PathFollowing::automatic;
+    PathFollowing path = PathFollowing::never;
     std::vector<std::string> path_joints; /**< sets; empty: all */
     double largest_path_step = 1e-5;      /**< mean inelastic motion [m] */
 

@@ -28,6 +28,14 @@ namespace quoin
     double linear_iterations;
   };
 
+  /** A way from one equilibrium to another at constant loads. */
+  struct JumpReport
+  {
+    double load_time; /**< [s] */
+    unsigned int n_steps;
+    double loss; /**< energy that the drag took [J] */
+  };
+
   /**
    * Equilibrium instead of motion: the same blocks, joints and loads without
    * inertia, by Newton's method with consistent tangents and line search
@@ -40,7 +48,10 @@ namespace quoin
    * the loads meet a snap-back, the load time becomes an unknown, and steps
    * are those of the mean inelastic opening and slip of joints, which grows on
    * any path (@cite Lourenco1996; as the dissipation of
-   * @cite VerhooselRemmersGutierrez2009).
+   * @cite VerhooselRemmersGutierrez2009). Or the model jumps, as a test does:
+   * at constant loads it moves on against a drag, implicitly in a time of its
+   * own (pseudo-transient continuation, @cite KelleyKeyes1998), until it is
+   * in equilibrium without it.
    */
   class ImplicitSolver : public Solver
   {
@@ -82,6 +93,11 @@ namespace quoin
 
     std::array<double, 3> resultant(const std::string &load) const override;
 
+    /** Jumps that ended since the last call. */
+    std::vector<JumpReport> take_jumps()
+    {
+      return std::exchange(jumps_done, {});
+    }
     /** Iterations since the last call. */
     std::vector<IterationReport> take_reports()
     {
@@ -134,6 +150,9 @@ namespace quoin
     void correct(const State &state, double share,
                  Configuration &configuration);
     bool break_joints();
+    /** Makes the next attempt the first of a jump; false: there are none. */
+    bool begin_jump(State &state) const;
+    void go_on_jumping(const State &before, State &state);
     void commit(const Configuration &configuration, State &state);
     void book_work(const State &state, const Configuration &configuration,
                    EnergyAccounts &energy) const;
@@ -163,6 +182,7 @@ namespace quoin
     unsigned int attempt = 0, iteration = 0;
     double last_share = 1.; /**< of the line search */
     std::vector<IterationReport> reports;
+    std::vector<JumpReport> jumps_done;
     std::uint64_t iterations_done = 0, cuts_done = 0, current_step = 0;
   };
 } // namespace quoin
