@@ -110,7 +110,8 @@ namespace quoin
                         const FarField *far)
   {
     const auto needs_it = [&](const StageParameters &stage) {
-      return stage.end == StageEnd::static_ratio && names(stage, far->name());
+      return (stage.end == StageEnd::static_ratio || parameters.is_implicit)
+             && names(stage, far->name());
     };
     if (!far
         || std::none_of(parameters.stages.begin(), parameters.stages.end(),

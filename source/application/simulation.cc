@@ -110,20 +110,21 @@ namespace quoin
 
   void Simulation::make_solver(const MeshData &as_read)
   {
+    auto far = make_far_field(parameters, as_read, *model, boundary_geometry);
+    auto static_far = make_static_far_field(parameters, *model, far.get());
     if (parameters.is_implicit)
     {
       std::vector<std::string> joint_sets;
       for (const JointSetParameters &set : parameters.model.joints)
         joint_sets.push_back(set.name);
       auto made = std::make_unique<ImplicitSolver>(
-          *model, parameters.loads, parameters.implicit, joint_sets);
+          *model, parameters.loads, parameters.implicit, joint_sets,
+          std::move(static_far));
       implicit_solver = made.get();
       solver          = std::move(made);
       return;
     }
-    auto far = make_far_field(parameters, as_read, *model, boundary_geometry);
-    auto static_far = make_static_far_field(parameters, *model, far.get());
-    auto made       = std::make_unique<ExplicitSolver>(
+    auto made = std::make_unique<ExplicitSolver>(
         *model, parameters.loads, parameters.stages, std::move(far),
         std::move(static_far));
     explicit_solver = made.get();

@@ -8,6 +8,8 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace quoin
 {
   namespace
@@ -218,5 +220,88 @@ namespace quoin
     const auto damping = (p - elastic).cwiseProduct(areas);
     state.energy.damping += damping.dot(v_before);
     state.pending.damping += damping.dot(v_after);
+  }
+
+  void StaticFarField::hold(const NodeVector *force, State &state) const
+  {
+    StaticFarFieldState &far = state.static_far_field;
+    if (far.active)
+      return;
+    far.active = true;
+    far.held.clear();
+    for (const unsigned int node : node_list)
+      for (unsigned int d = 0; d < 2; ++d)
+        far.held.push_back(-force[node].v[d]);
+    VectorXd means;
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const double *u = state.nodes[node_list[k]].u;
+          return std::array<double, 2>{ { u[0], u[1] } };
+        },
+        means);
+    far.origin.assign(means.data(), means.data() + means.size());
+  }
+
+  double StaticFarField::add_forces(const NodeRecord *nodes,
+                                    const StaticFarFieldState &far,
+                                    NodeVector *force) const
+  {
+    VectorXd means;
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const double *u = nodes[node_list[k]].u;
+          return std::array<double, 2>{ { u[0], u[1] } };
+        },
+        means);
+    means -= VectorXd::Map(far.origin.data(), means.size());
+    const VectorXd traction = stiffness * means;
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+    {
+      const auto elastic = transfer.force(k, traction);
+      for (unsigned int d = 0; d < 2; ++d)
+        force[node_list[k]].v[d]
+            += far.held[2 * k + d] - thickness * elastic[d];
+    }
+    return far.stored_before + 0.5 * traction.cwiseProduct(areas).dot(means);
+  }
+
+  StaticFarField::NodalStiffness
+  StaticFarField::nodal_stiffness(const NodeExchange &exchange) const
+  {
+    const MPI_Comm communicator = exchange.communicator();
+    std::vector<unsigned int> own;
+    for (const unsigned int node : node_list)
+      own.push_back(exchange.global(node));
+    NodalStiffness result;
+    for (const auto &part :
+         dealii::Utilities::MPI::all_gather(communicator, own))
+      result.nodes.insert(result.nodes.end(), part.begin(), part.end());
+    std::sort(result.nodes.begin(), result.nodes.end());
+
+    const Eigen::Index n = transfer.n_elements();
+    MatrixXd all         = MatrixXd::Zero(result.nodes.size(), n);
+    const MatrixXd rows  = transfer.weights();
+    for (unsigned int k = 0; k < own.size(); ++k)
+      all.row(std::lower_bound(result.nodes.begin(), result.nodes.end(), own[k])
+              - result.nodes.begin())
+          = rows.row(k);
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), all.size(), MPI_DOUBLE, MPI_SUM,
+                  communicator);
+    result.rows = MatrixXd::Zero(2 * own.size(), 2 * result.nodes.size());
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int e = 0; e < 2; ++e)
+      {
+        MatrixXd part(n, n); // force by displacement of the elements
+        for (Eigen::Index i = 0; i < n; ++i)
+          for (Eigen::Index j = 0; j < n; ++j)
+            part(i, j) = areas[2 * i] * stiffness(2 * i + d, 2 * j + e);
+        const MatrixXd block = rows * part * all.transpose();
+        for (Eigen::Index k = 0; k < block.rows(); ++k)
+          for (Eigen::Index j = 0; j < block.cols(); ++j)
+            result.rows(2 * k + d, 2 * j + e) = block(k, j);
+      }
+    return result;
   }
 } // namespace quoin

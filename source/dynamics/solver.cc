@@ -63,7 +63,8 @@ namespace quoin
         break;
       case LoadType::boundary_elements:
         far = far_field.get();
-        all_constraints.push_back(std::move(far_field));
+        if (far_field)
+          all_constraints.push_back(std::move(far_field));
         static_far = static_field.get();
         if (static_field)
           all_constraints.push_back(std::move(static_field));
@@ -168,7 +169,7 @@ namespace quoin
     const bool is_static = any.end == StageEnd::static_ratio;
     return names_load(any, constraint.name())
            && !(&constraint == far && is_static)
-           && !(&constraint == static_far && !is_static);
+           && !(&constraint == static_far && far && !is_static);
   }
 
   void Solver::make_room(State &state) const

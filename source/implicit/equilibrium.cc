@@ -42,9 +42,11 @@ namespace quoin
   Equilibrium::Equilibrium(const Model &model, Freedoms &freedoms,
                            const std::vector<const NodalLoad *> &loads,
                            const std::vector<bool> &path_sets,
-                           const double stage_start)
+                           const double stage_start,
+                           const StaticFarField *far_field)
     : model(model), freedoms(freedoms), loads(loads), path_sets(path_sets),
-      stage_start(stage_start), communicator(model.exchange().communicator())
+      stage_start(stage_start), communicator(model.exchange().communicator()),
+      far_field(far_field)
   {
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
     {
@@ -114,10 +116,62 @@ namespace quoin
                 segment.upper[1] } };
       add(nodes.data(), 4);
     }
+    if (far_field)
+    {
+      find_far_stiffness();
+      std::vector<Index> columns;
+      for (const Index unknown : far_unknowns)
+        if (unknown != Freedoms::nothing)
+          columns.push_back(unknown);
+      std::sort(columns.begin(), columns.end());
+      for (const unsigned int node : far_field->nodes())
+        for (unsigned int d = 0; d < 2; ++d)
+          if (freedoms.is_free(node, d))
+            pattern.add_entries(freedoms.nodes()[node].unknown[d],
+                                columns.begin(), columns.end(), true);
+    }
     for (const Index row : freedoms.owned())
       pattern.add(row, row);
     pattern.compress();
     matrix.reinit(pattern);
+  }
+
+  void Equilibrium::find_far_stiffness()
+  {
+    const auto stiffness = far_field->nodal_stiffness(model.exchange());
+    far_stiffness        = stiffness.rows;
+    far_unknowns.assign(2 * stiffness.nodes.size(), 0);
+    for (unsigned int j = 0; j < stiffness.nodes.size(); ++j)
+      if (model.exchange().owns(stiffness.nodes[j]))
+      {
+        const unsigned int node = model.exchange().local(stiffness.nodes[j]);
+        for (unsigned int d = 0; d < 2; ++d)
+          if (freedoms.is_free(node, d))
+            far_unknowns[2 * j + d] = 1 + freedoms.nodes()[node].unknown[d];
+      }
+    dealii::Utilities::MPI::sum(far_unknowns, communicator, far_unknowns);
+    for (Index &unknown : far_unknowns)
+      unknown = unknown == 0 ? Freedoms::nothing : unknown - 1;
+
+    // Nothing resists a translation of all if nothing but the far field holds
+    // the model. Forces without resultant leave it where it is; so that the
+    // equations do so too, it gets a stiffness, in the derivative alone.
+    unsigned int held[2] = { 0, 0 };
+    for (const Freedoms::Prescribed &given : freedoms.prescribed())
+      held[given.component] = 1;
+    for (const Freedoms::Body &body : freedoms.bodies())
+      for (unsigned int d = 0; d < 2; ++d)
+        if (body.given[d])
+          held[d] = 1;
+    MPI_Allreduce(MPI_IN_PLACE, held, 2, MPI_UNSIGNED, MPI_MAX, communicator);
+    const Eigen::Index n = stiffness.nodes.size();
+    const double size    = dealii::Utilities::MPI::max(
+           far_stiffness.size() > 0 ? far_stiffness.cwiseAbs().maxCoeff() : 0.,
+        communicator);
+    for (Eigen::Index k = 0; k < far_stiffness.rows(); ++k)
+      if (!held[k % 2])
+        for (Eigen::Index j = 0; j < n; ++j)
+          far_stiffness(k, 2 * j + k % 2) += size / double(n);
   }
 
   double Equilibrium::joint_stiffness() const
@@ -179,6 +233,28 @@ namespace quoin
         }
       }
     }
+  }
+
+  void Equilibrium::add_far_field(const State &committed,
+                                  const Configuration &configuration,
+                                  Balance &balance, const bool with_derivatives)
+  {
+    balance.far_field_energy = 0.;
+    if (!far_field)
+      return;
+    balance.far_field_energy
+        = far_field->add_forces(configuration.nodes.data(),
+                                committed.static_far_field, joint_force.data());
+    if (!with_derivatives)
+      return;
+    const auto &nodes = far_field->nodes();
+    for (unsigned int k = 0; k < nodes.size(); ++k)
+      for (unsigned int d = 0; d < 2; ++d)
+        if (freedoms.is_free(nodes[k], d))
+          for (unsigned int j = 0; j < far_unknowns.size(); ++j)
+            if (far_unknowns[j] != Freedoms::nothing)
+              matrix.add(freedoms.nodes()[nodes[k]].unknown[d], far_unknowns[j],
+                         far_stiffness(2 * k + d, j));
   }
 
   void Equilibrium::add_drag(const State &committed,
@@ -357,6 +433,7 @@ namespace quoin
     freedoms.update_arms(configuration);
     add_forces(committed, configuration, broken, balance, false);
     add_drag(committed, configuration, balance, false);
+    add_far_field(committed, configuration, balance, false);
     add_loads(committed, configuration, balance);
   }
 
@@ -376,6 +453,7 @@ namespace quoin
     path_by_given = 0.;
     add_forces(committed, configuration, broken, balance, true);
     add_drag(committed, configuration, balance, true);
+    add_far_field(committed, configuration, balance, true);
     add_loads(committed, configuration, balance);
     add_turning(balance.force);
     matrix.compress(dealii::VectorOperation::add);

@@ -342,7 +342,7 @@ namespace quoin
       now.step = std::min(growth * std::max(went, now.step),
                           parameters.largest_step);
       if (now.released == 1.)
-        now.step = parameters.first_step;
+        now.step = first_load_step();
       return;
     }
     now.path_length += balance.path;

@@ -28,9 +28,7 @@ namespace quoin
         const std::string what
             = load.type == LoadType::viscous_boundary ? "a viscous boundary"
               : load.type == LoadType::free_field     ? "a free field"
-              : load.type == LoadType::boundary_elements
-                  ? "a far field of boundary elements"
-                  : "";
+                                                      : "";
         if (!what.empty())
           throw InputError("section 'Loads/" + load.name + "': 'Type' makes it "
                            + what
@@ -43,8 +41,10 @@ namespace quoin
   ImplicitSolver::ImplicitSolver(const Model &model,
                                  const std::vector<LoadParameters> &loads,
                                  const ImplicitParameters &parameters,
-                                 const std::vector<std::string> &joint_sets)
-    : Solver((refuse_dynamic_loads(loads), model), loads, nullptr, nullptr),
+                                 const std::vector<std::string> &joint_sets,
+                                 std::unique_ptr<StaticFarField> far_field)
+    : Solver((refuse_dynamic_loads(loads), model), loads, nullptr,
+             std::move(far_field)),
       parameters(parameters),
       path_sets(joint_sets.size(), parameters.path_joints.empty()),
       set_names(joint_sets)
@@ -129,18 +129,21 @@ namespace quoin
     check_no_free_bodies(model, constraints_on, stage.name);
     refuse_shared_platens();
     held_blocks = find_held_blocks();
+    rests       = false;
     if (stage.end == StageEnd::time)
       stage_duration = stage.duration;
     else
     {
       stage_duration = std::max(rest_time(), stage.minimum_duration);
-      if (stage_duration == 0.)
+      rests          = stage_duration == 0.;
+      if (rests)
         stage_duration = resting_duration;
     }
     freedoms
         = std::make_unique<Freedoms>(model, constraints_on, held_blocks, state);
-    equilibrium   = std::make_unique<Equilibrium>(model, *freedoms, loads_on,
-                                                path_sets, stage_start);
+    equilibrium = std::make_unique<Equilibrium>(
+        model, *freedoms, loads_on, path_sets, stage_start,
+        static_far_field_acts() ? static_far : nullptr);
     linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver,
                                                    model, *freedoms);
     residual      = equilibrium->make_vector();
@@ -171,7 +174,7 @@ namespace quoin
     state.load_rate   = 1.;
     state.implicit    = ImplicitState();
     prepare_stage(state);
-    hold_what_is_out_of_balance(state);
+    hold_what_is_out_of_balance(previous, state);
   }
 
   void ImplicitSolver::resume_stage(const StageParameters &resumed,
@@ -184,16 +187,33 @@ namespace quoin
     prepare_stage(state);
   }
 
-  void ImplicitSolver::hold_what_is_out_of_balance(State &state)
+  void
+  ImplicitSolver::hold_what_is_out_of_balance(const StageParameters *previous,
+                                              State &state)
   {
     ImplicitState &now = state.implicit;
     now.released       = 1.;
-    now.step           = parameters.first_step;
+    now.step           = first_load_step();
+    if (static_far_field_acts() && !state.static_far_field.active)
+    {
+      // It holds what its boundary carried until now, without loads that
+      // begin here.
+      std::vector<const NodalLoad *> before;
+      for (const NodalLoad *load : loads_on)
+        if (previous && names_load(*previous, load->name()))
+          before.push_back(load);
+      Equilibrium without(model, *freedoms, previous ? before : loads_on,
+                          path_sets, stage_start, nullptr);
+      without.find_forces(state, freedoms->configuration(state), broken,
+                          balance);
+      static_far->hold(balance.force.data(), state);
+    }
     equilibrium->find_forces(state, freedoms->configuration(state), broken,
                              balance);
     if (balance.ratio() <= parameters.force_ratio)
       return;
     now.released               = 0.;
+    now.step                   = parameters.first_step;
     const unsigned int n_owned = model.exchange().n_owned();
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
@@ -230,6 +250,8 @@ namespace quoin
     if (state.load_time == stage_duration && state.implicit.path_length == 0.
         && balance.path == 0.)
       state.time = state.stage_start + stage_duration;
+    if (static_far_field_acts())
+      state.static_far_field.stored = balance.far_field_energy;
     find_energies(
         state, model.blocks().strain_energy(state.nodes.data(), state.plastic),
         model.joints().stored_energy(state.nodes.data(), state.joints), 0.);
@@ -261,6 +283,15 @@ namespace quoin
         if (!held.empty())
           energy.damping -= mean * held[2 * i + d] * u;
       }
+    if (static_far_field_acts())
+      for (unsigned int k = 0; k < static_far->nodes().size(); ++k)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          const unsigned int node = static_far->nodes()[k];
+          energy.external
+              += state.static_far_field.held[2 * k + d]
+                 * (configuration.nodes[node].u[d] - state.nodes[node].u[d]);
+        }
     const Configuration before = freedoms->configuration(state);
     const auto forces_0        = freedoms->body_forces(start.force);
     const auto forces_1        = freedoms->body_forces(balance.force);

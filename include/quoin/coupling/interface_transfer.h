@@ -90,6 +90,17 @@ namespace quoin
      */
     Eigen::MatrixXd mobility(const std::vector<double> &gain) const;
 
+    /** w_ek of the k-th of nodes(), a row for each, a column per element. */
+    Eigen::MatrixXd weights() const
+    {
+      Eigen::MatrixXd result
+          = Eigen::MatrixXd::Zero(node_list.size(), n_elements());
+      for (unsigned int k = 0; k < node_list.size(); ++k)
+        for (unsigned int j = row_begin[k]; j < row_begin[k + 1]; ++j)
+          result(k, entries[j].element) += entries[j].weight;
+      return result;
+    }
+
     /** Of the elements [m]. */
     const std::vector<double> &lengths() const
     {

@@ -44,6 +44,32 @@ namespace quoin
       return relative_asymmetry;
     }
 
+    // For solvers of equilibrium.
+
+    /**
+     * Begins, if it has not: from now on @p force, what is out of balance on
+     * local nodes without the far field, is held on the interface. Collective.
+     */
+    void hold(const NodeVector *force, State &state) const;
+
+    /**
+     * Adds its forces on the interface's nodes to @p force and returns its
+     * elastic energy [J]. Collective.
+     */
+    double add_forces(const NodeRecord *nodes, const StaticFarFieldState &state,
+                      NodeVector *force) const;
+
+    /** Minus the derivative of these forces. */
+    struct NodalStiffness
+    {
+      std::vector<unsigned int> nodes; /**< of all ranks, global, ascending */
+      /** [N/m]; row 2 k + d is the k-th of nodes(), of this rank, column
+          2 j + e the j-th of nodes. */
+      Eigen::MatrixXd rows;
+    };
+    /** Collective. */
+    NodalStiffness nodal_stiffness(const NodeExchange &exchange) const;
+
     void begin_stage(State &state, bool continues) override;
     void resume_stage(const State &state) override;
     void correct(const StepContext &step,

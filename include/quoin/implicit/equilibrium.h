@@ -4,6 +4,7 @@
 #ifndef quoin_implicit_equilibrium_h
 #define quoin_implicit_equilibrium_h
 
+#include <quoin/coupling/static_far_field.h>
 #include <quoin/implicit/freedoms.h>
 #include <quoin/loads/nodal_load.h>
 
@@ -28,6 +29,7 @@ namespace quoin
 
     JointHistory joints; /**< brought to the configuration */
     PlasticHistory plastic;
+    double far_field_energy = 0.; /**< of all ranks [J] */
     EnergyAccounts lost; /**< by joints and cells on the way, this rank [J] */
 
     /** Inelastic opening and slip on the way, mean over the joints that
@@ -59,11 +61,13 @@ namespace quoin
 
     /**
      * Keeps references. @p path_sets: of each joint set, whether its inelastic
-     * motion measures the path.
+     * motion measures the path; @p far_field: what is beyond the blocks, or
+     * null.
      */
     Equilibrium(const Model &model, Freedoms &freedoms,
                 const std::vector<const NodalLoad *> &loads,
-                const std::vector<bool> &path_sets, double stage_start);
+                const std::vector<bool> &path_sets, double stage_start,
+                const StaticFarField *far_field);
 
     /**
      * From now on nodes drag: by @p drag times a typical stiffness, shared out
@@ -101,6 +105,7 @@ namespace quoin
 
   private:
     void make_pattern();
+    void find_far_stiffness();
     /** For models without deformable blocks: the stiffest point [N/m]. */
     double joint_stiffness() const;
     void add_forces(const State &committed, const Configuration &configuration,
@@ -116,6 +121,9 @@ namespace quoin
     void
     add_stiffness(const unsigned int *nodes, unsigned int n,
                   const std::array<std::array<double, size>, size> &element);
+    void add_far_field(const State &committed,
+                       const Configuration &configuration, Balance &balance,
+                       bool with_derivatives);
     void fill_unused_rows();
     void add_turning(const AlignedArray<NodeVector> &force);
 
@@ -128,6 +136,10 @@ namespace quoin
     double path_area = 0.; /**< of the joints that measure the path [m^2] */
     double drag      = 0.; /**< [-] */
     std::vector<double> drag_stiffness; /**< of local nodes, for 1 [N/m] */
+
+    const StaticFarField *far_field;
+    Eigen::MatrixXd far_stiffness; /**< rows of its nodes of this rank */
+    std::vector<Freedoms::Index> far_unknowns; /**< of its columns */
 
     dealii::TrilinosWrappers::SparseMatrix matrix;
     const Advance *under_way = nullptr;

@@ -58,11 +58,14 @@ namespace quoin
   public:
     /**
      * Keeps a reference to @p model. @p joint_sets: their names, for
-     * 'Path joints'. Throws an InputError about loads that need inertia.
+     * 'Path joints'; @p far_field: of the load of the type 'boundary elements',
+     * or null, in all stages. Throws an InputError about loads that need
+     * inertia.
      */
     ImplicitSolver(const Model &model, const std::vector<LoadParameters> &loads,
                    const ImplicitParameters &parameters,
-                   const std::vector<std::string> &joint_sets);
+                   const std::vector<std::string> &joint_sets,
+                   std::unique_ptr<StaticFarField> far_field = nullptr);
 
     /** As ExplicitSolver::begin_stage(). */
     void begin_stage(const StageParameters &stage,
@@ -137,7 +140,13 @@ namespace quoin
 
     void prepare_stage(const State &state);
     double rest_time() const;
-    void hold_what_is_out_of_balance(State &state);
+    void hold_what_is_out_of_balance(const StageParameters *previous,
+                                     State &state);
+    /** Loads that rest take one step. */
+    double first_load_step() const
+    {
+      return rests ? 1. : parameters.first_step;
+    }
     Target choose_target(const State &state) const;
     Outcome iterate(const State &state, const Target &target,
                     Configuration &configuration);
@@ -167,6 +176,7 @@ namespace quoin
     std::vector<std::string> set_names;
 
     double stage_start = 0., stage_duration = 0.;
+    bool rests = false; /**< its loads do not change */
     std::vector<bool> held_blocks;
     std::unique_ptr<Freedoms> freedoms;
     std::unique_ptr<Equilibrium> equilibrium;
