@@ -16,11 +16,15 @@ namespace quoin
     constexpr double cut         = 0.3;
     constexpr double most_growth = 1.5;
     /** Cuts of a step of the loads before the path is followed. */
-    constexpr double path_share = 0.03;
+    constexpr double path_share = 0.1;
     /** Steps of the way of a jump: drag is a typical stiffness over these. */
     constexpr double first_drag_step = 0.1, least_drag_step = 1e-9;
     constexpr double drag_growth = 2., drag_cut = 0.2;
     constexpr unsigned int most_drag_steps = 2000;
+    /** How far loads go on with a jump, of the last step. */
+    constexpr double jump_share = 0.5;
+    /** Steps of a jump that did not go far. */
+    constexpr unsigned int short_way = 3;
     /** Drag to applied force where a jump may have come to its end. */
     constexpr double jump_ends = 1e-4;
     /** Steps ahead on the path before the loads lead again. */
@@ -269,7 +273,11 @@ namespace quoin
     commit(configuration, state);
     now.jumps     = false;
     now.path_step = 0.;
-    now.last_step = std::max(0.1 * now.last_step, 0.01 * parameters.first_step);
+    // A short way says that no other equilibrium was sought, only the next one.
+    const double next
+        = now.last_step * (now.n_drag <= short_way ? most_growth : jump_share);
+    now.last_step = std::clamp(next, 0.01 * parameters.first_step,
+                               parameters.largest_step);
     now.step      = now.last_step;
     jumps_done.push_back(
         { now.jump_time, now.n_drag,
@@ -288,7 +296,8 @@ namespace quoin
     now.drag_step    = first_drag_step;
     now.jump_time    = std::min(
            stage_duration, state.load_time
-                               + std::max(now.step, 2. * parameters.smallest_step)
+                               + std::max({ now.step, jump_share * now.last_step,
+                                            2. * parameters.smallest_step })
                                      * stage_duration);
     return true;
   }
