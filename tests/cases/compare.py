@@ -101,6 +101,7 @@ def run_case(case, options):
         if largest > bound:
             failed.append("%s %.3e > %.1e" % (column, largest, bound))
     for label, (error, bound) in extra.items():
+        bound = case.get("tolerances", {}).get(label, bound)
         worst = max(worst, error / bound * tolerance)
         print("  %-30s %.3e  tolerance %.1e" % (label, error, bound))
         if not error <= bound:
