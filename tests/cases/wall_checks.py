@@ -71,7 +71,7 @@ def elastic_wall(case, folder, output, histories):
     separate finite element solution of small displacements."""
     implicit = os.path.join(output, "implicit")
     common.run(case["quoin"], os.path.join(folder, "case.prm"), implicit,
-               ["Solver=implicit"])
+               case.get("set", []) + ["Solver=implicit"])
     other, _ = common.read_table(os.path.join(implicit, "histories.csv"))
     names = [name for name, values in histories.items()
              if name not in ("time", "kinetic", "clock", "rate", "vertical")]
