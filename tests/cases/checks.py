@@ -801,6 +801,27 @@ def closed_form(folder):
     return module
 
 
+def snap_back(case, folder, output, histories):
+    """Every row on the branch that the displacement asks for, and the energy
+    that the jump between both lets go."""
+    exact = closed_form(folder)
+    u = histories["displacement"]
+    away = np.abs(u - exact.PEAK) > 1e-3 * exact.PEAK
+    table = energies(output)
+    lost = table["damping"][-1]
+    print("  lost in the jump %.2f J, formula %.2f" % (lost, exact.lost()))
+    return {
+        "normal, all rows": (
+            float(np.max(np.abs(histories["normal"] - exact.traction(u))[away])
+                  / exact.FT), case["tolerance"]),
+        "opening, all rows": (
+            float(np.max(np.abs(histories["opening"] - exact.opening(u))[away])
+                  / np.max(u)), case["tolerance"]),
+        "energy lost in the jump": (float(abs(lost / exact.lost() - 1)), 0.1),
+        "energy residual": (residual_of(table), 1e-9),
+    }
+
+
 def salencon(case, folder, output, histories):
     """Displacements relative to the largest one, those of the wall and at the
     edge of the plastic zone relative to themselves; its radius by the area of
