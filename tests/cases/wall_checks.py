@@ -65,6 +65,29 @@ def wall_stiffness(case, folder, output, histories):
             "103 kN/mm": (float(abs(stiffness / 103e6 - 1)), 0.1)}
 
 
+def elastic_wall(case, folder, output, histories):
+    """The last row of the explicit run in @p output, in which all is at rest,
+    against that of the implicit solver, and the stiffness of both against a
+    separate finite element solution of small displacements."""
+    implicit = os.path.join(output, "implicit")
+    common.run(case["quoin"], os.path.join(folder, "case.prm"), implicit,
+               case.get("set", []) + ["Solver=implicit"])
+    other, _ = common.read_table(os.path.join(implicit, "histories.csv"))
+    names = [name for name, values in histories.items()
+             if name not in ("time", "kinetic", "clock", "rate", "vertical")]
+    result = {"explicit by implicit, " + name: (
+        float(abs(histories[name][-1] / other[name][-1] - 1)),
+        case["tolerance"]) for name in names}
+    exact = checks.reference_module(
+        os.path.join(common.MASONRY, "tue_walls"),
+        "static_reference").stiffness(implicit)
+    for label, table in (("explicit", histories), ("implicit", other)):
+        stiffness = -table["horizontal"][-1] / table["displacement"][-1]
+        result["static finite elements, " + label] = (
+            float(abs(stiffness / exact - 1)), case["tolerance"])
+    return result
+
+
 def shear_wall(case, folder, output, histories):
     """A wall between beams that do not turn: peak force of the tests, a fall
     beyond it, the vertical reaction that the locked beam raises, and wide
