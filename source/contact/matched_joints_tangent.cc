@@ -117,8 +117,11 @@ namespace quoin
       const double sigma    = history.normal_traction[p];
       const double tau      = history.shear_traction[p];
       const CoulombLaw &law = laws[segment.set];
-      const double opens    = direction(total_opening, plastic_opening);
-      const double slips    = direction(total_slip, plastic_slip);
+      // An open Coulomb joint keeps the plastic opening that it had.
+      const double opens = plastic_opening == 0.
+                               ? 0.
+                               : direction(total_opening, plastic_opening);
+      const double slips = direction(total_slip, plastic_slip);
       result.inelastic
           += segment.area[k] * (opens * plastic_opening + slips * plastic_slip);
       double traction[2];

@@ -49,6 +49,15 @@ CASES = {
     "wall": (os.path.join(common.MASONRY, "tue_walls", "j4d.prm"),
              ["Output/Checkpoint interval=0.05", "Output/Field interval=1e-2",
               "Joints/mortar/Cracks=close", "Stages/push/Duration=4e-3"], 1, 2),
+    # the same wall in equilibrium
+    "implicit": (os.path.join(common.MASONRY, "tue_walls", "j4d.prm"),
+                 ["Solver=implicit", "Output/Checkpoint interval=0.05",
+                  "Output/Field interval=5e-3", "Stages/push/Duration=0.02"],
+                 1, 2),
+    "implicit on 2 ranks": (
+        os.path.join(common.MASONRY, "tue_walls", "j4d.prm"),
+        ["Solver=implicit", "Output/Checkpoint interval=0.05",
+         "Output/Field interval=5e-3", "Stages/push/Duration=0.02"], 2, 1),
     # contacts searched, handed over and taken up in between
     "sled": (common.SLED, ["Output/Checkpoint interval=0.02",
                            "Output/Field interval=2e-3"], 1, 4),

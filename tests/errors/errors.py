@@ -356,11 +356,36 @@ def deleted_block(quoin, folder):
     return printed
 
 
+def implicit_limit_load(quoin, folder):
+    """A load that no equilibrium can bear: where it stopped is kept, and from
+    the checkpoint it gets no farther."""
+    prm = prepare(folder)
+    output = os.path.join(folder, "output")
+    words = [quoin, prm, "--output", output] + settings({"set": [
+        "Solver=implicit", "Implicit/Jumps=no",
+        "Loads/push/Horizontal=if(T > 1e-3, 1e8*(T - 1e-3), 0)"]})
+    says = ["stage 'second'", "no equilibrium", "load time 0.0005773 of",
+            "steps were cut", "in block", "at (", "limit load",
+            "Path following", "last equilibrium is kept"]
+    status, printed = run(words)
+    expect(status, printed, 2, says)
+    rows, summary = tables(output)
+    # tan(30 degrees) of 1e5 Pa
+    if not abs(rows["histories.csv"][-1][0] / 1.57735e-3 - 1) < 1e-4:
+        raise Failure("the last row is that of %g s"
+                      % rows["histories.csv"][-1][0])
+    if summary["finished"]:
+        raise Failure("summary.json says that the run has finished")
+    status, again = run(words + ["--resume"])
+    expect(status, again, 2, says)
+    return printed
+
+
 FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing, no_arguments,
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
              no_number_at_the_end, runaway, reported_block, deleted_block, other_ranks, other_parameters,
-             nothing_to_resume]
+             nothing_to_resume, implicit_limit_load]
 
 
 def main():
