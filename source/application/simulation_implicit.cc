@@ -59,6 +59,8 @@ namespace quoin
       throw InputError(parameters.file + ", " + error.what());
     }
 
+    if (state.step == 0)
+      write_implicit_rows();
     progress.start(progress_figures(stage));
     while (!implicit_solver->is_over(state))
     {

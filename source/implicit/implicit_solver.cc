@@ -23,6 +23,8 @@ namespace quoin
     constexpr unsigned int most_drag_steps = 2000;
     /** How far loads go on with a jump, of the last step. */
     constexpr double jump_share = 0.5;
+    /** Steps of a jump between trials without drag. */
+    constexpr unsigned int trial_interval = 4;
     /** Steps of a jump that did not go far. */
     constexpr unsigned int short_way = 3;
     /** Drag to applied force where a jump may have come to its end. */
@@ -262,7 +264,9 @@ namespace quoin
     ++now.n_drag;
     if (iteration <= parameters.wanted_iterations)
       now.drag_step *= drag_growth;
-    if (balance.dragged > jump_ends * balance.applied)
+    // Trials cost as much as steps: at once, then now and then.
+    if (balance.dragged > jump_ends * balance.applied
+        || (now.n_drag > short_way && now.n_drag % trial_interval != 0))
       return;
     // Near an equilibrium: is it one without drag?
     equilibrium->set_drag(0.);
@@ -318,20 +322,21 @@ namespace quoin
                  > path_share * path_share * parameters.largest_path_step
              || begin_jump(state);
     }
-    const bool may_follow = parameters.path != PathFollowing::never
-                            && now.released == 1. && now.path_step > 0.;
+    const double last_step
+        = std::max(now.last_step, 0.1 * parameters.first_step);
     now.step *= cut;
-    if (may_follow && now.step < path_share * now.last_step)
+    if (parameters.path != PathFollowing::never && now.released == 1.
+        && equilibrium->measures_path() && now.step < path_share * last_step)
     {
       now.follows_path = true;
       now.ahead        = 0;
-      now.step         = 0.5 * now.last_step;
-      now.path_step *= 0.5;
+      now.step         = 0.5 * last_step;
+      now.path_step    = now.path_step > 0.
+                             ? 0.5 * now.path_step
+                             : path_share * parameters.largest_path_step;
       return true;
     }
-    if (now.step
-            < path_share * std::max(now.last_step, 0.1 * parameters.first_step)
-        && begin_jump(state))
+    if (now.step < path_share * last_step && begin_jump(state))
       return true;
     return now.step >= parameters.smallest_step;
   }

@@ -368,6 +368,20 @@ namespace quoin
     const double most = dealii::Utilities::MPI::max(largest, communicator);
     if (largest == most && largest >= 0.)
       where = describe_node(worst);
+    else if (most < 0. && !freedoms->bodies().empty())
+    {
+      // Rigid blocks and platens alone.
+      const auto forces = freedoms->body_forces(balance.force);
+      for (unsigned int b = 0; b < forces.size(); ++b)
+        for (unsigned int d = 0; d < 2; ++d)
+          if (!freedoms->bodies()[b].given[d]
+              && !freedoms->bodies()[b].nodes.empty()
+              && std::abs(forces[b][d] + balance.drives[b][d]) > largest)
+          {
+            largest = std::abs(forces[b][d] + balance.drives[b][d]);
+            where   = describe_node(freedoms->bodies()[b].nodes.front());
+          }
+    }
     const auto all = dealii::Utilities::MPI::all_gather(communicator, where);
     for (const std::string &text : all)
       if (!text.empty())

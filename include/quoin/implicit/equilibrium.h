@@ -103,6 +103,12 @@ namespace quoin
 
     Vector make_vector() const;
 
+    /** Whether any joint measures the path. */
+    bool measures_path() const
+    {
+      return path_area > 0.;
+    }
+
   private:
     void make_pattern();
     void find_far_stiffness();
