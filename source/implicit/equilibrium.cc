@@ -14,6 +14,10 @@ namespace quoin
     using Index = Freedoms::Index;
     constexpr NodeVector no_force{ { 0., 0. } };
 
+    /** Of all nodes, as a share of the model's size: forces that this needs
+        count as applied, as rounding is all there is without loads [-]. */
+    constexpr double least_motion = 1e-11;
+
     double norm(const NodeVector &f)
     {
       return std::hypot(f.v[0], f.v[1]);
@@ -103,9 +107,14 @@ namespace quoin
       sums[1] += model.mass()[i];
     sums[2] = model.n_deformable_nodes();
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
-    const double by_mass
-        = (sums[2] > 0. ? sums[0] / sums[2] : joint_stiffness())
-          / (sums[1] / model.mesh().n_vertices());
+    const double stiffness
+        = sums[2] > 0. ? sums[0] / sums[2] : joint_stiffness();
+    const auto &vertices = model.mesh().vertices;
+    double size          = 0.;
+    for (const auto &p : vertices)
+      size = std::max(size, p.distance(vertices[0]));
+    least_applied        = least_motion * size * stiffness * vertices.size();
+    const double by_mass = stiffness / (sums[1] / vertices.size());
     for (const double mass : model.mass())
       drag_stiffness.push_back(by_mass * mass);
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
@@ -421,7 +430,7 @@ namespace quoin
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     balance.unbalanced = sums[0];
-    balance.applied    = sums[1];
+    balance.applied    = std::max(sums[1], least_applied);
     balance.dragged    = sums[2];
   }
 

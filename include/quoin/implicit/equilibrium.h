@@ -139,8 +139,9 @@ namespace quoin
     const std::vector<bool> path_sets;
     const double stage_start;
     MPI_Comm communicator;
-    double path_area = 0.; /**< of the joints that measure the path [m^2] */
-    double drag      = 0.; /**< [-] */
+    double path_area     = 0.; /**< of the joints that measure the path [m^2] */
+    double least_applied = 0.; /**< Balance::applied is not less [N] */
+    double drag          = 0.; /**< [-] */
     std::vector<double> drag_stiffness; /**< of local nodes, for 1 [N/m] */
 
     const StaticFarField *far_field;

@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../dynamics/test_models.h"
+
+#include <quoin/implicit/freedoms.h>
+#include <quoin/loads/prescribed_motion.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  constexpr auto velocity     = LoadQuantity::velocity;
+  constexpr auto displacement = LoadQuantity::displacement;
+  constexpr auto given_force  = LoadQuantity::force;
+  constexpr double degree     = 3.14159265358979323846 / 180.;
+
+  using Values = std::vector<std::array<double, 3>>;
+
+  /** Two blocks: a platen, which drives the lower one, and a rigid block. */
+  struct Bodies
+  {
+    BlockMesh<2> mesh;
+    std::unique_ptr<Model> model;
+    std::unique_ptr<Platen> beam;
+    std::unique_ptr<Freedoms> freedoms;
+    State state;
+
+    Bodies(const LoadComponent &x, const LoadComponent &y,
+           const LoadComponent &rotation)
+    {
+      make_stack(mesh, 3, 1);
+      ModelParameters parameters    = two_blocks();
+      parameters.materials[1].rigid = true;
+      model = std::make_unique<Model>(mesh, std::vector<unsigned int>{ 0, 0 },
+                                      parameters, MPI_COMM_SELF);
+      state = model->initial_state();
+      state.platens.resize(1);
+      beam = std::make_unique<Platen>(platen("beam", "lower", x, y, rotation),
+                                      0, mesh, model->exchange());
+      beam->set_mass(model->mass());
+      beam->begin_stage(state, false);
+      freedoms = std::make_unique<Freedoms>(
+          *model, std::vector<NodeConstraint *>{ beam.get() },
+          std::vector<bool>{ false }, state);
+    }
+
+    Freedoms::Vector vector() const
+    {
+      return Freedoms::Vector(freedoms->owned(), MPI_COMM_SELF);
+    }
+
+    /** One value for each freedom of a body that is not given. */
+    Freedoms::Vector vector(const Values &values) const
+    {
+      auto result = vector();
+      for (unsigned int b = 0; b < values.size(); ++b)
+        for (unsigned int d = 0; d < 3; ++d)
+          if (!freedoms->bodies()[b].given[d])
+            result(freedoms->bodies()[b].first + d) = values[b][d];
+      result.compress(dealii::VectorOperation::insert);
+      return result;
+    }
+
+    /** Expects the block's nodes to have gone rigidly about @p centre. */
+    void expect_rigid(const Configuration &configuration,
+                      const unsigned int block,
+                      const std::array<double, 2> &centre,
+                      const std::array<double, 3> &motion) const
+    {
+      const double c = std::cos(motion[2]), s = std::sin(motion[2]);
+      for (unsigned int v = mesh.block_first_vertex[block];
+           v < mesh.block_first_vertex[block + 1]; ++v)
+      {
+        const double x  = mesh.vertices[v][0] - centre[0];
+        const double y  = mesh.vertices[v][1] - centre[1];
+        const double *u = configuration.nodes[v].u;
+        EXPECT_NEAR(u[0], motion[0] + c * x - s * y - x, 1e-14);
+        EXPECT_NEAR(u[1], motion[1] + s * x + c * y - y, 1e-14);
+      }
+    }
+  };
+
+  LoadComponent driven(const LoadQuantity quantity, const std::string &text)
+  {
+    return component(quantity, text);
+  }
+} // namespace
+
+TEST(Freedoms, GivenChangeOfADisplacementIsThatOfItsValues)
+{
+  const auto kinked = driven(displacement, "if(t < 0.5, 2*t, 1) + 3*T");
+  EXPECT_NEAR(given_change(kinked, 0.2, 0.4, 7.), 0.4 + 0.6, 1e-13);
+  EXPECT_NEAR(given_change(kinked, 0.4, 0.9, 7.), 0.2 + 1.5, 1e-13);
+  EXPECT_NEAR(given_change(kinked, 0.9, 0.4, 7.), -1.7, 1e-13);
+  EXPECT_EQ(given_change(kinked, 0.3, 0.3, 7.), 0.);
+}
+
+TEST(Freedoms, GivenChangeOfAVelocityIsItsIntegral)
+{
+  // A ramp, as platens of walls begin to move; one step goes past it.
+  const auto ramp = driven(velocity, "0.02 * min(1, t / 0.001)");
+  EXPECT_NEAR(given_change(ramp, 0., 0.01, 0.), 0.02 * 0.0095, 1e-10);
+  EXPECT_NEAR(given_change(ramp, 0., 5e-4, 0.), 0.02 * 0.125e-3, 1e-16);
+  EXPECT_NEAR(given_change(ramp, 0.01, 0., 0.), -0.02 * 0.0095, 1e-10);
+  EXPECT_NEAR(given_change(ramp, 0.1, 0.1001, 0.), 2e-6, 1e-18);
+
+  // A jump within the step costs 2^-15 of it at most.
+  const auto jump = driven(velocity, "if(t < 0.37, 0, 1)");
+  EXPECT_NEAR(given_change(jump, 0., 1., 0.), 0.63, 1e-5);
+  const auto run_time = driven(velocity, "T");
+  EXPECT_NEAR(given_change(run_time, 1., 2., 10.), 11.5, 1e-12);
+
+  // There and back: what a cyclic test needs.
+  const auto wave = driven(velocity, "cos(2*pi*t)");
+  EXPECT_NEAR(given_change(wave, 0., 0.25, 0.), 0.5 / 3.141592653589793, 1e-12);
+  EXPECT_NEAR(given_change(wave, 0., 1., 0.), 0., 1e-12);
+
+  EXPECT_EQ(given_change(driven(given_force, "5"), 0., 1., 0.), 0.);
+}
+
+TEST(Freedoms, BodiesFollowThroughLargeRotations)
+{
+  Bodies run({}, {}, {});
+  ASSERT_EQ(run.freedoms->bodies().size(), 2U);
+  Configuration configuration = run.freedoms->configuration(run.state);
+  Values total(2, { { 0., 0., 0. } });
+  const Values steps[] = { { { 0.2, -0.4, 1.9 }, { -0.3, 0.1, -2.6 } },
+                           { { 0.1, 0.3, 2.2 }, { 0.6, 0.2, -4.9 } } };
+  for (const Values &step : steps)
+  {
+    run.freedoms->move(run.vector(step), 0.5, 0., 0., configuration);
+    for (unsigned int b = 0; b < 2; ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+        total[b][d] += 0.5 * step[b][d];
+    run.expect_rigid(configuration, 0, { { 1.5, 0.5 } }, total[0]);
+    run.expect_rigid(configuration, 1, { { 1.5, 1.5 } }, total[1]);
+  }
+  // And the state has it all, also from where another step goes on.
+  run.freedoms->write(configuration, run.state);
+  for (unsigned int d = 0; d < 3; ++d)
+  {
+    EXPECT_EQ(run.state.platens[0].displacement[d], configuration.bodies[0][d]);
+    EXPECT_EQ(run.freedoms->configuration(run.state).bodies,
+              configuration.bodies);
+  }
+  EXPECT_EQ(run.state.rigid_blocks[0].rotation, configuration.bodies[1][2]);
+}
+
+TEST(Freedoms, ProjectionIsTheTransposeOfTheMotion)
+{
+  // Virtual work: of forces on nodes that move, of their sums on unknowns.
+  Bodies run({}, {}, {});
+  Configuration configuration = run.freedoms->configuration(run.state);
+  run.freedoms->move(run.vector({ { 0.2, -0.4, 1.9 }, { -0.3, 0.1, -2.6 } }),
+                     1., 0., 0., configuration);
+  run.freedoms->update_arms(configuration);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  AlignedArray<NodeVector> force(run.mesh.n_vertices());
+  for (NodeVector &f : force)
+    f = { { uniform(random), uniform(random) } };
+  const Values others{ { 0.3, -0.8, 0.5 }, { -0.2, 0.4, 0.7 } };
+  auto sums = run.vector();
+  run.freedoms->project(force, others, sums);
+  for (unsigned int mode = 0; mode < 6; ++mode)
+  {
+    Values virtual_motion(2, { { 0., 0., 0. } });
+    virtual_motion[mode / 3][mode % 3] = 1.;
+    const auto direction               = run.vector(virtual_motion);
+    const double h                     = 1e-6;
+    double work                        = others[mode / 3][mode % 3];
+    for (const double share : { h, -h })
+    {
+      Configuration moved = configuration;
+      run.freedoms->move(direction, share, 0., 0., moved);
+      for (unsigned int v = 0; v < force.size(); ++v)
+        for (unsigned int d = 0; d < 2; ++d)
+          work += force[v].v[d] * moved.nodes[v].u[d] / (2. * share);
+    }
+    EXPECT_NEAR(sums * direction, work, 1e-8) << mode;
+  }
+}
+
+TEST(Freedoms, PlatensMayBeDrivenInPart)
+{
+  // Pushed to the right by 0.1 m/s, turned by 30 degrees a second, loaded.
+  Bodies run(driven(velocity, "0.1"), driven(given_force, "-4e3*t"),
+             driven(displacement, "30*t"));
+  const Freedoms::Body &beam = run.freedoms->bodies()[0];
+  EXPECT_EQ(beam.given, (std::array<bool, 3>{ { true, false, true } }));
+  EXPECT_EQ(run.freedoms->drives(2., 0.)[0],
+            (std::array<double, 3>{ { 0., -8e3, 0. } }));
+  EXPECT_EQ(run.freedoms->drives(2., 0.)[1],
+            (std::array<double, 3>{ { 0., 0., 0. } }));
+
+  Configuration configuration = run.freedoms->configuration(run.state);
+  const auto increment = run.vector({ { 9., 0.25, 9. }, { 0., 0., 0. } });
+  run.freedoms->move(increment, 1., 3., 0., configuration);
+  EXPECT_EQ(configuration.load_time, 3.);
+  run.expect_rigid(configuration, 0, { { 1.5, 0.5 } },
+                   { { 0.3, 0.25, 90. * degree } });
+  run.expect_rigid(configuration, 1, { { 1.5, 1.5 } }, { { 0., 0., 0. } });
+
+  // What is given on the way to a time near is that of the nodes' motion.
+  run.freedoms->update_arms(configuration);
+  const double dt     = 1e-6;
+  const auto motion   = run.freedoms->given_motion(configuration, 3. + dt, 0.);
+  Configuration later = configuration;
+  run.freedoms->move(run.vector(), 0., 3. + dt, 0., later);
+  for (unsigned int v = 0; v < run.mesh.n_vertices(); ++v)
+    for (unsigned int d = 0; d < 2; ++d)
+      EXPECT_NEAR(motion[v].v[d],
+                  later.nodes[v].u[d] - configuration.nodes[v].u[d], 1e-5 * dt);
+
+  // Only what is not given has a right-hand side.
+  AlignedArray<NodeVector> force(run.mesh.n_vertices(), { { 1., 1. } });
+  auto sums = run.vector();
+  run.freedoms->project(force, Values(2, { { 0., 0., 0. } }), sums);
+  EXPECT_EQ(sums(beam.first), 0.);
+  EXPECT_EQ(sums(beam.first + 1), double(beam.nodes.size()));
+  EXPECT_EQ(sums(beam.first + 2), 0.);
+}
+
+TEST(Freedoms, TheLastMotionOfANodePrevails)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 1);
+  const Model model(mesh, { 0, 0 }, two_blocks(), MPI_COMM_SELF);
+  State state = model.initial_state();
+  PrescribedMotion bottom(motion("bottom", "bottom", "1", "2"), mesh,
+                          model.exchange());
+  PrescribedMotion sides(motion("sides", "sides", "3", ""), mesh,
+                         model.exchange());
+  const Freedoms freedoms(model, { &bottom, &sides }, {}, state);
+  EXPECT_EQ(freedoms.prescribed().size(), 3U + 1U + 8U);
+  Configuration configuration = freedoms.configuration(state);
+  Freedoms::Vector ones(freedoms.owned(), MPI_COMM_SELF);
+  ones = 1.;
+  freedoms.move(ones, 10., 0.5, 0., configuration);
+  const auto expect_at
+      = [&](const double x, const double y, const double ux, const double uy)
+  {
+    for (const unsigned int v : vertices_at(mesh, x, y))
+    {
+      EXPECT_NEAR(configuration.nodes[v].u[0], ux, 1e-14);
+      EXPECT_NEAR(configuration.nodes[v].u[1], uy, 1e-14);
+    }
+  };
+  expect_at(0., 0., 1.5, 1.); // the corner follows the sides in x
+  expect_at(1., 0., 0.5, 1.);
+  expect_at(0., 1., 1.5, 10.);
+  expect_at(1., 1., 10., 10.);
+}

@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "implicit_run.h"
+
+#include <quoin/mesh/crossed_triangles.h>
+#include <quoin/output/archive.h>
+
+#include <boost/archive/binary_oarchive.hpp>
+
+#include <sstream>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  constexpr auto velocity    = LoadQuantity::velocity;
+  constexpr auto given_force = LoadQuantity::force;
+  constexpr double section   = 0.5 * 2.; // thickness times height
+
+  enum class Cut
+  {
+    plain,
+    crossed,
+    quadratic
+  };
+
+  /** The squares of add_grid() by both of their diagonals. */
+  void cross(MeshData &data)
+  {
+    Quadrangles squares;
+    for (unsigned int i = 0; i < data.triangles.size(); i += 2)
+    {
+      const auto &[a, b, c] = data.triangles[i];
+      squares.nodes.push_back({ { a, b, c, data.triangles[i + 1][2] } });
+      squares.group.push_back(data.triangle_group[i]);
+    }
+    data.triangles.clear();
+    data.triangle_group.clear();
+    add_crossed_triangles(squares, data);
+  }
+
+  /**
+   * Three blocks of 2 m x 2 m in a row, groups "a", "b" and "c", with the
+   * joints "first" and "second" and the curves "left", "right" and "floor".
+   */
+  void make_row(BlockMesh<2> &mesh, const Cut cut = Cut::plain)
+  {
+    const std::string groups[] = { "a", "b", "c" };
+    const std::string curves[] = { "left", "first", "second" };
+    MeshData data;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      const double x = 2. * i;
+      add_grid(data, 2, 2, groups[i], x, 0.);
+      add_curve(data, curves[i], x, 0., x, 2.);
+      add_curve(data, "floor", x, 0., x + 2., 0.);
+    }
+    add_curve(data, "right", 6., 0., 6., 2.);
+    if (cut == Cut::crossed)
+      cross(data);
+    if (cut == Cut::quadratic)
+      cut_into_quadratic_triangles(data);
+    split_into_blocks(data, {}, mesh);
+  }
+
+  ModelParameters three_blocks(const double poisson = 0.2)
+  {
+    ModelParameters result;
+    result.plane     = PlaneAssumption::plane_stress;
+    result.thickness = 0.5;
+    for (const std::string name : { "a", "b", "c" })
+      result.materials.push_back(material(name, 2500., 1e10, poisson));
+    result.joints = { elastic_joint(1e11, 4e10, "first"),
+                      elastic_joint(2e11, 8e10, "second") };
+    return result;
+  }
+
+  LoadParameters moved(const std::string &name, const std::string &x,
+                       const std::string &y)
+  {
+    return load(name, LoadType::prescribed_motion, name,
+                LoadQuantity::displacement, x, y);
+  }
+
+  std::string bytes(const State &state)
+  {
+    std::ostringstream stream;
+    boost::archive::binary_oarchive(stream) << state;
+    return stream.str();
+  }
+
+  double largest_damping_error(const ImplicitRun &run)
+  {
+    const Energies &energies = run.solver.energies();
+    return std::abs(energies.residual()) / energies.throughput();
+  }
+} // namespace
+
+TEST(ImplicitSolver, UniformStressIsExact)
+{
+  for (const Cut cut : { Cut::plain, Cut::crossed, Cut::quadratic })
+  {
+    BlockMesh<2> mesh;
+    make_row(mesh, cut);
+    ImplicitParameters numbers;
+    numbers.force_ratio = 1e-12;
+    const double sx = 3e6, sy = 0.;
+    ImplicitRun run(mesh, three_blocks(),
+                    { moved("left", "0", ""), moved("floor", "", "0"),
+                      traction("pull", "right", "3e6*t", "") },
+                    numbers);
+    run.begin({ "left", "floor", "pull" });
+    run.finish();
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+    {
+      const auto stress
+          = run.model.blocks().cell_stress(run.state.nodes.data(), {}, c);
+      EXPECT_NEAR(stress[0], sx, 1e-9 * sx);
+      EXPECT_NEAR(stress[1], sy, 1e-9 * sx);
+      EXPECT_NEAR(stress[2], 0., 1e-9 * sx);
+    }
+    for (const double t : run.state.joints.normal_traction)
+      EXPECT_NEAR(t, sx, 1e-9 * sx);
+    // Length over E, and two joints.
+    const double pulled = sx * (6. / 1e10 + 1. / 1e11 + 1. / 2e11);
+    for (const unsigned int v : vertices_at(mesh, 6., 2.))
+    {
+      EXPECT_NEAR(run.state.nodes[v].u[0], pulled, 1e-9 * pulled);
+      EXPECT_NEAR(run.state.nodes[v].u[1], -0.2 * sx * 2. / 1e10,
+                  1e-9 * pulled);
+    }
+    EXPECT_NEAR(run.solver.resultant("left")[0], -sx * section, 1e-9 * sx);
+    EXPECT_LT(largest_damping_error(run), 1e-9);
+  }
+}
+
+TEST(ImplicitSolver, IterationsConvergeQuadratically)
+{
+  // A bar of three blocks bent by a third of a right angle in one step.
+  BlockMesh<2> mesh;
+  make_row(mesh);
+  ImplicitParameters numbers;
+  numbers.first_step = numbers.largest_step = 1.;
+  numbers.force_ratio                       = 1e-13;
+  numbers.line_search                       = false;
+  ImplicitRun run(
+      mesh, three_blocks(),
+      { moved("left", "0", "0"), traction("push", "right", "", "1e8*t") },
+      numbers);
+  run.begin({ "left", "push" });
+  run.solver.step(run.state);
+  ASSERT_TRUE(run.solver.is_over(run.state));
+  EXPECT_GT(run.state.nodes[vertices_at(mesh, 6., 2.)[0]].u[1], 0.5);
+  const auto reports   = run.solver.take_reports();
+  unsigned int n_pairs = 0;
+  double largest       = 0.;
+  for (unsigned int i = 1; i < reports.size(); ++i)
+  {
+    const double before = reports[i - 1].unbalanced_ratio;
+    const double after  = reports[i].unbalanced_ratio;
+    if (before > 1e-2 || before < 1e-6) // rounding beyond
+      continue;
+    ++n_pairs;
+    largest = std::max(largest, after / (before * before));
+  }
+  EXPECT_GE(n_pairs, 2U);
+  EXPECT_LT(largest, 20.);
+  EXPECT_LT(reports.size(), 12U);
+}
+
+TEST(ImplicitSolver, SlidingBeyondItsLimitKeepsTheLastEquilibrium)
+{
+  // Friction 0.5 under 1e6 N, and a force of 0.8e6 N a second: until 0.625 s.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 1);
+  ModelParameters parameters        = two_blocks();
+  parameters.joints[0].law.peak     = { 0., 0.5, 0. };
+  parameters.joints[0].law.residual = { 0., 0.5, 0. };
+  ImplicitParameters numbers;
+  numbers.jumps      = false;
+  const auto at_rest = component(velocity, "0");
+  ImplicitRun run(
+      mesh, parameters,
+      { platen("held", "lower", at_rest, at_rest, at_rest),
+        platen("press", "upper", component(given_force, "0"),
+               component(given_force, "-1e6 * min(1, t/0.5)"), at_rest),
+        platen("push", "upper", component(given_force, "8e5*t"),
+               component(given_force, "-1e6"), at_rest) },
+      numbers);
+  const StageParameters pressed = stage_with({ "held", "press" });
+  run.begin(pressed.loads);
+  run.finish();
+  run.begin({ "held", "push" }, &pressed);
+  State last;
+  try
+  {
+    for (;;)
+    {
+      last = run.state;
+      run.solver.step(run.state);
+      ASSERT_LT(run.state.load_time, 0.63);
+    }
+  }
+  catch (const RunError &error)
+  {
+    const std::string text = error.what();
+    for (const std::string part :
+         { "no equilibrium", "load time 0.62", "limit load",
+           "'Path following = automatic'", "last equilibrium is kept" })
+      EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
+  }
+  EXPECT_NEAR(run.state.load_time, 0.625, 1e-4);
+  last.implicit = run.state.implicit; // the step to try has become smaller
+  EXPECT_EQ(bytes(run.state), bytes(last));
+}
+
+TEST(ImplicitSolver, RigidBlockUnderAnEccentricLoad)
+{
+  // A wall of 2 m x 1 m on a bed of springs: weight 25 kN in the middle,
+  // 0.5 kN half a metre to the right.
+  MeshData data;
+  add_grid(data, 2, 1, "lower", 0., 0.);
+  add_curve(data, "bottom", 0., 0., 2., 0.);
+  add_grid(data, 2, 1, "upper", 0., 1.);
+  add_curve(data, "joint", 0., 1., 2., 1.);
+  add_curve(data, "half", 1., 2., 2., 2.);
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  ModelParameters parameters    = two_blocks();
+  parameters.materials[1].rigid = true;
+  ImplicitParameters numbers;
+  numbers.force_ratio = 1e-12;
+  const auto at_rest  = component(velocity, "0");
+  ImplicitRun run(mesh, parameters,
+                  { platen("held", "lower", at_rest, at_rest, at_rest),
+                    gravity("0", "-10"), traction("load", "half", "", "-1e3") },
+                  numbers);
+  run.begin({ "held", "gravity", "load" });
+  EXPECT_EQ(run.state.implicit.released, 0.);
+  run.finish();
+  // Nodal quadrature: 0.25, 0.5 and 0.25 m^2 at -1, 0 and 1 m.
+  const double kn = 2e10, moment = -500. * 0.5, inertia = 0.5;
+  const RigidBlockState &block = run.state.rigid_blocks[0];
+  EXPECT_NEAR(block.displacement[1], -25.5e3 / kn, 1e-6 * 25.5e3 / kn);
+  EXPECT_NEAR(block.rotation, moment / (kn * inertia), 1e-12);
+  // The lower block weighs as much as the upper one.
+  EXPECT_NEAR(run.solver.resultant("held")[1], 50.5e3, 1e-6 * 50.5e3);
+}
+
+TEST(ImplicitSolver, WhatASupportHeldIsLetGo)
+{
+  BlockMesh<2> mesh;
+  make_row(mesh);
+  ImplicitParameters numbers;
+  numbers.force_ratio = 1e-6;
+  ImplicitRun run(mesh, three_blocks(0.),
+                  { moved("left", "0", "0"), moved("right", "1e-6*t", "") },
+                  numbers);
+  const StageParameters pulled = stage_with({ "left", "right" });
+  run.begin(pulled.loads);
+  run.finish();
+  const double stiffness = section / (6. / 1e10 + 1. / 1e11 + 1. / 2e11);
+  EXPECT_NEAR(run.solver.resultant("right")[0], stiffness * 1e-6,
+              1e-6 * stiffness * 1e-6);
+  EXPECT_EQ(run.state.implicit.released, 1.);
+
+  run.begin({ "left" }, &pulled);
+  EXPECT_EQ(run.state.implicit.released, 0.);
+  const unsigned int end = vertices_at(mesh, 6., 2.)[0];
+  unsigned int n         = 0;
+  for (; run.state.implicit.released < 1.; ++n)
+  {
+    EXPECT_EQ(run.state.load_time, 0.);
+    EXPECT_NEAR(run.state.nodes[end].u[0],
+                1e-6 * (1. - run.state.implicit.released), 1e-12);
+    run.solver.step(run.state);
+  }
+  EXPECT_GT(n, 5U);
+  EXPECT_TRUE(run.state.implicit.held.empty());
+  EXPECT_NEAR(run.state.nodes[end].u[0], 0., 1e-14);
+  // All that was stored is lost, as by a damper.
+  const double stored = 0.5 * stiffness * 1e-12;
+  EXPECT_NEAR(run.state.energy.damping, stored, 1e-5 * stored);
+  EXPECT_LT(largest_damping_error(run), 1e-9);
+  run.finish();
+  EXPECT_NEAR(run.state.nodes[end].u[0], 0., 1e-14);
+}
