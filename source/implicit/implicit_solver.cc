@@ -22,7 +22,7 @@ namespace quoin
     constexpr double drag_growth = 2., drag_cut = 0.2;
     constexpr unsigned int most_drag_steps = 2000;
     /** How far loads go on with a jump, of the last step. */
-    constexpr double jump_share = 0.5;
+    constexpr double jump_share = 0.3;
     /** Steps of a jump between trials without drag. */
     constexpr unsigned int trial_interval = 4;
     /** Steps of a jump that did not go far. */
@@ -72,9 +72,9 @@ namespace quoin
     if (on_path && !is_first)
     {
       const double slope = by_unknown * advanced + path_by_advance;
-      if (slope == 0.)
-        return false;
-      share = (target.path - balance.path - by_unknown * correction) / slope;
+      // Until a joint flows there is no path to measure: go on ahead.
+      if (slope != 0.)
+        share = (target.path - balance.path - by_unknown * correction) / slope;
     }
     if (share != 0.)
       correction.add(share, advanced);
@@ -366,13 +366,14 @@ namespace quoin
       const double longer
           = std::min(growth, parameters.largest_path_step / now.path_step);
       now.path_step *= longer;
-      now.step = longer * went;
+      // Always ahead first, so that joints flow; the path then says where.
+      now.step
+          = std::clamp(longer * std::abs(went), 0.01 * parameters.first_step,
+                       parameters.largest_step);
       now.ahead
           = went > 0. && state.load_time >= now.farthest ? now.ahead + 1 : 0;
       if (now.ahead > steps_ahead && parameters.path != PathFollowing::always)
         now.follows_path = false;
-      now.step = std::clamp(now.step, -parameters.largest_step,
-                            parameters.largest_step);
     }
     else
     {

@@ -822,6 +822,35 @@ def snap_back(case, folder, output, histories):
     }
 
 
+def snap_back_path(case, folder, output, histories):
+    """Every row, on the way back too, on the curve that the joint and the
+    spring have in common; the path turns back, and nothing is lost."""
+    exact = closed_form(folder)
+    u, opening = histories["displacement"], histories["opening"]
+    normal = histories["normal"]
+    crack = opening - normal / exact.KN
+    flows = crack > 1e-12
+    law = exact.FT * np.exp(-exact.FT * crack / exact.GI)
+    clock = histories["clock"]
+    table = energies(output)
+    print("  goes back by %.0f %%, %d rows on the softening branch"
+          % (100 * np.max(np.maximum.accumulate(clock) - clock), flows.sum()))
+    return {
+        "normal, all rows": (
+            float(np.max(np.abs(normal - law)[flows]) / exact.FT),
+            case["tolerance"]),
+        "opening, all rows": (
+            float(np.max(np.abs(u - normal / exact.KE - opening)) / np.max(u)),
+            case["tolerance"]),
+        "does not go back": (
+            float(np.max(np.maximum.accumulate(clock) - clock) < 0.2), 0.5),
+        "few rows on the branch": (float(flows.sum() < 15), 0.5),
+        "damping": (float(abs(table["damping"][-1])
+                          / np.max(table["external"])), 1e-6),
+        "energy residual": (residual_of(table), 1e-9),
+    }
+
+
 def salencon(case, folder, output, histories):
     """Displacements relative to the largest one, those of the wall and at the
     edge of the plastic zone relative to themselves; its radius by the area of
