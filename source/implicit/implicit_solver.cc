@@ -20,13 +20,15 @@ namespace quoin
     /** Steps of the way of a jump: drag is a typical stiffness over these. */
     constexpr double first_drag_step = 0.1, least_drag_step = 1e-9;
     constexpr double drag_growth = 2., drag_cut = 0.2;
-    constexpr unsigned int most_drag_steps = 2000;
+    constexpr unsigned int most_drag_steps = 500;
     /** How far loads go on with a jump, of the last step. */
     constexpr double jump_share = 0.3;
     /** Steps of a jump between trials without drag. */
     constexpr unsigned int trial_interval = 4;
     /** Steps of a jump that did not go far. */
     constexpr unsigned int short_way = 3;
+    /** Of the model's size: a motion in a jump that is a collapse. */
+    constexpr double collapse_share = 0.05;
     /** Drag to applied force where a jump may have come to its end. */
     constexpr double jump_ends = 1e-4;
     /** Steps ahead on the path before the loads lead again. */
@@ -227,6 +229,8 @@ namespace quoin
   void ImplicitSolver::step(State &state)
   {
     current_step = state.step;
+    if (!state.implicit.jumps)
+      last_equilibrium = state;
     Configuration configuration;
     for (attempt = 0;; ++attempt)
     {
@@ -247,7 +251,7 @@ namespace quoin
         break;
       ++cuts_done;
       if (!cut_step(state))
-        fail(state);
+        give_up(state);
     }
     const State before = state;
     commit(configuration, state);
@@ -262,6 +266,8 @@ namespace quoin
     ImplicitState &now = state.implicit;
     now.jump_loss += state.energy.damping - before.energy.damping;
     ++now.n_drag;
+    if (now.n_drag >= most_drag_steps || has_gone_far(state))
+      give_up(state);
     if (iteration <= parameters.wanted_iterations)
       now.drag_step *= drag_growth;
     // Trials cost as much as steps: at once, then now and then.
@@ -288,6 +294,33 @@ namespace quoin
           dealii::Utilities::MPI::sum(now.jump_loss, communicator) });
   }
 
+  bool ImplicitSolver::has_gone_far(const State &state) const
+  {
+    // After a resumption within the jump it is not known from where.
+    if (last_equilibrium.nodes.empty())
+      return false;
+    double moved = 0.;
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        moved = std::max(moved, std::abs(state.nodes[i].u[d]
+                                         - last_equilibrium.nodes[i].u[d]));
+    const auto &vertices = model.mesh().vertices;
+    double size          = 0.;
+    for (const auto &p : vertices)
+      size = std::max(size, p.distance(vertices[0]));
+    return dealii::Utilities::MPI::max(moved, communicator)
+           > collapse_share * size;
+  }
+
+  void ImplicitSolver::give_up(State &state)
+  {
+    const double tried = std::abs(state.implicit.step);
+    const bool jumped  = state.implicit.jumps;
+    if (!last_equilibrium.nodes.empty())
+      state = last_equilibrium;
+    fail(state, tried, jumped);
+  }
+
   bool ImplicitSolver::begin_jump(State &state) const
   {
     ImplicitState &now = state.implicit;
@@ -312,7 +345,7 @@ namespace quoin
     if (now.jumps)
     {
       now.drag_step *= drag_cut;
-      return now.drag_step > least_drag_step && now.n_drag < most_drag_steps;
+      return now.drag_step > least_drag_step;
     }
     if (now.follows_path)
     {

@@ -21,6 +21,9 @@ namespace quoin
     /** What a static stage lasts whose loads never change [s]. */
     constexpr double resting_duration = 1.;
 
+    /** A joint is named rather than the inside of a block with so much more. */
+    constexpr double joint_preference = 10.;
+
     void refuse_dynamic_loads(const std::vector<LoadParameters> &loads)
     {
       for (const LoadParameters &load : loads)
@@ -347,48 +350,58 @@ namespace quoin
     return result;
   }
 
-  void ImplicitSolver::fail(const State &state) const
+  std::string ImplicitSolver::worst_place() const
   {
-    // The node with the largest force that nothing balances.
+    // The largest force that nothing balances, on a node or, where bodies are
+    // rigid alone, on one of these; a joint if it has nearly as much.
+    const unsigned int n_owned = model.exchange().n_owned();
+    std::vector<bool> on_joint(model.exchange().n_local(), false);
+    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        on_joint[model.joints().segment(i).lower[k]] = true;
+        on_joint[model.joints().segment(i).upper[k]] = true;
+      }
     double largest     = -1.;
     unsigned int worst = 0;
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    const auto look    = [&](const unsigned int node, const double force)
+    {
+      const double counts = force * (on_joint[node] ? joint_preference : 1.);
+      if (counts <= largest)
+        return;
+      largest = counts;
+      worst   = node;
+    };
+    for (unsigned int i = 0; i < n_owned; ++i)
     {
       double square = 0.;
       for (unsigned int d = 0; d < 2; ++d)
-        if (freedoms->is_free(i, d) || freedoms->is_in_body(i))
+        if (freedoms->is_free(i, d))
           square += balance.force[i].v[d] * balance.force[i].v[d];
-      if (!freedoms->is_in_body(i) && square > largest)
-      {
-        largest = square;
-        worst   = i;
-      }
+      if (!freedoms->is_in_body(i))
+        look(i, std::sqrt(square));
     }
-    std::string where;
-    const double most = dealii::Utilities::MPI::max(largest, communicator);
-    if (largest == most && largest >= 0.)
-      where = describe_node(worst);
-    else if (most < 0. && !freedoms->bodies().empty())
-    {
-      // Rigid blocks and platens alone.
-      const auto forces = freedoms->body_forces(balance.force);
-      for (unsigned int b = 0; b < forces.size(); ++b)
-        for (unsigned int d = 0; d < 2; ++d)
-          if (!freedoms->bodies()[b].given[d]
-              && !freedoms->bodies()[b].nodes.empty()
-              && std::abs(forces[b][d] + balance.drives[b][d]) > largest)
-          {
-            largest = std::abs(forces[b][d] + balance.drives[b][d]);
-            where   = describe_node(freedoms->bodies()[b].nodes.front());
-          }
-    }
-    const auto all = dealii::Utilities::MPI::all_gather(communicator, where);
-    for (const std::string &text : all)
+    const auto forces = freedoms->body_forces(balance.force);
+    for (unsigned int b = 0; b < forces.size(); ++b)
+      for (unsigned int d = 0; d < 2; ++d)
+        if (const Freedoms::Body &body = freedoms->bodies()[b];
+            !body.given[d] && !body.nodes.empty())
+          look(body.nodes.front(), std::abs(forces[b][d] + balance.drives[b][d]
+                                            + balance.held[b][d]));
+
+    const double most  = dealii::Utilities::MPI::max(largest, communicator);
+    const bool is_here = largest >= 0. && largest == most;
+    for (const std::string &text : dealii::Utilities::MPI::all_gather(
+             communicator, is_here ? describe_node(worst) : std::string()))
       if (!text.empty())
-      {
-        where = text;
-        break;
-      }
+        return text;
+    return "nowhere";
+  }
+
+  void ImplicitSolver::fail(const State &state, const double tried,
+                            const bool jumped) const
+  {
+    const std::string where = worst_place();
     std::ostringstream message;
     message << "no equilibrium was found beyond "
             << (state.implicit.released < 1.
@@ -396,8 +409,10 @@ namespace quoin
                           + " % of what was out of balance at the start"
                     : "the load time " + number_text(state.load_time) + " of "
                           + number_text(stage_duration) + " s")
-            << ", although steps were cut to "
-            << number_text(std::abs(state.implicit.step))
+            << (jumped ? ", and the model went on moving when it was let go "
+                         "against a drag, after steps were cut to "
+                       : ", although steps were cut to ")
+            << number_text(tried)
             << " of the stage. Forces are out of balance most " << where
             << ". The model may have come to its limit load there"
             << (parameters.path == PathFollowing::never

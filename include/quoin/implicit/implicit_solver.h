@@ -168,7 +168,13 @@ namespace quoin
     void adapt_step(const State &before, State &state) const;
     /** Makes the next attempt a smaller one; false: there is none. */
     bool cut_step(State &state) const;
-    [[noreturn]] void fail(const State &state) const;
+    /** Whether a jump has become a collapse; collective. */
+    bool has_gone_far(const State &state) const;
+    /** Makes @p state the last equilibrium and throws the RunError. */
+    [[noreturn]] void give_up(State &state);
+    [[noreturn]] void fail(const State &state, double tried, bool jumped) const;
+    /** Where forces are out of balance most; collective. */
+    std::string worst_place() const;
     std::string describe_node(unsigned int node) const;
 
     const ImplicitParameters parameters;
@@ -182,9 +188,10 @@ namespace quoin
     std::unique_ptr<Equilibrium> equilibrium;
     std::unique_ptr<LinearSolver> linear_solver;
 
-    Balance start;   /**< at the last equilibrium */
-    Balance balance; /**< at the configuration */
-    Balance trial;   /**< in a line search */
+    State last_equilibrium; /**< before the step or jump under way */
+    Balance start;          /**< at the last equilibrium */
+    Balance balance;        /**< at the configuration */
+    Balance trial;          /**< in a line search */
     Advance advance;
     std::vector<std::uint8_t> broken; /**< joint points, in this step */
     Freedoms::Vector residual, by_advance, by_unknown, correction, advanced;
