@@ -21,6 +21,8 @@ namespace quoin
     constexpr double first_drag_step = 0.1, least_drag_step = 1e-9;
     constexpr double drag_growth = 2., drag_cut = 0.2;
     constexpr unsigned int most_drag_steps = 500;
+    /** Path in a step of a jump, by the largest of a step. */
+    constexpr double most_flow = 1.;
     /** How far loads go on with a jump, of the last step. */
     constexpr double jump_share = 0.3;
     /** Steps of a jump between trials without drag. */
@@ -247,7 +249,11 @@ namespace quoin
             = (stage_duration - state.load_time) / stage_duration;
         continue;
       }
-      if (outcome == Outcome::converged)
+      // A jump is a path too, on which joints must not flow too far at once.
+      const double flowed
+          = std::abs(balance.path) / parameters.largest_path_step;
+      if (outcome == Outcome::converged
+          && (!state.implicit.jumps || flowed <= most_flow))
         break;
       ++cuts_done;
       if (!cut_step(state))
@@ -268,7 +274,9 @@ namespace quoin
     ++now.n_drag;
     if (now.n_drag >= most_drag_steps || has_gone_far(state))
       give_up(state);
-    if (iteration <= parameters.wanted_iterations)
+    if (iteration <= parameters.wanted_iterations
+        && std::abs(balance.path)
+               < parameters.largest_path_step * most_flow / drag_growth)
       now.drag_step *= drag_growth;
     // Trials cost as much as steps: at once, then now and then.
     if (balance.dragged > jump_ends * balance.applied

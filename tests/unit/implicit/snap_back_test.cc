@@ -141,23 +141,30 @@ TEST(SnapBack, AJumpLosesWhatTheSpringsHadTooMuch)
   Bar bar(numbers(PathFollowing::never, true));
   bar.begin();
   bar.run->finish();
+  // Below the peak a short way may lead to the next equilibrium; one jumps.
   const auto jumps = bar.run->solver.take_jumps();
-  ASSERT_EQ(jumps.size(), 1U);
+  ASSERT_GE(jumps.size(), 1U);
+  double short_ways = 0.;
+  for (unsigned int i = 0; i + 1 < jumps.size(); ++i)
+    short_ways += jumps[i].loss;
+  const JumpReport jump = jumps.back();
+  EXPECT_LT(std::abs(short_ways), 1e-3 * jump.loss);
   // From the peak, where the branch ends, to the other at the same place.
   const double peak = strength * compliance;
-  const double u = speed * jumps[0].load_time, after = stress_after(u);
+  const double u = speed * jump.load_time, after = stress_after(u);
   EXPECT_NEAR(u, peak, 1e-2 * peak);
-  EXPECT_GE(u, peak * (1. - 1e-6));
+  // So near to the peak a step of the drag crosses what is left to climb.
+  EXPECT_GE(u, peak * (1. - 1e-3));
   const double loss = 0.5 * compliance * (strength * strength - after * after)
                       + strength * (u - peak)
                       - energy * (1. - after / strength);
-  EXPECT_NEAR(jumps[0].loss, loss * section, 0.05 * loss * section);
+  EXPECT_NEAR(jump.loss, loss * section, 0.05 * loss * section);
   // Fracture by finite steps of the softening curve; the sum is exact.
   const double left = bar.run->state.energy.fracture
                       - energy * (1. - bar.stress() / strength) * section;
   EXPECT_LT(std::abs(left), 0.02 * energy);
-  EXPECT_NEAR(bar.run->state.energy.damping, jumps[0].loss,
-              1e-6 * jumps[0].loss);
+  EXPECT_NEAR(bar.run->state.energy.damping, jump.loss + short_ways,
+              1e-6 * jump.loss);
   EXPECT_NEAR(bar.stress(), stress_after(speed), 1e-6 * strength);
   const Energies &energies = bar.run->solver.energies();
   EXPECT_LT(std::abs(energies.residual()), 1e-6 * energies.throughput());
