@@ -109,7 +109,8 @@ namespace quoin
   make_static_far_field(const Parameters &parameters, const Model &model,
                         const FarField *far)
   {
-    const auto needs_it = [&](const StageParameters &stage) {
+    const auto needs_it = [&](const StageParameters &stage)
+    {
       return (stage.end == StageEnd::static_ratio || parameters.is_implicit)
              && names(stage, far->name());
     };

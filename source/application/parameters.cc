@@ -558,6 +558,10 @@ namespace quoin
       check_loads(parameters);
       parameters.implicit
           = ImplicitParameters::read(ParameterSection(top, "Implicit"));
+      if (parameters.is_implicit && !parameters.boundary.waves.empty())
+        ParameterSection(top, "Incident waves")
+            .fail("Names", "needs motion, which 'Solver = implicit' leaves "
+                           "out: remove the waves, or take 'explicit'.");
       if (parameters.is_implicit && parameters.initial_motion.is_given)
         top.fail("Solver", "leaves out inertia, but section 'Initial motion' "
                            "gives one: remove that, or take 'explicit'.");
