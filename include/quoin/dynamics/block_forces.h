@@ -44,10 +44,10 @@ namespace quoin
     double thickness = 1.; /**< [m] */
 
     /**
-     * Each four cells are one six-node triangle, as cut_into_quadratic_
-     * triangles() cuts it. What goes cell by cell, strains, stresses and
-     * linearise(), is then of that triangle at the centroids of the cells;
-     * add_forces() and what else goes in lanes is not.
+     * Each four cells are one six-node triangle, cut as the function
+     * cut_into_quadratic_triangles() does. What goes cell by cell, strains,
+     * stresses and linearise(), is then of that triangle at the centroids of
+     * the cells; add_forces() and what else goes in lanes is not.
      */
     bool quadratic = false;
   };
