@@ -3,6 +3,7 @@
 
 #include <quoin/application/mesh_parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/layout/rock_layout.h>
 #include <quoin/mesh/wall_layout.h>
 
 #include <filesystem>
@@ -17,7 +18,8 @@ namespace quoin
     prm.declare_entry("File", "", Anything(),
                       "gmsh geometry (.geo) or mesh (.msh), relative to "
                       "the folder of this file; coordinates in [m]. Empty "
-                      "with a wall of section 'Wall'.");
+                      "with a wall of section 'Wall' or rock of section "
+                      "'Rock'.");
     prm.declare_entry("Triangles", "plain",
                       Selection("plain|crossed|quadratic"),
                       "plain: the file's or gmsh's triangles; crossed: "
@@ -27,8 +29,8 @@ namespace quoin
                       "of their edges, for the implicit solver.");
     prm.declare_entry("Joints along", "", Anything(),
                       "Physical curves along which the mesh is split into "
-                      "blocks; empty with a wall of section 'Wall': all of "
-                      "its joints.");
+                      "blocks; empty with a wall of section 'Wall' or rock of "
+                      "section 'Rock': all of its joints.");
     prm.declare_entry("Joints between", "", Anything(),
                       "Pairs a:b of physical surfaces between which it is "
                       "split, or 'all'.");
@@ -41,31 +43,65 @@ namespace quoin
     prm.enter_subsection("Wall");
     WallParameters::declare(prm);
     prm.leave_subsection();
+
+    prm.enter_subsection("Rock");
+    RockParameters::declare(prm);
+    prm.leave_subsection();
   }
 
   namespace
   {
-    /** The wall of section 'Wall', if there is one. */
-    bool read_wall(const ParameterSection &top, Parameters &parameters)
+    void lay(const WallParameters &wall, Parameters &parameters)
     {
-      WallParameters wall;
-      {
-        const ParameterSection section(top, "Wall");
-        wall = WallParameters::read(section);
-      }
-      if (wall.bond == WallBond::none)
+      const WallLayout layout       = lay_wall(wall);
+      const WallGeometry geometry   = wall_geometry(wall, layout);
+      parameters.generated          = { "wall", geometry.text,
+                                        wall_report(layout), "" };
+      parameters.split.joints_along = geometry.joint_curves;
+    }
+
+    void lay(const RockParameters &rock, Parameters &parameters)
+    {
+      const RockLayout layout       = lay_rock(rock);
+      const RockGeometry geometry   = rock_geometry(rock, layout);
+      parameters.generated          = { "rock", geometry.text,
+                                        rock_report(rock, layout),
+                                        rock_statistics(rock, layout) };
+      parameters.split.joints_along = geometry.joint_curves;
+    }
+
+    WallParameters read_wall(const ParameterSection &top)
+    {
+      return WallParameters::read(ParameterSection(top, "Wall"));
+    }
+
+    /** Lays the wall or the rock, if the file has one. */
+    bool read_generated(const ParameterSection &top, Parameters &parameters)
+    {
+      const WallParameters wall = read_wall(top);
+      const RockParameters rock = RockParameters::read(top);
+      const bool has_wall       = wall.bond != WallBond::none;
+      const bool has_rock       = !rock.outline.empty();
+      if (has_wall && has_rock)
+        ParameterSection(top, "Rock").fail(
+            "Outline", "does not go with a wall of section 'Wall': leave it "
+                       "empty, or set 'Wall/Bond = none'.");
+      if (!has_wall && !has_rock)
         return false;
-      const ParameterSection section(top, "Mesh");
-      if (!section.text("File").empty())
-        section.fail("File", "does not go with a wall of section 'Wall': leave "
-                             "it empty, or set 'Wall/Bond = none'.");
+      {
+        const ParameterSection section(top, "Mesh");
+        if (!section.text("File").empty())
+          section.fail("File",
+                       "does not go with a wall of section 'Wall' or rock of "
+                       "section 'Rock': leave it empty, or set 'Wall/Bond = "
+                       "none' and 'Rock/Outline' empty.");
+      }
       try
       {
-        const WallLayout layout       = lay_wall(wall);
-        const WallGeometry geometry   = wall_geometry(wall, layout);
-        parameters.wall_geometry      = geometry.text;
-        parameters.wall_report        = wall_report(layout);
-        parameters.split.joints_along = geometry.joint_curves;
+        if (has_wall)
+          lay(wall, parameters);
+        else
+          lay(rock, parameters);
       }
       catch (const InputError &error)
       {
@@ -79,7 +115,7 @@ namespace quoin
       const std::string name = section.text("File");
       if (name.empty())
         section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
-                             "a bond.");
+                             "a bond, or section 'Rock' an outline.");
       parameters.mesh_file
           = name.front() == '/' ? name : section.folder() + name;
       if (!std::filesystem::exists(parameters.mesh_file))
@@ -96,7 +132,7 @@ namespace quoin
 
   void read_mesh(const ParameterSection &top, Parameters &parameters)
   {
-    const bool generated = read_wall(top, parameters);
+    const bool generated = read_generated(top, parameters);
     const ParameterSection section(top, "Mesh");
     parameters.triangles = section.choice<TriangleKind>(
         "Triangles", { { "plain", TriangleKind::plain },

@@ -4,6 +4,7 @@
 #include <quoin/application/mesh_parameters.h>
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/layout/rock_parameters.h>
 #include <quoin/tdbem/elastic_medium.h>
 
 #include <algorithm>
@@ -34,7 +35,9 @@ namespace quoin
     const std::vector<NamedSection> &named_sections()
     {
       static const std::vector<NamedSection> sections
-          = { { "Materials", MaterialParameters::declare },
+          = { { "Rock regions", RockRegion::declare },
+              { "Rock joints", RockJoints::declare },
+              { "Materials", MaterialParameters::declare },
               { "Joints", JointSetParameters::declare },
               { "Loads", LoadParameters::declare },
               { "Stages", StageParameters::declare },

@@ -74,11 +74,11 @@ namespace quoin
   void Simulation::make_model()
   {
     const MeshData as_read
-        = parameters.wall_geometry.empty()
+        = parameters.generated.geometry.empty()
               ? read_gmsh(parameters.mesh_file, communicator,
                           parameters.triangles)
-              : mesh_gmsh_geometry(parameters.wall_geometry, communicator,
-                                   parameters.triangles);
+              : mesh_gmsh_geometry(parameters.generated.geometry,
+                                   communicator, parameters.triangles);
     split_into_blocks(as_read, parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 
@@ -144,8 +144,8 @@ namespace quoin
     // What touches without matching is in contact if displacements are large.
     if (parameters.model.contact.large_displacements)
       mesh_report.unmatched_length = 0.;
-    if (!parameters.wall_report.empty())
-      log.message(parameters.wall_report);
+    if (!parameters.generated.report.empty())
+      log.message(parameters.generated.report);
     log.message(mesh_report.to_text());
     const auto &rigid          = model->is_rigid();
     const unsigned int n_rigid = std::count(rigid.begin(), rigid.end(), true);

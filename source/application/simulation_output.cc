@@ -83,17 +83,25 @@ namespace quoin
             }
           }
           write_text("used_parameters.prm", parameters.effective);
-          if (!parameters.wall_geometry.empty() && !options.resume)
-          {
-            write_text("wall.geo", parameters.wall_geometry);
-            write_gmsh_mesh(output + "/wall.geo", output + "/wall.msh",
-                            parameters.triangles);
-          }
+          if (!options.resume)
+            write_generated_geometry();
         });
     record.block_output.start();
     record.joint_output.start();
     if (solver->contacts())
       record.contact_output.start();
+  }
+
+  void Simulation::write_generated_geometry() const
+  {
+    const GeneratedGeometry &made = parameters.generated;
+    if (made.geometry.empty())
+      return;
+    write_text(made.name + ".geo", made.geometry);
+    if (!made.statistics.empty())
+      write_text(made.name + "_statistics.csv", made.statistics);
+    write_gmsh_mesh(output + "/" + made.name + ".geo",
+                    output + "/" + made.name + ".msh", parameters.triangles);
   }
 
   void Simulation::write_text(const std::string &name,

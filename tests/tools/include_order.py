@@ -3,7 +3,7 @@
 # Copyright (C) 2026 The quoin authors
 """Modules include only from their left:
 
-base < mesh, materials, joints < contact, loads, tdbem < coupling < dynamics
+base < mesh, layout, materials, joints < contact, loads, tdbem < coupling < dynamics
      < implicit, output < application
 
 Modules between the same two signs do not know each other.
@@ -12,7 +12,7 @@ import os
 import re
 import sys
 
-TIERS = [["base"], ["mesh", "materials", "joints"],
+TIERS = [["base"], ["mesh", "layout", "materials", "joints"],
          ["contact", "loads", "tdbem"], ["coupling"], ["dynamics"],
          ["implicit", "output"], ["application"]]
 RANK = {name: rank for rank, tier in enumerate(TIERS) for name in tier}

@@ -18,6 +18,15 @@
 
 namespace quoin
 {
+  /** Blocks that the program lays itself. */
+  struct GeneratedGeometry
+  {
+    std::string name;       /**< of its files: wall, rock */
+    std::string geometry;   /**< text of a .geo file; empty: there is none */
+    std::string report;     /**< what was laid, in lines */
+    std::string statistics; /**< a table (CSV), or empty */
+  };
+
   /** All that a parameter file says. */
   struct Parameters
   {
@@ -30,9 +39,7 @@ namespace quoin
     BoundaryElementParameters boundary;
 
     std::string mesh_file; /**< relative to the working directory */
-    /** Instead of the file: the geometry of a generated wall; or empty. */
-    std::string wall_geometry;
-    std::string wall_report; /**< what was laid, in a line */
+    GeneratedGeometry generated; /**< instead of the file, or empty */
     TriangleKind triangles = TriangleKind::plain;
     SplitOptions split;
 

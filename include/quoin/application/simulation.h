@@ -103,6 +103,8 @@ namespace quoin
     bool stage_is_over(const StageParameters &stage, bool balance);
     void check_start() const;
     /** A file of the output folder. */
+    /** .geo, .msh and statistics of blocks that were generated. */
+    void write_generated_geometry() const;
     void write_text(const std::string &name, const std::string &text) const;
     void write_energies();
     void write_fields();

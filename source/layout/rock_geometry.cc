@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/layout/rock_layout.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    using Point   = dealii::Point<2>;
+    using Numbers = std::vector<int>;
+    constexpr unsigned int none = -1;
+
+    /** {1, 2, 3}, some in each line. */
+    std::string braces(const Numbers &numbers)
+    {
+      std::string text = "{";
+      for (std::size_t i = 0; i < numbers.size(); ++i)
+        text += (i == 0        ? ""
+                 : i % 12 == 0 ? ",\n  "
+                               : ", ")
+                + std::to_string(numbers[i]);
+      return text + "}";
+    }
+
+    class Writer
+    {
+    public:
+      Writer(const RockParameters &rock, const RockLayout &layout)
+        : rock(rock), layout(layout), network(*layout.network)
+      {
+      }
+
+      RockGeometry write()
+      {
+        write_head();
+        write_points_and_lines();
+        write_surfaces();
+        write_cracks();
+        write_sizes();
+        for (const auto &[name, numbers] : surfaces)
+          text << "Physical Surface(\"" << name << "\") = " << braces(numbers)
+               << ";\n";
+        for (const auto &[name, numbers] : curves)
+          text << "Physical Curve(\"" << name << "\") = " << braces(numbers)
+               << ";\n";
+        return { text.str(), joint_curves };
+      }
+
+    private:
+      void write_head();
+      void write_points_and_lines();
+      void write_surfaces();
+      void write_cracks();
+      void write_sizes();
+      /** Name of the curve along edge @p e; empty: it has none. */
+      std::string curve_name(unsigned int e);
+      std::string side_name(const Point &p) const;
+      bool is_block(const unsigned int face) const
+      {
+        return face != BlockFaces::outside && layout.group[face] != none;
+      }
+      void write_line(unsigned int number, const JointNetwork::Edge &edge);
+
+      const RockParameters &rock;
+      const RockLayout &layout;
+      const JointNetwork &network;
+      std::map<std::string, Numbers> curves, surfaces;
+      std::vector<std::string> joint_curves;
+      std::vector<bool> has_point;
+      Numbers refined; /**< lines from which sizes grow */
+      std::ostringstream text;
+    };
+
+    void Writer::write_head()
+    {
+      text.precision(17);
+      text << "// Blocks of rock; lengths in metres. Joints have no thickness:\n"
+              "// names of physical curves say which lines are joints.\n\n"
+              "DefineConstant[ size = {"
+           << rock.element_size
+           << ", Name \"Element size\"} ]; // edges are no longer\n\n";
+    }
+
+    void Writer::write_line(const unsigned int number,
+                            const JointNetwork::Edge &edge)
+    {
+      for (const unsigned int v : { edge.from, edge.to })
+        if (!has_point[v])
+        {
+          has_point[v] = true;
+          text << "Point(" << v + 1 << ") = {" << network.point(v)[0] << ", "
+               << network.point(v)[1] << ", 0, size};\n";
+        }
+      text << "Line(" << number << ") = {" << edge.from + 1 << ", "
+           << edge.to + 1 << "};\n";
+    }
+
+    std::string Writer::side_name(const Point &p) const
+    {
+      double nearest = std::numeric_limits<double>::max();
+      std::string name;
+      for (std::size_t i = 0; i < rock.outline.size(); ++i)
+      {
+        const Point &a = rock.outline[i];
+        const auto way = rock.outline[(i + 1) % rock.outline.size()] - a;
+        const double t
+            = std::clamp((p - a) * way / way.norm_square(), 0., 1.);
+        const double distance = p.distance(a + t * way);
+        if (distance < nearest)
+        {
+          nearest = distance;
+          name    = rock.sides[i];
+        }
+      }
+      return name;
+    }
+
+    std::string Writer::curve_name(const unsigned int e)
+    {
+      const auto &edge       = network.edges()[e];
+      const bool left_there  = is_block(layout.faces->face(2 * e));
+      const bool right_there = is_block(layout.faces->face(2 * e + 1));
+      if (edge.line == 0)
+        return side_name(network.middle(edge));
+      const std::string &name = layout.line_names[edge.line];
+      if (edge.border != JointNetwork::none)
+      {
+        const RockRegion &region = rock.regions[edge.line - 1];
+        if (left_there && right_there && !region.is_outlined)
+          return "";
+      }
+      if (left_there && right_there
+          && std::find(joint_curves.begin(), joint_curves.end(), name)
+                 == joint_curves.end())
+        joint_curves.push_back(name);
+      return name;
+    }
+
+    void Writer::write_points_and_lines()
+    {
+      has_point.assign(network.n_vertices(), false);
+      for (unsigned int e = 0; e < network.edges().size(); ++e)
+      {
+        const auto &edge = network.edges()[e];
+        if (!is_block(layout.faces->face(2 * e))
+            && !is_block(layout.faces->face(2 * e + 1)))
+          continue;
+        write_line(e + 1, edge);
+        const std::string name = curve_name(e);
+        if (!name.empty())
+          curves[name].push_back(e + 1);
+        if (edge.border != JointNetwork::none && edge.line > 0
+            && rock.regions[edge.line - 1].refines_mesh)
+          refined.push_back(e + 1);
+      }
+    }
+
+    void Writer::write_surfaces()
+    {
+      int next_loop        = 1;
+      const auto &faces    = layout.faces->faces();
+      const auto add_loop  = [&](const BlockFaces::Loop &loop)
+      {
+        Numbers lines;
+        for (const unsigned int h : loop)
+          lines.push_back(h % 2 == 0 ? int(h / 2 + 1) : -int(h / 2 + 1));
+        text << "Curve Loop(" << next_loop << ") = " << braces(lines) << ";\n";
+        return next_loop++;
+      };
+      for (unsigned int f = 0; f < faces.size(); ++f)
+      {
+        if (!is_block(f))
+          continue;
+        Numbers loops = { add_loop(faces[f].outer) };
+        for (const auto &loop : faces[f].inner)
+          loops.push_back(add_loop(loop));
+        text << "Plane Surface(" << f + 1 << ") = " << braces(loops) << ";\n";
+        surfaces[layout.group[f] == 0 ? rock.group
+                                      : rock.regions[layout.group[f] - 1].name]
+            .push_back(f + 1);
+      }
+    }
+
+    void Writer::write_cracks()
+    {
+      unsigned int number = network.edges().size() + 1;
+      for (const JointNetwork::Edge &crack : layout.cracks)
+      {
+        const unsigned int f = layout.faces->find(network.middle(crack));
+        if (!is_block(f))
+          continue;
+        write_line(number, crack);
+        text << "Line{" << number << "} In Surface{" << f + 1 << "};\n";
+        const std::string &name = layout.line_names[crack.line];
+        curves[name].push_back(number++);
+        if (std::find(joint_curves.begin(), joint_curves.end(), name)
+            == joint_curves.end())
+          joint_curves.push_back(name);
+      }
+    }
+
+    void Writer::write_sizes()
+    {
+      if (refined.empty())
+        return;
+      text << "Field[1] = Distance;\nField[1].CurvesList = " << braces(refined)
+           << ";\nField[1].NumPointsPerCurve = 20;\nField[2] = MathEval;\n"
+              "Field[2].F = Sprintf(\"Min(%g, "
+           << rock.finest_size << " + " << rock.size_growth
+           << " * F1)\", size);\nBackground Field = 2;\n"
+              "Mesh.MeshSizeFromPoints = 0;\n"
+              "Mesh.MeshSizeExtendFromBoundary = 0;\n";
+    }
+  } // namespace
+
+  RockGeometry rock_geometry(const RockParameters &rock,
+                             const RockLayout &layout)
+  {
+    return Writer(rock, layout).write();
+  }
+} // namespace quoin

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/layout/rock_layout.h>
+
+#include <algorithm>
+#include <map>
+
+namespace quoin
+{
+  namespace
+  {
+    using Point = dealii::Point<2>;
+    constexpr unsigned int none = -1;
+
+    class Layer
+    {
+    public:
+      explicit Layer(const RockParameters &rock) : rock(rock)
+      {
+      }
+
+      RockLayout lay()
+      {
+        layout.network = std::make_unique<JointNetwork>(rock.shortest_edge);
+        add_borders();
+        add_joints();
+        layout.network->cut();
+        drop_outside();
+        treat_dead_ends();
+        join_slivers();
+        find_groups();
+        layout.changes.n_joined = layout.network->n_joined();
+        return std::move(layout);
+      }
+
+    private:
+      void add_borders();
+      void add_joints();
+      void drop_outside();
+      void treat_dead_ends();
+      void join_slivers();
+      bool join_some_slivers();
+      void find_groups();
+
+      /** The region that prevails at @p p; none: plain rock. */
+      unsigned int region_at(const Point &p) const;
+      bool is_hole(const unsigned int region) const
+      {
+        return region != none && rock.regions[region].use == RockRegion::hole;
+      }
+
+      const RockParameters &rock;
+      RockLayout layout;
+    };
+
+    unsigned int Layer::region_at(const Point &p) const
+    {
+      for (unsigned int r = rock.regions.size(); r-- > 0;)
+        if (rock.regions[r].use != RockRegion::zone
+            && contains(rock.regions[r].polygon, p))
+          return r;
+      return none;
+    }
+
+    void Layer::add_borders()
+    {
+      const auto add = [&](const Polygon &polygon, const unsigned int line)
+      {
+        for (std::size_t i = 0; i < polygon.size(); ++i)
+          layout.network->add(
+              { { polygon[i], polygon[(i + 1) % polygon.size()] } }, line,
+              true);
+      };
+      layout.line_names.push_back("outline");
+      add(rock.outline, 0);
+      for (unsigned int r = 0; r < rock.regions.size(); ++r)
+      {
+        layout.line_names.push_back(rock.regions[r].name);
+        if (rock.regions[r].use != RockRegion::zone)
+          add(rock.regions[r].polygon, 1 + r);
+      }
+      layout.first_joint_line = layout.line_names.size();
+    }
+
+    void Layer::add_joints()
+    {
+      for (unsigned int j = 0; j < rock.joints.size(); ++j)
+      {
+        layout.traces.push_back(make_joint_traces(rock, j));
+        for (const Piece &piece : layout.traces.back().pieces)
+          if (piece[0].distance(piece[1]) > rock.shortest_edge)
+            layout.network->add(piece, layout.line_names.size(), false);
+        layout.line_names.push_back(rock.joints[j].name);
+      }
+    }
+
+    void Layer::drop_outside()
+    {
+      layout.network->remove(
+          [&](const JointNetwork::Edge &edge)
+          {
+            if (edge.border != none)
+              return false;
+            const Point p = layout.network->middle(edge);
+            if (!contains(rock.outline, p))
+              return true;
+            const unsigned int region = region_at(p);
+            return is_hole(region)
+                   || (region != none && !rock.regions[region].has_joints);
+          });
+    }
+
+    void Layer::treat_dead_ends()
+    {
+      RockChanges &changes = layout.changes;
+      JointNetwork &network = *layout.network;
+      if (rock.dead_ends == RockParameters::extend)
+      {
+        // A joint that is lengthened may end another one's way.
+        constexpr unsigned int most_rounds = 20;
+        for (unsigned int round = 0; round < most_rounds; ++round)
+        {
+          const unsigned int n = network.extend_ends(changes.extended_length);
+          changes.n_extended += n;
+          if (n == 0)
+            break;
+          drop_outside();
+        }
+      }
+      const BlockFaces faces(network);
+      std::vector<bool> is_dead(network.edges().size(), false);
+      for (const unsigned int e : faces.dead_edges())
+      {
+        const JointNetwork::Edge &edge = network.edges()[e];
+        is_dead[e]                     = true;
+        if (rock.dead_ends == RockParameters::keep)
+        {
+          ++changes.n_cracks;
+          changes.crack_length += network.length(edge);
+          layout.cracks.push_back(edge);
+        }
+        else
+        {
+          ++changes.n_dead_ends;
+          changes.dead_length += network.length(edge);
+        }
+      }
+      std::size_t e = 0;
+      network.remove([&](const JointNetwork::Edge &) { return is_dead[e++]; });
+    }
+
+    void Layer::join_slivers()
+    {
+      while (join_some_slivers())
+      {
+      }
+    }
+
+    /** Joins slivers that do not touch each other; false: none was left. */
+    bool Layer::join_some_slivers()
+    {
+      JointNetwork &network = *layout.network;
+      layout.faces          = std::make_unique<BlockFaces>(network);
+      const BlockFaces &faces = *layout.faces;
+      layout.changes.n_kept_slivers = 0;
+
+      std::vector<unsigned int> slivers;
+      for (unsigned int f = 0; f < faces.faces().size(); ++f)
+      {
+        const auto &face = faces.faces()[f];
+        if ((face.area < rock.smallest_block
+             || face.width() < rock.narrowest_block)
+            && !is_hole(region_at(faces.inner_point(f))))
+          slivers.push_back(f);
+      }
+      std::sort(slivers.begin(), slivers.end(),
+                [&](const unsigned int a, const unsigned int b)
+                { return faces.faces()[a].area < faces.faces()[b].area; });
+
+      std::vector<bool> is_settled(faces.faces().size(), false);
+      std::vector<bool> goes(network.edges().size(), false);
+      bool has_joined = false;
+      for (const unsigned int f : slivers)
+      {
+        if (is_settled[f])
+          continue;
+        std::map<unsigned int, double> shared; // length by neighbour
+        const auto each_joint = [&](const auto &act)
+        {
+          const auto &face = faces.faces()[f];
+          const auto along = [&](const BlockFaces::Loop &loop)
+          {
+            for (const unsigned int h : loop)
+              if (network.edges()[h / 2].border == none)
+                act(h);
+          };
+          along(face.outer);
+          for (const auto &loop : face.inner)
+            along(loop);
+        };
+        each_joint(
+            [&](const unsigned int h)
+            {
+              const unsigned int other = faces.face(h ^ 1);
+              if (other != BlockFaces::outside && other != f)
+                shared[other] += network.length(network.edges()[h / 2]);
+            });
+        const auto longest
+            = std::max_element(shared.begin(), shared.end(),
+                               [](const auto &a, const auto &b)
+                               { return a.second < b.second; });
+        if (longest == shared.end())
+        {
+          ++layout.changes.n_kept_slivers;
+          continue;
+        }
+        const unsigned int other = longest->first;
+        if (is_settled[other])
+          continue;
+        is_settled[f] = is_settled[other] = true;
+        each_joint(
+            [&](const unsigned int h)
+            {
+              if (faces.face(h ^ 1) == other)
+                goes[h / 2] = true;
+            });
+        ++layout.changes.n_slivers;
+        layout.changes.sliver_area += faces.faces()[f].area;
+        has_joined = true;
+      }
+      if (!has_joined)
+        return false;
+      std::size_t e = 0;
+      network.remove([&](const JointNetwork::Edge &) { return goes[e++]; });
+      return true;
+    }
+
+    void Layer::find_groups()
+    {
+      for (unsigned int f = 0; f < layout.faces->faces().size(); ++f)
+      {
+        const unsigned int region = region_at(layout.faces->inner_point(f));
+        layout.group.push_back(is_hole(region)  ? none
+                               : region == none ? 0
+                                                : 1 + region);
+      }
+    }
+  } // namespace
+
+  unsigned int RockLayout::n_blocks() const
+  {
+    return group.size() - std::count(group.begin(), group.end(), none);
+  }
+
+  double RockLayout::block_area() const
+  {
+    double sum = 0.;
+    for (unsigned int f = 0; f < group.size(); ++f)
+      if (group[f] != none)
+        sum += faces->faces()[f].area;
+    return sum;
+  }
+
+  RockLayout lay_rock(const RockParameters &rock)
+  {
+    return Layer(rock).lay();
+  }
+} // namespace quoin
