@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <unordered_map>
 
 namespace quoin
 {
@@ -39,10 +40,65 @@ namespace quoin
   BlockFaces::BlockFaces(const JointNetwork &network) : network(network)
   {
     trace_loops();
-    for (unsigned int e = 0; e < network.edges().size(); ++e)
-      if (loop_of[2 * e] == loop_of[2 * e + 1])
-        dead.push_back(e);
+    find_dead_ends();
     assign_holes();
+  }
+
+  void BlockFaces::find_dead_ends()
+  {
+    std::vector<unsigned int> same;
+    std::vector<unsigned int> degree(network.n_vertices(), 0);
+    for (unsigned int e = 0; e < network.edges().size(); ++e)
+    {
+      ++degree[network.edges()[e].from];
+      ++degree[network.edges()[e].to];
+      if (loop_of[2 * e] == loop_of[2 * e + 1])
+        same.push_back(e);
+    }
+    // What comes loose from its end, one after the other.
+    for (bool goes_on = true; goes_on;)
+    {
+      goes_on = false;
+      std::vector<unsigned int> left;
+      for (const unsigned int e : same)
+      {
+        const auto &edge = network.edges()[e];
+        if (degree[edge.from] != 1 && degree[edge.to] != 1)
+        {
+          left.push_back(e);
+          continue;
+        }
+        --degree[edge.from];
+        --degree[edge.to];
+        dead.push_back(e);
+        goes_on = true;
+      }
+      same = left;
+    }
+    all_bridges = same;
+  }
+
+  std::vector<BlockFaces::Loop> BlockFaces::split(const Loop &loop) const
+  {
+    std::vector<Loop> simple;
+    Loop path;
+    std::unordered_map<unsigned int, std::size_t> place; // of start, in path
+    for (const unsigned int h : loop)
+    {
+      const auto seen = place.find(start(h));
+      if (seen != place.end())
+      {
+        const auto begin = path.begin() + seen->second;
+        simple.emplace_back(begin, path.end());
+        for (auto it = begin; it != path.end(); ++it)
+          place.erase(start(*it));
+        path.erase(begin, path.end());
+      }
+      place[start(h)] = path.size();
+      path.push_back(h);
+    }
+    simple.push_back(path);
+    return simple;
   }
 
   Polygon BlockFaces::polygon(const Loop &loop) const
@@ -98,17 +154,28 @@ namespace quoin
     std::vector<std::pair<Box, unsigned int>> boxes;
     for (unsigned int l = 0; l < loops.size(); ++l)
     {
-      Polygon corners   = polygon(loops[l]);
-      const double area = signed_area(corners);
+      const double area = signed_area(polygon(loops[l]));
       // A loop that only goes forth and back has no area but for rounding.
-      const double length = perimeter(corners);
+      const double length = perimeter(polygon(loops[l]));
       if (area <= 1e-14 * length * length)
       {
         inner.push_back(l);
         continue;
       }
       face_of_loop[l] = all_faces.size();
-      all_faces.push_back({ loops[l], {}, area, length });
+      all_faces.push_back({ {}, {}, area, length });
+      Polygon corners;
+      for (const Loop &part : split(loops[l]))
+      {
+        const Polygon polygon_of_part = polygon(part);
+        if (signed_area(polygon_of_part) > 0.)
+        {
+          all_faces.back().outer = part;
+          corners                = polygon_of_part;
+        }
+        else if (part.size() > 2) // not a dead end
+          all_faces.back().inner.push_back(part);
+      }
       face_part.push_back(part_of[start(loops[l].front())]);
       const auto box = bounding_box(corners);
       boxes.emplace_back(Box(TreePoint(box[0], box[1]),
@@ -131,7 +198,9 @@ namespace quoin
       if (found == outside)
         continue;
       const Polygon corners = polygon(loops[l]);
-      all_faces[found].inner.push_back(loops[l]);
+      for (const Loop &part : split(loops[l]))
+        if (part.size() > 2)
+          all_faces[found].inner.push_back(part);
       all_faces[found].area += signed_area(corners);
       all_faces[found].perimeter += perimeter(corners);
     }

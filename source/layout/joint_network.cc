@@ -429,6 +429,7 @@ namespace quoin
     const EdgeTree tree
         = tree_of(all_edges, [&](const unsigned int v) { return point(v); });
     std::vector<Edge> longer;
+    unsigned int n_moved = 0;
     std::vector<unsigned int> near;
     for (const Edge &edge : all_edges)
       for (const bool forward : { true, false })
@@ -460,15 +461,22 @@ namespace quoin
         }
         if (nearest == std::numeric_limits<double>::max())
           continue;
+        added += nearest;
+        if (nearest <= tolerance)
+        {
+          // A new end there would be taken back to this one.
+          vertices[end].position += nearest * along;
+          ++n_moved;
+          continue;
+        }
         Edge piece = edge;
         piece.from = end;
         piece.to   = add_vertex(from + nearest * along, false);
         longer.push_back(piece);
-        added += nearest;
       }
     all_edges.insert(all_edges.end(), longer.begin(), longer.end());
-    if (!longer.empty())
+    if (!longer.empty() || n_moved > 0)
       cut();
-    return longer.size();
+    return longer.size() + n_moved;
   }
 } // namespace quoin

@@ -111,9 +111,10 @@ namespace quoin
           return;
         }
         const double end = middle_along + radius;
-        double place     = middle_along - radius
-                       - random.uniform()
-                             * (joints.length.mean + joints.gap.mean);
+        // Some traces ahead, so that it is forgotten where the first one began.
+        const double pitch = joints.length.mean + joints.gap.mean;
+        double place
+            = middle_along - radius - (5. + random.uniform()) * pitch;
         while (place < end)
         {
           const double length

@@ -91,6 +91,8 @@ namespace quoin
         for (const Piece &piece : layout.traces.back().pieces)
           if (piece[0].distance(piece[1]) > rock.shortest_edge)
             layout.network->add(piece, layout.line_names.size(), false);
+          else
+            ++layout.changes.n_short;
         layout.line_names.push_back(rock.joints[j].name);
       }
     }
@@ -129,25 +131,28 @@ namespace quoin
         }
       }
       const BlockFaces faces(network);
-      std::vector<bool> is_dead(network.edges().size(), false);
-      for (const unsigned int e : faces.dead_edges())
+      std::vector<bool> goes(network.edges().size(), false);
+      const auto take = [&](const std::vector<unsigned int> &edges,
+                            const bool keep, unsigned int &number,
+                            double &length)
       {
-        const JointNetwork::Edge &edge = network.edges()[e];
-        is_dead[e]                     = true;
-        if (rock.dead_ends == RockParameters::keep)
+        for (const unsigned int e : edges)
         {
-          ++changes.n_cracks;
-          changes.crack_length += network.length(edge);
-          layout.cracks.push_back(edge);
+          goes[e] = true;
+          ++number;
+          length += network.length(network.edges()[e]);
+          if (keep)
+            layout.cracks.push_back(network.edges()[e]);
         }
-        else
-        {
-          ++changes.n_dead_ends;
-          changes.dead_length += network.length(edge);
-        }
-      }
+      };
+      if (rock.dead_ends == RockParameters::keep)
+        take(faces.dead_ends(), true, changes.n_cracks, changes.crack_length);
+      else
+        take(faces.dead_ends(), false, changes.n_dead_ends,
+             changes.dead_length);
+      take(faces.bridges(), true, changes.n_bridges, changes.bridge_length);
       std::size_t e = 0;
-      network.remove([&](const JointNetwork::Edge &) { return is_dead[e++]; });
+      network.remove([&](const JointNetwork::Edge &) { return goes[e++]; });
     }
 
     void Layer::join_slivers()

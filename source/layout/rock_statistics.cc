@@ -346,6 +346,15 @@ namespace quoin
       text << "\ndead ends: " << count(changes.n_cracks, "edge", "edges")
            << " of " << number_text(changes.crack_length)
            << " m end inside blocks and are cracks";
+    if (changes.n_bridges > 0)
+      text << "\n"
+           << count(changes.n_bridges, "edge", "edges") << " of "
+           << number_text(changes.bridge_length)
+           << " m with the same block on both sides are cracks";
+    if (changes.n_short > 0)
+      text << "\n"
+           << count(changes.n_short, "joint", "joints") << " shorter than "
+           << number_text(rock.shortest_edge) << " m left out";
     if (changes.n_slivers > 0)
       text << "\nslivers: " << count(changes.n_slivers, "block", "blocks")
            << " of " << number_text(changes.sliver_area) << " m^2, smaller than "

@@ -30,7 +30,7 @@ namespace quoin
     struct Face
     {
       Loop outer;              /**< counter-clockwise */
-      std::vector<Loop> inner; /**< clockwise */
+      std::vector<Loop> inner; /**< clockwise; may touch others in a point */
       double area;             /**< [m^2] */
       double perimeter;        /**< inner loops included [m] */
 
@@ -54,10 +54,17 @@ namespace quoin
       return face_of[half_edge];
     }
 
-    /** Edges with the same loop on both sides: dead ends and bridges. */
-    const std::vector<unsigned int> &dead_edges() const
+    /**
+     * Edges with the same loop on both sides: dead ends, and bridges between
+     * parts that would else not hang together.
+     */
+    const std::vector<unsigned int> &dead_ends() const
     {
       return dead;
+    }
+    const std::vector<unsigned int> &bridges() const
+    {
+      return all_bridges;
     }
 
     /** Connected parts of the network. */
@@ -82,7 +89,10 @@ namespace quoin
 
   private:
     void trace_loops();
+    void find_dead_ends();
     void assign_holes();
+    /** Parts of @p loop that pass no vertex twice. */
+    std::vector<Loop> split(const Loop &loop) const;
     /** The same among faces for which @p is_wanted(face) holds. */
     template <typename IsWanted>
     unsigned int find(const dealii::Point<2> &point,
@@ -91,7 +101,7 @@ namespace quoin
     const JointNetwork &network;
     std::vector<Loop> loops;
     std::vector<unsigned int> loop_of, face_of; /**< by half-edge */
-    std::vector<unsigned int> dead;
+    std::vector<unsigned int> dead, all_bridges;
     std::vector<Face> all_faces;
     std::vector<Polygon> outer_polygons; /**< of the faces */
     using TreePoint = boost::geometry::model::d2::point_xy<double>;

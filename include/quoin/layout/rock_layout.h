@@ -23,6 +23,9 @@ namespace quoin
     double extended_length   = 0.; /**< [m] */
     unsigned int n_cracks    = 0;  /**< edges kept as cracks */
     double crack_length      = 0.; /**< [m] */
+    unsigned int n_bridges   = 0;  /**< edges with one block on both sides */
+    double bridge_length     = 0.; /**< [m] */
+    unsigned int n_short     = 0;  /**< joints below 'Shortest edge', left out */
     unsigned int n_slivers   = 0;  /**< blocks joined to a neighbour */
     double sliver_area       = 0.; /**< [m^2] */
     unsigned int n_kept_slivers = 0; /**< that have no neighbour to join */
@@ -56,7 +59,8 @@ namespace quoin
    *
    * 1. Borders and joints form a network, see JointNetwork.
    * 2. What is outside, in holes and in regions without joints is dropped.
-   * 3. Dead ends are cut, lengthened or set aside as cracks.
+   * 3. Dead ends are cut, lengthened or set aside as cracks. Bridges, such as
+   *    the only joint between a tunnel and the outline, are cracks in any case.
    * 4. Blocks that are smaller or narrower than they may be are joined to the
    *    neighbour with which they share the longest joint, the smallest first,
    *    until there are none or none that has such a neighbour.

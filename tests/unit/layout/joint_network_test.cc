@@ -84,7 +84,7 @@ TEST(JointNetwork, joins_ends_that_nearly_meet)
   network.cut();
   const BlockFaces faces(network);
   EXPECT_EQ(faces.faces().size(), 4u);
-  EXPECT_TRUE(faces.dead_edges().empty());
+  EXPECT_TRUE(faces.dead_ends().empty());
   EXPECT_GE(network.n_joined(), 4u);
   EXPECT_NEAR(total_area(faces), 1., 1e-14);
   expect_euler(network, faces);
@@ -136,22 +136,43 @@ TEST(JointNetwork, finds_dead_ends_bridges_and_islands)
   {
     const BlockFaces faces(network);
     EXPECT_EQ(faces.faces().size(), 2u);
-    EXPECT_EQ(faces.dead_edges().size(), 3u);
+    EXPECT_EQ(faces.dead_ends().size(), 2u);
+    EXPECT_EQ(faces.bridges().size(), 1u);
     EXPECT_EQ(faces.n_parts(), 2u);
     EXPECT_NEAR(total_area(faces), 16., 1e-12);
     std::vector<bool> dead(network.edges().size(), false);
-    for (const unsigned int e : faces.dead_edges())
-      dead[e] = true;
+    for (const auto *edges : { &faces.dead_ends(), &faces.bridges() })
+      for (const unsigned int e : *edges)
+        dead[e] = true;
     std::size_t e = 0;
     network.remove([&](const JointNetwork::Edge &) { return dead[e++]; });
   }
   const BlockFaces faces(network);
   ASSERT_EQ(faces.faces().size(), 2u);
-  EXPECT_TRUE(faces.dead_edges().empty());
+  EXPECT_TRUE(faces.dead_ends().empty());
   const auto &outer = faces.faces()[faces.find(Point(3., 3.))];
   EXPECT_EQ(outer.inner.size(), 1u);
   EXPECT_NEAR(outer.area, 15., 1e-12);
   EXPECT_NEAR(outer.perimeter, 20., 1e-12);
+  expect_euler(network, faces);
+}
+
+TEST(JointNetwork, splits_borders_that_touch_themselves_in_a_point)
+{
+  // A triangle inside the square whose tip is on the base.
+  JointNetwork network(0.01);
+  add_square(network, 0., 4., 0);
+  add(network, 2., 0., 3., 2.);
+  add(network, 3., 2., 1., 2.);
+  add(network, 1., 2., 2., 0.);
+  network.cut();
+  const BlockFaces faces(network);
+  ASSERT_EQ(faces.faces().size(), 2u);
+  const auto &outer = faces.faces()[faces.find(Point(2., 3.))];
+  EXPECT_EQ(outer.outer.size(), 5u);
+  ASSERT_EQ(outer.inner.size(), 1u);
+  EXPECT_EQ(outer.inner[0].size(), 3u);
+  EXPECT_NEAR(outer.area, 14., 1e-12);
   expect_euler(network, faces);
 }
 
@@ -168,7 +189,7 @@ TEST(JointNetwork, lengthens_ends_to_the_next_edge)
   EXPECT_EQ(network.extend_ends(added), 0u);
   const BlockFaces faces(network);
   EXPECT_EQ(faces.faces().size(), 3u);
-  EXPECT_TRUE(faces.dead_edges().empty());
+  EXPECT_TRUE(faces.dead_ends().empty());
 }
 
 TEST(JointNetwork, refuses_borders_that_cross)
