@@ -99,8 +99,8 @@ namespace quoin
    * phi_m0 - phi.
    *
    * Slip against the traction unloads: it is elastic, F = 1, and beyond zero
-   * loading begins with r = 0. What changes ks(s) creates no energy: where ks
-   * falls so does tau, its elastic slip staying; where ks rises tau stays. An
+   * loading begins with r = 0. tau stays where the pressure changes ks(s);
+   * what that changes of tau^2/(2 ks) is booked as friction, either way. An
    * open joint transfers nothing.
    */
   struct ContinuouslyYieldingLaw
@@ -176,10 +176,7 @@ namespace quoin
     const double sense   = value_of(moved) < 0. ? -1. : 1.;
     Number way           = sense * moved;
 
-    // Along the slip, as the traction of the present pressure allows.
-    Number tau = sense * point.shear_traction;
-    if (value_of(ks) < ks_old)
-      tau = ks * (sense * elastic);
+    Number tau  = sense * point.shear_traction; // along the slip
     Number worn = 0.;
 
     Number reload = point.reload;
