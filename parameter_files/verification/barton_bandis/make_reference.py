@@ -57,6 +57,6 @@ shear, dilation = sheared(slip)
 closure = normal / (KN + normal / CLOSURE)
 
 np.savetxt(os.path.join(HERE, "reference.csv"),
-           np.transpose([times, slip, dilation - closure, -normal, shear]),
-           delimiter=",", fmt="%.9g", comments="",
-           header="time [s],slip [m],opening [m],normal [Pa],shear [Pa]")
+           np.transpose([times, slip, dilation - closure, -normal, shear, shear]),
+           delimiter=",", fmt="%.9g", comments="",  # 1 m^2
+           header="time [s],slip [m],opening [m],normal [Pa],shear [Pa],force [N]")

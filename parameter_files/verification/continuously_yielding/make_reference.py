@@ -63,6 +63,6 @@ shear, dilation = sheared(slip)
 
 np.savetxt(os.path.join(HERE, "reference.csv"),
            np.transpose([times, slip, dilation - closure(normal), -normal,
-                         shear]),
-           delimiter=",", fmt="%.9g", comments="",
-           header="time [s],slip [m],opening [m],normal [Pa],shear [Pa]")
+                         shear, shear]),
+           delimiter=",", fmt="%.9g", comments="",  # 1 m^2
+           header="time [s],slip [m],opening [m],normal [Pa],shear [Pa],force [N]")
