@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_points.h"
+
 namespace quoin
 {
   namespace
@@ -200,7 +202,6 @@ namespace quoin
         continue;
       }
 
-      const CoulombLaw &law = laws[pair.set];
       for (unsigned int k = 0; k < 2; ++k)
       {
         ContactPoint &point  = pair.points[k];
@@ -213,47 +214,42 @@ namespace quoin
           opening += g.sideways * (depth - g.overlap * g.overlap / depth);
         const double slip_now = slip(point, a, b, normal);
 
-        const double sigma_old = point.normal_traction;
-        const double tau_old   = point.shear_traction;
-        JointPoint joint{ sigma_old, tau_old, point.plastic_slip,
-                          point.plastic_opening, point.state };
+        ContactStep step;
+        std::array<double, 2> stiffness;
+        with_law(pair.set,
+                 [&, opening](const auto &law)
+                 {
+                   step      = advance(law, point, opening, slip_now);
+                   stiffness = stiffness_of(law, point.normal_traction);
+                 });
         const double mean_area = 0.5 * (g.area[k] + point.area) * pair_share[i];
-        if (!law.update_elastic(joint, opening, slip_now))
+        friction += mean_area * step.lost.friction;
+        fracture += mean_area * step.lost.fracture;
+        if (step.flows)
         {
-          const JointDissipation gone
-              = law.update_failing(joint, opening, slip_now);
-          friction += mean_area * gone.friction;
-          fracture += mean_area * gone.fracture;
-          point.plastic_slip    = joint.plastic_slip;
-          point.plastic_opening = joint.plastic_opening;
           // Anchors behind would turn rotation into slip.
           point.anchor_lower = g.lower[k];
           point.anchor_upper = g.upper[k];
           point.slip_offset += slip_now - slip(point, a, b, normal);
         }
-        point.normal_traction = joint.normal_traction;
-        point.shear_traction  = joint.shear_traction;
-        point.state           = joint.state;
         // What the trapezoidal work of a spring with changing area leaves
         // over from the change of its energy.
-        lost += 0.5 * pair_share[i] * (point.area - g.area[k])
-                * (sigma_old * joint.normal_traction / law.normal_stiffness
-                   + tau_old * joint.shear_traction / law.shear_stiffness);
+        lost += pair_share[i] * (point.area - g.area[k]) * step.carried;
         point.area     = g.area[k];
         openings[i][k] = opening;
 
-        const double sigma = g.area[k] * joint.normal_traction;
-        const double tau   = g.area[k] * joint.shear_traction;
+        const double sigma = g.area[k] * point.normal_traction;
+        const double tau   = g.area[k] * point.shear_traction;
         const double f[2]  = { sigma * normal[0] + tau * normal[1],
                                sigma * normal[1] - tau * normal[0] };
         spread(a, b, g.lower[k], g.upper[k], f, compact_force.data());
-        if (viscous && joint.state != JointState::open
-            && joint.state != JointState::slipping)
+        if (viscous && point.state != JointState::open
+            && point.state != JointState::slipping)
         {
           double rate[2];
           relative_velocity(a, b, g.lower[k], g.upper[k], rate);
-          const double wn    = viscous->beta * g.area[k] * law.normal_stiffness;
-          const double ws    = viscous->beta * g.area[k] * law.shear_stiffness;
+          const double wn    = viscous->beta * g.area[k] * stiffness[0];
+          const double ws    = viscous->beta * g.area[k] * stiffness[1];
           const double vn    = wn * (rate[0] * normal[0] + rate[1] * normal[1]);
           const double vs    = ws * (rate[0] * normal[1] - rate[1] * normal[0]);
           const double fv[2] = { vn * normal[0] + vs * normal[1],
@@ -304,15 +300,11 @@ namespace quoin
 
   double BlockContacts::release(ContactPair &pair) const
   {
-    const CoulombLaw &law = laws[pair.set];
-    double energy         = 0.;
+    double energy = 0.;
     for (ContactPoint &point : pair.points)
     {
-      energy += 0.5 * point.area
-                * (point.normal_traction * point.normal_traction
-                       / law.normal_stiffness
-                   + point.shear_traction * point.shear_traction
-                         / law.shear_stiffness);
+      with_law(pair.set, [&](const auto &law)
+               { energy += point.area * released_energy(law, point); });
       point = ContactPoint();
     }
     pair.active    = 0;
@@ -464,12 +456,12 @@ namespace quoin
       for (unsigned int k = 0; k < 2; ++k)
       {
         const ContactPoint &point = pair.points[k];
-        energy
-            += pair_share[i] * point.area
-               * laws[pair.set].stored_energy(
-                   { point.normal_traction, point.shear_traction,
-                     point.plastic_slip, point.plastic_opening, point.state },
-                   openings[i][k]);
+        with_law(pair.set,
+                 [&](const auto &law)
+                 {
+                   energy += pair_share[i] * point.area
+                             * quoin::stored_energy(law, point, openings[i][k]);
+                 });
       }
     }
     return energy;

@@ -57,7 +57,8 @@ namespace quoin
     for (const JointSetParameters &set : model.sets)
     {
       laws.push_back(set.law);
-      can_dilate = can_dilate || set.law.dilation != 0.;
+      rocks.push_back(set.rock);
+      can_dilate = can_dilate || set.rock || set.law.dilation != 0.;
     }
     find_set_of_materials(model);
     for (unsigned int e = 0; e < edges.size(); ++e)
@@ -233,8 +234,14 @@ namespace quoin
         point.shear_traction  = state.joints.shear_traction[p];
         point.plastic_slip    = state.joints.plastic_slip[p];
         point.plastic_opening = state.joints.plastic_opening[p];
-        point.state           = state.joints.state[p];
-        point.area            = segment.area[k];
+        if (joints.can_wear())
+        {
+          point.worn_slip = state.joints.worn_slip[p];
+          point.dilated   = state.joints.dilated[p];
+          point.reload    = state.joints.reload[p];
+        }
+        point.state = state.joints.state[p];
+        point.area  = segment.area[k];
         // The vertices that coincided; the upper edge runs backwards.
         point.anchor_lower              = k;
         point.anchor_upper              = 1. - k;

@@ -7,8 +7,13 @@
 #include <quoin/base/state.h>
 #include <quoin/joints/composite_law.h>
 #include <quoin/joints/coulomb_law.h>
+#include <quoin/joints/rock_parameters.h>
 
-// Points of both joint laws, from and to the arrays of the history.
+#include <array>
+#include <type_traits>
+
+// Points of all joint laws, from and to the arrays of the history, and what
+// the laws have in common.
 
 namespace quoin
 {
@@ -34,6 +39,22 @@ namespace quoin
              history.state[p] };
   }
 
+  template <typename Law>
+  constexpr bool is_rock_law
+      = std::is_same_v<
+            Law,
+            BartonBandisLaw> || std::is_same_v<Law, ContinuouslyYieldingLaw>;
+
+  template <typename Law>
+  std::enable_if_t<is_rock_law<Law>, RockPoint>
+  read_point(const Law &, const JointHistory &history, const unsigned int p)
+  {
+    return { history.normal_traction[p], history.shear_traction[p],
+             history.plastic_slip[p],    history.plastic_opening[p],
+             history.worn_slip[p],       history.dilated[p],
+             history.reload[p],          history.state[p] };
+  }
+
   /** What only a failing update changes. */
   inline void write_flow(const JointPoint &point, JointHistory &history,
                          const unsigned int p)
@@ -50,6 +71,16 @@ namespace quoin
     history.bond[p]            = point.bond;
     history.crushing[p]        = point.crushing;
     history.crack_opening[p]   = point.crack_opening;
+  }
+
+  inline void write_flow(const RockPoint &point, JointHistory &history,
+                         const unsigned int p)
+  {
+    history.plastic_slip[p]    = point.plastic_slip;
+    history.plastic_opening[p] = point.plastic_opening;
+    history.worn_slip[p]       = point.worn_slip;
+    history.dilated[p]         = point.dilated;
+    history.reload[p]          = point.reload;
   }
 
   inline void book(const JointDissipation &lost, const double weight,
@@ -74,6 +105,69 @@ namespace quoin
     history.normal_traction[p] = point.normal_traction;
     history.shear_traction[p]  = point.shear_traction;
     history.state[p]           = point.state;
+  }
+
+  /**
+   * Brings point @p p to @p opening and @p slip [m] and books what that
+   * dissipated, by the area @p weight.
+   */
+  template <typename Law>
+  auto advance(const Law &law, const double opening, const double slip,
+               const double weight, JointHistory &history, const unsigned int p,
+               EnergyAccounts &energy)
+  {
+    auto point = read_point(law, history, p);
+    if constexpr (is_rock_law<Law>)
+    {
+      book(law.update(point, opening, slip), weight, energy);
+      write_flow(point, history, p);
+    }
+    else if (!law.update_elastic(point, opening, slip))
+    {
+      book(law.update_failing(point, opening, slip), weight, energy);
+      write_flow(point, history, p);
+    }
+    write_tractions(point, history, p);
+    return point;
+  }
+
+  /** Sets point @p p to tractions [Pa] at rest, at zero opening and slip. */
+  template <typename Law>
+  void initialise_point(const Law &law, const double normal, const double shear,
+                        JointHistory &history, const unsigned int p)
+  {
+    auto point = read_point(law, history, p);
+    if constexpr (is_rock_law<Law>)
+      law.initialise(point, normal, shear);
+    else
+    {
+      point.normal_traction = normal;
+      point.shear_traction  = shear;
+      point.plastic_opening = -normal / law.normal_stiffness;
+      point.plastic_slip    = -shear / law.shear_stiffness;
+    }
+    write_flow(point, history, p);
+    write_tractions(point, history, p);
+  }
+
+  /** Recoverable energy per area [J/m^2]. */
+  template <typename Law, typename Point>
+  double energy_of(const Law &law, const Point &point, const double opening)
+  {
+    if constexpr (std::is_same_v<Law, CoulombLaw>)
+      return law.stored_energy(point, opening);
+    else
+      return law.stored_energy(point);
+  }
+
+  /** kn and ks [Pa/m] at the normal traction @p sigma [Pa]. */
+  template <typename Law>
+  std::array<double, 2> stiffness_of(const Law &law, const double sigma)
+  {
+    if constexpr (is_rock_law<Law>)
+      return { law.closure.stiffness(-sigma), law.shear_stiffness(-sigma) };
+    else
+      return { law.normal_stiffness, law.shear_stiffness };
   }
 } // namespace quoin
 

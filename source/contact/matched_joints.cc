@@ -46,18 +46,6 @@ namespace quoin
         }
       return set_of_line;
     }
-
-    double energy_of(const CoulombLaw &law, const JointPoint &point,
-                     const double opening)
-    {
-      return law.stored_energy(point, opening);
-    }
-
-    double energy_of(const CompositeLaw &law, const CompositePoint &point,
-                     const double /*opening*/)
-    {
-      return law.stored_energy(point);
-    }
   } // namespace
 
   void MatchedJoints::prepare(const BlockMesh<2> &mesh,
@@ -67,13 +55,16 @@ namespace quoin
   {
     laws.clear();
     composites.clear();
+    rocks.clear();
     for (const auto &set : sets)
     {
       laws.push_back(set.law);
       composites.push_back(set.composite);
+      rocks.push_back(set.rock);
     }
-    softens = std::any_of(composites.begin(), composites.end(),
-                          [](const auto &law) { return law.has_value(); });
+    const auto is_given = [](const auto &law) { return law.has_value(); };
+    softens = std::any_of(composites.begin(), composites.end(), is_given);
+    wears   = std::any_of(rocks.begin(), rocks.end(), is_given);
 
     segments.clear();
     const auto set_of_line = sets_of_lines(mesh, sets);
@@ -148,16 +139,14 @@ namespace quoin
       const double *n = local.normal, *s = local.tangent;
       const double traction[2]
           = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
-      const CoulombLaw &law = laws[segments[i].set];
-      for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
-      {
-        history.normal_traction[p] = traction[0] * n[0] + traction[1] * n[1];
-        history.shear_traction[p]  = traction[0] * s[0] + traction[1] * s[1];
-        history.plastic_opening[p]
-            = -history.normal_traction[p] / law.normal_stiffness;
-        history.plastic_slip[p]
-            = -history.shear_traction[p] / law.shear_stiffness;
-      }
+      const double normal = traction[0] * n[0] + traction[1] * n[1];
+      const double shear  = traction[0] * s[0] + traction[1] * s[1];
+      with_law(segments[i].set,
+               [&](const auto &law)
+               {
+                 for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
+                   initialise_point(law, normal, shear, history, p);
+               });
     }
   }
 
@@ -194,14 +183,9 @@ namespace quoin
         const auto [opening, slip] = gaps[j];
         if (history.handed_over[begin + j / 2])
           continue;
-        auto point = read_point(law, history, p);
-        if (!law.update_elastic(point, opening, slip))
-        {
-          book(law.update_failing(point, opening, slip),
-               segment.area[k] * segment.share, energy);
-          write_flow(point, history, p);
-        }
-        write_tractions(point, history, p);
+        const auto point
+            = advance(law, opening, slip, segment.area[k] * segment.share,
+                      history, p, energy);
 
         const double sigma = segment.area[k] * point.normal_traction;
         const double tau   = segment.area[k] * point.shear_traction;
@@ -224,11 +208,12 @@ namespace quoin
     // Summed apart: a step's share is small beside the account.
     EnergyAccounts lost;
     for (unsigned int set = 0; set < laws.size(); ++set)
-      if (composites[set])
-        add_set_forces(set, CompositeLaw(*composites[set]), nodes, history,
-                       lost, force);
-      else
-        add_set_forces(set, CoulombLaw(laws[set]), nodes, history, lost, force);
+      with_law(set,
+               [&](const auto &law)
+               {
+                 const auto own = law; // which no history can alias
+                 add_set_forces(set, own, nodes, history, lost, force);
+               });
     energy += lost;
   }
 
@@ -242,7 +227,6 @@ namespace quoin
     {
       const Segment &segment = segments[i];
       const Frame local      = frame(segment, nodes);
-      const CoulombLaw &law  = laws[segment.set];
       for (unsigned int k = 0; k < 2; ++k)
       {
         const JointState state = history.state[2 * i + k];
@@ -254,8 +238,14 @@ namespace quoin
             = (b[0] - a[0]) * local.normal[0] + (b[1] - a[1]) * local.normal[1];
         const double slip_rate = (b[0] - a[0]) * local.tangent[0]
                                  + (b[1] - a[1]) * local.tangent[1];
-        const double sigma = beta * law.normal_stiffness * opening_rate;
-        const double tau   = beta * law.shear_stiffness * slip_rate;
+        std::array<double, 2> stiffness;
+        with_law(segment.set,
+                 [&](const auto &law) {
+                   stiffness
+                       = stiffness_of(law, history.normal_traction[2 * i + k]);
+                 });
+        const double sigma = beta * stiffness[0] * opening_rate;
+        const double tau   = beta * stiffness[1] * slip_rate;
         for (unsigned int d = 0; d < 2; ++d)
         {
           const double f = segment.area[k]
@@ -277,17 +267,15 @@ namespace quoin
         continue;
       const Segment &segment = segments[i];
       const auto gap         = gaps(nodes, i);
-      const auto sum         = [&](const auto &law)
-      {
-        for (unsigned int k = 0; k < 2; ++k)
-          energy += segment.area[k] * segment.share
-                    * energy_of(law, read_point(law, history, 2 * i + k),
-                                gap[k][0]);
-      };
-      if (composites[segment.set])
-        sum(*composites[segment.set]);
-      else
-        sum(laws[segment.set]);
+      with_law(segment.set,
+               [&](const auto &law)
+               {
+                 for (unsigned int k = 0; k < 2; ++k)
+                   energy
+                       += segment.area[k] * segment.share
+                          * energy_of(law, read_point(law, history, 2 * i + k),
+                                      gap[k][0]);
+               });
     }
     return energy;
   }

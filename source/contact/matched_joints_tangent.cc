@@ -44,6 +44,28 @@ namespace quoin
       return law.update(point, opening, slip, tangent);
     }
 
+    template <typename Law>
+    std::enable_if_t<is_rock_law<Law>, JointDissipation>
+    update(const Law &law, RockPoint &point, const double opening,
+           const double slip, bool, JointTangent &tangent)
+    {
+      return law.update(point, opening, slip, tangent);
+    }
+
+    /** What elastic slip [m] changes by with the normal traction [m/Pa]. */
+    template <typename Law>
+    double slip_by_pressure(const Law &law, const double sigma,
+                            const double tau)
+    {
+      if constexpr (std::is_same_v<Law, ContinuouslyYieldingLaw>)
+      {
+        const DualNumber ks = law.stiffness.at(DualNumber(-sigma, -1., 0.));
+        return -tau * ks.by[0] / (ks.value * ks.value);
+      }
+      else
+        return 0.;
+    }
+
     /**
      * How an increment counts that adds to @p total: as more of it, so that
      * slip on the way back does not, or by its size where there is none yet.
@@ -99,6 +121,8 @@ namespace quoin
       const double total_opening = history.plastic_opening[p];
       const double total_slip    = history.plastic_slip[p];
       double plastic_opening = 0., plastic_slip = 0.; // increments
+      std::array<double, 2> stiffness;
+      double coupling    = 0.;
       const auto advance = [&, opening = opening, slip = slip](const auto &law)
       {
         auto point = read_point(law, history, p);
@@ -108,15 +132,14 @@ namespace quoin
         write_tractions(point, history, p);
         plastic_opening = point.plastic_opening - total_opening;
         plastic_slip    = point.plastic_slip - total_slip;
+        stiffness       = stiffness_of(law, point.normal_traction);
+        coupling        = slip_by_pressure(law, point.normal_traction,
+                                           point.shear_traction);
       };
-      if (composites[segment.set])
-        advance(*composites[segment.set]);
-      else
-        advance(laws[segment.set]);
+      with_law(segment.set, advance);
 
-      const double sigma    = history.normal_traction[p];
-      const double tau      = history.shear_traction[p];
-      const CoulombLaw &law = laws[segment.set];
+      const double sigma = history.normal_traction[p];
+      const double tau   = history.shear_traction[p];
       // An open Coulomb joint keeps the plastic opening that it had.
       const double opens = plastic_opening == 0.
                                ? 0.
@@ -154,8 +177,9 @@ namespace quoin
         }
         result.inelastic_gradient[j]
             += segment.area[k]
-               * (opens * (d_opening - d_sigma / law.normal_stiffness)
-                  + slips * (d_slip - d_tau / law.shear_stiffness));
+               * (opens * (d_opening - d_sigma / stiffness[0])
+                  + slips
+                        * (d_slip - d_tau / stiffness[1] - coupling * d_sigma));
       }
     }
   }
@@ -165,8 +189,9 @@ namespace quoin
   {
     const Segment &segment = segments[p / 2];
     const CoulombLaw &law  = laws[segment.set];
-    if (composites[segment.set] || history.state[p] != JointState::intact
-        || history.handed_over[p / 2] || !std::isfinite(law.peak.tension))
+    if (composites[segment.set] || rocks[segment.set]
+        || history.state[p] != JointState::intact || history.handed_over[p / 2]
+        || !std::isfinite(law.peak.tension))
       return 0.;
     const double sigma = history.normal_traction[p];
     const double tau   = std::abs(history.shear_traction[p]);

@@ -77,7 +77,8 @@ namespace quoin
     }
     state.velocity.assign(nodes->n_local(), NodeVector{ { 0., 0. } });
     state.plastic = block_forces.initial_history();
-    state.joints.resize(matched_joints.n_points(), matched_joints.can_soften());
+    state.joints.resize(matched_joints.n_points(), matched_joints.can_soften(),
+                        matched_joints.can_wear());
     if (!cell_stress.empty())
     {
       std::vector<std::array<double, 3>> face_stress;

@@ -7,6 +7,8 @@
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+
 namespace quoin
 {
   namespace
@@ -17,6 +19,28 @@ namespace quoin
     double tangent_of_degrees(const double angle)
     {
       return std::tan(angle * dealii::numbers::PI / 180.);
+    }
+
+    /** What JointSetParameters::law is of a rock joint. */
+    CoulombLaw stand_in(const RockLaw &rock)
+    {
+      CoulombLaw result;
+      std::visit(
+          [&](const auto &law)
+          {
+            result.normal_stiffness = law.closure.largest_stiffness();
+            result.shear_stiffness  = law.largest_shear_stiffness();
+            result.peak             = { 0., std::tan(law.residual_angle), 0. };
+          },
+          rock);
+      result.residual = result.peak;
+      return result;
+    }
+
+    JointStrength divided(const JointStrength &strength, const double factor)
+    {
+      return { strength.cohesion / factor, strength.friction / factor,
+               strength.tension / factor };
     }
   } // namespace
 
@@ -34,16 +58,27 @@ namespace quoin
                       "displacements; such a set needs no curve.");
     prm.declare_entry(
         "Law", "Coulomb",
-        dealii::Patterns::Selection("Coulomb|composite|elastic|no tension"),
+        dealii::Patterns::Selection("Coulomb|composite|elastic|no tension|"
+                                    "Barton-Bandis|continuously yielding"),
         "Coulomb: cohesion, friction and tension that drop to "
         "their residual values at failure; composite: these "
         "soften with fracture energies, and a cap crushes, for "
         "masonry; elastic: never fails; no tension: Coulomb without tension "
-        "whose cohesion is never lost.");
-    prm.declare_entry("Normal stiffness", "0", Double(), "kn [Pa/m]");
-    prm.declare_entry("Shear stiffness", "0", Double(), "ks [Pa/m]");
+        "whose cohesion is never lost; Barton-Bandis: rock joint that closes "
+        "along a hyperbola, whose roughness is mobilised and worn by slip; "
+        "continuously yielding: rock joint that yields from the first slip "
+        "on.");
+    prm.declare_entry("Normal stiffness", "0", Double(),
+                      "kn; of 'Barton-Bandis' that of the unloaded joint, of "
+                      "'continuously yielding' that at 'Reference stress' "
+                      "[Pa/m]");
+    prm.declare_entry("Shear stiffness", "0", Double(),
+                      "ks; of 'continuously yielding' that at 'Reference "
+                      "stress' [Pa/m]");
     prm.declare_entry("Cohesion", "0", Double(), "Peak cohesion c [Pa]");
-    prm.declare_entry("Friction angle", "0", Double(), "phi [deg]");
+    prm.declare_entry("Friction angle", "0", Double(),
+                      "phi; of 'continuously yielding' that of the unworn "
+                      "joint, not read if 'Law = Barton-Bandis' [deg]");
     prm.declare_entry("Tensile strength", "0", Double(), "ft [Pa]");
     prm.declare_entry("Dilation angle", "0", Double(), "psi [deg]");
     prm.declare_entry("Critical shear displacement", "1e300", Double(),
@@ -51,10 +86,12 @@ namespace quoin
     prm.declare_entry("Residual cohesion", "0", Double(),
                       "Cohesion once failed [Pa]");
     prm.declare_entry("Residual friction angle", "same", Anything(),
-                      "Friction angle once failed, or 'same' [deg]");
+                      "Friction angle once failed, or 'same'; of rock joints "
+                      "that of the worn joint [deg]");
     prm.declare_entry("Residual tensile strength", "0", Double(),
                       "Tensile strength once failed [Pa]");
     declare_composite_law(prm);
+    declare_rock_laws(prm);
   }
 
   JointSetParameters JointSetParameters::read(const ParameterSection &section,
@@ -91,6 +128,13 @@ namespace quoin
         section.fail("Law", "cannot be 'elastic' for new contacts, which "
                             "would then hold together for good. Use "
                             "'Coulomb'.");
+      return set;
+    }
+
+    if (kind == "Barton-Bandis" || kind == "continuously yielding")
+    {
+      set.rock = read_rock_law(section);
+      set.law  = stand_in(*set.rock);
       return set;
     }
 
@@ -141,5 +185,26 @@ namespace quoin
       section.fail("Residual tensile strength",
                    "must not exceed 'Tensile strength'.");
     return set;
+  }
+
+  JointSetParameters reduced(const JointSetParameters &set, const double factor)
+  {
+    JointSetParameters weak = set;
+    weak.law.peak           = divided(set.law.peak, factor);
+    weak.law.residual       = divided(set.law.residual, factor);
+    weak.law.dilation = std::min(set.law.dilation, weak.law.peak.friction);
+    if (weak.composite)
+    {
+      CompositeLaw &law = *weak.composite;
+      law.tension /= factor;
+      law.cohesion /= factor;
+      law.friction /= factor;
+      law.residual_friction /= factor;
+      law.dilation = std::min(law.dilation,
+                              std::min(law.friction, law.residual_friction));
+    }
+    if (weak.rock)
+      std::visit([&](auto &law) { law = reduced(law, factor); }, *weak.rock);
+    return weak;
   }
 } // namespace quoin

@@ -5,6 +5,9 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace quoin
 {
   namespace
@@ -80,5 +83,25 @@ namespace quoin
     if (section.text("Law") == "Mohr-Coulomb")
       material.strength = read_strength(section);
     return material;
+  }
+
+  MaterialParameters reduced(const MaterialParameters &material,
+                             const double factor)
+  {
+    MaterialParameters weak = material;
+    if (!weak.strength)
+      return weak;
+    MohrCoulombStrength &strength = *weak.strength;
+    const double friction         = std::tan(strength.friction_angle);
+    // The tip of the cone, c / tan(phi), would stay where it is.
+    if (friction > 0.)
+      strength.tension
+          = std::min(strength.tension, strength.cohesion / friction);
+    strength.tension /= factor;
+    strength.cohesion /= factor;
+    strength.friction_angle = std::atan(friction / factor);
+    strength.dilation_angle
+        = std::min(strength.dilation_angle, strength.friction_angle);
+    return weak;
   }
 } // namespace quoin

@@ -45,6 +45,12 @@ CASES = {
                              "shear.prm"),
                 ["Output/Checkpoint interval=0.02",
                  "Output/Field interval=2e-2"], 1, 2),
+    # rock joints that become general contacts
+    "rock joint": (os.path.join(common.VERIFICATION, "barton_bandis",
+                                "case.prm"),
+                   ["Output/Checkpoint interval=0.1",
+                    "Contact/Displacements=large", "Joints/joint/Curves=joint",
+                    "Joints/joint/New contacts between=all"], 1, 2),
     # a generated wall, cracks that close, loads that slow down
     "wall": (os.path.join(common.MASONRY, "tue_walls", "j4d.prm"),
              ["Output/Checkpoint interval=0.05", "Output/Field interval=1e-2",

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <new>
 #include <vector>
 
@@ -86,13 +87,24 @@ namespace quoin
     AlignedArray<double> bond;            /**< share of ft, c left [-] */
     AlignedArray<double> crushing;        /**< of the cap [m] */
     AlignedArray<double> crack_opening;   /**< that may close again [m] */
+    AlignedArray<double> worn_slip;       /**< that wore the joint [m] */
+    AlignedArray<double> dilated;         /**< slip back takes it back [m] */
+    AlignedArray<double> reload;          /**< |tau|/strength [-] */
     AlignedArray<JointState> state;
     /** Of each segment, two points: it is a general contact by now. */
     AlignedArray<std::uint8_t> handed_over;
 
-    /** bond, crushing, crack_opening stay empty unless a law @p softens. */
-    void resize(const std::size_t n, const bool softens = false)
+    /** bond, crushing, crack_opening stay empty unless a law @p softens,
+        worn_slip, dilated, reload unless one @p wears. */
+    void resize(const std::size_t n, const bool softens = false,
+                const bool wears = false)
     {
+      if (wears)
+      {
+        worn_slip.resize(n, 0.);
+        dilated.resize(n, 0.);
+        reload.resize(n, 0.);
+      }
       if (softens)
       {
         bond.resize(n, 1.);
@@ -111,7 +123,8 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &normal_traction &shear_traction &plastic_slip &plastic_opening
-          &bond &crushing &crack_opening &state &handed_over;
+          &bond &crushing &crack_opening &worn_slip &dilated &reload &state
+              &handed_over;
     }
   };
 
@@ -199,7 +212,11 @@ namespace quoin
     double anchor_lower    = 0.; /**< where on the edges, 0 to 1, slip is */
     double anchor_upper    = 0.; /**< counted from */
     double area            = 0.; /**< as last used [m^2] */
-    JointState state       = JointState::slipped;
+    /** Contacts are born worn: with the residual strength. */
+    double worn_slip = std::numeric_limits<double>::infinity(); /**< [m] */
+    double dilated   = 0.;                                      /**< [m] */
+    double reload    = 0.;                                      /**< [-] */
+    JointState state = JointState::slipped;
   };
 
   /** Two edges of blocks that touch or may soon do so. */

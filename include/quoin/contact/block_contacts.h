@@ -13,7 +13,9 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace quoin
@@ -167,6 +169,15 @@ namespace quoin
       double opening[2];         /**< [m] */
     };
 
+    /** Calls @p use with the law of a set, of its own type. */
+    template <typename Use>
+    void with_law(const unsigned int set, const Use &use) const
+    {
+      if (rocks[set])
+        std::visit(use, *rocks[set]);
+      else
+        use(laws[set]);
+    }
     void find_set_of_materials(const ContactModel &model);
     void check(State &state, const MatchedJoints &joints, double dt);
     /** Returns whether joints of this rank became general contacts. */
@@ -235,6 +246,7 @@ namespace quoin
     const double thickness;
     double skin;
     std::vector<CoulombLaw> laws;
+    std::vector<std::optional<RockLaw>> rocks; /**< of each set */
     bool can_dilate = false;
     std::vector<std::string> materials;
     std::vector<unsigned int> material_of_group;

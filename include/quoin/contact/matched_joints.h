@@ -12,6 +12,7 @@
 #include <array>
 #include <functional>
 #include <optional>
+#include <variant>
 #include <vector>
 
 namespace quoin
@@ -163,7 +164,8 @@ namespace quoin
     std::array<std::array<double, 2>, 2> gaps(const NodeRecord *nodes,
                                               unsigned int i) const;
 
-    /** Of a composite law its stiffnesses and strengths. */
+    /** Of a composite law its stiffnesses and strengths, of a rock joint its
+        largest stiffnesses and residual strength. */
     const CoulombLaw &law(const unsigned int set) const
     {
       return laws[set];
@@ -173,6 +175,12 @@ namespace quoin
     bool can_soften() const
     {
       return softens;
+    }
+
+    /** Whether a set, of any rank, has a law of rock joints. */
+    bool can_wear() const
+    {
+      return wears;
     }
 
   private:
@@ -185,7 +193,19 @@ namespace quoin
     static std::array<double, 2> gap(const Segment &segment, const Frame &frame,
                                      const NodeRecord *nodes, unsigned int k);
 
-    /** add_forces() of a set; @p Law: CoulombLaw or CompositeLaw. */
+    /** Calls @p use with the law of a set, of its own type. */
+    template <typename Use>
+    void with_law(const unsigned int set, const Use &use) const
+    {
+      if (composites[set])
+        use(*composites[set]);
+      else if (rocks[set])
+        std::visit(use, *rocks[set]);
+      else
+        use(laws[set]);
+    }
+
+    /** add_forces() of a set. */
     template <typename Law>
     void add_set_forces(unsigned int set, const Law &law,
                         const NodeRecord *nodes, JointHistory &history,
@@ -194,7 +214,8 @@ namespace quoin
     std::vector<Segment> segments; /**< sorted by set */
     std::vector<CoulombLaw> laws;
     std::vector<std::optional<CompositeLaw>> composites; /**< of each set */
-    bool softens = false;
+    std::vector<std::optional<RockLaw>> rocks;           /**< likewise */
+    bool softens = false, wears = false;
     std::vector<unsigned int> set_begin; /**< first segment of each set */
   };
 } // namespace quoin

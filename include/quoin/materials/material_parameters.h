@@ -27,6 +27,13 @@ namespace quoin
     static MaterialParameters read(const ParameterSection &section,
                                    const std::string &name);
   };
+
+  /**
+   * The material with its strength divided by @p factor, for factors of
+   * safety: c, tan(phi) and the tensile strength; psi is not above the
+   * reduced phi. An elastic material has none and stays.
+   */
+  MaterialParameters reduced(const MaterialParameters &material, double factor);
 } // namespace quoin
 
 #endif

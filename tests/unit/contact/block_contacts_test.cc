@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../dynamics/test_models.h"
+#include "../joints/rock_walk.h"
 
 #include <quoin/base/exceptions.h>
 #include <quoin/contact/block_contacts.h>
@@ -96,7 +97,8 @@ namespace
       joints.prepare(mesh, *exchange, sets, thickness);
       contacts = std::make_unique<BlockContacts>(mesh, *exchange,
                                                  contact_model(sets));
-      state.joints.resize(joints.n_points());
+      state.joints.resize(joints.n_points(), joints.can_soften(),
+                          joints.can_wear());
       for (const auto &p : mesh.vertices)
         state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
       state.velocity.assign(mesh.n_vertices(), NodeVector{ { 0., 0. } });
@@ -383,14 +385,19 @@ TEST(BlockContacts, DilationIsNotForgottenFromEdgeToEdge)
 
 TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
 {
-  for (const double friction : { 0.1, 0.5 })
+  JointSetParameters weak = elastic_joint(kn, ks), strong = weak;
+  weak.law.peak            = { 1e4, 0.1, 0. };
+  weak.law.residual        = { 0., 0.1, 0. };
+  strong.law.peak          = { 1e4, 0.5, 0. };
+  strong.law.residual      = { 0., 0.5, 0. };
+  JointSetParameters rough = strong, yielding = strong;
+  rough.rock    = rock_test::rough();
+  yielding.rock = rock_test::yielding();
+  for (const JointSetParameters &joint : { weak, strong, rough, yielding })
     for (const double angle : { 0., 0.008 })
     {
-      JointSetParameters joint = elastic_joint(kn, ks);
-      joint.law.peak           = { 1e4, friction, 0. };
-      joint.law.residual       = { 0., friction, 0. };
       Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); },
-                  { joint, touching(friction) });
+                  { joint, touching() });
       const unsigned int upper = scene.block_at(0., 2.);
       scene.move(upper, 0., -closing);
       scene.turn(upper, angle, 3., 1.);
@@ -430,6 +437,13 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
             matched.joints.normal_traction[p] = point.normal_traction;
             matched.joints.shear_traction[p]  = point.shear_traction;
             matched.joints.state[p]           = point.state;
+            if (!joint.rock)
+              continue;
+            EXPECT_GT(point.worn_slip, 1e-3);
+            EXPECT_TRUE(std::isfinite(point.worn_slip));
+            matched.joints.worn_slip[p] = point.worn_slip;
+            matched.joints.dilated[p]   = point.dilated;
+            matched.joints.reload[p]    = point.reload;
           }
       }
       scene.force.assign(scene.mesh.n_vertices(), NodeVector{ { 0., 0. } });
@@ -448,6 +462,32 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
               * scene.joints.stored_energy(scene.state.nodes.data(),
                                            matched.joints));
     }
+}
+
+TEST(BlockContacts, NewContactsOfRockAreWorn)
+{
+  JointSetParameters rough = touching(), yielding = touching();
+  rough.rock           = rock_test::rough();
+  yielding.rock        = rock_test::yielding();
+  const double angle[] = { 28., 30. };
+  unsigned int i       = 0;
+  for (const JointSetParameters &set : { rough, yielding })
+  {
+    Scene scene({ { 0., 0., 4., 1., 1, 1 }, { 1., 1., 1., 1., 1, 1 } },
+                { set });
+    const unsigned int upper = scene.block_at(1., 2.);
+    scene.move(upper, 0., -1e-5);
+    scene.find_forces();
+    for (unsigned int step = 0; step < 200; ++step)
+    {
+      scene.move(upper, 2e-6, 0.);
+      scene.find_forces();
+    }
+    const auto force = scene.total(upper);
+    EXPECT_GT(force[1], 0.);
+    EXPECT_NEAR(force[0], -std::tan(angle[i++] * rock_test::degree) * force[1],
+                1e-3 * force[1]);
+  }
 }
 
 TEST(BlockContacts, SearchesChangeNothing)

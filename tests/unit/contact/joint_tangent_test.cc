@@ -6,6 +6,7 @@
 
 #include "../dynamics/test_models.h"
 #include "../joints/composite_walk.h"
+#include "../joints/rock_walk.h"
 
 #include <quoin/contact/matched_joints.h>
 
@@ -34,7 +35,7 @@ namespace
                      NodeExchange(0, mesh.n_vertices(), mesh.n_vertices(), {},
                                   MPI_COMM_SELF),
                      { set }, thickness);
-      history.resize(joints.n_points(), joints.can_soften());
+      history.resize(joints.n_points(), joints.can_soften(), joints.can_wear());
       for (const auto &p : mesh.vertices)
         nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
     }
@@ -192,6 +193,16 @@ namespace
     set.composite = law;
     return set;
   }
+
+  template <typename Law>
+  JointSetParameters rock(const Law &law)
+  {
+    JointSetParameters set
+        = elastic_joint(law.closure.stiffness(1e7), law.shear_stiffness(1e7));
+    set.law.peak = set.law.residual = { 0., 0.5, 0. };
+    set.rock                        = law;
+    return set;
+  }
 } // namespace
 
 TEST(JointTangent, ElasticJointsInAnyFrame)
@@ -258,13 +269,39 @@ TEST(JointTangent, CompositeJointsInAllBranches)
   }
 }
 
+TEST(JointTangent, RockJointsInAllBranches)
+{
+  for (const JointSetParameters &set :
+       { rock(rock_test::rough()), rock(rock_test::yielding()) })
+  {
+    Errors errors;
+    Visits visits;
+    double worn = 0.;
+    for (unsigned int seed = 1; seed <= 20; ++seed)
+    {
+      Joint joint(set);
+      // Slips of either size against the peak slip
+      const double size = seed % 2 == 0 ? 5e-5 : 5e-4;
+      walk(joint, seed, 20, size, 2e-4, 1e-11, errors, visits);
+      worn = std::max(worn, joint.history.worn_slip[0]);
+    }
+    EXPECT_LT(errors.stiffness, 1e-4);
+    EXPECT_LT(errors.gradient, 2e-4);
+    EXPECT_LT(errors.n_kinks, errors.n_smooth / 20);
+    EXPECT_GT(worn, 2e-3);
+    for (const JointState state : { JointState::slipping, JointState::open })
+      EXPECT_GT(visits[state], 30U) << static_cast<int>(state);
+  }
+}
+
 TEST(JointTangent, ForcesAreThoseOfTheExplicitSolver)
 {
   CompositeLaw closing = composite_test::dilatant();
   closing.cracks_close = true;
   for (const JointSetParameters &set :
        { elastic_joint(8e9, 3e9), coulomb(0.2),
-         composite(composite_test::wall()), composite(closing) })
+         composite(composite_test::wall()), composite(closing),
+         rock(rock_test::rough()), rock(rock_test::yielding()) })
   {
     Joint joint(set);
     // From here on a brittle joint has broken, and the laws are the same.

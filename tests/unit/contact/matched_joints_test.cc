@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../dynamics/test_models.h"
+#include "../joints/rock_walk.h"
 
 #include <quoin/contact/matched_joints.h>
 
@@ -33,7 +34,8 @@ namespace
       for (auto &p : mesh.vertices)
         p = { c * p[0] - s * p[1], s * p[0] + c * p[1] };
       joints.prepare(mesh, exchange(), { set }, thickness);
-      state.joints.resize(joints.n_points());
+      state.joints.resize(joints.n_points(), joints.can_soften(),
+                          joints.can_wear());
       for (const auto &p : mesh.vertices)
         state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
     }
@@ -322,6 +324,57 @@ TEST(MatchedJoints, InitialStressBecomesTraction)
     stack.expect_on_lower(area * traction[0], area * traction[1], 1e-6);
     EXPECT_EQ(stack.state.joints.state[0], JointState::intact);
   }
+}
+
+TEST(MatchedJoints, InitialStressOfRockJoints)
+{
+  const double xx = -3e6, yy = -7e6, xy = 0.9e6;
+  JointSetParameters rough = elastic_joint(kn, ks), yielding = rough;
+  rough.rock    = rock_test::rough();
+  yielding.rock = rock_test::yielding();
+  for (const JointSetParameters &set : { rough, yielding })
+  {
+    Stack stack(2, 0., set);
+    stack.joints.initialise({ { { xx, yy, xy } }, { { xx, yy, xy } } },
+                            stack.state, stack.state.joints);
+    stack.find_forces();
+    const double area = 2. * thickness;
+    stack.expect_on_lower(area * xy, area * yy, 1e-3);
+    EXPECT_EQ(stack.state.joints.state[0], JointState::intact);
+    // From there it closes with the stiffness at that pressure.
+    const double more = 1e-8;
+    stack.move_upper(0., -more);
+    stack.find_forces();
+    std::visit(
+        [&](const auto &law)
+        {
+          stack.expect_on_lower(
+              area * xy, area * (yy - law.closure.stiffness(-yy) * more),
+              1e-3 * area * law.closure.stiffness(-yy) * more);
+        },
+        *set.rock);
+  }
+}
+
+TEST(MatchedJoints, ViscousForcesOfRockJointsByTheStiffnessOfTheMoment)
+{
+  JointSetParameters set = elastic_joint(kn, ks);
+  set.rock               = rock_test::rough();
+  const auto &law        = std::get<BartonBandisLaw>(*set.rock);
+  Stack stack(1, 0., set);
+  const double s = 5e6, rate = 1e-3, beta = 1e-4;
+  stack.move_upper(0., -law.closure.closure(s));
+  stack.find_forces();
+  AlignedArray<NodeVector> velocity(stack.mesh.n_vertices(),
+                                    NodeVector{ { 0., 0. } });
+  for (unsigned int v = stack.mesh.block_first_vertex[1];
+       v < stack.mesh.block_first_vertex[2]; ++v)
+    velocity[v].v[1] = -rate;
+  stack.force.assign(stack.mesh.n_vertices(), NodeVector{ { 0., 0. } });
+  stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.state.joints,
+                                  velocity.data(), beta, stack.force.data());
+  const double expected = -beta * law.closure.stiffness(s) * rate * thickness;
+  stack.expect_on_lower(0., expected, 1e-9 * std::abs(expected));
 }
 
 TEST(MatchedJoints, BoundIsExactForTwoMassesAndASpring)
