@@ -31,14 +31,14 @@ namespace quoin
   void ExplicitSolver::hold_removed_blocks(const State &state)
   {
     removed_nodes.clear();
-    if (state.contacts.outside.empty())
+    if (state.block_marks.empty())
       return;
     const unsigned int n_deformable
         = model.n_blocks() - model.rigid_blocks().n_blocks();
     for (unsigned int i = 0; i < model.n_blocks(); ++i)
     {
       const unsigned int b = model.first_block() + i;
-      if (state.contacts.outside[b] != BlockContacts::removed_from_model)
+      if (!state.is_absent(b))
         continue;
       removed_nodes.push_back(model.block_nodes(b));
       const NodeRange &range = removed_nodes.back();
@@ -77,7 +77,7 @@ namespace quoin
     };
     double energy         = stored();
     const auto is_removed = [&](const unsigned int block) {
-      return state.contacts.outside[block] == BlockContacts::removed_from_model;
+      return state.is_absent(block);
     };
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
     {
