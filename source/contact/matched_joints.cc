@@ -65,16 +65,7 @@ namespace quoin
                               const std::vector<JointSetParameters> &sets,
                               const double thickness)
   {
-    laws.clear();
-    composites.clear();
-    for (const auto &set : sets)
-    {
-      laws.push_back(set.law);
-      composites.push_back(set.composite);
-    }
-    softens = std::any_of(composites.begin(), composites.end(),
-                          [](const auto &law) { return law.has_value(); });
-
+    set_laws(sets);
     segments.clear();
     const auto set_of_line = sets_of_lines(mesh, sets);
     for (unsigned int f = 0; f < mesh.joint_faces.size(); ++f)
@@ -135,30 +126,6 @@ namespace quoin
     return std::any_of(laws.begin(), laws.end(),
                        [](const CoulombLaw &law)
                        { return std::isfinite(law.peak.tension); });
-  }
-
-  void MatchedJoints::initialise(
-      const std::vector<std::array<double, 3>> &face_stress, const State &state,
-      JointHistory &history) const
-  {
-    for (unsigned int i = 0; i < segments.size(); ++i)
-    {
-      const auto &[xx, yy, xy] = face_stress[segments[i].face];
-      const Frame local        = frame(segments[i], state.nodes.data());
-      const double *n = local.normal, *s = local.tangent;
-      const double traction[2]
-          = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
-      const CoulombLaw &law = laws[segments[i].set];
-      for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
-      {
-        history.normal_traction[p] = traction[0] * n[0] + traction[1] * n[1];
-        history.shear_traction[p]  = traction[0] * s[0] + traction[1] * s[1];
-        history.plastic_opening[p]
-            = -history.normal_traction[p] / law.normal_stiffness;
-        history.plastic_slip[p]
-            = -history.shear_traction[p] / law.shear_stiffness;
-      }
-    }
   }
 
   template <typename Law>

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// How MatchedJoints begin: under stress, anew, or with other laws.
+
+#include <quoin/contact/matched_joints.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "joint_frame.h"
+
+namespace quoin
+{
+  void MatchedJoints::initialise(const std::vector<FaceStress> &face_stress,
+                                 const State &state,
+                                 JointHistory &history) const
+  {
+    for (unsigned int i = 0; i < segments.size(); ++i)
+    {
+      const Frame local = frame(segments[i], state.nodes.data());
+      const double *n = local.normal, *s = local.tangent;
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const auto &[xx, yy, xy] = face_stress[segments[i].face][k];
+        const double traction[2]
+            = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
+        const unsigned int p       = 2 * i + k;
+        history.normal_traction[p] = traction[0] * n[0] + traction[1] * n[1];
+        history.shear_traction[p]  = traction[0] * s[0] + traction[1] * s[1];
+        const CoulombLaw &law      = laws[segments[i].set];
+        history.plastic_opening[p]
+            = -history.normal_traction[p] / law.normal_stiffness;
+        history.plastic_slip[p]
+            = -history.shear_traction[p] / law.shear_stiffness;
+      }
+    }
+  }
+
+  double MatchedJoints::n_beyond_strength(const JointHistory &history,
+                                          const MPI_Comm communicator) const
+  {
+    // Tractions at the limit are not beyond it.
+    constexpr double margin = 1e-9;
+    double n                = 0.;
+    for (unsigned int i = 0; i < segments.size(); ++i)
+      for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
+      {
+        const JointStrength &peak = laws[segments[i].set].peak;
+        const double sigma        = history.normal_traction[p];
+        const double tau          = std::abs(history.shear_traction[p]);
+        const double size         = margin * (std::abs(sigma) + tau);
+        if (sigma > peak.tension + size
+            || tau + sigma * peak.friction > peak.cohesion + size)
+          n += segments[i].share;
+      }
+    return dealii::Utilities::MPI::sum(n, communicator);
+  }
+
+  void MatchedJoints::add_traction_forces(const unsigned int i,
+                                          const NodeRecord *nodes,
+                                          const JointHistory &history,
+                                          NodeVector *force) const
+  {
+    const Segment &segment = segments[i];
+    const Frame local      = frame(segment, nodes);
+    for (unsigned int k = 0; k < 2; ++k)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double f
+            = segment.area[k]
+              * (history.normal_traction[2 * i + k] * local.normal[d]
+                 + history.shear_traction[2 * i + k] * local.tangent[d]);
+        force[segment.lower[k]].v[d] += f;
+        force[segment.upper[k]].v[d] -= f;
+      }
+  }
+
+  void MatchedJoints::let_go(const unsigned int i, JointHistory &history) const
+  {
+    history.handed_over[i] = 1;
+    for (const unsigned int p : { 2 * i, 2 * i + 1 })
+    {
+      history.normal_traction[p] = history.shear_traction[p] = 0.;
+      history.state[p]                                       = JointState::open;
+    }
+  }
+
+  void MatchedJoints::begin_anew(const unsigned int i, const NodeRecord *nodes,
+                                 JointHistory &history) const
+  {
+    history.handed_over[i] = 0;
+    const auto gap         = gaps(nodes, i);
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      const unsigned int p       = 2 * i + k;
+      history.normal_traction[p] = history.shear_traction[p] = 0.;
+      history.plastic_opening[p]                             = gap[k][0];
+      history.plastic_slip[p]                                = gap[k][1];
+      history.state[p] = JointState::intact;
+      if (!history.bond.empty())
+      {
+        history.bond[p]     = 1.;
+        history.crushing[p] = history.crack_opening[p] = 0.;
+      }
+    }
+  }
+
+  void MatchedJoints::set_laws(const std::vector<JointSetParameters> &sets)
+  {
+    laws.clear();
+    composites.clear();
+    for (const auto &set : sets)
+    {
+      laws.push_back(set.law);
+      composites.push_back(set.composite);
+    }
+    softens = std::any_of(composites.begin(), composites.end(),
+                          [](const auto &law) { return law.has_value(); });
+  }
+
+  void MatchedJoints::keep_tractions(const NodeRecord *nodes,
+                                     JointHistory &history) const
+  {
+    for (unsigned int i = 0; i < segments.size(); ++i)
+    {
+      if (history.handed_over[i])
+        continue;
+      const CoulombLaw &law = laws[segments[i].set];
+      const auto gap        = gaps(nodes, i);
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const unsigned int p = 2 * i + k;
+        // A Coulomb joint that is open keeps what its opening counts from.
+        if (!composites[segments[i].set]
+            && history.state[p] == JointState::open)
+          continue;
+        history.plastic_opening[p]
+            = gap[k][0] - history.normal_traction[p] / law.normal_stiffness;
+        history.plastic_slip[p]
+            = gap[k][1] - history.shear_traction[p] / law.shear_stiffness;
+      }
+    }
+  }
+} // namespace quoin
