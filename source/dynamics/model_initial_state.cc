@@ -37,6 +37,12 @@ namespace quoin
                            "which is zero with 'Plane assumption = plane "
                            "stress'. Leave it at "
                            "'elastic'.");
+      if (parameters.plane == PlaneAssumption::plane_stress && load.in_situ
+          && load.in_situ->has_out_of_plane)
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Out-of-plane ratio' gives a stress out of the "
+                           "plane, which is zero with 'Plane assumption = "
+                           "plane stress'. Leave it at 'same'.");
       const auto groups  = groups_of_names(block_mesh, load.groups, load.name);
       const auto acts_in = [&](const unsigned int cell)
       {

@@ -155,6 +155,7 @@ namespace quoin
       if (ratio.empty() || ratio[0] < 0.)
         section.fail("Out-of-plane ratio",
                      "must be 'same' or a number that is not negative.");
+      result.has_out_of_plane    = true;
       result.out_of_plane_ratio  = ratio[0];
       result.out_of_plane_stress = 0.;
     }

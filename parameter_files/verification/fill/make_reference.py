@@ -14,15 +14,15 @@ q is the weight of the block that bears or that is not let go yet. A row a stage
 import os
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-G, HEIGHT, BLOCK, STIFFNESS = 10.0, 4.0, 2.0, 1e8
+G, HEIGHT, BLOCK, STIFFNESS = 10.0, 4.0, 2.0, 1e10
 
 
 def modulus(young, nu):
     return young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
 
 
-SOIL = (2000.0, modulus(20e6, 0.25))
-CONCRETE = (2500.0, modulus(40e6, 0.2))
+SOIL = (2000.0, modulus(2e9, 0.25))
+CONCRETE = (2500.0, modulus(4e9, 0.2))
 
 
 def column(q):
