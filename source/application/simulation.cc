@@ -236,14 +236,14 @@ namespace quoin
   void Simulation::resume()
   {
     const unsigned int index = record.state.stage;
-    State &state             = record.state;
     if (record.stage_begun)
-      construction->resume_stage(index, state);
-    if (!record.stage_begun && index > 0 && explicit_solver)
+      construction->resume_stage(index, record.state);
+    else if (index > 0)
     {
-      // Masses as the stage before left them, for the energy of what moves.
-      State before = state;
-      explicit_solver->resume_stage(parameters.stages[index - 1], before);
+      construction->resume_stage(index - 1, record.state);
+      if (explicit_solver)
+        explicit_solver->restore_masses(parameters.stages[index - 1],
+                                        record.state);
     }
   }
 

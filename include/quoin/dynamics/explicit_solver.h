@@ -50,6 +50,15 @@ namespace quoin
         loads. */
     static constexpr std::uint64_t balance_interval = 100;
 
+    /**
+     * Masses become those of @p previous, the stage at whose end @p state was
+     * saved: the energy of what moves is counted with them.
+     */
+    void restore_masses(const StageParameters &previous, State state)
+    {
+      scale_masses(previous, state);
+    }
+
     /** What is due at the time of a step; see step(). */
     struct Requests
     {

@@ -19,7 +19,16 @@ p = 2 c sqrt(K)/(K - 1):
           + (1 - nu) (K^2 - 1)/(2 K) (pi + p) (R0/a)^(K - 1) (R0/r)^(K + 1)
           + ((1 - nu) (K^2 + 1)/(2 K) - nu) (pi + p) (r/a)^(K - 1)
 
-reference.csv has the elastic wall, reference_yielding.csv the other, a row a stage.
+Lined: a ring of concrete, outer radius a, inner b, on a joint of stiffness kn, put in
+when a share of the tractions P0 is gone, bears the pressure q of the rest by
+
+  (1 - share) P0 a/2G - q a/2G = q c + q/kn,
+  c = a (1 + nu_c)/E_c ((1 - 2 nu_c) a^2 + b^2)/(a^2 - b^2)
+
+(Lame): the wall, the joint and the ring move together.
+
+reference.csv has the elastic wall, reference_yielding.csv the other, reference_lining.csv
+wall and inner side of the lining and the joint's traction, a row a stage.
 """
 import os
 
@@ -65,6 +74,20 @@ def yielding(share, r):
     return -np.where(r < outer, inside, outside) / (2 * SHEAR)
 
 
+def lining(share=0.5, pressure=10e6):
+    """Of the rock's wall, the lining's inner side [m], the joint [Pa], at the end
+    of both stages, outward and tension positive."""
+    inner, young, nu, stiffness = 0.9, 30e9, 0.2, 2e11
+    a2, b2 = RADIUS**2, inner**2
+    rock = RADIUS * (1 + NU) / YOUNG
+    ring = RADIUS * (1 + nu) / young * ((1 - 2 * nu) * a2 + b2) / (a2 - b2)
+    rest = (1 - share) * pressure
+    q = rest * rock / (rock + ring + 1 / stiffness)
+    inside = 2 * (1 - nu**2) / young * q * a2 * inner / (a2 - b2)
+    return ((-share * pressure * rock, 0.0, 0.0),
+            (-share * pressure * rock - (rest - q) * rock, -inside, -q))
+
+
 def check():
     """Both formulas meet at R0, and without support are the known numbers."""
     for share in (0.8, 1.0):
@@ -83,6 +106,10 @@ def main():
             stream.write("%g,%.9g,%.9g\n"
                          % (time, elastic_wall(share, 0.0)[0],
                             elastic_wall(share, np.pi / 2)[0]))
+    with open(os.path.join(HERE, "reference_lining.csv"), "w") as stream:
+        stream.write("stage [-],wall [m],lining [m],pressure [Pa]\n")
+        for stage, row in enumerate(lining()):
+            stream.write("%d,%.9g,%.9g,%.9g\n" % (stage + 1, *row))
     with open(os.path.join(HERE, "reference_yielding.csv"), "w") as stream:
         stream.write("share [-],u_r wall [m],plastic radius [m]\n")
         for share in (0.8, 1.0):

@@ -2,19 +2,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Settlement without lateral strain of a column, height H, by its own weight and
-that of a block, height h, on a joint of the stiffness kn, by Hooke's law with the
-modulus M = E (1 - nu)/((1 + nu)(1 - 2 nu)) of each:
+that of a block, height h, on a joint of the stiffness kn with the pressure p on it, by
+Hooke's law with the modulus M = E (1 - nu)/((1 + nu)(1 - 2 nu)) of each:
 
-  top of the column    u_c = -(rho g H^2/2 + q H)/M,   q = share rho_f g h,
+  top of the column    u_c = -(rho g H^2/2 + q H)/M,   q = share (rho_f g h + p),
   joint, where there   q/kn closed since the block was placed,
-  top of the block     -rho_f g h^2/(2 M_f) - q/kn + u_c - u_c when it was placed.
+  top of the block     -(rho_f g h^2/2 + p h)/M_f - q/kn + u_c - u_c when placed.
 
-q is the weight of the block that bears or that is not let go yet. A row a stage.
+q is what the block exerts, or what is not let go of that. A row a stage.
 """
 import os
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 G, HEIGHT, BLOCK, STIFFNESS = 10.0, 4.0, 2.0, 1e10
+PRESSURE = 10e3
 
 
 def modulus(young, nu):
@@ -33,14 +34,15 @@ def column(q):
 def placed(material):
     """Column, block, gap of the joint, its traction."""
     density, m = material
-    q = density * G * BLOCK
+    q = density * G * BLOCK + PRESSURE
     settles = column(q) - column(0)
-    top = -density * G * BLOCK**2 / (2 * m) - q / STIFFNESS + settles
+    top = (-(density * G * BLOCK / 2 + PRESSURE) * BLOCK / m - q / STIFFNESS
+           + settles)
     return column(q), top, -column(0) - q / STIFFNESS, -q
 
 
 def main():
-    weight = SOIL[0] * G * BLOCK
+    weight = SOIL[0] * G * BLOCK + PRESSURE
     rows = [(column(0), 0, 0, 0), placed(SOIL),
             (column(0.5 * weight), 0, 0, 0), (column(0), 0, 0, 0),
             placed(CONCRETE)]
