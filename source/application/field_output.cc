@@ -19,8 +19,7 @@ namespace quoin
     for (unsigned int b = 0; b < model.n_blocks(); ++b)
     {
       const unsigned int block = model.first_block() + b;
-      if (!state.contacts.outside.empty()
-          && state.contacts.outside[block] == BlockContacts::removed_from_model)
+      if (state.is_absent(block))
         continue;
       const NodeRange range    = model.block_nodes(block);
       const std::int32_t shift = fields.position.size() - range.begin;

@@ -16,12 +16,21 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** Squared distance by which nodes are put after others at their place
+        [m^2]. */
+    constexpr double just_behind = 1e-18;
+  } // namespace
+
   Histories::Histories(const std::vector<HistoryParameters> &parameters,
                        const Model &model, const Solver &solver,
                        const BoundaryGeometry &geometry,
-                       const BoundaryElementParameters &boundaries)
+                       const BoundaryElementParameters &boundaries,
+                       const std::vector<bool> &absent_in_the_end)
     : model(model), solver(solver),
-      communicator(model.exchange().communicator())
+      communicator(model.exchange().communicator()),
+      absent_in_the_end(absent_in_the_end)
   {
     std::vector<HistoryParameters> boundary_probes;
     for (const HistoryParameters &history : parameters)
@@ -55,9 +64,10 @@ namespace quoin
     const dealii::Point<2> point(wanted.point[0], wanted.point[1]);
     double best = std::numeric_limits<double>::max();
     const auto consider
-        = [&](const dealii::Point<2> &p, const unsigned int entity)
+        = [&](const dealii::Point<2> &p, const unsigned int entity,
+              const double farther = 0.)
     {
-      const double distance = p.distance_square(point);
+      const double distance = p.distance_square(point) + farther;
       if (distance < best)
       {
         best         = distance;
@@ -71,7 +81,13 @@ namespace quoin
     case HistoryQuantity::displacement:
     case HistoryQuantity::velocity:
       for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
-        consider(mesh.vertices[model.exchange().global(i)], i);
+      {
+        const unsigned int v     = model.exchange().global(i);
+        const unsigned int block = mesh.block_of_vertex(v);
+        const bool absent
+            = absent_in_the_end[mesh.cell_group[mesh.block_first_cell[block]]];
+        consider(mesh.vertices[v], i, absent ? just_behind : 0.);
+      }
       break;
     case HistoryQuantity::stress:
     case HistoryQuantity::yielding:
@@ -164,6 +180,8 @@ namespace quoin
   double Histories::point_value(const Probe &probe, const State &state) const
   {
     const HistoryParameters &wanted = probe.parameters;
+    if (is_absent(probe, state))
+      return 0.;
     switch (wanted.quantity)
     {
     case HistoryQuantity::displacement:
@@ -212,6 +230,27 @@ namespace quoin
     }
     default:
       return 0.;
+    }
+  }
+
+  bool Histories::is_absent(const Probe &probe, const State &state) const
+  {
+    const BlockMesh<2> &mesh = model.mesh();
+    switch (probe.parameters.quantity)
+    {
+    case HistoryQuantity::displacement:
+    case HistoryQuantity::velocity:
+      return state.is_absent(
+          mesh.block_of_vertex(model.exchange().global(probe.entity)));
+    case HistoryQuantity::stress:
+    case HistoryQuantity::yielding:
+    case HistoryQuantity::rotation:
+      return state.is_absent(
+          mesh.block_of_cell(model.first_cell() + probe.entity));
+    case HistoryQuantity::joint:
+      return model.is_at_absent_block(probe.entity / 2, state);
+    default:
+      return false;
     }
   }
 

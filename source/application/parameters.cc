@@ -4,6 +4,7 @@
 #include <quoin/application/mesh_parameters.h>
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/dynamics/construction.h>
 #include <quoin/layout/rock_parameters.h>
 #include <quoin/tdbem/elastic_medium.h>
 
@@ -558,6 +559,7 @@ namespace quoin
       parameters.initial_motion
           = InitialMotion::read(ParameterSection(top, "Initial motion"));
       read_stages(top, parameters);
+      parameters.model.absent_groups = groups_placed_later(parameters.stages);
       check_loads(parameters);
       parameters.implicit
           = ImplicitParameters::read(ParameterSection(top, "Implicit"));

@@ -63,6 +63,8 @@ namespace quoin
       return;
     }
     last_checkpoint = WallClock::now();
+    if (options.resume)
+      resume();
     for (unsigned int i = record.state.stage; i < parameters.stages.size(); ++i)
       if (implicit_solver)
         run_implicit_stage(i);
@@ -94,10 +96,11 @@ namespace quoin
       std::sort(rank_of_block.begin(), rank_of_block.end());
       model = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
                                       communicator);
+      construction = std::make_unique<Construction>(*model, parameters.stages);
       make_solver(as_read);
-      histories
-          = std::make_unique<Histories>(parameters.histories, *model, *solver,
-                                        boundary_geometry, parameters.boundary);
+      histories = std::make_unique<Histories>(
+          parameters.histories, *model, *solver, boundary_geometry,
+          parameters.boundary, construction->absent_in_the_end());
       record.state = model->initial_state();
       if (parameters.initial_motion.is_given)
         set_initial_motion();
@@ -165,6 +168,7 @@ namespace quoin
                   "symmetric to "
                   + number_text(far->asymmetry()) + " of its largest entry");
 
+    report_initial_joints();
     if (implicit_solver)
       return report_implicit_model();
 
@@ -173,17 +177,7 @@ namespace quoin
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
     {
       const StageParameters &stage = parameters.stages[i];
-      try
-      {
-        explicit_solver->begin_stage(
-            stage, i == 0 ? nullptr : &parameters.stages[i - 1], state);
-        if (i == 0)
-          solver->check_start(state);
-      }
-      catch (const InputError &error)
-      {
-        throw InputError(parameters.file + ", " + error.what());
-      }
+      begin_stage(i, state);
       choose_time_step(stage);
       log.message(
           "stage " + stage.name + ": time step "
@@ -201,6 +195,55 @@ namespace quoin
                        + number_text(100. * explicit_solver->added_mass_share())
                        + " % of mass"
                  : ""));
+    }
+    construction->restart();
+  }
+
+  void Simulation::report_initial_joints()
+  {
+    if (parameters.model.initial_stresses.empty())
+      return;
+    const double n
+        = model->joints().n_beyond_strength(record.state.joints, communicator);
+    if (n > 0.)
+      log.warning(number_text(n) + " of "
+                  + std::to_string(2 * mesh.joint_faces.size())
+                  + " joint points begin with tractions beyond their strength: "
+                    "they yield in the first stage. Check the initial stress "
+                    "and the strength of these joints.");
+  }
+
+  void Simulation::begin_stage(const unsigned int index, State &state)
+  {
+    const StageParameters *previous
+        = index == 0 ? nullptr : &parameters.stages[index - 1];
+    try
+    {
+      construction->begin_stage(index, *solver, state);
+      if (implicit_solver)
+        implicit_solver->begin_stage(parameters.stages[index], previous, state);
+      else
+        explicit_solver->begin_stage(parameters.stages[index], previous, state);
+      if (implicit_solver || index == 0 || state.step > 0)
+        solver->check_start(state);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(parameters.file + ", " + error.what());
+    }
+  }
+
+  void Simulation::resume()
+  {
+    const unsigned int index = record.state.stage;
+    if (record.stage_begun)
+      construction->resume_stage(index, record.state);
+    else if (index > 0)
+    {
+      construction->resume_stage(index - 1, record.state);
+      if (explicit_solver)
+        explicit_solver->restore_masses(parameters.stages[index - 1],
+                                        record.state);
     }
   }
 
@@ -239,18 +282,6 @@ namespace quoin
     explicit_solver->set_time_step(dt);
   }
 
-  void Simulation::check_start() const
-  {
-    try
-    {
-      solver->check_start(record.state);
-    }
-    catch (const InputError &error)
-    {
-      throw InputError(parameters.file + ", " + error.what());
-    }
-  }
-
   void Simulation::run_stage(const unsigned int index)
   {
     const StageParameters &stage = parameters.stages[index];
@@ -259,9 +290,7 @@ namespace quoin
       explicit_solver->resume_stage(stage, state);
     else
     {
-      explicit_solver->begin_stage(
-          stage, index == 0 ? nullptr : &parameters.stages[index - 1], state);
-      check_start();
+      begin_stage(index, state);
       record.stage_begun = true;
     }
     choose_time_step(stage);

@@ -14,27 +14,19 @@ namespace quoin
   {
     // Stages are begun with a copy, to find what is wrong with them.
     State state = record.state;
-    try
+    for (unsigned int i = 0; i < parameters.stages.size(); ++i)
     {
-      for (unsigned int i = 0; i < parameters.stages.size(); ++i)
-      {
-        const StageParameters &stage = parameters.stages[i];
-        implicit_solver->begin_stage(
-            stage, i == 0 ? nullptr : &parameters.stages[i - 1], state);
-        implicit_solver->check_start(state);
-        log.message("stage " + stage.name + ": equilibrium up to the load time "
-                    + number_text(implicit_solver->duration()) + " s, "
-                    + std::to_string(implicit_solver->n_unknowns())
-                    + " unknowns, "
-                    + (implicit_solver->is_direct() ? "LU factors"
-                                                    : "GMRES with multigrid"));
-        state.time += implicit_solver->duration();
-      }
+      begin_stage(i, state);
+      log.message("stage " + parameters.stages[i].name
+                  + ": equilibrium up to the load time "
+                  + number_text(implicit_solver->duration()) + " s, "
+                  + std::to_string(implicit_solver->n_unknowns())
+                  + " unknowns, "
+                  + (implicit_solver->is_direct() ? "LU factors"
+                                                  : "GMRES with multigrid"));
+      state.time += implicit_solver->duration();
     }
-    catch (const InputError &error)
-    {
-      throw InputError(parameters.file + ", " + error.what());
-    }
+    construction->restart();
     log.message("inertia, damping and mass scaling are left out");
   }
 
@@ -42,21 +34,12 @@ namespace quoin
   {
     const StageParameters &stage = parameters.stages[index];
     State &state                 = record.state;
-    try
+    if (record.stage_begun)
+      implicit_solver->resume_stage(stage, state);
+    else
     {
-      if (record.stage_begun)
-        implicit_solver->resume_stage(stage, state);
-      else
-      {
-        implicit_solver->begin_stage(
-            stage, index == 0 ? nullptr : &parameters.stages[index - 1], state);
-        implicit_solver->check_start(state);
-        record.stage_begun = true;
-      }
-    }
-    catch (const InputError &error)
-    {
-      throw InputError(parameters.file + ", " + error.what());
+      begin_stage(index, state);
+      record.stage_begun = true;
     }
 
     if (state.step == 0)

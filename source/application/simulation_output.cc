@@ -255,11 +255,11 @@ namespace quoin
     summary["solver"] = implicit_solver ? "implicit" : "explicit";
     if (parameters.model.contact.has_box)
     {
-      const auto &marks         = record.state.contacts.outside;
+      const auto &marks         = record.state.block_marks;
       summary["blocks deleted"] = std::count(marks.begin(), marks.end(),
-                                             BlockContacts::removed_from_model);
+                                             block_mark::removed);
       summary["blocks outside the box"]
-          = std::count(marks.begin(), marks.end(), BlockContacts::left_box);
+          = std::count(marks.begin(), marks.end(), block_mark::left_box);
     }
     if (const BlockContacts *contacts = solver->contacts())
     {

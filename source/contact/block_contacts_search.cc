@@ -141,7 +141,6 @@ namespace quoin
     ContactState &contacts = state.contacts;
     const bool is_first    = contacts.n_searches == 0;
     contacts.handed_over.resize(edges.interfaces().size(), 0);
-    contacts.outside.resize(mesh.n_blocks(), 0);
     double moved = 0., fastest = 0.;
     for (unsigned int i = 0; i < boundary_nodes.size() && !is_first; ++i)
     {
@@ -300,7 +299,7 @@ namespace quoin
     ContactState &contacts = state.contacts;
     AlignedArray<std::uint8_t> left_out(mesh.n_blocks());
     for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
-      left_out[b] = contacts.outside[b] == removed_from_model;
+      left_out[b] = state.is_absent(b);
     const auto ends = edges_within_reach(mesh, edges, exchange,
                                          state.nodes.data(), left_out, skin);
 

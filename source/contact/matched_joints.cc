@@ -53,19 +53,7 @@ namespace quoin
                               const std::vector<JointSetParameters> &sets,
                               const double thickness)
   {
-    laws.clear();
-    composites.clear();
-    rocks.clear();
-    for (const auto &set : sets)
-    {
-      laws.push_back(set.law);
-      composites.push_back(set.composite);
-      rocks.push_back(set.rock);
-    }
-    const auto is_given = [](const auto &law) { return law.has_value(); };
-    softens = std::any_of(composites.begin(), composites.end(), is_given);
-    wears   = std::any_of(rocks.begin(), rocks.end(), is_given);
-
+    set_laws(sets);
     segments.clear();
     const auto set_of_line = sets_of_lines(mesh, sets);
     for (unsigned int f = 0; f < mesh.joint_faces.size(); ++f)
@@ -126,28 +114,6 @@ namespace quoin
     return std::any_of(laws.begin(), laws.end(),
                        [](const CoulombLaw &law)
                        { return std::isfinite(law.peak.tension); });
-  }
-
-  void MatchedJoints::initialise(
-      const std::vector<std::array<double, 3>> &face_stress, const State &state,
-      JointHistory &history) const
-  {
-    for (unsigned int i = 0; i < segments.size(); ++i)
-    {
-      const auto &[xx, yy, xy] = face_stress[segments[i].face];
-      const Frame local        = frame(segments[i], state.nodes.data());
-      const double *n = local.normal, *s = local.tangent;
-      const double traction[2]
-          = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
-      const double normal = traction[0] * n[0] + traction[1] * n[1];
-      const double shear  = traction[0] * s[0] + traction[1] * s[1];
-      with_law(segments[i].set,
-               [&](const auto &law)
-               {
-                 for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
-                   initialise_point(law, normal, shear, history, p);
-               });
-    }
   }
 
   template <typename Law>

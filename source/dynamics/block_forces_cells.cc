@@ -187,6 +187,18 @@ namespace quoin
     return { in_plane[0], in_plane[1], in_plane[2], s[3] };
   }
 
+  std::array<double, 4> BlockForces::stress_of_strain(
+      const NodeRecord *nodes, const PlasticHistory &history,
+      const std::size_t cell, const PlaneStiffness &stiffness,
+      const MohrCoulomb *law) const
+  {
+    const PlaneTensor e = cell_strain(nodes, cell).e;
+    if (law)
+      return law->trial_stress(plastic_point(history, cell), e);
+    const auto s = elastic_stress(stiffness, e);
+    return { s[0], s[1], s[2], stiffness.zz_over_sum * (s[0] + s[1]) };
+  }
+
   void BlockForces::stresses(const NodeRecord *nodes,
                              const PlasticHistory &history,
                              std::vector<std::array<double, 4>> &stress_out,

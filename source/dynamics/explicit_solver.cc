@@ -97,6 +97,9 @@ namespace quoin
           += 0.5 * context.dt
              * load->power(context.begin, state.velocity.data());
 
+    state.pending.external
+        += 0.5 * context.dt * release.power(in_stage, state.velocity.data());
+
     if (requests.energies)
     {
       // 1/2 m v- v+, or the same half work on from v- if the step changed.
@@ -191,6 +194,10 @@ namespace quoin
           += 0.5 * context.dt_before
              * load->power(context.begin, state.velocity.data());
     }
+    release.add_forces(state.load_time, force.data());
+    state.energy.external
+        += 0.5 * context.dt_before
+           * release.power(state.load_time, state.velocity.data());
     for (unsigned int i = model.exchange().n_owned();
          i < model.exchange().n_local(); ++i)
       force[i] = viscous_force[i] = NodeVector{ { 0., 0. } };

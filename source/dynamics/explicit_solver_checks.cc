@@ -31,14 +31,14 @@ namespace quoin
   void ExplicitSolver::hold_removed_blocks(const State &state)
   {
     removed_nodes.clear();
-    if (state.contacts.outside.empty())
+    if (state.block_marks.empty())
       return;
     const unsigned int n_deformable
         = model.n_blocks() - model.rigid_blocks().n_blocks();
     for (unsigned int i = 0; i < model.n_blocks(); ++i)
     {
       const unsigned int b = model.first_block() + i;
-      if (state.contacts.outside[b] != BlockContacts::removed_from_model)
+      if (!state.is_absent(b))
         continue;
       removed_nodes.push_back(model.block_nodes(b));
       const NodeRange &range = removed_nodes.back();
@@ -63,11 +63,6 @@ namespace quoin
   void ExplicitSolver::remove_blocks(const std::vector<BlockOutside> &found,
                                      State &state)
   {
-    // The forces at the present positions have not worked over the last half
-    // step yet. Those of loads and damping never will, for the block is gone;
-    // those of the cells change its strain energy by as much as its kinetic
-    // energy, so both are taken as they would be after that half step.
-    const double dt = state.previous_time_step;
     state.energy.plastic
         += model.blocks().update(state.nodes.data(), state.plastic);
     const auto stored = [&]()
@@ -75,67 +70,62 @@ namespace quoin
       return model.joints().stored_energy(state.nodes.data(), state.joints)
              + model.blocks().strain_energy(state.nodes.data(), state.plastic);
     };
-    double energy         = stored();
-    const auto is_removed = [&](const unsigned int block) {
-      return state.contacts.outside[block] == BlockContacts::removed_from_model;
-    };
+    double energy = stored();
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
-    {
-      const JointFace &face
-          = model.mesh().joint_faces[model.joints().segment(i).face];
       // What a removed block is still tied to was removed with it.
-      if (!is_removed(model.mesh().block_of_vertex(face.lower[0])))
-        continue;
-      state.joints.handed_over[i] = 1;
-      for (const unsigned int p : { 2 * i, 2 * i + 1 })
-      {
-        state.joints.normal_traction[p] = state.joints.shear_traction[p] = 0.;
-        state.joints.state[p] = JointState::open;
-      }
-    }
+      if (model.is_at_absent_block(i, state))
+        model.joints().let_go(i, state.joints);
+    std::vector<unsigned int> blocks;
+    for (const BlockOutside &block : found)
+      if (block.removed && block.block >= model.first_block()
+          && block.block < model.first_block() + model.n_blocks())
+        blocks.push_back(block.block);
+    energy += stop_blocks(blocks, state);
+    for (const unsigned int block : blocks)
+      model.bring_to_rest(block, state);
+    state.energy.external -= energy - stored();
+    hold_removed_blocks(state);
+    model.exchange().update_ghosts(state.nodes.data());
+    block_contacts->search_anew(state.contacts);
+  }
 
+  double ExplicitSolver::stop_blocks(const std::vector<unsigned int> &blocks,
+                                     State &state)
+  {
+    // The forces at the present positions have not worked over the last half
+    // step yet. Those of loads and damping never will, for the block is gone;
+    // those of the cells change its strain energy by as much as its kinetic
+    // energy, so both are taken as they would be after that half step.
+    const double dt          = state.previous_time_step;
     const RigidBlocks &rigid = model.rigid_blocks();
     const auto rigid_0       = state.rigid_blocks;
+    double energy            = 0.;
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
       model.blocks().add_forces(tile, state.nodes.data(), state.plastic,
                                 force.data());
-    for (const BlockOutside &block : found)
+    for (const unsigned int block : blocks)
     {
-      if (!block.removed || block.block < model.first_block()
-          || block.block >= model.first_block() + model.n_blocks())
-        continue;
-      const NodeRange range = model.block_nodes(block.block);
-      const bool is_rigid   = model.is_rigid()[block.block];
-      double mean[2]{};
+      const NodeRange range = model.block_nodes(block);
+      const bool is_rigid   = model.is_rigid()[block];
       for (std::size_t i = range.begin; i < range.end; ++i)
         for (unsigned int d = 0; d < 2; ++d)
         {
           double &v = state.velocity[i].v[d];
-          mean[d] += state.nodes[i].u[d] / range.size();
           if (!is_rigid)
             energy += 0.5 * (mass[i] * v + dt * force[i].v[d]) * v;
           v = 0.;
         }
-      if (!is_rigid)
-      {
-        for (std::size_t i = range.begin; i < range.end; ++i)
-          std::copy(mean, mean + 2, state.nodes[i].u);
-        model.forget_yielding(block.block, state.plastic);
-      }
+      if (is_rigid)
+        std::fill_n(state
+                        .rigid_blocks[block - model.first_block()
+                                      - (model.n_blocks() - rigid.n_blocks())]
+                        .velocity,
+                    3, 0.);
     }
     std::fill(force.begin(), force.end(), NodeVector{ { 0., 0. } });
-    for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
-      if (is_removed(model.first_block() + model.n_blocks() - rigid.n_blocks()
-                     + b))
-        std::fill_n(state.rigid_blocks[b].velocity, 3, 0.);
-
-    energy += rigid.kinetic_energy(rigid_stage, rigid_0, rigid_0, 1.)
-              - rigid.kinetic_energy(rigid_stage, state.rigid_blocks,
-                                     state.rigid_blocks, 1.)
-              - stored();
-    state.energy.external -= energy;
-    hold_removed_blocks(state);
-    model.exchange().update_ghosts(state.nodes.data());
-    block_contacts->search_anew(state.contacts);
+    rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
+    return energy + rigid.kinetic_energy(rigid_stage, rigid_0, rigid_0, 1.)
+           - rigid.kinetic_energy(rigid_stage, state.rigid_blocks,
+                                  state.rigid_blocks, 1.);
   }
 } // namespace quoin

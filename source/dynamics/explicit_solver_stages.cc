@@ -4,11 +4,13 @@
 // What ExplicitSolver does where a stage begins; explicit_solver.cc has its
 // steps.
 
+#include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace quoin
 {
@@ -87,10 +89,13 @@ namespace quoin
 
   void ExplicitSolver::collect_constrained_nodes(const State &state)
   {
+    // Nodes of absent blocks stay where they are, whatever moves others.
+    const auto absent = model.absent_nodes(state);
     std::vector<unsigned int> nodes;
     for (const NodeConstraint *constraint : constraints_on)
-      nodes.insert(nodes.end(), constraint->nodes().begin(),
-                   constraint->nodes().end());
+      std::copy_if(constraint->nodes().begin(), constraint->nodes().end(),
+                   std::back_inserter(nodes),
+                   [&](const unsigned int node) { return !absent[node]; });
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 
@@ -106,6 +111,8 @@ namespace quoin
       std::vector<unsigned int> positions;
       for (const unsigned int node : constraint->nodes())
       {
+        if (absent[node])
+          continue;
         positions.push_back(std::lower_bound(nodes.begin(), nodes.end(), node)
                             - nodes.begin());
         for (unsigned int d = 0; d < 2; ++d)
@@ -138,12 +145,46 @@ namespace quoin
     hold_removed_blocks(state);
   }
 
+  double ExplicitSolver::release_duration(const State &state) const
+  {
+    const auto &held = state.construction.held;
+    if (std::none_of(held.begin(), held.end(),
+                     [](const HeldForces &item)
+                     { return item.left != item.left_at_end; }))
+      return 0.;
+    if (stage.release_duration >= 0.)
+      return stage.release_duration;
+    if (stage.end == StageEnd::time)
+      return stage.duration;
+
+    const double slowest = model.slowest_shear_wave();
+    if (!std::isfinite(slowest))
+      throw InputError("section 'Stages/" + stage.name
+                       + "': 'Release duration = automatic' is twice the time "
+                         "of a shear wave along the model, but all blocks are "
+                         "rigid. Give a time in which forces may be let go "
+                         "without shaking the blocks.");
+    const auto &vertices = model.mesh().vertices;
+    double low[2]        = { vertices[0][0], vertices[0][1] },
+           high[2]       = { low[0], low[1] };
+    for (const auto &p : vertices)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        low[d]  = std::min(low[d], p[d]);
+        high[d] = std::max(high[d], p[d]);
+      }
+    // Masses that are added slow waves down.
+    return 2. * std::hypot(high[0] - low[0], high[1] - low[1]) / slowest
+           * std::sqrt(1. + added_mass);
+  }
+
   void ExplicitSolver::begin_stage(const StageParameters &new_stage,
                                    const StageParameters *previous,
                                    State &state)
   {
-    activate(new_stage);
+    activate(new_stage, state);
     scale_masses(stage, state);
+    release = Release(state, stage, release_duration(state));
     make_room(state);
     loads_begun.clear();
     for (const NodalLoad *load : loads_on)
@@ -172,9 +213,10 @@ namespace quoin
   void ExplicitSolver::resume_stage(const StageParameters &resumed,
                                     State &state)
   {
-    activate(resumed);
+    activate(resumed, state);
     const State saved = state;
     scale_masses(stage, state);
+    release = Release(state, stage, release_duration(state));
     for (NodeConstraint *constraint : constraints_on)
       constraint->resume_stage(state);
     state = saved;

@@ -31,7 +31,7 @@ namespace quoin
 
   void check_no_free_bodies(const Model &model,
                             const std::vector<NodeConstraint *> &constraints,
-                            const std::string &stage)
+                            const std::string &stage, const State &state)
   {
     const BlockMesh<2> &mesh     = model.mesh();
     const NodeExchange &exchange = model.exchange();
@@ -107,8 +107,12 @@ namespace quoin
     dealii::Utilities::MPI::sum(gram_entries, exchange.communicator(),
                                 gram_entries);
     for (const JointFace &face : mesh.joint_faces)
-      bodies.union_set(mesh.block_of_vertex(face.lower[0]),
-                       mesh.block_of_vertex(face.upper[0]));
+    {
+      const unsigned int a = mesh.block_of_vertex(face.lower[0]);
+      const unsigned int b = mesh.block_of_vertex(face.upper[0]);
+      if (!state.is_absent(a) && !state.is_absent(b))
+        bodies.union_set(a, b);
+    }
 
     std::vector<Gram> body_gram(n);
     for (unsigned int b = 0; b < n; ++b)
@@ -119,7 +123,7 @@ namespace quoin
     {
       const auto values
           = dealii::eigenvalues(body_gram[bodies.find_set(b)]); // descending
-      if (values[2] > 1e-8 * values[0])
+      if (state.is_absent(b) || values[2] > 1e-8 * values[0])
         continue;
       const auto &p = mesh.vertices[mesh.block_first_vertex[b]];
       std::ostringstream message;

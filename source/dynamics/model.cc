@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace quoin
 {
@@ -28,16 +29,17 @@ namespace quoin
   Model::Model(const BlockMesh<2> &mesh,
                const std::vector<unsigned int> &rank_of_block,
                const ModelParameters &parameters, const MPI_Comm communicator)
-    : block_mesh(mesh), parameters(parameters)
+    : block_mesh(mesh),
+      parameters(parameters), now{ parameters.materials, {}, parameters.joints }
   {
     find_materials();
-    rigid_block = find_rigid_blocks(mesh, parameters.materials);
+    absent_group = find_groups(parameters.absent_groups, "section 'Stages'");
+    rigid_block  = find_rigid_blocks(mesh, parameters.materials);
     find_blocks(rank_of_block, communicator);
     find_masses();
     find_initial_stress();
-    pack_blocks();
-    matched_joints.prepare(mesh, *nodes, parameters.joints,
-                           parameters.thickness);
+    pack_blocks({});
+    matched_joints.prepare(mesh, *nodes, now.joints, parameters.thickness);
     if (!mesh.quadratic)
       find_stable_step();
   }
@@ -45,10 +47,10 @@ namespace quoin
   void Model::find_materials()
   {
     constexpr unsigned int none = -1;
-    material_of_group.assign(block_mesh.group_names.size(), none);
-    for (unsigned int m = 0; m < parameters.materials.size(); ++m)
+    now.material_of_group.assign(block_mesh.group_names.size(), none);
+    for (unsigned int m = 0; m < now.materials.size(); ++m)
     {
-      const auto &material = parameters.materials[m];
+      const auto &material = now.materials[m];
       for (const auto &group : material.groups)
       {
         const auto found = std::find(block_mesh.group_names.begin(),
@@ -63,25 +65,24 @@ namespace quoin
                            + "'. It has: " + known + ". Correct 'Groups'.");
         }
         unsigned int &owner
-            = material_of_group[found - block_mesh.group_names.begin()];
+            = now.material_of_group[found - block_mesh.group_names.begin()];
         if (owner != none)
           throw InputError("section 'Materials/" + material.name
                            + "': physical surface '" + group + "' is made of '"
-                           + parameters.materials[owner].name
+                           + now.materials[owner].name
                            + "' already. Name it once.");
         owner = m;
       }
     }
-    for (unsigned int g = 0; g < material_of_group.size(); ++g)
+    for (unsigned int g = 0; g < now.material_of_group.size(); ++g)
     {
-      if (material_of_group[g] == none)
+      if (now.material_of_group[g] == none)
         throw InputError("section 'Materials': physical surface '"
                          + block_mesh.group_names[g]
                          + "' has no material. Add it to the 'Groups' of "
                            "one.");
-      group_impedance.push_back(
-          impedance_of(parameters.materials[material_of_group[g]].elastic,
-                       parameters.plane));
+      group_impedance.push_back(impedance_of(
+          now.materials[now.material_of_group[g]].elastic, parameters.plane));
     }
   }
 
@@ -129,13 +130,14 @@ namespace quoin
 
   void Model::find_masses()
   {
+    node_mass.clear();
     std::vector<double> mass(block_mesh.n_vertices(), 0.);
     for (unsigned int c = 0; c < block_mesh.n_cells(); ++c)
     {
-      const double third
-          = triangle(block_mesh, block_mesh.cells[c]).area()
-            * parameters.thickness
-            * parameters.materials[material_of_cell(c)].elastic.density / 3.;
+      const double third = triangle(block_mesh, block_mesh.cells[c]).area()
+                           * parameters.thickness
+                           * now.materials[material_of_cell(c)].elastic.density
+                           / 3.;
       for (const unsigned int v : block_mesh.mass_vertices(c))
         mass[v] += third;
     }
@@ -143,13 +145,13 @@ namespace quoin
       node_mass.push_back(mass[nodes->global(i)]);
 
     std::vector<double> density;
-    for (const unsigned int material : material_of_group)
-      density.push_back(parameters.materials[material].elastic.density);
+    for (const unsigned int material : now.material_of_group)
+      density.push_back(now.materials[material].elastic.density);
     rigid.prepare(block_mesh, rigid_begin, block_end, n_deformable_nodes(),
                   density, parameters.thickness);
   }
 
-  void Model::pack_blocks()
+  void Model::pack_blocks(const ConstructionState &construction)
   {
     BlockForcesData data;
     data.quadratic = block_mesh.quadratic;
@@ -164,7 +166,7 @@ namespace quoin
       data.block_first_node.push_back(block_mesh.block_first_vertex[b]
                                       - node_0);
     }
-    for (const MaterialParameters &material : parameters.materials)
+    for (const MaterialParameters &material : now.materials)
     {
       data.stiffness.push_back(
           plane_stiffness(material.elastic, parameters.plane));
@@ -176,9 +178,14 @@ namespace quoin
     for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
       data.cell_stiffness.push_back(material_of_cell(cell_0 + c));
-      if (!cell_stress.empty())
-        data.initial_stress.push_back(cell_stress[cell_0 + c]);
     }
+    const AlignedArray<double> stress = construction.initial_stress.empty()
+                                            ? packed_initial_stress()
+                                            : construction.initial_stress;
+    for (unsigned int c = 0; 4 * c < stress.size(); ++c)
+      data.initial_stress.push_back(
+          { { stress[4 * c], stress[4 * c + 1], stress[4 * c + 2],
+              stress[4 * c + 3] } });
     block_forces.prepare(data);
   }
 
@@ -190,7 +197,7 @@ namespace quoin
     {
       const unsigned int cell = first_cell() + c;
       const LinearElastic &material
-          = parameters.materials[material_of_cell(cell)].elastic;
+          = now.materials[material_of_cell(cell)].elastic;
       const Triangle element = triangle(block_mesh, block_mesh.cells[cell]);
       const double share
           = largest_eigenvalue_squared_frequency(
@@ -263,7 +270,7 @@ namespace quoin
   {
     // A spring k between nodes a and b has no more energy than 2 k at each.
     double stiffness = 0.;
-    for (const JointSetParameters &set : parameters.joints)
+    for (const JointSetParameters &set : now.joints)
       stiffness = std::max(
           { stiffness, set.law.normal_stiffness, set.law.shear_stiffness });
     const auto add_edge = [&](const std::array<unsigned int, 2> &edge)
@@ -292,7 +299,7 @@ namespace quoin
     if (load.far_material.empty())
       return group_impedance;
     std::string known;
-    for (const MaterialParameters &material : parameters.materials)
+    for (const MaterialParameters &material : now.materials)
       if (material.rigid)
         continue;
       else if (material.name == load.far_material)
@@ -308,14 +315,29 @@ namespace quoin
                      + (known.empty() ? "none" : known) + ".");
   }
 
+  double Model::slowest_shear_wave() const
+  {
+    double slowest = std::numeric_limits<double>::infinity();
+    for (const unsigned int m : now.material_of_group)
+    {
+      const MaterialParameters &material = now.materials[m];
+      if (material.rigid)
+        continue;
+      const double shear
+          = 0.5 * material.elastic.young / (1. + material.elastic.poisson);
+      slowest = std::min(slowest, std::sqrt(shear / material.elastic.density));
+    }
+    return slowest;
+  }
+
   FreeFieldGround Model::free_field_ground() const
   {
     FreeFieldGround ground;
-    for (const unsigned int m : material_of_group)
+    for (const unsigned int m : now.material_of_group)
     {
-      ground.materials.push_back(parameters.materials[m].elastic);
-      ground.is_rigid.push_back(parameters.materials[m].rigid);
-      ground.yields.push_back(parameters.materials[m].strength.has_value());
+      ground.materials.push_back(now.materials[m].elastic);
+      ground.is_rigid.push_back(now.materials[m].rigid);
+      ground.yields.push_back(now.materials[m].strength.has_value());
     }
     ground.plane     = parameters.plane;
     ground.thickness = parameters.thickness;
@@ -326,10 +348,10 @@ namespace quoin
   {
     ContactModel result;
     result.parameters = parameters.contact;
-    result.sets       = parameters.joints;
-    for (const MaterialParameters &material : parameters.materials)
+    result.sets       = now.joints;
+    for (const MaterialParameters &material : now.materials)
       result.materials.push_back(material.name);
-    result.material_of_group = material_of_group;
+    result.material_of_group = now.material_of_group;
     result.is_rigid          = rigid_block;
     result.thickness         = parameters.thickness;
     return result;

@@ -76,7 +76,7 @@ namespace quoin
     const MPI_Comm communicator = model.exchange().communicator();
     const unsigned int n        = model.mesh().n_blocks();
     const bool removes          = parameters.outside == Outside::remove;
-    auto &marks                 = state.contacts.outside;
+    auto &marks                 = state.block_marks;
     marks.resize(n, 0);
 
     // Blocks that are reported may be free to go only later.
@@ -85,7 +85,7 @@ namespace quoin
     for (unsigned int i = 0; i < model.n_blocks(); ++i)
     {
       const unsigned int b = model.first_block() + i;
-      outside[b]           = marks[b] != BlockContacts::removed_from_model
+      outside[b]           = !state.is_absent(b)
                    && is_outside(b, state);
       stays[b] = !outside[b] || !removes || moved[i];
       is_news |= outside[b] && (marks[b] == 0 || !stays[b]);
@@ -102,8 +102,8 @@ namespace quoin
       if (outside[b] && (marks[b] == 0 || !stays[b]))
       {
         found.push_back({ b, { { 0., 0. } }, state.time, !stays[b] });
-        marks[b] = stays[b] ? BlockContacts::left_box
-                            : BlockContacts::removed_from_model;
+        marks[b] = stays[b] ? block_mark::left_box
+                            : block_mark::removed;
       }
     find_positions(found, state);
     if (parameters.outside == Outside::stop && !found.empty())

@@ -11,45 +11,84 @@
 
 namespace quoin
 {
+  std::array<double, 4> Model::initial_stress(const LoadParameters &load,
+                                              const dealii::Point<2> &point,
+                                              const unsigned int cell) const
+  {
+    auto stress = load.initial_stress(
+        point[0], point[1],
+        parameters.materials[material_of_cell(cell)].elastic.poisson);
+    if (parameters.plane == PlaneAssumption::plane_stress)
+      stress[3] = 0.;
+    return stress;
+  }
+
   void Model::find_initial_stress()
   {
     if (parameters.initial_stresses.empty())
       return;
     cell_stress.assign(block_mesh.n_cells(), {});
-    const bool plane_stress = parameters.plane == PlaneAssumption::plane_stress;
+    face_stress.assign(block_mesh.joint_faces.size(), {});
     for (const LoadParameters &load : parameters.initial_stresses)
     {
-      const auto groups = groups_of_names(block_mesh, load.groups, load.name);
-      if (plane_stress && load.stress_zz)
+      if (parameters.plane == PlaneAssumption::plane_stress && load.stress_zz)
         throw InputError("section 'Loads/" + load.name
                          + "': 'Stress zz' is the stress out of the plane, "
                            "which is zero with 'Plane assumption = plane "
                            "stress'. Leave it at "
                            "'elastic'.");
+      if (parameters.plane == PlaneAssumption::plane_stress && load.in_situ
+          && load.in_situ->has_out_of_plane)
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Out-of-plane ratio' gives a stress out of the "
+                           "plane, which is zero with 'Plane assumption = "
+                           "plane stress'. Leave it at 'same'.");
+      const auto groups  = groups_of_names(block_mesh, load.groups, load.name);
+      const auto acts_in = [&](const unsigned int cell)
+      {
+        const unsigned int group = block_mesh.cell_group[cell];
+        return !absent_group[group]
+               && (groups.empty()
+                   || std::find(groups.begin(), groups.end(), group)
+                          != groups.end());
+      };
       for (unsigned int c = 0; c < block_mesh.n_cells(); ++c)
       {
-        if (!groups.empty()
-            && std::find(groups.begin(), groups.end(), block_mesh.cell_group[c])
-                   == groups.end())
+        if (!acts_in(c))
           continue;
-        double y = 0.;
+        dealii::Point<2> centre;
         for (const unsigned int v : block_mesh.cells[c])
-          y += block_mesh.vertices[v][1] / 3.;
-        std::array<double, 3> stress;
-        for (unsigned int k = 0; k < 3; ++k)
-        {
-          stress[k] = load.stress[k] + y * load.stress_gradient[k];
+          for (unsigned int d = 0; d < 2; ++d)
+            centre[d] += block_mesh.vertices[v][d] / 3.;
+        const auto stress = initial_stress(load, centre, c);
+        for (unsigned int k = 0; k < 4; ++k)
           cell_stress[c][k] += stress[k];
-        }
-        const double poisson
-            = parameters.materials[material_of_cell(c)].elastic.poisson;
-        if (!plane_stress)
-          cell_stress[c][3]
-              += load.stress_zz
-                     ? (*load.stress_zz)[0] + y * (*load.stress_zz)[1]
-                     : poisson * (stress[0] + stress[1]);
+      }
+      for (unsigned int f = 0; f < block_mesh.joint_faces.size(); ++f)
+      {
+        const JointFace &face = block_mesh.joint_faces[f];
+        if (absent_group[face.groups[0]] || absent_group[face.groups[1]])
+          continue;
+        for (const unsigned int cell : face.cells)
+          if (acts_in(cell))
+            for (unsigned int k = 0; k < 2; ++k)
+            {
+              const auto stress = initial_stress(
+                  load, block_mesh.vertices[face.lower[k]], cell);
+              for (unsigned int i = 0; i < 3; ++i)
+                face_stress[f][k][i] += 0.5 * stress[i];
+            }
       }
     }
+    // So that the points' forces are those of a traction that is linear along
+    // the face. Simpson's rule of quadratic edges has them already.
+    for (MatchedJoints::FaceStress &face : face_stress)
+      for (unsigned int i = 0; i < 3 && !block_mesh.quadratic; ++i)
+      {
+        const double third = (face[1][i] - face[0][i]) / 3.;
+        face[0][i] += third;
+        face[1][i] -= third;
+      }
   }
 
   void Model::forget_yielding(const unsigned int block,
@@ -79,19 +118,19 @@ namespace quoin
     state.plastic = block_forces.initial_history();
     state.joints.resize(matched_joints.n_points(), matched_joints.can_soften(),
                         matched_joints.can_wear());
-    if (!cell_stress.empty())
-    {
-      std::vector<std::array<double, 3>> face_stress;
-      for (const JointFace &face : block_mesh.joint_faces)
-      {
-        face_stress.emplace_back();
-        for (unsigned int k = 0; k < 3; ++k)
-          face_stress.back()[k] = 0.5
-                                  * (cell_stress[face.cells[0]][k]
-                                     + cell_stress[face.cells[1]][k]);
-      }
+    if (!face_stress.empty())
       matched_joints.initialise(face_stress, state, state.joints);
-    }
+    if (std::find(absent_group.begin(), absent_group.end(), true)
+        == absent_group.end())
+      return state;
+    for (unsigned int b = 0; b < block_mesh.n_blocks(); ++b)
+      state.block_marks.push_back(
+          absent_group[block_mesh.cell_group[block_mesh.block_first_cell[b]]]
+              ? block_mark::absent
+              : block_mark::present);
+    for (unsigned int i = 0; i < matched_joints.n_segments(); ++i)
+      if (is_at_absent_block(i, state))
+        matched_joints.let_go(i, state.joints);
     return state;
   }
 } // namespace quoin

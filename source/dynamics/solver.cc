@@ -107,7 +107,7 @@ namespace quoin
     }
   }
 
-  void Solver::activate(const StageParameters &new_stage)
+  void Solver::activate(const StageParameters &new_stage, const State &state)
   {
     stage = new_stage;
     for (const std::string &name : stage.loads)
@@ -153,14 +153,17 @@ namespace quoin
                        : constraint->moves_all()                ? 0
                                                                 : 1))
           constraints_on.push_back(constraint.get());
+    refuse_absent_nodes(state);
     loads_on.clear();
+    for (NodalLoad &load : all_loads)
+      load.set_mass(model.mass());
     for (const NodalLoad &load : all_loads)
       if (names_load(stage, load.name()))
         loads_on.push_back(&load);
 
     // With large displacements blocks may rest on others without a joint.
     if (stage.end == StageEnd::static_ratio && !model.large_displacements())
-      check_no_free_bodies(model, constraints_on, stage.name);
+      check_no_free_bodies(model, constraints_on, stage.name, state);
   }
 
   bool Solver::acts_in(const NodeConstraint &constraint,
@@ -186,6 +189,34 @@ namespace quoin
     state.platens.resize(n_platens);
     state.viscous_boundaries.resize(n_viscous);
     state.free_fields.resize(n_free_fields);
+  }
+
+  void Solver::refuse_absent_nodes(const State &state) const
+  {
+    constexpr unsigned int none = -1;
+    const auto absent           = model.absent_nodes(state);
+    for (const NodeConstraint *constraint : constraints_on)
+    {
+      if (dynamic_cast<const PrescribedMotion *>(constraint))
+        continue;
+      unsigned int first = none;
+      for (const unsigned int node : constraint->nodes())
+        if (absent[node])
+          first = std::min(first, model.exchange().global(node));
+      first = dealii::Utilities::MPI::min(first, communicator);
+      if (first == none)
+        continue;
+      const auto &p = model.mesh().vertices[first];
+      std::ostringstream message;
+      message << "section 'Stages/" << stage.name << "': the load '"
+              << constraint->name() << "' moves the node at (" << p[0] << ", "
+              << p[1]
+              << ") m, but the block there is excavated or not placed yet. Of "
+                 "loads that move nodes only prescribed motions leave such "
+                 "blocks alone: take the load out of this stage, or let it end "
+                 "where the blocks do.";
+      throw InputError(message.str());
+    }
   }
 
   std::vector<bool> Solver::find_held_blocks() const
@@ -289,7 +320,7 @@ namespace quoin
     for (const NodeConstraint *constraint : constraints_on)
       if (constraint->values(times[0]) != constraint->values(times[1]))
         return true;
-    return false;
+    return release.changes() && release.share(before) != release.share(now);
   }
 
   double Solver::sum(const double value) const

@@ -3,6 +3,8 @@
 
 #include <quoin/dynamics/stage_parameters.h>
 
+#include <deal.II/base/utilities.h>
+
 namespace quoin
 {
   namespace
@@ -11,6 +13,75 @@ namespace quoin
     using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
     using dealii::Patterns::Selection;
+
+    /** Pairs a:b, separated by commas. */
+    std::vector<std::pair<std::string, std::string>>
+    read_pairs(const ParameterSection &section, const std::string &name,
+               const std::string &example)
+    {
+      std::vector<std::pair<std::string, std::string>> result;
+      for (const std::string &pair : section.list(name))
+      {
+        const auto words = dealii::Utilities::split_string_list(pair, ':');
+        if (words.size() != 2 || words[0].empty() || words[1].empty())
+          section.fail(name, "must be pairs such as " + example + ".");
+        result.emplace_back(words[0], words[1]);
+      }
+      return result;
+    }
+
+    void declare_construction(dealii::ParameterHandler &prm)
+    {
+      prm.declare_entry("Excavate", "", Anything(),
+                        "Physical surfaces whose blocks are taken away where "
+                        "the stage begins.");
+      prm.declare_entry("Fill", "", Anything(),
+                        "Physical surfaces whose blocks are placed where the "
+                        "stage begins, as the mesh has them and free of "
+                        "stress. What is not excavated before is absent until "
+                        "then.");
+      prm.declare_entry("Release", "1", Double(),
+                        "Share of what all excavated blocks exerted on those "
+                        "that stay which is gone at the end of this stage [-]");
+      prm.declare_entry("Release duration", "automatic", Anything(),
+                        "How long that takes, by the loads' clock; automatic: "
+                        "the stage's duration or, of an explicit stage with "
+                        "'End = static ratio', twice the time of a shear wave "
+                        "along the model's diagonal [s]");
+      prm.declare_entry("Release ramp", "smooth", Selection("smooth|linear"),
+                        "smooth: half a cosine.");
+      prm.declare_entry("Materials", "", Anything(),
+                        "Pairs group:material: what physical surfaces are "
+                        "made of from this stage on; stresses stay.");
+      prm.declare_entry("Joint properties", "", Anything(),
+                        "Pairs set:other set: joint sets that follow the law "
+                        "of another, which may be without curves, from this "
+                        "stage on; tractions stay.");
+    }
+
+    void read_construction(const ParameterSection &section,
+                           StageParameters &stage)
+    {
+      stage.excavate = section.list("Excavate");
+      stage.fill     = section.list("Fill");
+      stage.release  = section.within("Release", 0., 1.);
+      if (section.text("Release duration") != "automatic")
+      {
+        stage.release_duration = section.numbers<1>("Release duration").front();
+        if (stage.release_duration < 0.)
+          section.fail("Release duration",
+                       "must be 'automatic' or a time that is not negative.");
+        if (stage.end == StageEnd::time
+            && stage.release_duration > stage.duration)
+          section.fail("Release duration", "is longer than the stage. Lower "
+                                           "it, or raise 'Duration'.");
+      }
+      stage.releases_linearly = section.text("Release ramp") == "linear";
+      stage.materials         = read_pairs(section, "Materials",
+                                           "lining:young_concrete, rock:grouted");
+      stage.joint_properties
+          = read_pairs(section, "Joint properties", "bed:weak_bed");
+    }
   } // namespace
 
   void StageParameters::declare(dealii::ParameterHandler &prm)
@@ -58,6 +129,7 @@ namespace quoin
     prm.declare_entry("Scaled time step", "0", Double(),
                       "Time step to which 'Mass scaling' raises the critical "
                       "one, before the share of it that is used [s]");
+    declare_construction(prm);
   }
 
   StageParameters StageParameters::read(const ParameterSection &section,
@@ -105,6 +177,7 @@ namespace quoin
     }
     if (section.flag("Mass scaling"))
       stage.scaled_time_step = section.positive("Scaled time step");
+    read_construction(section, stage);
     return stage;
   }
 } // namespace quoin

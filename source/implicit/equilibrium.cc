@@ -354,7 +354,8 @@ namespace quoin
     CellLinearisation cell;
     for (unsigned int c = 0; c < model.blocks().n_cells(); ++c)
     {
-      if (!model.blocks().linearise(c, nodes, balance.plastic, cell))
+      if (freedoms.is_absent(model.cells()[c][0])
+          || !model.blocks().linearise(c, nodes, balance.plastic, cell))
         continue;
       balance.lost.plastic += cell.dissipated;
       for (unsigned int k = 0; k < cell.n_nodes; ++k)
@@ -370,11 +371,8 @@ namespace quoin
                               Balance &balance)
   {
     const unsigned int n_owned = model.exchange().n_owned();
-    const TimePoint time{ configuration.load_time,
-                          stage_start + configuration.load_time };
     balance.external.assign(model.exchange().n_local(), no_force);
-    for (const NodalLoad *load : loads)
-      load->add_forces(time, balance.external.data());
+    add_external(configuration.load_time, balance.external);
 
     const double left = 1. - configuration.released;
     const auto &held  = committed.implicit.held;
@@ -393,6 +391,18 @@ namespace quoin
         for (unsigned int d = 0; d < 3; ++d)
           balance.held[b][d] = left * held[2 * n_owned + 3 * b + d];
     find_ratio(joint_force, balance);
+  }
+
+  void Equilibrium::add_external(const double load_time,
+                                 AlignedArray<NodeVector> &force) const
+  {
+    for (const NodalLoad *load : loads)
+      load->add_forces({ load_time, stage_start + load_time }, force.data());
+    if (release)
+      release->add_forces(load_time, force.data());
+    for (unsigned int i = 0; i < force.size(); ++i)
+      if (freedoms.is_absent(i))
+        force[i] = no_force;
   }
 
   void Equilibrium::find_ratio(const AlignedArray<NodeVector> &applied,
@@ -473,9 +483,7 @@ namespace quoin
     freedoms.project(path_gradient, drives, by_unknown);
     path_by_advance = dealii::Utilities::MPI::sum(path_by_given, communicator);
 
-    const TimePoint there{ advance.load_time, stage_start + advance.load_time };
-    for (const NodalLoad *load : loads)
-      load->add_forces(there, by_given.data());
+    add_external(advance.load_time, by_given);
     const double freed = advance.released - configuration.released;
     const auto &held   = committed.implicit.held;
     for (unsigned int i = 0; i < n_owned; ++i)

@@ -57,7 +57,7 @@ namespace quoin
                      const std::vector<NodeConstraint *> &constraints,
                      const std::vector<bool> &held, const State &state)
     : model(model), communicator(model.exchange().communicator()),
-      in_body(model.exchange().n_owned(), 0)
+      in_body(model.exchange().n_owned(), 0), absent(model.absent_nodes(state))
   {
     add_platens(constraints, state);
     add_rigid_blocks(held);
@@ -75,7 +75,7 @@ namespace quoin
               owner[node][d] = &motion->parts()[d];
     for (unsigned int node = 0; node < n; ++node)
       for (unsigned int d = 0; d < 2; ++d)
-        if (owner[node][d] && !in_body[node])
+        if (owner[node][d] && !in_body[node] && !absent[node])
           prescribed_list.push_back({ node, d, owner[node][d] });
     number();
   }
@@ -171,7 +171,7 @@ namespace quoin
     node_list.assign(exchange.n_local(),
                      { { nothing, nothing, nothing }, { 0., 0. } });
     for (unsigned int i = 0; i < exchange.n_owned(); ++i)
-      if (!in_body[i])
+      if (!in_body[i] && !absent[i])
         for (unsigned int d = 0; d < 2; ++d)
           node_list[i].unknown[d] = 2 * Index(exchange.global(i)) + d;
     for (const Prescribed &p : prescribed_list)

@@ -129,24 +129,31 @@ namespace quoin
   void ImplicitSolver::prepare_stage(const State &state)
   {
     stage_start = state.stage_start;
-    check_no_free_bodies(model, constraints_on, stage.name);
+    check_no_free_bodies(model, constraints_on, stage.name, state);
     refuse_shared_platens();
     held_blocks = find_held_blocks();
-    rests       = false;
+    hold_absent_blocks(state);
+    rests = false;
     if (stage.end == StageEnd::time)
       stage_duration = stage.duration;
     else
     {
-      stage_duration = std::max(rest_time(), stage.minimum_duration);
-      rests          = stage_duration == 0.;
+      stage_duration = std::max(
+          { rest_time(), stage.minimum_duration, stage.release_duration });
+      rests = stage_duration == 0.;
       if (rests)
         stage_duration = resting_duration;
     }
+    release = Release(state, stage,
+                      stage.release_duration >= 0. ? stage.release_duration
+                                                   : stage_duration);
+    rests   = rests && !release.changes();
     freedoms
         = std::make_unique<Freedoms>(model, constraints_on, held_blocks, state);
     equilibrium = std::make_unique<Equilibrium>(
         model, *freedoms, loads_on, path_sets, stage_start,
         static_far_field_acts() ? static_far : nullptr);
+    equilibrium->set_release(release);
     linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver,
                                                    model, *freedoms);
     residual      = equilibrium->make_vector();
@@ -154,11 +161,20 @@ namespace quoin
     broken.assign(model.joints().n_points(), 0);
   }
 
+  void ImplicitSolver::hold_absent_blocks(const State &state)
+  {
+    const unsigned int first = model.first_block() + model.n_blocks()
+                               - model.rigid_blocks().n_blocks();
+    for (unsigned int b = 0; b < held_blocks.size(); ++b)
+      if (state.is_absent(first + b))
+        held_blocks[b] = true;
+  }
+
   void ImplicitSolver::begin_stage(const StageParameters &new_stage,
                                    const StageParameters *previous,
                                    State &state)
   {
-    activate(new_stage);
+    activate(new_stage, state);
     make_room(state);
     for (const auto &constraint : all_constraints)
       if (const auto *platen = dynamic_cast<const Platen *>(constraint.get()))
@@ -183,7 +199,7 @@ namespace quoin
   void ImplicitSolver::resume_stage(const StageParameters &resumed,
                                     State &state)
   {
-    activate(resumed);
+    activate(resumed, state);
     for (NodeConstraint *constraint : constraints_on)
       if (auto *platen = dynamic_cast<Platen *>(constraint))
         platen->set_mass(model.mass());
@@ -207,6 +223,7 @@ namespace quoin
           before.push_back(load);
       Equilibrium without(model, *freedoms, previous ? before : loads_on,
                           path_sets, stage_start, nullptr);
+      without.set_release(release);
       without.find_forces(state, freedoms->configuration(state), broken,
                           balance);
       static_far->hold(balance.force.data(), state);

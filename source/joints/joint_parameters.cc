@@ -49,7 +49,8 @@ namespace quoin
     prm.declare_entry("Curves", "", Anything(),
                       "Physical curves of the mesh whose joints form this "
                       "set; empty: the curve that bears the set's own name; "
-                      "'unnamed': joints on no named curve.");
+                      "'unnamed': joints on no named curve; 'none': no joint "
+                      "where the run begins, only what stages lead to.");
     prm.declare_entry("New contacts between", "", Anything(),
                       "Pairs a:b of materials between which contacts that "
                       "come up while blocks move follow this set, or 'all': "
@@ -117,6 +118,8 @@ namespace quoin
     const bool is_new = set.all_new_contacts || !set.new_contacts.empty();
     if (set.curves.empty() && !is_new)
       set.curves = { name };
+    if (set.curves == std::vector<std::string>{ "none" })
+      set.curves.clear();
 
     CoulombLaw &law        = set.law;
     law.normal_stiffness   = section.positive("Normal stiffness");

@@ -116,6 +116,20 @@ namespace quoin
       }
   }
 
+  std::array<double, 4>
+  LoadParameters::initial_stress(const double x, const double y,
+                                 const double poisson) const
+  {
+    if (in_situ)
+      return in_situ->stress(x, y);
+    std::array<double, 4> result{};
+    for (unsigned int k = 0; k < 3; ++k)
+      result[k] = stress[k] + y * stress_gradient[k];
+    result[3] = stress_zz ? (*stress_zz)[0] + y * (*stress_zz)[1]
+                          : poisson * (result[0] + result[1]);
+    return result;
+  }
+
   void LoadParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry(
@@ -123,7 +137,7 @@ namespace quoin
         dealii::Patterns::Selection(
             "prescribed motion|traction|viscous "
             "boundary|free-field boundary|platen|gravity|"
-            "initial stress|boundary elements"),
+            "initial stress|in-situ stress|boundary elements"),
         "What the load is. Boundary elements: as their section says.");
     prm.declare_entry("Boundary", "", Anything(),
                       "Physical curves on which it acts.");
@@ -131,8 +145,8 @@ namespace quoin
                       "Platen: physical surfaces whose blocks are the rigid "
                       "body, instead of a boundary.");
     prm.declare_entry("Groups", "", Anything(),
-                      "Initial stress: physical surfaces in which it acts; "
-                      "empty: all.");
+                      "Initial or in-situ stress: physical surfaces in which "
+                      "it acts; empty: all.");
     prm.declare_entry("Quantity", "velocity",
                       dealii::Patterns::Selection("velocity|displacement"),
                       "Prescribed motion: what is given [m/s] or, from the "
@@ -175,6 +189,7 @@ namespace quoin
                       "value at y = 0 [Pa] and its change with y [Pa/m]; "
                       "'elastic': Poisson's ratio times (xx + yy). Laws that "
                       "yield depend on it.");
+    InSituStress::declare(prm);
   }
 
   LoadParameters LoadParameters::read(const ParameterSection &section,
@@ -190,6 +205,7 @@ namespace quoin
                   { "platen", LoadType::platen },
                   { "gravity", LoadType::gravity },
                   { "initial stress", LoadType::initial_stress },
+                  { "in-situ stress", LoadType::initial_stress },
                   { "boundary elements", LoadType::boundary_elements } });
     load.boundaries = section.list("Boundary");
 
@@ -234,7 +250,12 @@ namespace quoin
         section.fail("Group", "and 'Boundary': a platen takes one of the two.");
       break;
     case LoadType::initial_stress:
-      load.groups          = section.list("Groups");
+      load.groups = section.list("Groups");
+      if (section.text("Type") == "in-situ stress")
+      {
+        load.in_situ = InSituStress::read(section);
+        break;
+      }
       load.stress          = section.numbers<3>("Stress");
       load.stress_gradient = section.numbers<3>("Stress gradient");
       if (section.text("Stress zz") != "elastic")

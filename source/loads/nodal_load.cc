@@ -71,15 +71,16 @@ namespace quoin
   NodalLoad::NodalLoad(const LoadParameters &parameters,
                        const BlockMesh<2> &mesh, const NodeExchange &exchange,
                        const std::vector<double> &mass, const double thickness)
-    : load_name(parameters.name), components(parameters.components)
+    : load_name(parameters.name),
+      is_gravity(parameters.type == LoadType::gravity),
+      components(parameters.components)
   {
-    if (parameters.type == LoadType::gravity)
+    if (is_gravity)
     {
       for (unsigned int i = 0; i < exchange.n_owned(); ++i)
-      {
         nodes.push_back(i);
-        weights.push_back(mass[i]);
-      }
+      weights.resize(nodes.size());
+      set_mass(mass);
       return;
     }
     std::map<unsigned int, double> area;
@@ -108,6 +109,12 @@ namespace quoin
       if (components[2].quantity != LoadQuantity::free)
         inward.push_back(inward_area[node]);
     }
+  }
+
+  void NodalLoad::set_mass(const std::vector<double> &mass)
+  {
+    if (is_gravity)
+      std::copy_n(mass.begin(), weights.size(), weights.begin());
   }
 
   std::array<double, 3> NodalLoad::amplitude(const TimePoint &time) const

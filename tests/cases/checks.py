@@ -920,3 +920,132 @@ def prandtl(case, folder, output, histories):
         "energy residual": (residual_of(energies(output)),
                             case.get("energy tolerance", 1e-8)),
     }
+
+
+def stage_ends(case, folder, output, histories):
+    """The last row of each stage, as the fields at their ends tell, relative to
+    the largest value of the column in "ends"."""
+    sys.path.insert(0, os.path.join(os.path.dirname(HERE), os.pardir,
+                                    "scripts"))
+    import vtu  # noqa: E402
+
+    reference, _ = read_table(os.path.join(folder, case["ends"]))
+    times = [time for time, _ in vtu.read_pvd(os.path.join(output,
+                                                           "blocks.pvd"))]
+    if len(times) != len(reference["stage"]):
+        raise Failure("%d stages have ended, the reference has %d"
+                      % (len(times), len(reference["stage"])))
+    # The first of its time: the implicit solver lets go at that time what is
+    # out of balance in the next stage.
+    at = histories["time"]
+    rows = [np.searchsorted(at, at[at <= time * (1 + 1e-9)][-1])
+            for time in times]
+    errors = {"energy residual": (residual_of(energies(output)),
+                                  case.get("energy tolerance", 1e-9))}
+    for name, exact in reference.items():
+        if name != "stage":
+            scale = np.max(np.abs(exact))
+            errors[name] = (
+                float(np.max(np.abs(histories[name][rows] - exact)) / scale),
+                case["tolerance"])
+    return errors
+
+
+def excavated_hole(case, folder, output, histories):
+    """Displacements all along the wall at the end of each stage, relative to the
+    largest; the core is gone from the fields."""
+    sys.path.insert(0, os.path.join(os.path.dirname(HERE), os.pardir,
+                                    "scripts"))
+    import vtu  # noqa: E402
+
+    exact = closed_form(folder)
+    path = os.path.join(output, "blocks.pvd")
+    stress = case.get("stress", [exact.SXX, exact.SYY])
+    errors = {}
+    for (time, _), share in zip(vtu.read_pvd(path), (0.5, 1.0)):
+        grid = vtu.read_at(path, time)
+        x, u = grid.points, grid.point_data["displacement"][:, :2]
+        radius = np.hypot(x[:, 0], x[:, 1])
+        wall = np.abs(radius - 1) < 1e-6
+        angle = np.arctan2(x[wall, 1], x[wall, 0])
+        radial, along = exact.elastic_wall(share, angle, *stress)
+        c, s = np.cos(angle), np.sin(angle)
+        wanted = np.stack([radial * c - along * s, radial * s + along * c], 1)
+        error = u[wall] - wanted
+        error -= np.mean(error, axis=0)  # nothing holds a translation
+        errors["wall, share %g" % share] = (
+            float(np.max(np.abs(error)) / np.max(np.abs(wanted))),
+            case["tolerance"])
+        errors["core left, share %g" % share] = (
+            float(np.sum(radius < 1 - 1e-6)), 0.5)
+    errors["energy residual"] = (residual_of(energies(output)),
+                                 case.get("energy tolerance", 1e-9))
+    return errors
+
+
+def excavated_hole_yielding(case, folder, output, histories):
+    """Mean displacement of the wall and the plastic radius, by the area that has
+    yielded, at the end of each stage; displacements of all nodes."""
+    sys.path.insert(0, os.path.join(os.path.dirname(HERE), os.pardir,
+                                    "scripts"))
+    import vtu  # noqa: E402
+
+    exact = closed_form(folder)
+    path = os.path.join(output, "blocks.pvd")
+    errors = {}
+    for (time, _), share in zip(vtu.read_pvd(path), (0.8, 1.0)):
+        grid = vtu.read_at(path, time)
+        x, u = grid.points, grid.point_data["displacement"][:, :2]
+        u = u - np.mean(u[np.hypot(x[:, 0], x[:, 1]) < 1 + 1e-6], axis=0)
+        r = np.hypot(x[:, 0], x[:, 1])
+        radial = np.sum(x[:, :2] * u, axis=1) / r
+        wanted = exact.yielding(share, r)
+        wall = r < 1 + 1e-6
+        a, b, c = np.moveaxis(x[grid.cells][..., :2], 1, 0)
+        area = 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1]
+                            - (b - a)[:, 1] * (c - a)[:, 0])
+        yielded = np.sqrt(1 + np.sum(area[grid.cell_data["yielding"] > 0])
+                          / np.pi)
+        outer = exact.plastic_radius(share)
+        print("  share %g: wall %.3f mm, formula %.3f; plastic radius %.3f m, "
+              "formula %.3f" % (share, 1e3 * np.mean(radial[wall]),
+                                1e3 * wanted[wall][0], yielded, outer))
+        errors["wall, share %g" % share] = (
+            float(abs(np.mean(radial[wall]) / wanted[wall][0] - 1)), 0.02)
+        errors["plastic radius, share %g" % share] = (
+            float(abs(yielded / outer - 1)), 0.02)
+        errors["a node / largest, share %g" % share] = (
+            float(np.max(np.abs(radial - wanted)) / np.max(np.abs(wanted))),
+            0.025)
+    errors["energy residual"] = (residual_of(energies(output)),
+                                 case.get("energy tolerance", 1e-8))
+    return errors
+
+
+def in_situ_rest(case, folder, output, histories):
+    """Motion of the ground relative to the settlement by its own weight, and
+    stresses of the cells and tractions of the joints relative to the largest."""
+    sys.path.insert(0, os.path.join(os.path.dirname(HERE), os.pardir,
+                                    "scripts"))
+    import vtu  # noqa: E402
+
+    exact = closed_form(folder)
+    grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
+    u = grid.point_data["displacement"]
+    y = grid.points[grid.cells][..., 1].mean(axis=1)
+    errors = grid.cell_data["stress"] - exact.stresses(y)
+    joints = vtu.read_at(os.path.join(output, "joints.pvd"))
+    normal = joints.point_data["normal traction"]
+    wanted = exact.normal_tractions(joints.points[:, 1])
+    # each point is on a joint of one of three directions
+    nearest = np.min(np.abs(wanted - normal[:, None]), axis=1)
+    largest = np.max(np.abs(exact.stresses(y)))
+    return {
+        "motion / settlement": (
+            float(np.max(np.abs(u)) / exact.settlement()), case["tolerance"]),
+        "stress": (float(np.max(np.abs(errors)) / largest),
+                   case["tolerance"]),
+        # linear triangles have them for the forces of the nodes
+        "joint traction": (
+            float(np.max(nearest) / largest),
+            case.get("traction tolerance", case["tolerance"]))}

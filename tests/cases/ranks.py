@@ -9,7 +9,7 @@ and rigid blocks of different ranks, some of them joints at first, some of them
 new. The patch test once more with blocks that yield. Motion with many impacts
 would not agree: it multiplies rounding. The cavity: boundary elements, whose
 history and points the ranks share. A static far field, which every rank has as a
-whole, and dashpots that hold what it carried. A wall in equilibrium, cracking, to
+whole, and dashpots that hold what it carried. Blocks placed and excavated. A wall in equilibrium, cracking, to
 what its iterations leave, by both linear solvers.
 """
 import json
@@ -31,6 +31,11 @@ PATCH_TEST = os.path.join(common.VERIFICATION, "patch_test", "case.prm")
 AFTER_SWITCH = os.path.join(common.VERIFICATION, "at_rest_after_switch",
                             "static_dashpots.prm")
 UNSETTLED = ["Stages/settle/Static ratio=0.1"]
+# Blocks placed, excavated and placed again, in motion.
+FILL = os.path.join(common.VERIFICATION, "fill", "case.prm")
+SHORT = ["Stages/%s/%s" % (stage, value)
+         for stage in ("base", "fill", "half", "gone", "concrete")
+         for value in ("End=time", "Duration=0.02")]
 # The first displacements of a shear wall, joints opening.
 WALL = os.path.join(common.MASONRY, "tue_walls", "j4d.prm")
 PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
@@ -69,6 +74,7 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                        ["Boundary elements/Element length=0.5",
                         "Boundary elements/Passivity frequencies=0"]),
             "static far field": (AFTER_SWITCH, UNSETTLED),
+            "construction": (FILL, SHORT),
             "implicit": (WALL, PUSHED),
             "implicit, iterative": (
                 WALL, PUSHED + ["Implicit/Linear solver=iterative"])}

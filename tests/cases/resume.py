@@ -98,6 +98,21 @@ CASES = {
                      "static_dashpots.prm"),
         ["Output/Checkpoint interval=0.05", "Histories/Interval=1e-4",
          "Stages/settle/Static ratio=1e-6", "Stages/rest/Duration=0.15"], 2, 1),
+    # blocks placed, excavated and placed again
+    "construction": (os.path.join(common.VERIFICATION, "fill", "case.prm"),
+                     ["Output/Checkpoint interval=0.05",
+                      "Output/Field interval=5e-2",
+                      "Time stepping/Share of critical time step=0.03"], 1, 3),
+    "construction, implicit": (
+        os.path.join(common.VERIFICATION, "fill", "case.prm"),
+        ["Solver=implicit", "Output/Checkpoint interval=0.02",
+         "Output/Field interval=5e-2", "Implicit/First step=1e-3",
+         "Implicit/Largest step=1e-3"], 1, 3),
+    # cells and joints that become softer under pressure
+    "properties": (
+        os.path.join(common.VERIFICATION, "property_change", "case.prm"),
+        ["Output/Checkpoint interval=0.02", "Output/Field interval=5e-3",
+         "Time stepping/Share of critical time step=0.01"], 1, 3),
 }
 
 

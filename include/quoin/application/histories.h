@@ -21,19 +21,22 @@ namespace quoin
    * what the step overwrites, after it what it computes. Point quantities are
    * those of the nearest node, cell or joint point. Those of boundary elements
    * are of their last step that is over, their displacements continued from its
-   * end with its velocities.
+   * end with its velocities. At a block that is absent they are zero.
    */
   class Histories
   {
   public:
     /**
      * @p geometry: of the boundary elements that @p boundaries describe.
+     * @p absent_in_the_end: of physical surfaces, whose nodes come after
+     * others at the same place.
      * Throws an InputError about loads and curves that do not exist.
      */
     Histories(const std::vector<HistoryParameters> &parameters,
               const Model &model, const Solver &solver,
               const BoundaryGeometry &geometry,
-              const BoundaryElementParameters &boundaries);
+              const BoundaryElementParameters &boundaries,
+              const std::vector<bool> &absent_in_the_end);
 
     /** "time [s]" and "name [unit]" of each column. */
     std::vector<std::string> column_names() const;
@@ -57,6 +60,8 @@ namespace quoin
 
     void locate(Probe &probe) const;
     double point_value(const Probe &probe, const State &state) const;
+    /** Whether the block that @p probe looks at is absent. */
+    bool is_absent(const Probe &probe, const State &state) const;
     /** Puts in the columns of boundary elements. */
     void add_boundary_values(const State &state,
                              std::vector<double> &result) const;
@@ -68,6 +73,7 @@ namespace quoin
     const Solver &solver;
     std::unique_ptr<BoundaryHistories> of_boundary; /**< or null */
     MPI_Comm communicator;
+    const std::vector<bool> absent_in_the_end; /**< of physical surfaces */
     std::array<double, 2> load_clock{}; /**< its time [s] and rate */
     std::vector<double> row;
   };

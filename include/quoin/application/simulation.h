@@ -10,6 +10,7 @@
 #include <quoin/application/parameters.h>
 #include <quoin/application/run_options.h>
 #include <quoin/base/time_control.h>
+#include <quoin/dynamics/construction.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/implicit/implicit_solver.h>
@@ -77,6 +78,11 @@ namespace quoin
     void make_solver(const MeshData &as_read);
     void set_initial_motion();
     void report_model();
+    void report_initial_joints();
+    /** Model and solver begin stage @p index with @p state. */
+    void begin_stage(unsigned int index, State &state);
+    /** They go on with the state of a checkpoint. */
+    void resume();
     void open_outputs();
     void run_stage(unsigned int index);
     void end_stage(unsigned int index);
@@ -101,7 +107,6 @@ namespace quoin
     /** Of a stage that lasts for a given time. */
     bool time_is_over(const StageParameters &stage) const;
     bool stage_is_over(const StageParameters &stage, bool balance);
-    void check_start() const;
     /** A file of the output folder. */
     /** .geo, .msh and statistics of blocks that were generated. */
     void write_generated_geometry() const;
@@ -125,6 +130,7 @@ namespace quoin
     BlockMesh<2> mesh;
     MeshReport mesh_report;
     std::unique_ptr<Model> model;
+    std::unique_ptr<Construction> construction;
     BoundaryGeometry boundary_geometry;
     std::unique_ptr<IncidentWaves> waves;
     std::unique_ptr<Solver> solver;

@@ -241,7 +241,6 @@ namespace quoin
     AlignedArray<ContactPair> pairs; /**< ascending in their edges */
 
     AlignedArray<std::uint8_t> handed_over; /**< of interfaces of joints */
-    AlignedArray<std::uint8_t> outside;     /**< blocks that left the box */
 
     /** Of the boundary nodes, when pairs were last searched [m]. */
     AlignedArray<NodeVector> search_positions;
@@ -251,8 +250,7 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &pairs &handed_over &outside &search_positions &next_check
-          &n_searches;
+      archive &pairs &handed_over &search_positions &next_check &n_searches;
     }
   };
 
@@ -395,6 +393,45 @@ namespace quoin
     }
   };
 
+  /** Marks of State::block_marks. */
+  namespace block_mark
+  {
+    constexpr std::uint8_t present  = 0;
+    constexpr std::uint8_t left_box = 1; /**< present, outside the box */
+    constexpr std::uint8_t removed  = 2; /**< deleted outside the box */
+    constexpr std::uint8_t absent   = 3; /**< excavated, or not placed yet */
+  } // namespace block_mark
+
+  /** What excavated blocks exerted on those that stay, as it is let go. */
+  struct HeldForces
+  {
+    /** x, y of owned nodes, as the blocks were taken away [N]. */
+    std::vector<double> force;
+    double left        = 1.; /**< share where the stage begins [-] */
+    double left_at_end = 1.; /**< and at the end of its release [-] */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &force &left &left_at_end;
+    }
+  };
+
+  /** What the stages did to the model; see Construction. */
+  struct ConstructionState
+  {
+    std::vector<HeldForces> held; /**< of each excavation not let go yet */
+    /** xx, yy, xy, zz of each deformable cell without strain, as changes of
+        materials and fill left it [Pa]; empty: as at the start. */
+    AlignedArray<double> initial_stress;
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &held &initial_stress;
+    }
+  };
+
   /**
    * All that changes in time. Everything else is constant once prepared, so a
    * checkpoint is this and the parameters.
@@ -425,6 +462,9 @@ namespace quoin
     std::vector<ViscousBoundaryState> viscous_boundaries; /**< as platens */
     std::vector<FreeFieldState> free_fields; /**< in the order of the loads */
     ImplicitState implicit;
+    /** Of all blocks of the mesh, block_mark; empty: all are present. */
+    AlignedArray<std::uint8_t> block_marks;
+    ConstructionState construction;
     double adaptive_damping   = 0.; /**< [1/s] */
     double previous_time_step = 0.; /**< [s] */
     double unbalanced_ratio   = 1.; /**< as last measured [-] */
@@ -432,14 +472,21 @@ namespace quoin
     /** Complete at time, and what the step under way adds for time + dt/2. */
     EnergyAccounts energy, pending;
 
+    /** Whether @p block of the mesh was taken away or is not placed yet. */
+    bool is_absent(const unsigned int block) const
+    {
+      return !block_marks.empty() && block_marks[block] >= block_mark::removed;
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       archive &time &step &stage &stage_start &stage_step &load_time &load_rate
           &load_rate_growth &nodes &velocity &plastic &joints &contacts &platens
               &rigid_blocks &far_field &static_far_field &viscous_boundaries
-                  &free_fields &implicit &adaptive_damping &previous_time_step
-                      &unbalanced_ratio &energy &pending;
+                  &free_fields &implicit &block_marks &construction
+                      &adaptive_damping &previous_time_step &unbalanced_ratio
+                          &energy &pending;
     }
   };
 } // namespace quoin

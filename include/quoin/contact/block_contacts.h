@@ -144,9 +144,6 @@ namespace quoin
     /** Largest stiffness of any set [Pa/m]. */
     double largest_stiffness() const;
 
-    /** Marks of ContactState::outside. */
-    static constexpr std::uint8_t left_box = 1, removed_from_model = 2;
-
   private:
     /** An edge that takes part, where it is now. */
     struct Edge

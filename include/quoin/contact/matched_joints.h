@@ -75,9 +75,43 @@ namespace quoin
     /** Whether a joint of any rank may open or slip. */
     bool can_fail() const;
 
+    /** Stress xx, yy, xy [Pa] for both points of a joint face. */
+    using FaceStress = std::array<std::array<double, 3>, 2>;
+
     /** Sets the tractions that balance an initial stress at rest. */
-    void initialise(const std::vector<std::array<double, 3>> &face_stress,
+    void initialise(const std::vector<FaceStress> &face_stress,
                     const State &state, JointHistory &history) const;
+
+    /** Points, of all ranks, whose tractions exceed their strength. */
+    double n_beyond_strength(const JointHistory &history,
+                             MPI_Comm communicator) const;
+
+    // For blocks that are taken away or placed, and for other laws.
+
+    /** Adds the forces of segment @p i by the tractions of @p history. */
+    void add_traction_forces(unsigned int i, const NodeRecord *nodes,
+                             const JointHistory &history,
+                             NodeVector *force) const;
+
+    /** Segment @p i is no joint from now on: a side of it is not there. */
+    void let_go(unsigned int i, JointHistory &history) const;
+
+    /** Segment @p i is an intact joint, free of traction where it is now. */
+    void begin_anew(unsigned int i, const NodeRecord *nodes,
+                    JointHistory &history) const;
+
+    /**
+     * Joints follow the laws of @p sets from now on, of which there are as
+     * many as before, each of its kind. Their tractions jump unless
+     * keep_tractions() moves the offsets too.
+     */
+    void set_laws(const std::vector<JointSetParameters> &sets);
+
+    /**
+     * Inelastic opening and slip of @p history become those with which the
+     * tractions it has are the law's at the gaps in @p nodes.
+     */
+    void keep_tractions(const NodeRecord *nodes, JointHistory &history) const;
 
     /**
      * Brings the histories to the positions in @p nodes, adds the joint

@@ -205,6 +205,25 @@ namespace quoin
                                       std::size_t cell,
                                       PlaneTensor *strain = nullptr) const;
 
+    /**
+     * Stress xx, yy, xy, zz [Pa] in the rotating frame by the strain of a cell
+     * less the plastic one of its @p history, with any @p stiffness and law
+     * (null: elastic). With those of the cell and initial_stress() it is the
+     * stress, if the history is that of the positions.
+     */
+    std::array<double, 4> stress_of_strain(const NodeRecord *nodes,
+                                           const PlasticHistory &history,
+                                           std::size_t cell,
+                                           const PlaneStiffness &stiffness,
+                                           const MohrCoulomb *law) const;
+
+    /** Stress xx, yy, xy, zz of a cell without strain [Pa]. */
+    std::array<double, 4> initial_stress(const unsigned int cell) const
+    {
+      return data.initial_stress.empty() ? std::array<double, 4>{}
+                                         : data.initial_stress[cell];
+    }
+
     /** cell_stress() of all cells. */
     void stresses(const NodeRecord *nodes, const PlasticHistory &history,
                   std::vector<std::array<double, 4>> &stress,
@@ -310,12 +329,6 @@ namespace quoin
     /** Brings @p history of a cell that yields to @p strain [J/m^3]. */
     double update_cell(std::size_t cell, const PlaneTensor &strain,
                        PlasticHistory &history) const;
-
-    std::array<double, 4> initial_stress(const unsigned int cell) const
-    {
-      return data.initial_stress.empty() ? std::array<double, 4>{}
-                                         : data.initial_stress[cell];
-    }
 
     BlockForcesData data;
     unsigned int n_lanes = 0;

@@ -50,6 +50,15 @@ namespace quoin
         loads. */
     static constexpr std::uint64_t balance_interval = 100;
 
+    /**
+     * Masses become those of @p previous, the stage at whose end @p state was
+     * saved: the energy of what moves is counted with them.
+     */
+    void restore_masses(const StageParameters &previous, State state)
+    {
+      scale_masses(previous, state);
+    }
+
     /** What is due at the time of a step; see step(). */
     struct Requests
     {
@@ -99,6 +108,9 @@ namespace quoin
 
     void update_histories(State &state) override;
 
+    double stop_blocks(const std::vector<unsigned int> &blocks,
+                       State &state) override;
+
     /** Blocks found outside the box since the last call. */
     std::vector<BlockOutside> take_blocks_outside()
     {
@@ -115,6 +127,8 @@ namespace quoin
     void find_begun_forces(const StepContext &context);
     void scale_masses(const StageParameters &stage, State &state);
     void collect_constrained_nodes(const State &state);
+    /** How long forces of excavated blocks are let go in this stage [s]. */
+    double release_duration(const State &state) const;
     /** Blocks of this rank that loads of this or a later stage move. */
     void find_moved_blocks(const State &state);
     /** Makes removed blocks stay where they are. */

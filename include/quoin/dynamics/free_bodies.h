@@ -15,12 +15,12 @@ namespace quoin
   /**
    * Throws an InputError naming the first body, blocks that joints tie
    * together, which the prescribed freedoms of @p constraints leave free to
-   * translate or rotate: it could never come to rest. @p stage is for the
-   * message. Collective.
+   * translate or rotate: it could never come to rest. Blocks that are absent in
+   * @p state do not count. @p stage is for the message. Collective.
    */
   void check_no_free_bodies(const Model &model,
                             const std::vector<NodeConstraint *> &constraints,
-                            const std::string &stage);
+                            const std::string &stage, const State &state);
 } // namespace quoin
 
 #endif

@@ -32,6 +32,8 @@ namespace quoin
     std::vector<MaterialParameters> materials;
     std::vector<JointSetParameters> joints;
     std::vector<LoadParameters> initial_stresses;
+    /** Physical surfaces that are not there before a stage places them. */
+    std::vector<std::string> absent_groups;
 
     /**
      * Blocks may meet anywhere: the critical step then allows for contacts on
@@ -41,11 +43,19 @@ namespace quoin
     ContactParameters contact;
   };
 
+  /** What stages may change of a model; see Model::set_properties(). */
+  struct ModelProperties
+  {
+    std::vector<MaterialParameters> materials;
+    std::vector<unsigned int> material_of_group; /**< of physical surfaces */
+    std::vector<JointSetParameters> joints;
+  };
+
   /**
    * The blocks and joints of this rank, packed for the explicit solver and
-   * constant from then on. Nodes, cells and blocks have local numbers: whole
-   * blocks, deformable ones first, then rigid ones, then the ghosts of nodes
-   * that joints reach.
+   * constant from then on, but for what set_properties() changes. Nodes, cells
+   * and blocks have local numbers: whole blocks, deformable ones first, then
+   * rigid ones, then the ghosts of nodes that joints reach.
    */
   class Model
   {
@@ -67,8 +77,35 @@ namespace quoin
       return parameters.contact;
     }
 
-    /** Positions at rest, initial joint tractions. */
+    /** Positions at rest, initial joint tractions, what is absent. */
     State initial_state() const;
+
+    const ModelProperties &properties() const
+    {
+      return now;
+    }
+    /**
+     * Cells and joints follow @p properties from now on, with as many
+     * materials and sets as before, each of its kind; what cells bear without
+     * strain is that of @p construction. Collective. Stresses jump where
+     * stiffnesses change, unless change_properties() keeps them.
+     */
+    void set_properties(const ModelProperties &properties,
+                        const ConstructionState &construction);
+    /** The same; stresses and joint tractions of @p state stay. */
+    void change_properties(const ModelProperties &properties, State &state);
+    /** Cells of @p groups bear nothing without strain from now on. */
+    void forget_initial_stress(const std::vector<bool> &groups,
+                               ConstructionState &construction);
+
+    /** Of each physical surface, whether @p names has it; throws an
+        InputError that begins with @p where. */
+    std::vector<bool> find_groups(const std::vector<std::string> &names,
+                                  const std::string &where) const;
+    /** Whether a block beside joint segment @p segment is absent. */
+    bool is_at_absent_block(unsigned int segment, const State &state) const;
+    /** Of each local node, whether its block is absent in @p state. */
+    std::vector<bool> absent_nodes(const State &state) const;
 
     const BlockMesh<2> &mesh() const
     {
@@ -134,6 +171,9 @@ namespace quoin
      * which @p load names for it, or of the cells there. Throws an InputError.
      */
     std::vector<Impedance> impedance_beyond(const LoadParameters &load) const;
+    /** Velocity in the slowest material of deformable blocks [m/s]; infinite:
+        there are none. */
+    double slowest_shear_wave() const;
     /** What columns beside the blocks are made of. */
     FreeFieldGround free_field_ground() const;
     unsigned int first_block() const
@@ -151,6 +191,15 @@ namespace quoin
       return { first[block] - first[block_begin],
                first[block + 1] - first[block_begin] };
     }
+    /** Of each physical surface, whether it is there where the run begins. */
+    std::vector<bool> groups_present_at_start() const;
+
+    // Of blocks that this rank owns.
+
+    /** Leaves @p block where it is, without strain and motion. */
+    void bring_to_rest(unsigned int block, State &state) const;
+    /** Puts @p block where the mesh has it, without strain and motion. */
+    void place(unsigned int block, State &state) const;
     /** Makes cells of @p block, which this rank owns, as at the start. */
     void forget_yielding(unsigned int block, PlasticHistory &history) const;
     unsigned int first_cell() const
@@ -169,7 +218,7 @@ namespace quoin
     /** Index into the materials of a cell of the whole mesh. */
     unsigned int material_of_cell(const unsigned int cell) const
     {
-      return material_of_group[block_mesh.cell_group[cell]];
+      return now.material_of_group[block_mesh.cell_group[cell]];
     }
     double thickness() const
     {
@@ -182,7 +231,12 @@ namespace quoin
                      MPI_Comm communicator);
     void find_masses();
     void find_initial_stress();
-    void pack_blocks();
+    std::array<double, 4> initial_stress(const LoadParameters &load,
+                                         const dealii::Point<2> &point,
+                                         unsigned int cell) const;
+    void find_face_stress();
+    AlignedArray<double> packed_initial_stress() const;
+    void pack_blocks(const ConstructionState &construction);
     void find_stable_step();
     /** Adds springs of the joints to the bound of the local nodes. */
     void add_joint_bound(std::vector<std::array<double, 3>> &bound) const;
@@ -192,14 +246,16 @@ namespace quoin
     const BlockMesh<2> &block_mesh;
     const ModelParameters parameters;
 
-    std::vector<unsigned int> material_of_group;
+    ModelProperties now;
+    std::vector<bool> absent_group; /**< of physical surfaces, at the start */
     std::vector<Impedance> group_impedance;
     unsigned int block_begin, rigid_begin, block_end;
     std::vector<bool> rigid_block;
     std::unique_ptr<NodeExchange> nodes;
     std::vector<double> node_mass;
     std::vector<std::array<unsigned int, 3>> local_cells;
-    std::vector<std::array<double, 4>> cell_stress; /**< or empty */
+    std::vector<std::array<double, 4>> cell_stress;     /**< or empty */
+    std::vector<MatchedJoints::FaceStress> face_stress; /**< or empty */
     BlockForces block_forces;
     RigidBlocks rigid;
     MatchedJoints matched_joints;

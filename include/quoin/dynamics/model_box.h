@@ -42,7 +42,7 @@ namespace quoin
 
     /**
      * Looks for blocks that have left since the last look and marks them in
-     * ContactState::outside, which all ranks know of all blocks. Returns them
+     * State::block_marks, which all ranks know of all blocks. Returns them
      * in ascending order, the same on all ranks; the caller removes those that
      * are marked so. Collective. @p moved: whether loads move the block, for
      * each block of this rank. Throws a RunError if no block may leave.

@@ -8,6 +8,7 @@
 #include <quoin/coupling/far_field.h>
 #include <quoin/coupling/static_far_field.h>
 #include <quoin/dynamics/model.h>
+#include <quoin/dynamics/release.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/node_constraint.h>
@@ -65,6 +66,16 @@ namespace quoin
      */
     virtual void update_histories(State &state) = 0;
 
+    /**
+     * Takes the motion off @p blocks of this rank and returns the energy that
+     * they had by it [J].
+     */
+    virtual double stop_blocks(const std::vector<unsigned int> & /*blocks*/,
+                               State & /*state*/)
+    {
+      return 0.;
+    }
+
     /** Throws a RunError if the state is no longer finite; collective. */
     void check_finite(const State &state) const;
     /** The same if a cell has turned inside out; collective. */
@@ -121,9 +132,12 @@ namespace quoin
   protected:
     /**
      * Switches to the loads of @p stage. Throws an InputError about unknown
-     * loads, or bodies that a static stage would let drift.
+     * loads, bodies that a static stage would let drift, or loads on blocks
+     * that are absent in @p state.
      */
-    void activate(const StageParameters &stage);
+    void activate(const StageParameters &stage, const State &state);
+    /** Of the loads in constraints_on, all but prescribed motions. */
+    void refuse_absent_nodes(const State &state) const;
     /** Whether @p stage names it and, of far fields, is of its kind. */
     bool acts_in(const NodeConstraint &constraint,
                  const StageParameters &stage) const;
@@ -153,6 +167,7 @@ namespace quoin
     std::vector<NodeConstraint *> constraints_on; /**< in order of action */
     std::vector<const NodalLoad *> loads_on;
     StageParameters stage;
+    Release release; /**< of what was excavated */
 
   private:
     void make_free_fields(const std::vector<LoadParameters> &loads);

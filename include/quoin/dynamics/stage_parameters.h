@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quoin
@@ -48,6 +49,23 @@ namespace quoin
     /** Above this share of the energy that went through, kinetic energy slows
         the loads down [-]; 0: they follow the time. */
     double kinetic_limit = 0.;
+
+    std::vector<std::string> excavate; /**< physical surfaces */
+    std::vector<std::string> fill;     /**< physical surfaces */
+    /** Share of what excavated blocks exerted that is gone in the end [-]. */
+    double release = 1.;
+    double release_duration
+        = -1.; /**< of the loads' clock [s]; -1: automatic */
+    bool releases_linearly = false;
+    /** Physical surfaces and the materials they are made of from now on. */
+    std::vector<std::pair<std::string, std::string>> materials;
+    /** Joint sets and those whose laws they follow from now on. */
+    std::vector<std::pair<std::string, std::string>> joint_properties;
+
+    bool changes_properties() const
+    {
+      return !materials.empty() || !joint_properties.empty();
+    }
 
     bool slows_loads() const
     {

@@ -5,6 +5,7 @@
 #define quoin_implicit_equilibrium_h
 
 #include <quoin/coupling/static_far_field.h>
+#include <quoin/dynamics/release.h>
 #include <quoin/implicit/freedoms.h>
 #include <quoin/loads/nodal_load.h>
 
@@ -69,6 +70,12 @@ namespace quoin
                 const std::vector<bool> &path_sets, double stage_start,
                 const StaticFarField *far_field);
 
+    /** Forces of what was excavated act too, from now on; kept by reference. */
+    void set_release(const Release &forces)
+    {
+      release = &forces;
+    }
+
     /**
      * From now on nodes drag: by @p drag times a typical stiffness, shared out
      * by mass, times what they moved since the last equilibrium; 0: not.
@@ -121,6 +128,8 @@ namespace quoin
                    Balance &balance);
     void add_drag(const State &committed, const Configuration &configuration,
                   Balance &balance, bool with_derivatives);
+    /** Of loads, on nodes that are there. */
+    void add_external(double load_time, AlignedArray<NodeVector> &force) const;
     void find_ratio(const AlignedArray<NodeVector> &applied, Balance &balance);
     /** Adds the rows of owned nodes of an element with @p n nodes. */
     template <std::size_t size>
@@ -138,6 +147,7 @@ namespace quoin
     const std::vector<const NodalLoad *> loads;
     const std::vector<bool> path_sets;
     const double stage_start;
+    const Release *release = nullptr;
     MPI_Comm communicator;
     double path_area     = 0.; /**< of the joints that measure the path [m^2] */
     double least_applied = 0.; /**< Balance::applied is not less [N] */

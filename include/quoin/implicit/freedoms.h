@@ -107,6 +107,11 @@ namespace quoin
       return node_list[node].unknown[d] != nothing
              && node_list[node].unknown[2] == nothing && !in_body[node];
     }
+    /** Whether the block of a local node is absent: then it does not move. */
+    bool is_absent(const unsigned int node) const
+    {
+      return absent[node];
+    }
     bool is_in_body(const unsigned int node) const
     {
       return in_body[node];
@@ -166,6 +171,7 @@ namespace quoin
     std::vector<Prescribed> prescribed_list;
     std::vector<Node> node_list;
     std::vector<std::uint8_t> in_body; /**< of owned nodes */
+    std::vector<bool> absent;          /**< of local nodes */
     dealii::IndexSet owned_unknowns;
   };
 

@@ -139,6 +139,8 @@ namespace quoin
     };
 
     void prepare_stage(const State &state);
+    /** Rigid blocks that are absent are no bodies. */
+    void hold_absent_blocks(const State &state);
     double rest_time() const;
     void hold_what_is_out_of_balance(const StageParameters *previous,
                                      State &state);

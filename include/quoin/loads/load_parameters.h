@@ -5,6 +5,7 @@
 #define quoin_loads_load_parameters_h
 
 #include <quoin/base/parameter_section.h>
+#include <quoin/loads/in_situ_stress.h>
 #include <quoin/loads/time_function.h>
 
 #include <array>
@@ -22,7 +23,7 @@ namespace quoin
     free_field,
     platen,
     gravity,
-    initial_stress,
+    initial_stress,   /**< also one by depth: LoadParameters::in_situ */
     boundary_elements /**< as section 'Boundary elements' says */
   };
 
@@ -76,6 +77,13 @@ namespace quoin
     std::array<double, 3> stress_gradient{}; /**< per metre of y [Pa/m] */
     /** zz at y = 0 [Pa] and per metre of y [Pa/m]; none: nu (xx + yy). */
     std::optional<std::array<double, 2>> stress_zz;
+    /** Instead of all of these: stress that follows from the depth. */
+    std::optional<InSituStress> in_situ;
+
+    /** Initial stress xx, yy, xy, zz [Pa] at (@p x, @p y) of a material with
+        the given Poisson's ratio. */
+    std::array<double, 4> initial_stress(double x, double y,
+                                         double poisson) const;
 
     static void declare(dealii::ParameterHandler &prm);
     static LoadParameters read(const ParameterSection &section,

@@ -29,6 +29,9 @@ namespace quoin
               const NodeExchange &exchange, const std::vector<double> &mass,
               double thickness);
 
+    /** Weights of gravity where masses have changed; see the constructor. */
+    void set_mass(const std::vector<double> &mass);
+
     void add_forces(const TimePoint &time, NodeVector *force) const;
 
     /** Rate of work [W] on nodes that move with @p velocity. */
@@ -44,6 +47,7 @@ namespace quoin
 
   private:
     std::string load_name;
+    bool is_gravity;
     std::array<LoadComponent, 3> components;
     std::vector<unsigned int> nodes;
     std::vector<double> weights;

@@ -305,8 +305,10 @@ TEST(MatchedJoints, InitialStressBecomesTraction)
   for (const double angle : { 0., 30. * degree, -60. * degree })
   {
     Stack stack(2, angle);
-    stack.joints.initialise({ { { xx, yy, xy } }, { { xx, yy, xy } } },
-                            stack.state, stack.state.joints);
+    const MatchedJoints::FaceStress uniform
+        = { { { { xx, yy, xy } }, { { xx, yy, xy } } } };
+    stack.joints.initialise({ uniform, uniform }, stack.state,
+                            stack.state.joints);
     // The normal of a joint turned by the angle, and the tangent.
     const double n[2]        = { -std::sin(angle), std::cos(angle) };
     const double t[2]        = { n[1], -n[0] };
@@ -496,7 +498,8 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   for (const auto &p : mesh.vertices)
     state.nodes.push_back({ { p[0], p[1] }, { 0.01 * p[0], -0.02 * p[1] } });
   state.nodes[segment.upper[1 - tip]].u[1] += 1e-4;
-  joints.initialise({ { { 2e5, 3e5, 1e5 } } }, state, state.joints);
+  joints.initialise({ { { { { 2e5, 3e5, 1e5 } }, { { 2e5, 3e5, 1e5 } } } } },
+                    state, state.joints);
 
   AlignedArray<NodeVector> force(n, NodeVector{ { 0., 0. } });
   EnergyAccounts energy;

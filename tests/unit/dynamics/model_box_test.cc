@@ -160,7 +160,7 @@ TEST(ModelBox, DeletedBlockTakesItsEnergyAlong)
     EXPECT_EQ(run.state.energy.plastic > 0., kind == "yielding");
     EXPECT_GT(found[0].position[1], 6.);
     EXPECT_LT(found[0].position[1], 9.);
-    EXPECT_EQ(run.state.contacts.outside[1], BlockContacts::removed_from_model);
+    EXPECT_EQ(run.state.block_marks[1], block_mark::removed);
 
     // What is left is at rest, without strain, and stays so.
     const NodeRange range = run.model.block_nodes(1);
@@ -245,7 +245,7 @@ TEST(ModelBox, JointedBlocksLeaveTogether)
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].block, 1U);
   EXPECT_FALSE(found[0].removed);
-  EXPECT_EQ(run.state.contacts.outside[1], BlockContacts::left_box);
+  EXPECT_EQ(run.state.block_marks[1], block_mark::left_box);
   EXPECT_TRUE(look(run).empty());
 
   // A strained joint: its energy goes, too.

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_in_situ_stress_h
+#define quoin_loads_in_situ_stress_h
+
+#include <quoin/base/parameter_section.h>
+
+#include <array>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * Stress in the ground by its weight (@cite JaegerCookZimmerman2007, chapter
+   * 13): with the depth counted vertically below the surface h(x),
+   * @f[ \sigma_{yy} = -\left(p + \int_y^{h(x)} \gamma \, dy\right), \quad
+   *     \sigma_{xx} = K_0 \sigma_{yy} + \sigma_h, \quad \sigma_{xy} = 0 , @f]
+   * tension positive, and out of the plane the same with a ratio of its own.
+   * Below a level surface it balances gravity; below a slope it does not.
+   * Zero above the surface.
+   */
+  struct InSituStress
+  {
+    /** Ground of one unit weight, down to a level. */
+    struct Layer
+    {
+      double unit_weight; /**< gamma [N/m^3] */
+      double foot;        /**< y of its foot [m]; of the last one not read */
+    };
+
+    std::vector<std::array<double, 2>> surface; /**< x (ascending), y [m] */
+    std::vector<Layer> layers;                  /**< downwards */
+    double pressure           = 0.;             /**< p on the surface [Pa] */
+    double horizontal_ratio   = 1.;             /**< K_0 [-] */
+    double horizontal_stress  = 0.;             /**< sigma_h [Pa] */
+    double out_of_plane_ratio = 1.; /**< of sigma_zz by sigma_yy [-] */
+    bool has_out_of_plane     = false; /**< whether that was given */
+    /** Added to sigma_zz [Pa]. */
+    double out_of_plane_stress = 0.;
+
+    /** y of the ground at @p x; level beyond the ends of the line [m]. */
+    double surface_height(double x) const;
+
+    /** xx, yy, xy, zz [Pa] at (@p x, @p y). */
+    std::array<double, 4> stress(double x, double y) const;
+
+    static void declare(dealii::ParameterHandler &prm);
+    static InSituStress read(const ParameterSection &section);
+  };
+} // namespace quoin
+
+#endif

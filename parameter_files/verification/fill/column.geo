@@ -1,0 +1,24 @@
+// A column of 1 m x 4 m and a block of 2 m to be placed on it.
+h = 0.5;
+Point(1) = {0, 0, 0, h};
+Point(2) = {1, 0, 0, h};
+Point(3) = {1, 4, 0, h};
+Point(4) = {1, 6, 0, h};
+Point(5) = {0, 6, 0, h};
+Point(6) = {0, 4, 0, h};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Line(7) = {6, 3};
+Curve Loop(1) = {1, 2, -7, 6};
+Curve Loop(2) = {7, 3, 4, 5};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Physical Curve("bottom") = {1};
+Physical Curve("sides") = {2, 3, 5, 6};
+Physical Curve("top") = {4};
+Physical Surface("base") = {1};
+Physical Surface("fill") = {2};

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/dynamics/construction.h>
+
+#include <algorithm>
+
+namespace quoin
+{
+  Construction::Construction(Model &model,
+                             const std::vector<StageParameters> &stages)
+    : model(model), at_start(model.properties())
+  {
+    for (const StageParameters &stage : stages)
+    {
+      Step step;
+      step.where = "section 'Stages/" + stage.name + "'";
+      step.excavate
+          = model.find_groups(stage.excavate, step.where + ", 'Excavate'");
+      step.fill    = model.find_groups(stage.fill, step.where + ", 'Fill'");
+      step.takes   = !stage.excavate.empty();
+      step.places  = !stage.fill.empty();
+      step.release = stage.release;
+      step.changes = stage.changes_properties();
+      check_borders(step, step.excavate, "Excavate");
+      check_borders(step, step.fill, "Fill");
+      steps.push_back(step);
+    }
+    check_presence();
+    for (unsigned int i = 0; i < stages.size(); ++i)
+      find_properties(i, stages[i]);
+  }
+
+  void Construction::restart()
+  {
+    restore(0, State());
+  }
+
+  void Construction::restore(const unsigned int n, const State &state)
+  {
+    const auto changed = [&](const unsigned int last)
+    {
+      return std::any_of(steps.begin(), steps.begin() + last,
+                         [](const Step &step)
+                         { return step.changes || step.places; });
+    };
+    if (n != n_begun && (changed(n) || changed(n_begun)))
+      model.set_properties(n == 0 ? at_start : steps[n - 1].properties,
+                           state.construction);
+    n_begun = n;
+  }
+
+  void Construction::resume_stage(const unsigned int stage, const State &state)
+  {
+    restore(stage + 1, state);
+  }
+
+  void Construction::begin_stage(const unsigned int stage, Solver &solver,
+                                 State &state)
+  {
+    const Step &step = steps[stage];
+    restore(stage, state);
+    auto &held = state.construction.held;
+    for (HeldForces &item : held)
+      item.left = item.left_at_end;
+    held.erase(std::remove_if(held.begin(), held.end(),
+                              [](const HeldForces &item)
+                              { return item.left == 0.; }),
+               held.end());
+    if (step.takes || step.places || step.changes)
+    {
+      solver.update_histories(state);
+      const double before = stored_energy(state);
+      if (step.takes)
+        take_away(step, solver, state);
+      if (step.places)
+        place(step, state);
+      if (step.changes)
+        model.change_properties(step.properties, state);
+      state.energy.external += stored_energy(state) - before;
+    }
+    for (HeldForces &item : held)
+      item.left_at_end = std::min(item.left, 1. - step.release);
+    n_begun = stage + 1;
+  }
+
+  double Construction::stored_energy(const State &state) const
+  {
+    return model.blocks().strain_energy(state.nodes.data(), state.plastic)
+           + model.joints().stored_energy(state.nodes.data(), state.joints);
+  }
+
+  std::vector<unsigned int>
+  Construction::own_blocks(const std::vector<bool> &groups) const
+  {
+    std::vector<unsigned int> result;
+    for (unsigned int b = model.first_block();
+         b < model.first_block() + model.n_blocks(); ++b)
+      if (is_in(b, groups))
+        result.push_back(b);
+    return result;
+  }
+
+  bool Construction::is_in(const unsigned int block,
+                           const std::vector<bool> &groups) const
+  {
+    const BlockMesh<2> &mesh = model.mesh();
+    return groups[mesh.cell_group[mesh.block_first_cell[block]]];
+  }
+
+  void Construction::take_away(const Step &step, Solver &solver,
+                               State &state) const
+  {
+    const BlockMesh<2> &mesh    = model.mesh();
+    const MatchedJoints &joints = model.joints();
+    AlignedArray<NodeVector> force(state.nodes.size(),
+                                   NodeVector{ { 0., 0. } });
+    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    {
+      if (model.is_at_absent_block(i, state))
+        continue;
+      const JointFace &face = mesh.joint_faces[joints.segment(i).face];
+      const bool lower      = step.excavate[face.groups[0]];
+      const bool upper      = step.excavate[face.groups[1]];
+      if (lower != upper)
+        joints.add_traction_forces(i, state.nodes.data(), state.joints,
+                                   force.data());
+      if (lower || upper)
+        joints.let_go(i, state.joints);
+    }
+
+    state.block_marks.resize(mesh.n_blocks(), block_mark::present);
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+      if (is_in(b, step.excavate))
+        state.block_marks[b] = block_mark::absent;
+    const auto blocks = own_blocks(step.excavate);
+    state.energy.external -= solver.stop_blocks(blocks, state);
+    for (const unsigned int block : blocks)
+      model.bring_to_rest(block, state);
+    model.exchange().update_ghosts(state.nodes.data());
+
+    // Its energy at the present positions has the work of these forces over
+    // the last half step, which those that take their place will book again.
+    HeldForces item;
+    const auto absent = model.absent_nodes(state);
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        item.force.push_back(absent[i] ? 0. : force[i].v[d]);
+        state.energy.external -= 0.5 * state.previous_time_step
+                                 * item.force.back() * state.velocity[i].v[d];
+      }
+    for (HeldForces &earlier : state.construction.held)
+      for (std::size_t i = 0; i < earlier.force.size(); ++i)
+        if (absent[i / 2])
+          earlier.force[i] = 0.;
+    state.construction.held.push_back(std::move(item));
+  }
+
+  void Construction::place(const Step &step, State &state) const
+  {
+    const MatchedJoints &joints = model.joints();
+    const auto blocks           = own_blocks(step.fill);
+    for (unsigned int b = 0; b < model.mesh().n_blocks(); ++b)
+      if (is_in(b, step.fill))
+        state.block_marks[b] = block_mark::present;
+    model.forget_initial_stress(step.fill, state.construction);
+    model.set_properties(model.properties(), state.construction);
+    for (const unsigned int block : blocks)
+      model.place(block, state);
+    model.exchange().update_ghosts(state.nodes.data());
+    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    {
+      const JointFace &face = model.mesh().joint_faces[joints.segment(i).face];
+      if ((step.fill[face.groups[0]] || step.fill[face.groups[1]])
+          && !model.is_at_absent_block(i, state))
+        joints.begin_anew(i, state.nodes.data(), state.joints);
+    }
+  }
+} // namespace quoin

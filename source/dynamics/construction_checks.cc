@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// What Construction asks of the stages.
+
+#include <quoin/base/exceptions.h>
+#include <quoin/dynamics/construction.h>
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Where @p items has the name @p name; its size: nowhere. */
+    template <typename T>
+    unsigned int position(const std::vector<T> &items, const std::string &name)
+    {
+      return std::find_if(items.begin(), items.end(),
+                          [&](const T &item) { return item.name == name; })
+             - items.begin();
+    }
+
+    template <typename T>
+    std::string names(const std::vector<T> &items)
+    {
+      std::string text;
+      for (const T &item : items)
+        text += (text.empty() ? "" : ", ") + item.name;
+      return text.empty() ? "none" : text;
+    }
+  } // namespace
+
+  std::vector<std::string>
+  groups_placed_later(const std::vector<StageParameters> &stages)
+  {
+    std::set<std::string> excavated, placed;
+    for (const StageParameters &stage : stages)
+    {
+      for (const std::string &group : stage.fill)
+        if (excavated.count(group) == 0)
+          placed.insert(group);
+      excavated.insert(stage.excavate.begin(), stage.excavate.end());
+    }
+    return { placed.begin(), placed.end() };
+  }
+
+  void Construction::check_borders(const Step &step,
+                                   const std::vector<bool> &groups,
+                                   const std::string &parameter) const
+  {
+    const BlockMesh<2> &mesh = model.mesh();
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+      for (unsigned int c = mesh.block_first_cell[b];
+           c < mesh.block_first_cell[b + 1]; ++c)
+      {
+        const unsigned int one   = mesh.cell_group[mesh.block_first_cell[b]];
+        const unsigned int other = mesh.cell_group[c];
+        if (groups[one] == groups[other])
+          continue;
+        const std::string &taken = mesh.group_names[groups[one] ? one : other];
+        const std::string &stays = mesh.group_names[groups[one] ? other : one];
+        throw InputError(step.where + ": '" + parameter + "' names '" + taken
+                         + "', which has no joint to '" + stays
+                         + "' beside it: only whole blocks can come and go. "
+                           "Add "
+                         + taken + ":" + stays
+                         + " to 'Joints between' in section 'Mesh', and their "
+                           "joint to a set of section 'Joints'.");
+      }
+  }
+
+  void Construction::check_presence()
+  {
+    const auto &group_names   = model.mesh().group_names;
+    std::vector<bool> present = model.groups_present_at_start();
+    for (Step &step : steps)
+    {
+      for (unsigned int g = 0; g < group_names.size(); ++g)
+      {
+        const std::string group = " '" + group_names[g] + "'";
+        if (step.excavate[g] && step.fill[g])
+          throw InputError(step.where + ": 'Excavate' and 'Fill' both name"
+                           + group
+                           + ". Excavate it in one stage and fill it in a "
+                             "later one.");
+        if (step.excavate[g] && !present[g])
+          throw InputError(step.where + ": 'Excavate' names" + group
+                           + ", which is not there: it was excavated before, "
+                             "or is placed later. Name it once.");
+        if (step.fill[g] && present[g])
+          throw InputError(step.where + ": 'Fill' names" + group
+                           + ", which is there already: it was placed before. "
+                             "Name it once, or excavate it in between.");
+        if (step.excavate[g] || step.fill[g])
+          present[g] = step.fill[g];
+      }
+      if ((step.takes || step.places || step.changes)
+          && model.large_displacements())
+        throw InputError(step.where
+                         + ": 'Excavate', 'Fill', 'Materials' and 'Joint "
+                           "properties' are for small displacements. Set "
+                           "'Displacements = small' in section 'Contact', or "
+                           "remove them.");
+      step.bears_load = present;
+      for (unsigned int g = 0; g < group_names.size(); ++g)
+        if (step.fill[g])
+          step.bears_load[g] = false;
+    }
+  }
+
+  std::vector<bool> Construction::absent_in_the_end() const
+  {
+    std::vector<bool> absent = model.groups_present_at_start();
+    absent.flip();
+    for (const Step &step : steps)
+      for (unsigned int g = 0; g < absent.size(); ++g)
+        if (step.excavate[g] || step.fill[g])
+          absent[g] = step.excavate[g];
+    return absent;
+  }
+
+  void Construction::find_properties(const unsigned int stage,
+                                     const StageParameters &parameters)
+  {
+    Step &step      = steps[stage];
+    step.properties = stage == 0 ? at_start : steps[stage - 1].properties;
+    for (const auto &[group, material] : parameters.materials)
+      change_material(group, material, step);
+    for (const auto &[set, other] : parameters.joint_properties)
+      change_joints(set, other, step);
+  }
+
+  void Construction::change_material(const std::string &group,
+                                     const std::string &material,
+                                     Step &step) const
+  {
+    const auto &materials = step.properties.materials;
+    const unsigned int m  = position(materials, material);
+    const std::string where
+        = step.where + ": 'Materials' has " + group + ":" + material;
+    if (m == materials.size())
+      throw InputError(where + ", but '" + material
+                       + "' is no material. There are: " + names(materials)
+                       + ". Name one of these.");
+    const auto groups = model.find_groups({ group }, where);
+    const unsigned int g
+        = std::find(groups.begin(), groups.end(), true) - groups.begin();
+    unsigned int &now = step.properties.material_of_group[g];
+    if (materials[m].rigid != materials[now].rigid)
+      throw InputError(where + ", but of these two '"
+                       + materials[materials[m].rigid ? m : now].name
+                       + "' is rigid: blocks cannot become rigid or "
+                         "deformable. Take a material of the same kind as '"
+                       + materials[now].name + "'.");
+    if (materials[m].elastic.density != materials[now].elastic.density
+        && step.bears_load[g])
+      throw InputError(where + ", but the densities of '" + materials[now].name
+                       + "' and '" + material
+                       + "' differ: blocks that are there keep their mass. "
+                         "Give both the same 'Density', or change the material "
+                         "in the stage that places the blocks by 'Fill'.");
+    now = m;
+  }
+
+  void Construction::change_joints(const std::string &set,
+                                   const std::string &other, Step &step) const
+  {
+    const std::string where
+        = step.where + ": 'Joint properties' has " + set + ":" + other;
+    for (const std::string &name : { set, other })
+      if (position(at_start.joints, name) == at_start.joints.size())
+        throw InputError(where + ", but '" + name
+                         + "' is no joint set. There are: "
+                         + names(at_start.joints) + ". Name one of these.");
+    JointSetParameters &now
+        = step.properties.joints[position(at_start.joints, set)];
+    // The other set's own law, whatever that set follows by now.
+    const JointSetParameters &wanted
+        = at_start.joints[position(at_start.joints, other)];
+    if (now.composite.has_value() != wanted.composite.has_value())
+      throw InputError(where
+                       + ", but one law is composite and the other is not: a "
+                         "joint cannot change the kind of its law. Give both "
+                         "sets the same 'Law'.");
+    now.law       = wanted.law;
+    now.composite = wanted.composite;
+  }
+} // namespace quoin

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// How a Model changes between stages.
+
+#include <quoin/base/exceptions.h>
+#include <quoin/dynamics/model.h>
+
+#include <algorithm>
+
+namespace quoin
+{
+  std::vector<bool> Model::find_groups(const std::vector<std::string> &names,
+                                       const std::string &where) const
+  {
+    std::vector<bool> result(block_mesh.group_names.size(), false);
+    for (const std::string &name : names)
+    {
+      const auto found = std::find(block_mesh.group_names.begin(),
+                                   block_mesh.group_names.end(), name);
+      if (found == block_mesh.group_names.end())
+      {
+        std::string known;
+        for (const auto &group : block_mesh.group_names)
+          known += (known.empty() ? "" : ", ") + group;
+        throw InputError(where + ": the mesh has no physical surface '" + name
+                         + "'. It has: " + known + ". Name one of these.");
+      }
+      result[found - block_mesh.group_names.begin()] = true;
+    }
+    return result;
+  }
+
+  std::vector<bool> Model::absent_nodes(const State &state) const
+  {
+    std::vector<bool> result(nodes->n_local(), false);
+    if (!state.block_marks.empty())
+      for (unsigned int i = 0; i < result.size(); ++i)
+        result[i]
+            = state.is_absent(block_mesh.block_of_vertex(nodes->global(i)));
+    return result;
+  }
+
+  std::vector<bool> Model::groups_present_at_start() const
+  {
+    std::vector<bool> present = absent_group;
+    present.flip();
+    return present;
+  }
+
+  void Model::bring_to_rest(const unsigned int block, State &state) const
+  {
+    const NodeRange range = block_nodes(block);
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      state.velocity[i] = NodeVector{ { 0., 0. } };
+    if (rigid_block[block])
+    {
+      std::fill_n(state.rigid_blocks[block - rigid_begin].velocity, 3, 0.);
+      return;
+    }
+    double mean[2]{};
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        mean[d] += state.nodes[i].u[d] / range.size();
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      std::copy(mean, mean + 2, state.nodes[i].u);
+    forget_yielding(block, state.plastic);
+  }
+
+  void Model::place(const unsigned int block, State &state) const
+  {
+    bring_to_rest(block, state);
+    const NodeRange range = block_nodes(block);
+    for (std::size_t i = range.begin; i < range.end; ++i)
+      std::fill_n(state.nodes[i].u, 2, 0.);
+    if (rigid_block[block])
+      state.rigid_blocks[block - rigid_begin] = RigidBlockState();
+  }
+
+  bool Model::is_at_absent_block(const unsigned int segment,
+                                 const State &state) const
+  {
+    const JointFace &face
+        = block_mesh.joint_faces[matched_joints.segment(segment).face];
+    return state.is_absent(block_mesh.block_of_vertex(face.lower[0]))
+           || state.is_absent(block_mesh.block_of_vertex(face.upper[0]));
+  }
+
+  AlignedArray<double> Model::packed_initial_stress() const
+  {
+    AlignedArray<double> result;
+    for (unsigned int c = 0; c < n_deformable_cells() && !cell_stress.empty();
+         ++c)
+      for (const double stress : cell_stress[first_cell() + c])
+        result.push_back(stress);
+    return result;
+  }
+
+  void Model::set_properties(const ModelProperties &properties,
+                             const ConstructionState &construction)
+  {
+    now = properties;
+    find_masses();
+    pack_blocks(construction);
+    matched_joints.set_laws(now.joints);
+    if (!block_mesh.quadratic)
+      find_stable_step();
+  }
+
+  void Model::forget_initial_stress(const std::vector<bool> &groups,
+                                    ConstructionState &construction)
+  {
+    if (construction.initial_stress.empty())
+      construction.initial_stress = packed_initial_stress();
+    auto &stress = construction.initial_stress;
+    for (unsigned int c = 0; 4 * c < stress.size(); ++c)
+      if (groups[block_mesh.cell_group[first_cell() + c]])
+        std::fill_n(&stress[4 * c], 4, 0.);
+  }
+
+  void Model::change_properties(const ModelProperties &properties, State &state)
+  {
+    std::vector<PlaneStiffness> stiffness;
+    std::vector<std::optional<MohrCoulomb>> laws;
+    for (const MaterialParameters &material : properties.materials)
+    {
+      stiffness.push_back(plane_stiffness(material.elastic, parameters.plane));
+      laws.emplace_back();
+      if (material.strength)
+        laws.back().emplace(material.elastic, *material.strength,
+                            parameters.plane);
+    }
+    auto &initial = state.construction.initial_stress;
+    for (unsigned int c = 0; c < n_deformable_cells(); ++c)
+    {
+      const unsigned int m
+          = properties
+                .material_of_group[block_mesh.cell_group[first_cell() + c]];
+      const MohrCoulomb *law = laws[m] ? &*laws[m] : nullptr;
+      const auto before      = block_forces.stress_of_strain(
+               state.nodes.data(), state.plastic, c, block_forces.cell_stiffness(c),
+               block_forces.cell_law(c));
+      const auto after = block_forces.stress_of_strain(
+          state.nodes.data(), state.plastic, c, stiffness[m], law);
+      const auto bears = block_forces.initial_stress(c);
+      if (law)
+        for (unsigned int k = 0; k < 4; ++k)
+          state.plastic.cells[c].stress[k] = bears[k] + before[k];
+      if (before == after)
+        continue;
+      if (initial.empty())
+        initial = packed_initial_stress();
+      initial.resize(4 * n_deformable_cells(), 0.);
+      for (unsigned int k = 0; k < 4; ++k)
+        initial[4 * c + k] = bears[k] + before[k] - after[k];
+    }
+    set_properties(properties, state.construction);
+    matched_joints.keep_tractions(state.nodes.data(), state.joints);
+  }
+} // namespace quoin

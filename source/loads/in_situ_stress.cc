@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/loads/in_situ_stress.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quoin
+{
+  namespace
+  {
+    using dealii::Patterns::Anything;
+    using dealii::Patterns::Double;
+    using dealii::Utilities::split_string_list;
+
+    /** The numbers in @p words; none if one is no finite number. */
+    std::vector<double> numbers(const std::vector<std::string> &words)
+    {
+      std::vector<double> values;
+      try
+      {
+        values = dealii::Utilities::string_to_double(words);
+      }
+      catch (const std::exception &)
+      {
+      }
+      if (!std::all_of(values.begin(), values.end(),
+                       [](const double value) { return std::isfinite(value); }))
+        values.clear();
+      return values;
+    }
+
+    std::vector<std::array<double, 2>>
+    read_surface(const ParameterSection &section)
+    {
+      std::vector<std::array<double, 2>> surface;
+      const auto points = split_string_list(section.text("Surface"), ';');
+      for (const std::string &point : points)
+      {
+        const auto values = numbers(split_string_list(point, ','));
+        if (points.size() == 1 && values.size() == 1)
+          return { { { 0., values[0] } } };
+        if (values.size() != 2
+            || (!surface.empty() && values[0] <= surface.back()[0]))
+          section.fail("Surface",
+                       "must be the height of a level surface, or points x, "
+                       "y; x, y with x ascending [m].");
+        surface.push_back({ { values[0], values[1] } });
+      }
+      return surface;
+    }
+
+    std::vector<InSituStress::Layer>
+    read_layers(const ParameterSection &section)
+    {
+      constexpr double lowest = -std::numeric_limits<double>::infinity();
+      std::vector<InSituStress::Layer> layers;
+      const auto words = section.list("Unit weight");
+      for (unsigned int i = 0; i < words.size(); ++i)
+      {
+        const bool is_last = i + 1 == words.size();
+        const auto values  = numbers(split_string_list(words[i], ':'));
+        if (values.size() != (is_last ? 1 : 2) || values[0] < 0.
+            || (!is_last && !layers.empty() && values[1] >= layers.back().foot))
+          section.fail("Unit weight",
+                       "must be a weight [N/m^3], not negative, or those of "
+                       "layers downwards, each but the last with the height of "
+                       "its foot [m], such as 18e3:-5, 21e3:-12, 26e3.");
+        layers.push_back({ values[0], is_last ? lowest : values[1] });
+      }
+      if (layers.empty())
+        section.fail("Unit weight", "must be given for an in-situ stress: "
+                                    "density times gravity [N/m^3].");
+      return layers;
+    }
+  } // namespace
+
+  double InSituStress::surface_height(const double x) const
+  {
+    const auto next = std::upper_bound(
+        surface.begin(), surface.end(), x,
+        [](const double at, const std::array<double, 2> &point)
+        { return at < point[0]; });
+    if (next == surface.begin())
+      return surface.front()[1];
+    if (next == surface.end())
+      return surface.back()[1];
+    const auto &[x0, y0] = *(next - 1);
+    return y0 + (x - x0) * ((*next)[1] - y0) / ((*next)[0] - x0);
+  }
+
+  std::array<double, 4> InSituStress::stress(const double x,
+                                             const double y) const
+  {
+    const double height = surface_height(x);
+    // Points of a level surface must not fall above it by rounding.
+    if (y > height + 1e-12 * (1. + std::abs(height)))
+      return {};
+    double vertical = -pressure, top = height;
+    for (const Layer &layer : layers)
+    {
+      const double bottom = std::max(y, layer.foot);
+      if (bottom < top)
+      {
+        vertical -= layer.unit_weight * (top - bottom);
+        top = bottom;
+      }
+    }
+    return { { horizontal_ratio * vertical + horizontal_stress, vertical, 0.,
+               out_of_plane_ratio * vertical + out_of_plane_stress } };
+  }
+
+  void InSituStress::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Surface", "0", Anything(),
+                      "In-situ stress: height y of the ground, or the points "
+                      "x, y; x, y of its line, level beyond the first and the "
+                      "last; stress is zero above it [m]");
+    prm.declare_entry("Unit weight", "", Anything(),
+                      "In-situ stress: that of the ground, or of its layers "
+                      "downwards, each but the last with the height of its "
+                      "foot [m]: 18e3:-5, 21e3:-12, 26e3 [N/m^3]");
+    prm.declare_entry("Surface pressure", "0", Double(),
+                      "In-situ stress: on the surface, beside the weight of "
+                      "the ground [Pa]");
+    prm.declare_entry("Horizontal ratio", "1", Double(),
+                      "In-situ stress: K0, horizontal by vertical stress [-]");
+    prm.declare_entry("Horizontal surface stress", "0", Double(),
+                      "In-situ stress: horizontal stress that is locked in at "
+                      "every depth, beside K0 times the vertical one, tension "
+                      "positive [Pa]");
+    prm.declare_entry("Out-of-plane ratio", "same", Anything(),
+                      "In-situ stress, in plane strain: stress out of the "
+                      "plane by vertical stress; 'same': as the horizontal "
+                      "one, with what is locked in [-]");
+  }
+
+  InSituStress InSituStress::read(const ParameterSection &section)
+  {
+    InSituStress result;
+    result.surface             = read_surface(section);
+    result.layers              = read_layers(section);
+    result.pressure            = section.number("Surface pressure");
+    result.horizontal_ratio    = section.nonnegative("Horizontal ratio");
+    result.horizontal_stress   = section.number("Horizontal surface stress");
+    result.out_of_plane_ratio  = result.horizontal_ratio;
+    result.out_of_plane_stress = result.horizontal_stress;
+    if (section.text("Out-of-plane ratio") != "same")
+    {
+      const auto ratio = numbers({ section.text("Out-of-plane ratio") });
+      if (ratio.empty() || ratio[0] < 0.)
+        section.fail("Out-of-plane ratio",
+                     "must be 'same' or a number that is not negative.");
+      result.has_out_of_plane    = true;
+      result.out_of_plane_ratio  = ratio[0];
+      result.out_of_plane_stress = 0.;
+    }
+    return result;
+  }
+} // namespace quoin

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "test_models.h"
+
+#include <quoin/dynamics/construction.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  StageParameters stage_of(const std::vector<std::string> &excavate,
+                           const std::vector<std::string> &fill,
+                           const double release = 1.)
+  {
+    StageParameters stage = stage_with({});
+    stage.excavate        = excavate;
+    stage.fill            = fill;
+    stage.release         = release;
+    return stage;
+  }
+
+  ModelParameters under_stress(const bool rigid = false)
+  {
+    ModelParameters parameters    = two_blocks();
+    parameters.materials[1].rigid = rigid;
+    LoadParameters stress;
+    stress.name                 = "in situ";
+    stress.type                 = LoadType::initial_stress;
+    stress.stress               = { { -2e6, -3e6, 0.5e6 } };
+    parameters.initial_stresses = { stress };
+    return parameters;
+  }
+
+  /** What acts on each node at the positions of the state, without motion. */
+  AlignedArray<NodeVector> forces(const Model &model, State state)
+  {
+    AlignedArray<NodeVector> result(state.nodes.size(),
+                                    NodeVector{ { 0., 0. } });
+    model.joints().add_forces(state.nodes.data(), state.joints, state.energy,
+                              result.data());
+    for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
+      model.blocks().add_forces(tile, state.nodes.data(), state.plastic,
+                                result.data());
+    return result;
+  }
+
+  double largest(const AlignedArray<NodeVector> &force)
+  {
+    double result = 0.;
+    for (const NodeVector &f : force)
+      result = std::max({ result, std::abs(f.v[0]), std::abs(f.v[1]) });
+    return result;
+  }
+
+  /** Begins @p stages one after the other in free motion; the residual of the
+      energy balance by what went through, the largest. */
+  double residual_in_motion(TestRun &run, std::vector<StageParameters> stages)
+  {
+    stages.insert(stages.begin(), stage_with({}));
+    Construction construction(run.model, stages);
+    double result = 0.;
+    for (unsigned int i = 0; i < stages.size(); ++i)
+    {
+      // 300 steps of it, all of which the ramp takes
+      construction.begin_stage(i, run.solver, run.state);
+      if (i == 0)
+        run.throw_at_random(0.5);
+      if (i == 0 && run.model.rigid_blocks().n_blocks() > 0)
+        run.state.rigid_blocks[0].velocity[2] = 0.1;
+      stages[i].release_duration
+          = 300. * 0.5 * (i == 0 ? 1e-5 : run.solver.critical_time_step());
+      run.begin(stages[i], 0.5, i == 0 ? nullptr : &stages[i - 1]);
+      if (i == 0)
+        run.state.energy.external = 0.;
+      for (unsigned int k = 0; k < 300; ++k)
+      {
+        run.solver.step(run.state, { true, false });
+        const Energies &energies = run.solver.energies();
+        if (i == 0 && k == 0)
+          run.state.energy.external += energies.residual();
+        else if (i > 0 || k > 1)
+          result = std::max(result, std::abs(energies.residual())
+                                        / energies.throughput());
+      }
+    }
+    return result;
+  }
+} // namespace
+
+TEST(Construction, ForcesOfWhatIsTakenStay)
+{
+  for (const bool rigid : { false, true })
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, 3, 2);
+    TestRun run(mesh, under_stress(rigid), {});
+    const std::vector<StageParameters> stages
+        = { stage_of({ "upper" }, {}, 0.25), stage_of({}, {}, 1.) };
+    Construction construction(run.model, stages);
+    const auto before = forces(run.model, run.state);
+    construction.begin_stage(0, run.solver, run.state);
+    EXPECT_TRUE(run.state.is_absent(1));
+    EXPECT_FALSE(run.state.is_absent(0));
+
+    StageParameters stage  = stages[0];
+    stage.release_duration = 4.;
+    const auto after       = forces(run.model, run.state);
+    const NodeRange lower  = run.model.block_nodes(0);
+    for (const double time : { 0., 2., 4., 9. })
+    {
+      AlignedArray<NodeVector> held(before.size(), NodeVector{ { 0., 0. } });
+      const Release release(run.state, stage, 4.);
+      release.add_forces(time, held.data());
+      const double left = time == 0. ? 1. : time == 2. ? 0.875 : 0.75;
+      for (std::size_t i = lower.begin; i < lower.end; ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+          EXPECT_NEAR(held[i].v[d], left * (before[i].v[d] - after[i].v[d]),
+                      1e-9 * largest(before));
+      // nothing acts on what is gone
+      for (std::size_t i = lower.end; i < held.size(); ++i)
+        EXPECT_EQ(std::abs(held[i].v[0]) + std::abs(held[i].v[1]), 0.);
+    }
+    construction.begin_stage(1, run.solver, run.state);
+    ASSERT_EQ(run.state.construction.held.size(), 1U);
+    EXPECT_DOUBLE_EQ(run.state.construction.held[0].left, 0.75);
+    EXPECT_EQ(run.state.construction.held[0].left_at_end, 0.);
+  }
+}
+
+TEST(Construction, PlacedBlocksAreFreeOfStress)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, under_stress(), {});
+  for (NodeRecord &node : run.state.nodes)
+    node.u[1] += 1e-4 * node.X[0];
+  Construction construction(
+      run.model, { stage_of({ "upper" }, {}), stage_of({}, { "upper" }) });
+  construction.begin_stage(0, run.solver, run.state);
+  construction.begin_stage(1, run.solver, run.state);
+  EXPECT_FALSE(run.state.is_absent(1));
+  const NodeRange upper = run.model.block_nodes(1);
+  const auto force      = forces(run.model, run.state);
+  for (std::size_t i = upper.begin; i < upper.end; ++i)
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      EXPECT_EQ(run.state.nodes[i].u[d], 0.);
+      EXPECT_NEAR(force[i].v[d], 0., 1e-9 * largest(force));
+    }
+}
+
+TEST(Construction, EnergyOfMovingBlocksIsAccountedFor)
+{
+  for (const bool rigid : { false, true })
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, 3, 2);
+    TestRun run(mesh, under_stress(rigid), {});
+    EXPECT_LT(residual_in_motion(run, { stage_of({ "upper" }, {}, 0.6),
+                                        stage_of({}, { "upper" }) }),
+              1e-10);
+  }
+}
+
+TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  ModelParameters parameters = under_stress();
+  MaterialParameters soft    = material("soft", 2500., 3e9, 0.3);
+  soft.groups.clear();
+  parameters.materials.push_back(soft);
+  JointSetParameters weak = elastic_joint(5e9, 2e9, "weak");
+  weak.curves.clear();
+  parameters.joints.push_back(weak);
+  StageParameters change  = stage_of({}, {});
+  change.materials        = { { "upper", "soft" } };
+  change.joint_properties = { { "joint", "weak" } };
+  {
+    TestRun run(mesh, parameters, {});
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> uniform(-1e-4, 1e-4);
+    for (NodeRecord &node : run.state.nodes)
+      for (double &u : node.u)
+        u = uniform(random);
+    const auto before = forces(run.model, run.state);
+    Construction construction(run.model, { change });
+    construction.begin_stage(0, run.solver, run.state);
+    const auto after = forces(run.model, run.state);
+    for (std::size_t i = 0; i < before.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        EXPECT_NEAR(after[i].v[d], before[i].v[d], 1e-10 * largest(before));
+
+    // the new stiffness from there on
+    const double stiff
+        = run.model.blocks().cell_stiffness(run.model.n_cells() - 1).c33;
+    EXPECT_DOUBLE_EQ(stiff, 3e9 / 2.6);
+    construction.restart();
+    EXPECT_DOUBLE_EQ(
+        run.model.blocks().cell_stiffness(run.model.n_cells() - 1).c33,
+        1e10 / 2.4);
+  }
+  TestRun run(mesh, parameters, {});
+  EXPECT_LT(residual_in_motion(run, { change }), 1e-10);
+}
