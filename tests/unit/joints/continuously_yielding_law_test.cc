@@ -117,7 +117,7 @@ TEST(ContinuouslyYieldingLaw, ReloadingNearTheBoundIsSofter)
   auto walk = closed(yielding(), -pressure);
   walk.slide(-pressure, 5e-3, 2000);
   walk.slide(-pressure, walk.slip - 1e-6);
-  EXPECT_EQ(walk.point.reload, ContinuouslyYieldingLaw::largest_reload);
+  EXPECT_EQ(walk.point.reload, 0.75);
 }
 
 TEST(ContinuouslyYieldingLaw, VibrationsOfPressureLeaveShearAlone)
