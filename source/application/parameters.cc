@@ -268,6 +268,10 @@ namespace quoin
       const ParameterSection section(top, "Stages");
       if (parameters.stages.empty())
         section.fail("Names", "must list at least one stage.");
+      if (parameters.stages.front().safety)
+        ParameterSection(section, parameters.stages.front().name)
+            .fail("End", "needs a stage before it that brings the model to "
+                         "rest: a factor of safety begins with its state.");
       double end = 0.; // of the stage before; NaN: known only as it runs
       for (const StageParameters &stage : parameters.stages)
       {

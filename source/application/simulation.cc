@@ -66,7 +66,9 @@ namespace quoin
     if (options.resume)
       resume();
     for (unsigned int i = record.state.stage; i < parameters.stages.size(); ++i)
-      if (implicit_solver)
+      if (parameters.stages[i].safety)
+        run_safety_stage(i);
+      else if (implicit_solver)
         run_implicit_stage(i);
       else
         run_stage(i);
@@ -213,10 +215,18 @@ namespace quoin
                     "and the strength of these joints.");
   }
 
+  const StageParameters *
+  Simulation::previous_stage(const unsigned int index) const
+  {
+    for (unsigned int i = index; i-- > 0;)
+      if (!parameters.stages[i].safety)
+        return &parameters.stages[i];
+    return nullptr;
+  }
+
   void Simulation::begin_stage(const unsigned int index, State &state)
   {
-    const StageParameters *previous
-        = index == 0 ? nullptr : &parameters.stages[index - 1];
+    const StageParameters *previous = previous_stage(index);
     try
     {
       construction->begin_stage(index, *solver, state);
@@ -242,8 +252,7 @@ namespace quoin
     {
       construction->resume_stage(index - 1, record.state);
       if (explicit_solver)
-        explicit_solver->restore_masses(parameters.stages[index - 1],
-                                        record.state);
+        explicit_solver->restore_masses(*previous_stage(index), record.state);
     }
   }
 
@@ -407,13 +416,7 @@ namespace quoin
               "more.");
       return time_is_over(stage);
     }
-    if (balance
-        && !solver->loads_have_changed(
-            record.state, balance_interval * explicit_solver->get_time_step())
-        && record.state.time - record.state.stage_start
-               >= stage.minimum_duration
-        && record.state.stage_step > balance_interval
-        && record.state.unbalanced_ratio <= stage.static_ratio)
+    if (has_settled(stage, balance))
       return true;
     if (record.state.stage_step >= stage.maximum_steps)
       throw RunError("stage '" + stage.name + "' has not settled within "
@@ -424,6 +427,18 @@ namespace quoin
                      + ". The model may have no equilibrium under these "
                        "loads; otherwise raise 'Maximum steps' or damp more.");
     return false;
+  }
+
+  bool Simulation::has_settled(const StageParameters &stage,
+                               const bool balance) const
+  {
+    const State &state = record.state;
+    return balance
+           && !solver->loads_have_changed(
+               state, balance_interval * explicit_solver->get_time_step())
+           && state.time - state.stage_start >= stage.minimum_duration
+           && state.stage_step > balance_interval
+           && state.unbalanced_ratio <= stage.static_ratio;
   }
 
   double Simulation::energy_residual() const

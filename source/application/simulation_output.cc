@@ -252,6 +252,16 @@ namespace quoin
       summary["iterations"] = record.iterations;
       summary["cut steps"]  = record.cuts;
     }
+    for (unsigned int i = 0; i < record.searches.size(); ++i)
+      if (parameters.stages[i].safety
+          && std::isfinite(record.searches[i].lowest_failing()))
+      {
+        const FactorSearch &search = record.searches[i];
+        auto &found = summary["factor of safety"][parameters.stages[i].name];
+        found["stable at"]  = search.highest_stable();
+        found["failing at"] = search.lowest_failing();
+        found["trials"]     = search.trials().size();
+      }
     summary["solver"] = implicit_solver ? "implicit" : "explicit";
     if (parameters.model.contact.has_box)
     {

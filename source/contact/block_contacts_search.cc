@@ -54,16 +54,23 @@ namespace quoin
   {
     if (skin == 0.)
       skin = automatic_skin * median_length(edges);
-    for (const JointSetParameters &set : model.sets)
+    set_laws(model.sets);
+    find_set_of_materials(model);
+    for (unsigned int e = 0; e < edges.size(); ++e)
+      if (exchange.owns(edges[e].nodes[0]))
+        boundary_nodes.push_back(exchange.local(edges[e].nodes[0]));
+  }
+
+  void BlockContacts::set_laws(const std::vector<JointSetParameters> &sets)
+  {
+    laws.clear();
+    rocks.clear();
+    for (const JointSetParameters &set : sets)
     {
       laws.push_back(set.law);
       rocks.push_back(set.rock);
       can_dilate = can_dilate || set.rock || set.law.dilation != 0.;
     }
-    find_set_of_materials(model);
-    for (unsigned int e = 0; e < edges.size(); ++e)
-      if (exchange.owns(edges[e].nodes[0]))
-        boundary_nodes.push_back(exchange.local(edges[e].nodes[0]));
   }
 
   void BlockContacts::find_set_of_materials(const ContactModel &model)

@@ -88,10 +88,13 @@ namespace quoin
   {
     prm.declare_entry("Loads", "", Anything(),
                       "Names of the loads that act in this stage.");
-    prm.declare_entry("End", "time", Selection("time|static ratio"),
-                      "What ends the stage: its duration, or that the sum of "
+    prm.declare_entry("End", "time", Selection("time|static ratio|factor of safety"),
+                      "What ends the stage: its duration; or that the sum of "
                       "the unbalanced forces has fallen to a share of that of "
-                      "the applied ones.");
+                      "the applied ones. Factor of safety: strengths are "
+                      "divided by factors, each time from the state of the "
+                      "stage before, until it is known which one the model "
+                      "still bears; it then goes on as it was.");
     prm.declare_entry("Duration", "0", Double(), "For 'End = time' [s]");
     prm.declare_entry("Kinetic energy limit", "0", Double(),
                       "The clock of the loads slows down, at most ten "
@@ -101,7 +104,8 @@ namespace quoin
                       "loading to collapse; 0: loads follow the time [-]");
     prm.declare_entry("Static ratio", "1e-6", Double(),
                       "Unbalanced to applied force at which a stage with "
-                      "'End = static ratio' ends [-]");
+                      "'End = static ratio' ends, and a factor of safety "
+                      "is stable [-]");
     prm.declare_entry("Minimum duration", "0", Double(),
                       "For 'End = static ratio': the stage lasts at least so "
                       "long, for loads that begin later [s]");
@@ -110,7 +114,8 @@ namespace quoin
                       "meant to begin, as a check [s]");
     prm.declare_entry("Maximum steps", "10000000", Integer(1),
                       "A static stage that has not settled by then ends "
-                      "the run as failed [-]");
+                      "the run as failed, a factor of safety counts as "
+                      "failing [-]");
     prm.declare_entry("Damping", "none",
                       Selection("none|local|adaptive|Rayleigh"),
                       "local: a share of the unbalanced force, against the "
@@ -130,6 +135,7 @@ namespace quoin
                       "Time step to which 'Mass scaling' raises the critical "
                       "one, before the share of it that is used [s]");
     declare_construction(prm);
+    SafetyParameters::declare(prm);
   }
 
   StageParameters StageParameters::read(const ParameterSection &section,
@@ -140,7 +146,8 @@ namespace quoin
     stage.loads = section.list("Loads");
     stage.end   = section.choice<StageEnd>(
         "End", { { "time", StageEnd::time },
-                   { "static ratio", StageEnd::static_ratio } });
+                   { "static ratio", StageEnd::static_ratio },
+                   { "factor of safety", StageEnd::static_ratio } });
     if (stage.end == StageEnd::time)
       stage.duration = section.positive("Duration");
     else
@@ -178,6 +185,16 @@ namespace quoin
     if (section.flag("Mass scaling"))
       stage.scaled_time_step = section.positive("Scaled time step");
     read_construction(section, stage);
+    if (section.text("End") == "factor of safety")
+    {
+      stage.safety = SafetyParameters::read(section);
+      for (const char *name :
+           { "Excavate", "Fill", "Materials", "Joint properties" })
+        if (!section.text(name).empty())
+          section.fail(name, "does not go with 'End = factor of safety', which "
+                             "leaves the model as it was. Use a stage of its "
+                             "own before it.");
+    }
     return stage;
   }
 } // namespace quoin

@@ -63,6 +63,7 @@ namespace quoin
       bool stage_begun                = false;
       std::uint64_t convergence_bytes = 0;
       std::uint64_t iterations = 0, cuts = 0; /**< of the implicit solver */
+      std::vector<FactorSearch> searches; /**< of each stage; or empty */
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
@@ -70,7 +71,8 @@ namespace quoin
         archive &state &histories_bytes &energies_bytes &block_output
             &joint_output &contact_output &boundary_output &far_field_bytes
                 &wall_time &largest_residual &largest_throughput &fields_time
-                    &stage_begun &convergence_bytes &iterations &cuts;
+                    &stage_begun &convergence_bytes &iterations &cuts
+                        &searches;
       }
     };
 
@@ -85,6 +87,22 @@ namespace quoin
     void resume();
     void open_outputs();
     void run_stage(unsigned int index);
+    /** The last one before it that leaves the model changed, or null. */
+    const StageParameters *previous_stage(unsigned int index) const;
+    void run_safety_stage(unsigned int index);
+    /** Divides the strengths of @p strong by @p factor. */
+    void set_strength(const ModelProperties &strong,
+                      const SafetyParameters &safety, double factor);
+    /** @p base: the state before the stage. */
+    SafetyTrial try_factor(const StageParameters &stage, double factor,
+                           const State &base);
+    void come_to_rest(const StageParameters &stage, const State &base,
+                      SafetyTrial &trial);
+    void find_equilibrium(const StageParameters &stage, SafetyTrial &trial);
+    double largest_displacement(const State &base) const;
+    /** The failing state with displacements since @p base: mechanism/. */
+    void write_mechanism(const State &base, double factor);
+    void report_safety(unsigned int index);
     void end_stage(unsigned int index);
     void report_implicit_model();
     void run_implicit_stage(unsigned int index);
@@ -107,9 +125,10 @@ namespace quoin
     /** Of a stage that lasts for a given time. */
     bool time_is_over(const StageParameters &stage) const;
     bool stage_is_over(const StageParameters &stage, bool balance);
-    /** A file of the output folder. */
+    bool has_settled(const StageParameters &stage, bool balance) const;
     /** .geo, .msh and statistics of blocks that were generated. */
     void write_generated_geometry() const;
+    /** A file of the output folder. */
     void write_text(const std::string &name, const std::string &text) const;
     void write_energies();
     void write_fields();

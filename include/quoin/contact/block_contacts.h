@@ -82,6 +82,9 @@ namespace quoin
      */
     void update(State &state, const MatchedJoints &joints, double dt);
 
+    /** Other laws of the same joint sets, with the same stiffness. */
+    void set_laws(const std::vector<JointSetParameters> &sets);
+
     /** The next update() searches: blocks were removed. Collective. */
     void search_anew(ContactState &contacts)
     {

@@ -117,6 +117,13 @@ namespace quoin
       return std::exchange(blocks_outside, {});
     }
 
+    /** Laws of all joint sets for contacts that come and go, if any do. */
+    void set_contact_laws(const std::vector<JointSetParameters> &sets)
+    {
+      if (block_contacts)
+        block_contacts->set_laws(sets);
+    }
+
     const BlockContacts *contacts() const override
     {
       return block_contacts.get();

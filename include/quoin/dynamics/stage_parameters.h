@@ -5,8 +5,10 @@
 #define quoin_dynamics_stage_parameters_h
 
 #include <quoin/base/parameter_section.h>
+#include <quoin/dynamics/factor_search.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,6 +63,9 @@ namespace quoin
     std::vector<std::pair<std::string, std::string>> materials;
     /** Joint sets and those whose laws they follow from now on. */
     std::vector<std::pair<std::string, std::string>> joint_properties;
+
+    /** The stage settles with ever lower strength, and changes nothing. */
+    std::optional<SafetyParameters> safety;
 
     bool changes_properties() const
     {
