@@ -113,8 +113,8 @@ namespace quoin
   {
     const BlockMesh<2> &mesh    = model.mesh();
     const MatchedJoints &joints = model.joints();
-    AlignedArray<NodeVector> force(state.nodes.size(),
-                                   NodeVector{ { 0., 0. } });
+    AlignedArray<NodeVector> held(state.nodes.size(), NodeVector{ { 0., 0. } });
+    AlignedArray<NodeVector> lost = held; // of joints within what is taken
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
       if (model.is_at_absent_block(i, state))
@@ -122,12 +122,20 @@ namespace quoin
       const JointFace &face = mesh.joint_faces[joints.segment(i).face];
       const bool lower      = step.excavate[face.groups[0]];
       const bool upper      = step.excavate[face.groups[1]];
-      if (lower != upper)
-        joints.add_traction_forces(i, state.nodes.data(), state.joints,
-                                   force.data());
-      if (lower || upper)
-        joints.let_go(i, state.joints);
+      if (!lower && !upper)
+        continue;
+      joints.add_traction_forces(i, state.nodes.data(), state.joints,
+                                 lower != upper ? held.data() : lost.data());
+      joints.let_go(i, state.joints);
     }
+    // Their energy at the present positions has what these forces did over the
+    // last half step. On blocks that stay those that take their place will
+    // book it again; on what is taken it is part of the motion that goes.
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        state.energy.external -= 0.5 * state.previous_time_step
+                                 * (held[i].v[d] + lost[i].v[d])
+                                 * state.velocity[i].v[d];
 
     state.block_marks.resize(mesh.n_blocks(), block_mark::present);
     for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
@@ -139,17 +147,11 @@ namespace quoin
       model.bring_to_rest(block, state);
     model.exchange().update_ghosts(state.nodes.data());
 
-    // Its energy at the present positions has the work of these forces over
-    // the last half step, which those that take their place will book again.
     HeldForces item;
     const auto absent = model.absent_nodes(state);
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-      {
-        item.force.push_back(absent[i] ? 0. : force[i].v[d]);
-        state.energy.external -= 0.5 * state.previous_time_step
-                                 * item.force.back() * state.velocity[i].v[d];
-      }
+        item.force.push_back(absent[i] ? 0. : held[i].v[d]);
     for (HeldForces &earlier : state.construction.held)
       for (std::size_t i = 0; i < earlier.force.size(); ++i)
         if (absent[i / 2])
