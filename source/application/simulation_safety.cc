@@ -19,7 +19,7 @@ namespace quoin
   namespace
   {
     /** Of the model's diagonal. */
-    constexpr double failure_share = 1e-3;
+    constexpr double failure_share = 1e-4;
 
     std::string safety_table(const FactorSearch &search)
     {

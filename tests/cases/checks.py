@@ -1049,3 +1049,40 @@ def in_situ_rest(case, folder, output, histories):
         "joint traction": (
             float(np.max(nearest) / largest),
             case.get("traction tolerance", case["tolerance"]))}
+
+
+def factor_of_safety(case, folder, output, histories):
+    """The middle of the bracket against a column of a table, its width, and
+    the mechanism: what has moved is where the failing blocks are."""
+    with open(os.path.join(output, "summary.json")) as stream:
+        found = json.load(stream)["factor of safety"]["safety"]
+    table, _ = read_table(os.path.join(folder, "reference.csv"))
+    wanted = table[case["factor"]][0]
+    stable, failing = found["stable at"], found["failing at"]
+    print("  stable at %.4f, failing at %.4f, reference %.4f, %d trials"
+          % (stable, failing, wanted, found["trials"]))
+    if not os.path.exists(os.path.join(output, "mechanism", "blocks.pvd")):
+        raise Failure("the failing state was not written")
+    return {"factor of safety": (
+                float(abs(0.5 * (stable + failing) / wanted - 1)),
+                case["tolerance"]),
+            "width of the bracket": (float(failing - stable), 0.010001)}
+
+
+def creep(case, folder, output, histories):
+    """What moves in the stage after the one that came to rest, by how far it
+    settled."""
+    histories = strictly_increasing(histories)
+    rest = histories["time"] > histories["time"][-1] - 1.0
+    settled = max(np.max(np.abs(histories[name]))
+                  for name in case["moves"])
+    moved = max(np.ptp(histories[name][rest]) for name in case["moves"])
+    # of the second half of the stage, by a straight line
+    late = histories["time"] > histories["time"][-1] - 0.5
+    drift = max(abs(np.polyfit(histories["time"][late],
+                               histories[name][late], 1)[0]) * 0.5
+                for name in case["moves"])
+    print("  settled %.3e m, moved %.1e m, drift in half a second %.1e m"
+          % (settled, moved, drift))
+    return {"motion at rest": (float(moved / settled), case["tolerance"]),
+            "drift": (float(drift / settled), case["tolerance"])}

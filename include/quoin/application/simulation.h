@@ -63,7 +63,7 @@ namespace quoin
       bool stage_begun                = false;
       std::uint64_t convergence_bytes = 0;
       std::uint64_t iterations = 0, cuts = 0; /**< of the implicit solver */
-      std::vector<FactorSearch> searches; /**< of each stage; or empty */
+      std::vector<FactorSearch> searches = {}; /**< of each stage; or empty */
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
