@@ -265,9 +265,9 @@ namespace quoin
     summary["solver"] = implicit_solver ? "implicit" : "explicit";
     if (parameters.model.contact.has_box)
     {
-      const auto &marks         = record.state.block_marks;
-      summary["blocks deleted"] = std::count(marks.begin(), marks.end(),
-                                             block_mark::removed);
+      const auto &marks = record.state.block_marks;
+      summary["blocks deleted"]
+          = std::count(marks.begin(), marks.end(), block_mark::removed);
       summary["blocks outside the box"]
           = std::count(marks.begin(), marks.end(), block_mark::left_box);
     }

@@ -85,9 +85,8 @@ namespace quoin
     for (unsigned int i = 0; i < model.n_blocks(); ++i)
     {
       const unsigned int b = model.first_block() + i;
-      outside[b]           = !state.is_absent(b)
-                   && is_outside(b, state);
-      stays[b] = !outside[b] || !removes || moved[i];
+      outside[b]           = !state.is_absent(b) && is_outside(b, state);
+      stays[b]             = !outside[b] || !removes || moved[i];
       is_news |= outside[b] && (marks[b] == 0 || !stays[b]);
     }
     if (dealii::Utilities::MPI::max(is_news ? 1U : 0U, communicator) == 0)
@@ -102,8 +101,7 @@ namespace quoin
       if (outside[b] && (marks[b] == 0 || !stays[b]))
       {
         found.push_back({ b, { { 0., 0. } }, state.time, !stays[b] });
-        marks[b] = stays[b] ? block_mark::left_box
-                            : block_mark::removed;
+        marks[b] = stays[b] ? block_mark::left_box : block_mark::removed;
       }
     find_positions(found, state);
     if (parameters.outside == Outside::stop && !found.empty())

@@ -74,7 +74,7 @@ namespace quoin
     std::unique_ptr<BoundaryHistories> of_boundary; /**< or null */
     MPI_Comm communicator;
     const std::vector<bool> absent_in_the_end; /**< of physical surfaces */
-    std::array<double, 2> load_clock{}; /**< its time [s] and rate */
+    std::array<double, 2> load_clock{};        /**< its time [s] and rate */
     std::vector<double> row;
   };
 } // namespace quoin

@@ -400,7 +400,7 @@ namespace quoin
     constexpr std::uint8_t left_box = 1; /**< present, outside the box */
     constexpr std::uint8_t removed  = 2; /**< deleted outside the box */
     constexpr std::uint8_t absent   = 3; /**< excavated, or not placed yet */
-  } // namespace block_mark
+  }                                      // namespace block_mark
 
   /** What excavated blocks exerted on those that stay, as it is let go. */
   struct HeldForces

@@ -34,7 +34,7 @@ namespace quoin
     double pressure           = 0.;             /**< p on the surface [Pa] */
     double horizontal_ratio   = 1.;             /**< K_0 [-] */
     double horizontal_stress  = 0.;             /**< sigma_h [Pa] */
-    double out_of_plane_ratio = 1.; /**< of sigma_zz by sigma_yy [-] */
+    double out_of_plane_ratio = 1.;    /**< of sigma_zz by sigma_yy [-] */
     bool has_out_of_plane     = false; /**< whether that was given */
     /** Added to sigma_zz [Pa]. */
     double out_of_plane_stress = 0.;
