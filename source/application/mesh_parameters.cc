@@ -53,20 +53,18 @@ namespace quoin
   {
     void lay(const WallParameters &wall, Parameters &parameters)
     {
-      const WallLayout layout       = lay_wall(wall);
-      const WallGeometry geometry   = wall_geometry(wall, layout);
-      parameters.generated          = { "wall", geometry.text,
-                                        wall_report(layout), "" };
+      const WallLayout layout     = lay_wall(wall);
+      const WallGeometry geometry = wall_geometry(wall, layout);
+      parameters.generated = { "wall", geometry.text, wall_report(layout), "" };
       parameters.split.joints_along = geometry.joint_curves;
     }
 
     void lay(const RockParameters &rock, Parameters &parameters)
     {
-      const RockLayout layout       = lay_rock(rock);
-      const RockGeometry geometry   = rock_geometry(rock, layout);
-      parameters.generated          = { "rock", geometry.text,
-                                        rock_report(rock, layout),
-                                        rock_statistics(rock, layout) };
+      const RockLayout layout     = lay_rock(rock);
+      const RockGeometry geometry = rock_geometry(rock, layout);
+      parameters.generated = { "rock", geometry.text, rock_report(rock, layout),
+                               rock_statistics(rock, layout) };
       parameters.split.joints_along = geometry.joint_curves;
     }
 
@@ -83,9 +81,10 @@ namespace quoin
       const bool has_wall       = wall.bond != WallBond::none;
       const bool has_rock       = !rock.outline.empty();
       if (has_wall && has_rock)
-        ParameterSection(top, "Rock").fail(
-            "Outline", "does not go with a wall of section 'Wall': leave it "
-                       "empty, or set 'Wall/Bond = none'.");
+        ParameterSection(top, "Rock")
+            .fail("Outline",
+                  "does not go with a wall of section 'Wall': leave it "
+                  "empty, or set 'Wall/Bond = none'.");
       if (!has_wall && !has_rock)
         return false;
       {

@@ -81,8 +81,8 @@ namespace quoin
         = parameters.generated.geometry.empty()
               ? read_gmsh(parameters.mesh_file, communicator,
                           parameters.triangles)
-              : mesh_gmsh_geometry(parameters.generated.geometry,
-                                   communicator, parameters.triangles);
+              : mesh_gmsh_geometry(parameters.generated.geometry, communicator,
+                                   parameters.triangles);
     split_into_blocks(as_read, parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 

@@ -19,7 +19,7 @@ namespace quoin
   namespace
   {
     /** Of the model's diagonal. */
-    constexpr double failure_share = 1e-4;
+    constexpr double failure_share = 1e-3;
 
     std::string safety_table(const FactorSearch &search)
     {
@@ -56,14 +56,13 @@ namespace quoin
 
     // Every trial begins with the state that the stage found, and so does the
     // stage after it.
-    const State base              = record.state;
-    const ModelProperties strong  = model->properties();
+    const State base             = record.state;
+    const ModelProperties strong = model->properties();
     while (!search.is_over(safety))
     {
       begin_stage(index, record.state);
       set_strength(strong, safety, search.next(safety));
-      const SafetyTrial trial
-          = try_factor(stage, search.next(safety), base);
+      const SafetyTrial trial = try_factor(stage, search.next(safety), base);
       log.message("stage " + stage.name + ": factor "
                   + number_text(trial.factor) + " is "
                   + (trial.is_stable    ? "stable"
@@ -183,8 +182,8 @@ namespace quoin
     for (unsigned int i = 0; i < model->exchange().n_owned(); ++i)
     {
       const double *now = record.state.nodes[i].u, *then = base.nodes[i].u;
-      largest = std::max(largest,
-                         std::hypot(now[0] - then[0], now[1] - then[1]));
+      largest
+          = std::max(largest, std::hypot(now[0] - then[0], now[1] - then[1]));
     }
     return dealii::Utilities::MPI::max(largest, communicator);
   }
@@ -218,11 +217,11 @@ namespace quoin
 
   void Simulation::report_safety(const unsigned int index)
   {
-    const StageParameters &stage   = parameters.stages[index];
-    const FactorSearch &search     = record.searches[index];
-    const double stable            = search.highest_stable();
-    const double failing           = search.lowest_failing();
-    const std::string begin        = "stage " + stage.name + ": ";
+    const StageParameters &stage = parameters.stages[index];
+    const FactorSearch &search   = record.searches[index];
+    const double stable          = search.highest_stable();
+    const double failing         = search.lowest_failing();
+    const std::string begin      = "stage " + stage.name + ": ";
     if (stable == 0.)
       log.warning(begin + "even the lowest factor, " + number_text(failing)
                   + ", fails: the model has no equilibrium under these loads");
@@ -235,7 +234,8 @@ namespace quoin
                   + number_text(stable) + ", failing at "
                   + number_text(failing));
     if (stable > failing)
-      log.warning(begin + "a factor above one that fails is stable: lower "
-                          "'Static ratio', or raise 'Failure displacement'");
+      log.warning(begin
+                  + "a factor above one that fails is stable: lower "
+                    "'Static ratio', or raise 'Failure displacement'");
   }
 } // namespace quoin

@@ -27,12 +27,11 @@ namespace quoin
     prm.declare_entry("Factor tolerance", "0.01", Double(),
                       "The search ends when a stable factor and one that fails "
                       "are no farther apart [-]");
-    prm.declare_entry(
-        "Failure displacement", "0", Double(),
-        "A factor fails when the largest displacement since its "
-        "start is beyond this and has grown by half or more "
-        "since half of the time; 0: a ten-thousandth of the model's "
-        "diagonal [m]");
+    prm.declare_entry("Failure displacement", "0", Double(),
+                      "A factor fails when the largest displacement since its "
+                      "start is beyond this and has grown by half or more "
+                      "since half of the time; 0: a thousandth of the model's "
+                      "diagonal [m]");
     prm.declare_entry("Reduced strength", "joints and blocks",
                       Selection("joints and blocks|joints|blocks"),
                       "Whose cohesion, tensile strength and tangent of the "

@@ -88,7 +88,8 @@ namespace quoin
   {
     prm.declare_entry("Loads", "", Anything(),
                       "Names of the loads that act in this stage.");
-    prm.declare_entry("End", "time", Selection("time|static ratio|factor of safety"),
+    prm.declare_entry("End", "time",
+                      Selection("time|static ratio|factor of safety"),
                       "What ends the stage: its duration; or that the sum of "
                       "the unbalanced forces has fallen to a share of that of "
                       "the applied ones. Factor of safety: strengths are "

@@ -12,7 +12,7 @@ namespace quoin
 {
   namespace
   {
-    using Point = dealii::Point<2>;
+    using Point                 = dealii::Point<2>;
     constexpr unsigned int none = -1;
 
     /** Parts of the network that hang together. */
@@ -178,9 +178,9 @@ namespace quoin
       }
       face_part.push_back(part_of[start(loops[l].front())]);
       const auto box = bounding_box(corners);
-      boxes.emplace_back(Box(TreePoint(box[0], box[1]),
-                             TreePoint(box[2], box[3])),
-                         outer_polygons.size());
+      boxes.emplace_back(
+          Box(TreePoint(box[0], box[1]), TreePoint(box[2], box[3])),
+          outer_polygons.size());
       outer_polygons.push_back(std::move(corners));
     }
     parts = inner.size();
@@ -213,7 +213,7 @@ namespace quoin
   unsigned int BlockFaces::find(const Point &point,
                                 const IsWanted &is_wanted) const
   {
-    unsigned int found  = outside;
+    unsigned int found = outside;
     const TreePoint at(point[0], point[1]);
     const Box here(at, at);
     for (auto it = tree.qbegin(boost::geometry::index::intersects(here));

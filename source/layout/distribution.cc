@@ -79,8 +79,7 @@ namespace quoin
     case DistributionKind::constant:
       break;
     case DistributionKind::uniform:
-      return mean
-             + std::sqrt(12.) * deviation * (random.uniform() - 0.5);
+      return mean + std::sqrt(12.) * deviation * (random.uniform() - 0.5);
     case DistributionKind::normal:
       return mean + deviation * standard_normal(random);
     case DistributionKind::log_normal:

@@ -19,10 +19,10 @@ namespace quoin
 {
   namespace
   {
-    namespace bg  = boost::geometry;
-    namespace bgi = boost::geometry::index;
-    using Point   = dealii::Point<2>;
-    using Vector  = dealii::Tensor<1, 2>;
+    namespace bg    = boost::geometry;
+    namespace bgi   = boost::geometry::index;
+    using Point     = dealii::Point<2>;
+    using Vector    = dealii::Tensor<1, 2>;
     using TreePoint = bg::model::d2::point_xy<double>;
     using Box       = bg::model::box<TreePoint>;
     using EdgeTree
@@ -44,10 +44,10 @@ namespace quoin
 
     Box box_of(const Point &a, const Point &b, const double margin)
     {
-      return { TreePoint(std::min(a[0], b[0]) - margin,
-                         std::min(a[1], b[1]) - margin),
-               TreePoint(std::max(a[0], b[0]) + margin,
-                         std::max(a[1], b[1]) + margin) };
+      return {
+        TreePoint(std::min(a[0], b[0]) - margin, std::min(a[1], b[1]) - margin),
+        TreePoint(std::max(a[0], b[0]) + margin, std::max(a[1], b[1]) + margin)
+      };
     }
 
     /** Where @p p is along the edge, 0 to 1, and how far from its line. */
@@ -142,15 +142,15 @@ namespace quoin
     return has_cut || has_moved;
   }
 
-  void JointNetwork::cut_at_crossings(
-      std::vector<std::vector<unsigned int>> &cuts)
+  void
+  JointNetwork::cut_at_crossings(std::vector<std::vector<unsigned int>> &cuts)
   {
     const EdgeTree tree
         = tree_of(all_edges, [&](const unsigned int v) { return point(v); });
     std::vector<unsigned int> near;
     for (unsigned int i = 0; i < all_edges.size(); ++i)
     {
-      const Edge &a = all_edges[i];
+      const Edge &a  = all_edges[i];
       const Point a0 = point(a.from), a1 = point(a.to);
       find(tree, box_of(a0, a1, 0.), near);
       for (const unsigned int j : near)
@@ -168,13 +168,13 @@ namespace quoin
         const double t = cross(b0 - a0, along_a) / det;
         if (!(0. < s && s < 1. && 0. < t && t < 1.))
           continue;
-        const Point where = a.border != none ? a0 + s * along_a
-                                             : b0 + t * along_b;
+        const Point where
+            = a.border != none ? a0 + s * along_a : b0 + t * along_b;
         // An end so near to the other edge is what they will share.
         const bool both_borders = a.border != none && b.border != none;
         const double near_end   = std::min(
-            std::min(distance_to(b0, a0, a1), distance_to(b1, a0, a1)),
-            std::min(distance_to(a0, b0, b1), distance_to(a1, b0, b1)));
+              std::min(distance_to(b0, a0, a1), distance_to(b1, a0, a1)),
+              std::min(distance_to(a0, b0, b1), distance_to(a1, b0, b1)));
         if (near_end <= (both_borders ? touching : near_edge) * tolerance)
           continue;
         if (both_borders)
@@ -196,7 +196,7 @@ namespace quoin
     std::vector<unsigned int> near;
     for (unsigned int i = 0; i < all_edges.size(); ++i)
     {
-      const Edge &a = all_edges[i];
+      const Edge &a  = all_edges[i];
       const Point a0 = point(a.from), a1 = point(a.to);
       find(tree, box_of(a0, a1, 0.), near);
       for (const unsigned int j : near)
@@ -275,8 +275,7 @@ namespace quoin
     return has_moved;
   }
 
-  void
-  JointNetwork::rebuild(const std::vector<std::vector<unsigned int>> &cuts)
+  void JointNetwork::rebuild(const std::vector<std::vector<unsigned int>> &cuts)
   {
     std::vector<Edge> pieces;
     pieces.reserve(2 * all_edges.size());
@@ -312,8 +311,8 @@ namespace quoin
     {
       const Edge &edge = all_edges[e];
       return std::make_tuple(std::min(edge.from, edge.to),
-                             std::max(edge.from, edge.to),
-                             edge.border == none, edge.line, e);
+                             std::max(edge.from, edge.to), edge.border == none,
+                             edge.line, e);
     };
     std::sort(order.begin(), order.end(),
               [&](const unsigned int a, const unsigned int b)
@@ -360,8 +359,9 @@ namespace quoin
     for (unsigned int v = 0; v < vertices.size(); ++v)
       if (in_use[v])
         order.push_back(v);
-    const auto rank = [&](const unsigned int v)
-    { return vertices[v].is_corner ? 0 : vertices[v].border != none ? 1 : 2; };
+    const auto rank = [&](const unsigned int v) {
+      return vertices[v].is_corner ? 0 : vertices[v].border != none ? 1 : 2;
+    };
     std::stable_sort(order.begin(), order.end(),
                      [&](const unsigned int v, const unsigned int w)
                      { return rank(v) < rank(w); });
@@ -449,9 +449,9 @@ namespace quoin
           const Edge &other = all_edges[e];
           if (other.from == end || other.to == end)
             continue;
-          const Point a     = point(other.from);
+          const Point a         = point(other.from);
           const Vector edge_way = point(other.to) - a;
-          const double det  = cross(along, edge_way);
+          const double det      = cross(along, edge_way);
           if (det == 0.)
             continue;
           const double reach = cross(a - from, edge_way) / det;

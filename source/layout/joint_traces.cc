@@ -47,10 +47,10 @@ namespace quoin
         : rock(rock), joints(joints), result(result),
           along(direction(joints.dip.mean))
       {
-        across[0]        = -along[1];
-        across[1]        = along[0];
-        const auto box   = bounding_box(rock.outline);
-        const Point low  = { box[0], box[1] }, high = { box[2], box[3] };
+        across[0]       = -along[1];
+        across[1]       = along[0];
+        const auto box  = bounding_box(rock.outline);
+        const Point low = { box[0], box[1] }, high = { box[2], box[3] };
         const Point mid  = low + 0.5 * (high - low);
         const Vector way = mid - joints.origin;
         radius           = 0.5 * low.distance(high);
@@ -92,10 +92,10 @@ namespace quoin
       {
         const double turn
             = std::min(90., 3. * joints.dip.deviation) * M_PI / 180.;
-        const double half = joints.is_persistent
-                                ? 2. * radius
-                                : 0.5 * joints.length.mean
-                                      + 1.5 * joints.length.deviation;
+        const double half
+            = joints.is_persistent
+                  ? 2. * radius
+                  : 0.5 * joints.length.mean + 1.5 * joints.length.deviation;
         return half * std::sin(turn);
       }
 
@@ -113,8 +113,7 @@ namespace quoin
         const double end = middle_along + radius;
         // Some traces ahead, so that it is forgotten where the first one began.
         const double pitch = joints.length.mean + joints.gap.mean;
-        double place
-            = middle_along - radius - (5. + random.uniform()) * pitch;
+        double place = middle_along - radius - (5. + random.uniform()) * pitch;
         while (place < end)
         {
           const double length
@@ -191,8 +190,8 @@ namespace quoin
         pieces.push_back({ { Point(v[0], v[1]), Point(v[2], v[3]) } });
       }
       if (pieces.empty())
-        throw InputError("section 'Rock joints/" + joints.name + "': 'File = "
-                         + joints.file
+        throw InputError("section 'Rock joints/" + joints.name
+                         + "': 'File = " + joints.file
                          + "' has no traces. Each line should be x1, y1, x2, "
                            "y2 [m].");
       return pieces;

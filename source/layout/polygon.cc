@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace quoin
 {
@@ -37,12 +38,25 @@ namespace quoin
     {
       const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
       if ((a[1] > point[1]) != (b[1] > point[1])
-          && point[0] < a[0]
-                            + (point[1] - a[1]) / (b[1] - a[1])
-                                  * (b[0] - a[0]))
+          && point[0]
+                 < a[0] + (point[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]))
         inside = !inside;
     }
     return inside;
+  }
+
+  double distance(const Polygon &polygon, const Point &point)
+  {
+    double nearest = std::numeric_limits<double>::max();
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+    {
+      const Point &a = polygon[i];
+      const auto way = polygon[(i + 1) % polygon.size()] - a;
+      const double t = std::clamp(
+          (point - a) * way / std::max(way.norm_square(), 1e-300), 0., 1.);
+      nearest = std::min(nearest, point.distance(a + t * way));
+    }
+    return nearest;
   }
 
   std::array<double, 4> bounding_box(const Polygon &polygon)
@@ -102,16 +116,14 @@ namespace quoin
     std::vector<double> where = { 0., 1. };
     for (std::size_t i = 0; i < polygon.size(); ++i)
     {
-      const Point &a  = polygon[i];
-      const auto edge = polygon[(i + 1) % polygon.size()] - a;
-      const double across
-          = direction[0] * edge[1] - direction[1] * edge[0];
+      const Point &a      = polygon[i];
+      const auto edge     = polygon[(i + 1) % polygon.size()] - a;
+      const double across = direction[0] * edge[1] - direction[1] * edge[0];
       if (across == 0.)
         continue;
       const auto to  = a - piece[0];
       const double t = (to[0] * edge[1] - to[1] * edge[0]) / across;
-      const double s
-          = (to[0] * direction[1] - to[1] * direction[0]) / across;
+      const double s = (to[0] * direction[1] - to[1] * direction[0]) / across;
       if (0. < t && t < 1. && 0. <= s && s <= 1.)
         where.push_back(t);
     }
@@ -155,7 +167,7 @@ namespace quoin
   {
     const double half = 0.5 * width;
     Polygon polygon   = { Point(floor[0] - half, floor[1]),
-                        Point(floor[0] + half, floor[1]) };
+                          Point(floor[0] + half, floor[1]) };
     if (rise == 0.)
     {
       polygon.emplace_back(floor[0] + half, floor[1] + wall_height);

@@ -11,8 +11,8 @@ namespace quoin
 {
   namespace
   {
-    using Point   = dealii::Point<2>;
-    using Numbers = std::vector<int>;
+    using Point                 = dealii::Point<2>;
+    using Numbers               = std::vector<int>;
     constexpr unsigned int none = -1;
 
     /** {1, 2, 3}, some in each line. */
@@ -79,11 +79,12 @@ namespace quoin
     void Writer::write_head()
     {
       text.precision(17);
-      text << "// Blocks of rock; lengths in metres. Joints have no thickness:\n"
-              "// names of physical curves say which lines are joints.\n\n"
-              "DefineConstant[ size = {"
-           << rock.element_size
-           << ", Name \"Element size\"} ]; // edges are no longer\n\n";
+      text
+          << "// Blocks of rock; lengths in metres. Joints have no thickness:\n"
+             "// names of physical curves say which lines are joints.\n\n"
+             "DefineConstant[ size = {"
+          << rock.element_size
+          << ", Name \"Element size\"} ]; // edges are no longer\n\n";
     }
 
     void Writer::write_line(const unsigned int number,
@@ -108,8 +109,7 @@ namespace quoin
       {
         const Point &a = rock.outline[i];
         const auto way = rock.outline[(i + 1) % rock.outline.size()] - a;
-        const double t
-            = std::clamp((p - a) * way / way.norm_square(), 0., 1.);
+        const double t = std::clamp((p - a) * way / way.norm_square(), 0., 1.);
         const double distance = p.distance(a + t * way);
         if (distance < nearest)
         {
@@ -162,9 +162,9 @@ namespace quoin
 
     void Writer::write_surfaces()
     {
-      int next_loop        = 1;
-      const auto &faces    = layout.faces->faces();
-      const auto add_loop  = [&](const BlockFaces::Loop &loop)
+      int next_loop       = 1;
+      const auto &faces   = layout.faces->faces();
+      const auto add_loop = [&](const BlockFaces::Loop &loop)
       {
         Numbers lines;
         for (const unsigned int h : loop)

@@ -10,7 +10,7 @@ namespace quoin
 {
   namespace
   {
-    using Point = dealii::Point<2>;
+    using Point                 = dealii::Point<2>;
     constexpr unsigned int none = -1;
 
     class Layer
@@ -115,7 +115,7 @@ namespace quoin
 
     void Layer::treat_dead_ends()
     {
-      RockChanges &changes = layout.changes;
+      RockChanges &changes  = layout.changes;
       JointNetwork &network = *layout.network;
       if (rock.dead_ends == RockParameters::extend)
       {
@@ -132,9 +132,9 @@ namespace quoin
       }
       const BlockFaces faces(network);
       std::vector<bool> goes(network.edges().size(), false);
-      const auto take = [&](const std::vector<unsigned int> &edges,
-                            const bool keep, unsigned int &number,
-                            double &length)
+      const auto take
+          = [&](const std::vector<unsigned int> &edges, const bool keep,
+                unsigned int &number, double &length)
       {
         for (const unsigned int e : edges)
         {
@@ -165,9 +165,9 @@ namespace quoin
     /** Joins slivers that do not touch each other; false: none was left. */
     bool Layer::join_some_slivers()
     {
-      JointNetwork &network = *layout.network;
-      layout.faces          = std::make_unique<BlockFaces>(network);
-      const BlockFaces &faces = *layout.faces;
+      JointNetwork &network         = *layout.network;
+      layout.faces                  = std::make_unique<BlockFaces>(network);
+      const BlockFaces &faces       = *layout.faces;
       layout.changes.n_kept_slivers = 0;
 
       std::vector<unsigned int> slivers;
@@ -211,10 +211,9 @@ namespace quoin
               if (other != BlockFaces::outside && other != f)
                 shared[other] += network.length(network.edges()[h / 2]);
             });
-        const auto longest
-            = std::max_element(shared.begin(), shared.end(),
-                               [](const auto &a, const auto &b)
-                               { return a.second < b.second; });
+        const auto longest = std::max_element(shared.begin(), shared.end(),
+                                              [](const auto &a, const auto &b)
+                                              { return a.second < b.second; });
         if (longest == shared.end())
         {
           ++layout.changes.n_kept_slivers;

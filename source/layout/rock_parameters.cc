@@ -156,9 +156,8 @@ namespace quoin
     }
     if (signed_area(region.polygon) < 0.)
       std::reverse(region.polygon.begin(), region.polygon.end());
-    region.use          = section.choice<Use>("Use", { { "body", body },
-                                                       { "hole", hole },
-                                                       { "zone", zone } });
+    region.use = section.choice<Use>(
+        "Use", { { "body", body }, { "hole", hole }, { "zone", zone } });
     region.is_outlined  = section.flag("Outline is a joint");
     region.has_joints   = section.flag("Joints inside");
     region.refines_mesh = section.flag("Refine mesh");
@@ -170,8 +169,7 @@ namespace quoin
 
   void RockJoints::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Kind", "set",
-                      Selection("set|polyline|traces|Voronoi"),
+    prm.declare_entry("Kind", "set", Selection("set|polyline|traces|Voronoi"),
                       "set: parallel lines on which traces and gaps follow "
                       "each other; polyline: one joint through given points; "
                       "traces: straight joints from a file; Voronoi: the "
@@ -220,9 +218,8 @@ namespace quoin
       if (!joints.is_persistent)
       {
         joints.length = read_length(section, "Trace length");
-        joints.gap    = section.text("Gap") == "0"
-                            ? Distribution()
-                            : read_length(section, "Gap");
+        joints.gap    = section.text("Gap") == "0" ? Distribution()
+                                                   : read_length(section, "Gap");
       }
       const auto origin = section.numbers<2>("Origin");
       joints.origin     = Point(origin[0], origin[1]);
@@ -269,10 +266,11 @@ namespace quoin
 
   void RockParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Outline", "", Anything(),
-                      "x, y; x, y; ... of the corners of rock that the program "
-                      "cuts into blocks itself, instead of reading 'Mesh/File'; "
-                      "empty: no such rock [m]");
+    prm.declare_entry(
+        "Outline", "", Anything(),
+        "x, y; x, y; ... of the corners of rock that the program "
+        "cuts into blocks itself, instead of reading 'Mesh/File'; "
+        "empty: no such rock [m]");
     prm.declare_entry("Sides", "", Anything(),
                       "Names of the sides, the first one from the first to the "
                       "second corner: physical curves. Sides may share one; "
@@ -362,23 +360,27 @@ namespace quoin
       const ParameterSection section(top, "Rock regions");
       for (const RockRegion &region : rock.regions)
       {
-        const bool is_inside = std::any_of(
+        const bool is_inside = std::all_of(
             region.polygon.begin(), region.polygon.end(),
-            [&](const Point &p) { return contains(rock.outline, p); });
+            [&](const Point &p)
+            {
+              return contains(rock.outline, p)
+                     || distance(rock.outline, p) < 1e-6 * rock.shortest_edge;
+            });
         if (region.use != RockRegion::zone && !is_inside)
           ParameterSection(section, region.name)
-              .fail("Shape", "lies outside of the rock's outline: move the "
-                             "region or the 'Outline'.");
+              .fail("Shape", "has corners outside of the rock's outline: move "
+                             "the region or the 'Outline'.");
       }
     }
 
     void read_sizes(const ParameterSection &section, RockParameters &rock)
     {
-      rock.element_size   = section.positive("Element size");
-      rock.finest_size    = section.nonnegative("Finest element size");
-      rock.size_growth    = section.positive("Size growth");
-      rock.shortest_edge  = section.nonnegative("Shortest edge");
-      rock.smallest_block = section.nonnegative("Smallest block");
+      rock.element_size    = section.positive("Element size");
+      rock.finest_size     = section.nonnegative("Finest element size");
+      rock.size_growth     = section.positive("Size growth");
+      rock.shortest_edge   = section.nonnegative("Shortest edge");
+      rock.smallest_block  = section.nonnegative("Smallest block");
       rock.narrowest_block = section.nonnegative("Narrowest block");
       if (rock.finest_size == 0.)
         rock.finest_size = rock.element_size;
@@ -415,7 +417,8 @@ namespace quoin
       rock.group     = section.text("Group");
       rock.seed      = section.integer("Random seed");
       rock.dead_ends = section.choice<DeadEnds>(
-          "Dead ends", { { "cut", cut }, { "extend", extend }, { "keep", keep } });
+          "Dead ends",
+          { { "cut", cut }, { "extend", extend }, { "keep", keep } });
       read_sizes(section, rock);
     }
     rock.regions = read_all<RockRegion>(top, "Rock regions");

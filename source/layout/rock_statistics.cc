@@ -100,8 +100,8 @@ namespace quoin
         if (a * along > b * along)
           std::swap(a, b);
         const double s0 = a * along, s1 = b * along;
-        const auto first = static_cast<long>(
-            std::ceil((s0 - low) / step - 0.5));
+        const auto first
+            = static_cast<long>(std::ceil((s0 - low) / step - 0.5));
         for (long i = std::max(0L, first);
              i < n_scan_lines && low + (i + 0.5) * step < s1; ++i)
         {
@@ -123,7 +123,7 @@ namespace quoin
     std::vector<double> run_lengths(const RockLayout &layout,
                                     const unsigned int line)
     {
-      constexpr double straight = 0.9; // cosine of what still is one trace
+      constexpr double straight   = 0.9; // cosine of what still is one trace
       const JointNetwork &network = *layout.network;
       std::vector<JointNetwork::Edge> edges;
       for (const auto *some : { &network.edges(), &layout.cracks })
@@ -147,9 +147,8 @@ namespace quoin
       };
       const auto way_from = [&](const unsigned int e, const unsigned int v)
       {
-        const unsigned int w
-            = edges[e].from == v ? edges[e].to : edges[e].from;
-        const Vector way = network.point(w) - network.point(v);
+        const unsigned int w = edges[e].from == v ? edges[e].to : edges[e].from;
+        const Vector way     = network.point(w) - network.point(v);
         return Vector(way / way.norm());
       };
       for (const auto &[vertex, star] : at)
@@ -158,7 +157,7 @@ namespace quoin
         std::vector<bool> taken(star.size(), false);
         for (std::size_t i = 0; i < star.size(); ++i)
         {
-          std::size_t best = star.size();
+          std::size_t best   = star.size();
           double best_cosine = -straight;
           for (std::size_t j = i + 1; j < star.size(); ++j)
           {
@@ -252,11 +251,11 @@ namespace quoin
     for (unsigned int j = 0; j < rock.joints.size(); ++j)
     {
       const RockJoints &joints = rock.joints[j];
-      const auto made = pieces_of(layout, layout.first_joint_line + j);
-      const auto row = [&](const std::string &what, const std::string &unit,
-                           const Distribution *asked,
-                           const std::vector<double> &drawn,
-                           const Summary &in_blocks)
+      const auto made          = pieces_of(layout, layout.first_joint_line + j);
+      const auto row
+          = [&](const std::string &what, const std::string &unit,
+                const Distribution *asked, const std::vector<double> &drawn,
+                const Summary &in_blocks)
       {
         text << joints.name << "," << what << "," << unit << ",";
         if (asked != nullptr)
@@ -307,17 +306,16 @@ namespace quoin
     std::ostringstream text;
     text << "rock of " << count(layout.n_blocks(), "block", "blocks")
          << ", areas from "
-         << number_text(*std::min_element(areas.begin(), areas.end()))
-         << " to "
+         << number_text(*std::min_element(areas.begin(), areas.end())) << " to "
          << number_text(*std::max_element(areas.begin(), areas.end()))
          << " m^2, mean " << number_text(blocks.mean);
     for (unsigned int j = 0; j < rock.joints.size(); ++j)
     {
-      const double length = total_length(
-          pieces_of(layout, layout.first_joint_line + j));
-      text << "\njoints '" << rock.joints[j].name << "': "
-           << count(layout.traces[j].n_traces, "trace", "traces") << " of "
-           << number_text(total_length(layout.traces[j].pieces))
+      const double length
+          = total_length(pieces_of(layout, layout.first_joint_line + j));
+      text << "\njoints '" << rock.joints[j].name
+           << "': " << count(layout.traces[j].n_traces, "trace", "traces")
+           << " of " << number_text(total_length(layout.traces[j].pieces))
            << " m, of which " << number_text(length) << " m are in the blocks";
       if (layout.traces[j].n_clipped > 0)
         text << "; " << layout.traces[j].n_clipped << " were cut at borders";
@@ -338,9 +336,8 @@ namespace quoin
            << " inside a block lengthened by "
            << number_text(changes.extended_length) << " m";
     if (changes.n_dead_ends > 0)
-      text << "\ndead ends: "
-           << count(changes.n_dead_ends, "edge", "edges") << " of "
-           << number_text(changes.dead_length)
+      text << "\ndead ends: " << count(changes.n_dead_ends, "edge", "edges")
+           << " of " << number_text(changes.dead_length)
            << " m ended inside blocks and were cut off";
     if (changes.n_cracks > 0)
       text << "\ndead ends: " << count(changes.n_cracks, "edge", "edges")
@@ -357,9 +354,9 @@ namespace quoin
            << number_text(rock.shortest_edge) << " m left out";
     if (changes.n_slivers > 0)
       text << "\nslivers: " << count(changes.n_slivers, "block", "blocks")
-           << " of " << number_text(changes.sliver_area) << " m^2, smaller than "
-           << number_text(rock.smallest_block) << " m^2 or narrower than "
-           << number_text(rock.narrowest_block)
+           << " of " << number_text(changes.sliver_area)
+           << " m^2, smaller than " << number_text(rock.smallest_block)
+           << " m^2 or narrower than " << number_text(rock.narrowest_block)
            << " m, joined to a neighbour";
     if (changes.n_kept_slivers > 0)
       text << "\nslivers: " << count(changes.n_kept_slivers, "block", "blocks")

@@ -56,8 +56,8 @@ namespace quoin
                                      const unsigned int relaxation,
                                      RandomStream random)
   {
-    const double left = box[0] - margin * block_size;
-    const double low  = box[1] - margin * block_size;
+    const double left   = box[0] - margin * block_size;
+    const double low    = box[1] - margin * block_size;
     const double width  = box[2] - box[0] + 2. * margin * block_size;
     const double height = box[3] - box[1] + 2. * margin * block_size;
     const double scale  = resolution / std::max(width, height);

@@ -1052,21 +1052,23 @@ def in_situ_rest(case, folder, output, histories):
 
 
 def factor_of_safety(case, folder, output, histories):
-    """The middle of the bracket against a column of a table, its width, and
-    the mechanism: what has moved is where the failing blocks are."""
+    """The middle of the bracket, no wider than 0.01, against a column of a
+    table."""
     with open(os.path.join(output, "summary.json")) as stream:
         found = json.load(stream)["factor of safety"]["safety"]
-    table, _ = read_table(os.path.join(folder, "reference.csv"))
+    table, _ = read_table(os.path.join(
+        folder, case.get("table", "reference.csv")))
     wanted = table[case["factor"]][0]
     stable, failing = found["stable at"], found["failing at"]
     print("  stable at %.4f, failing at %.4f, reference %.4f, %d trials"
           % (stable, failing, wanted, found["trials"]))
     if not os.path.exists(os.path.join(output, "mechanism", "blocks.pvd")):
         raise Failure("the failing state was not written")
+    if not 0 < failing - stable <= 0.01 + 1e-12:
+        raise Failure("the bracket is %g wide" % (failing - stable))
     return {"factor of safety": (
-                float(abs(0.5 * (stable + failing) / wanted - 1)),
-                case["tolerance"]),
-            "width of the bracket": (float(failing - stable), 0.010001)}
+        float(abs(0.5 * (stable + failing) / wanted - 1)),
+        case["tolerance"])}
 
 
 def creep(case, folder, output, histories):

@@ -38,7 +38,7 @@ namespace quoin
     bool is_boundary_model = false;
     BoundaryElementParameters boundary;
 
-    std::string mesh_file; /**< relative to the working directory */
+    std::string mesh_file;       /**< relative to the working directory */
     GeneratedGeometry generated; /**< instead of the file, or empty */
     TriangleKind triangles = TriangleKind::plain;
     SplitOptions split;

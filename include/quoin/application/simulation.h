@@ -62,7 +62,7 @@ namespace quoin
       double fields_time              = -1.; /**< of the last VTU files [s] */
       bool stage_begun                = false;
       std::uint64_t convergence_bytes = 0;
-      std::uint64_t iterations = 0, cuts = 0; /**< of the implicit solver */
+      std::uint64_t iterations = 0, cuts = 0;  /**< of the implicit solver */
       std::vector<FactorSearch> searches = {}; /**< of each stage; or empty */
 
       template <typename Archive>
@@ -71,8 +71,7 @@ namespace quoin
         archive &state &histories_bytes &energies_bytes &block_output
             &joint_output &contact_output &boundary_output &far_field_bytes
                 &wall_time &largest_residual &largest_throughput &fields_time
-                    &stage_begun &convergence_bytes &iterations &cuts
-                        &searches;
+                    &stage_begun &convergence_bytes &iterations &cuts &searches;
       }
     };
 

@@ -24,7 +24,7 @@ namespace quoin
     std::vector<Piece> pieces;
     std::vector<unsigned int> trace; /**< number of the trace of each piece */
     unsigned int n_traces = 0;
-    DrawnValues drawn; /**< of a set */
+    DrawnValues drawn;          /**< of a set */
     unsigned int n_clipped = 0; /**< traces that end at the outline */
   };
 
@@ -50,8 +50,7 @@ namespace quoin
    * @p relaxation times.
    */
   std::vector<Piece> voronoi_borders(const std::array<double, 4> &box,
-                                     double block_size,
-                                     unsigned int relaxation,
+                                     double block_size, unsigned int relaxation,
                                      RandomStream random);
 } // namespace quoin
 

@@ -17,7 +17,7 @@ namespace quoin
   struct RockChanges
   {
     unsigned int n_joined = 0; /**< ends moved by less than 'Shortest edge' */
-    unsigned int n_dead_ends = 0; /**< edges cut off */
+    unsigned int n_dead_ends = 0;  /**< edges cut off */
     double dead_length       = 0.; /**< [m] */
     unsigned int n_extended  = 0;  /**< joints lengthened */
     double extended_length   = 0.; /**< [m] */
@@ -25,9 +25,9 @@ namespace quoin
     double crack_length      = 0.; /**< [m] */
     unsigned int n_bridges   = 0;  /**< edges with one block on both sides */
     double bridge_length     = 0.; /**< [m] */
-    unsigned int n_short     = 0;  /**< joints below 'Shortest edge', left out */
-    unsigned int n_slivers   = 0;  /**< blocks joined to a neighbour */
-    double sliver_area       = 0.; /**< [m^2] */
+    unsigned int n_short     = 0; /**< joints below 'Shortest edge', left out */
+    unsigned int n_slivers   = 0; /**< blocks joined to a neighbour */
+    double sliver_area       = 0.;   /**< [m^2] */
     unsigned int n_kept_slivers = 0; /**< that have no neighbour to join */
   };
 

@@ -78,14 +78,14 @@ namespace quoin
 
     Polygon outline; /**< counter-clockwise; empty: no rock is generated */
     std::vector<std::string> sides; /**< name of the side after each corner */
-    std::string group = "rock";     /**< physical surface */
+    std::string group  = "rock";    /**< physical surface */
     std::uint64_t seed = 1;
     std::vector<RockRegion> regions; /**< the later prevails */
     std::vector<RockJoints> joints;  /**< the earlier names a common edge */
 
-    DeadEnds dead_ends    = cut;
-    double shortest_edge  = 0.; /**< [m] */
-    double smallest_block = 0.; /**< [m^2] */
+    DeadEnds dead_ends     = cut;
+    double shortest_edge   = 0.; /**< [m] */
+    double smallest_block  = 0.; /**< [m^2] */
     double narrowest_block = 0.; /**< twice area by perimeter [m] */
 
     double element_size = 0.; /**< [m] */

@@ -61,6 +61,9 @@ def main():
             *forces[block]))
     np.savetxt(os.path.join(HERE, "reference.csv"), [[angle]], fmt="%.6g",
                comments="", header="friction angle [deg]")
+    # of columns with a friction angle of 45 degrees
+    np.savetxt(os.path.join(HERE, "safety.csv"), [[1 / mu]], fmt="%.6g",
+               comments="", header="toppling [-]")
     np.savetxt(os.path.join(HERE, "modes.csv"), sorted(modes.items()),
                fmt="%d", delimiter=",", comments="",
                header="block [-],mode [-]")

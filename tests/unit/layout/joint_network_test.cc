@@ -78,9 +78,9 @@ TEST(JointNetwork, joins_ends_that_nearly_meet)
 {
   JointNetwork network(0.01);
   add_square(network, 0., 1., 0);
-  add(network, 0.004, 0.5, 0.996, 0.5);  // just short of the border
-  add(network, 0.5, 0.503, 0.5, 1.);     // just short of the first joint
-  add(network, 0.001, 0.002, 0.3, 0.5);  // near the corner
+  add(network, 0.004, 0.5, 0.996, 0.5); // just short of the border
+  add(network, 0.5, 0.503, 0.5, 1.);    // just short of the first joint
+  add(network, 0.001, 0.002, 0.3, 0.5); // near the corner
   network.cut();
   const BlockFaces faces(network);
   EXPECT_EQ(faces.faces().size(), 4u);
@@ -129,9 +129,9 @@ TEST(JointNetwork, finds_dead_ends_bridges_and_islands)
   JointNetwork network(0.01);
   add_square(network, 0., 4., 0);
   add_square(network, 1., 2., 1);
-  add(network, 2., 1.5, 4., 1.5);   // bridge from the inner square
-  add(network, 3., 3., 3.5, 3.5);   // stands alone
-  add(network, 0., 3., 0.5, 3.);    // from the border
+  add(network, 2., 1.5, 4., 1.5); // bridge from the inner square
+  add(network, 3., 3., 3.5, 3.5); // stands alone
+  add(network, 0., 3., 0.5, 3.);  // from the border
   network.cut();
   {
     const BlockFaces faces(network);

@@ -14,7 +14,7 @@ namespace
   using Point = dealii::Point<2>;
 
   /** An L: the unit square without its upper right quarter. */
-  const Polygon ell = { Point(0, 0),    Point(1, 0),   Point(1, 0.5),
+  const Polygon ell = { Point(0, 0),     Point(1, 0),   Point(1, 0.5),
                         Point(0.5, 0.5), Point(0.5, 1), Point(0, 1) };
 
   double length(const std::vector<Piece> &pieces)
@@ -40,13 +40,21 @@ TEST(Polygon, contains_points)
   EXPECT_FALSE(contains(ell, Point(-0.1, 0.5)));
 }
 
+TEST(Polygon, has_a_distance)
+{
+  EXPECT_DOUBLE_EQ(distance(ell, Point(0.75, 0.7)), 0.2);
+  EXPECT_DOUBLE_EQ(distance(ell, Point(0.25, 0.2)), 0.2);
+  EXPECT_DOUBLE_EQ(distance(ell, Point(-3., -4.)), 5.);
+}
+
 TEST(Polygon, is_simple_or_not)
 {
   EXPECT_TRUE(is_simple(ell));
-  EXPECT_FALSE(is_simple({ Point(0, 0), Point(1, 1), Point(1, 0), Point(0, 1) }));
+  EXPECT_FALSE(
+      is_simple({ Point(0, 0), Point(1, 1), Point(1, 0), Point(0, 1) }));
   // A corner on another side, a spike, a corner twice.
-  EXPECT_FALSE(is_simple({ Point(0, 0), Point(2, 0), Point(2, 1), Point(1, 0),
-                           Point(0, 1) }));
+  EXPECT_FALSE(is_simple(
+      { Point(0, 0), Point(2, 0), Point(2, 1), Point(1, 0), Point(0, 1) }));
   EXPECT_FALSE(is_simple({ Point(0, 0), Point(2, 0), Point(1, 0) }));
   EXPECT_FALSE(
       is_simple({ Point(0, 0), Point(1, 0), Point(1, 0), Point(0, 1) }));
@@ -73,9 +81,10 @@ TEST(Polygon, arch_has_the_area_of_its_parts)
   // A half circle on walls; chords take (1 - sinc) of the segment.
   EXPECT_NEAR(signed_area(arch_polygon(Point(1, 2), 6., 3., 3., 400)),
               18. + 4.5 * pi, 1e-3);
-  EXPECT_NEAR(signed_area(arch_polygon(Point(1, 2), 6., 0., 3., 400)),
-              4.5 * pi, 1e-3);
-  EXPECT_NEAR(signed_area(arch_polygon(Point(0, 0), 4., 2., 0., 10)), 8., 1e-12);
+  EXPECT_NEAR(signed_area(arch_polygon(Point(1, 2), 6., 0., 3., 400)), 4.5 * pi,
+              1e-3);
+  EXPECT_NEAR(signed_area(arch_polygon(Point(0, 0), 4., 2., 0., 10)), 8.,
+              1e-12);
   EXPECT_NEAR(signed_area(circle_polygon(Point(3, 4), 2., 6)),
               6. * std::sqrt(3.), 1e-12);
 }

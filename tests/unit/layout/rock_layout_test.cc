@@ -18,15 +18,15 @@ using namespace quoin;
 
 namespace
 {
-  using Point = dealii::Point<2>;
+  using Point                 = dealii::Point<2>;
   constexpr unsigned int none = -1;
 
   RockParameters square_rock(const double size)
   {
     RockParameters rock;
-    rock.outline = { Point(0, 0), Point(size, 0), Point(size, size),
-                     Point(0, size) };
-    rock.sides   = { "base", "right", "top", "left" };
+    rock.outline
+        = { Point(0, 0), Point(size, 0), Point(size, size), Point(0, size) };
+    rock.sides        = { "base", "right", "top", "left" };
     rock.element_size = rock.finest_size = 1.;
     rock.shortest_edge                   = 0.02;
     rock.smallest_block                  = 0.01;
@@ -102,7 +102,8 @@ namespace
       = boost::geometry::model::polygon<TestPoint, /*clockwise*/ false,
                                         /*closed*/ false>;
 
-  TestPolygon test_polygon(const BlockFaces &faces, const BlockFaces::Face &face)
+  TestPolygon test_polygon(const BlockFaces &faces,
+                           const BlockFaces::Face &face)
   {
     TestPolygon polygon;
     for (const Point &p : faces.polygon(face.outer))
@@ -134,8 +135,8 @@ TEST(RockLayout, draws_what_is_asked_for_over_many_seeds)
   {
     Sample dip, spacing, length, gap;
     RockParameters rock = square_rock(20.);
-    rock.joints         = { traces(joint_set("a", kind.dip, kind.spacing),
-                                   kind.length, kind.gap) };
+    rock.joints = { traces(joint_set("a", kind.dip, kind.spacing), kind.length,
+                           kind.gap) };
     for (rock.seed = 1; rock.seed <= 40; ++rock.seed)
     {
       const JointTraces made = make_joint_traces(rock, 0);
@@ -157,9 +158,9 @@ TEST(RockLayout, traces_in_the_outline_are_as_dense_as_asked_for)
 {
   // Length per area: trace / (trace + gap) / spacing, in the mean over seeds.
   RockParameters rock = square_rock(20.);
-  rock.joints = { traces(joint_set("a", "Fisher 35, 6", "log-normal 1, 0.4"),
-                         "exponential 4", "exponential 2") };
-  double length       = 0.;
+  rock.joints   = { traces(joint_set("a", "Fisher 35, 6", "log-normal 1, 0.4"),
+                           "exponential 4", "exponential 2") };
+  double length = 0.;
   constexpr int seeds = 400;
   for (rock.seed = 1; rock.seed <= seeds; ++rock.seed)
     for (const Piece &piece : make_joint_traces(rock, 0).pieces)
@@ -172,7 +173,7 @@ TEST(RockLayout, regular_sets_make_regular_blocks)
   RockParameters rock = square_rock(10.);
   rock.joints         = { joint_set("a", "0", "1"), joint_set("b", "90", "2") };
   rock.joints[0].origin = rock.joints[1].origin = Point(1., 0.5);
-  const RockLayout layout = lay_rock(rock);
+  const RockLayout layout                       = lay_rock(rock);
   // y = 0.5 ... 9.5: ten lines, eleven strips; x = 1, 3, ... 9: six strips.
   EXPECT_EQ(layout.n_blocks(), 66u);
   EXPECT_EQ(layout.changes.n_joined, 0u);
@@ -185,8 +186,8 @@ TEST(RockLayout, regular_sets_make_regular_blocks)
 
 TEST(RockLayout, keeps_the_area_and_overlaps_nowhere)
 {
-  for (const auto ends : { RockParameters::cut, RockParameters::extend,
-                           RockParameters::keep })
+  for (const auto ends :
+       { RockParameters::cut, RockParameters::extend, RockParameters::keep })
     for (unsigned int seed = 1; seed <= 6; ++seed)
     {
       RockParameters rock = square_rock(30.);
@@ -199,11 +200,11 @@ TEST(RockLayout, keeps_the_area_and_overlaps_nowhere)
                                 arch_polygon(Point(6, 8), 5., 2., 2.5, 12)),
                          region("shaft", RockRegion::hole,
                                 circle_polygon(Point(22, 5), 2., 20)) };
-      rock.joints    = { traces(joint_set("a", "Fisher 20, 8", "normal 1.5, 0.4"),
-                                "exponential 8", "exponential 2"),
-                         traces(joint_set("b", "normal 100, 10",
-                                          "log-normal 2, 1"),
-                                "uniform 5, 2", "1") };
+      rock.joints
+          = { traces(joint_set("a", "Fisher 20, 8", "normal 1.5, 0.4"),
+                     "exponential 8", "exponential 2"),
+              traces(joint_set("b", "normal 100, 10", "log-normal 2, 1"),
+                     "uniform 5, 2", "1") };
       const RockLayout layout = lay_rock(rock);
       const double hole       = signed_area(rock.regions[1].polygon);
       const double area       = signed_area(rock.outline) - hole;
@@ -284,19 +285,18 @@ TEST(RockLayout, joins_slivers_to_the_neighbour_with_the_longest_joint)
 TEST(RockLayout, joints_keep_to_their_region_and_out_of_others)
 {
   RockParameters rock = square_rock(10.);
-  rock.regions        = { region("lining", RockRegion::body,
-                                 circle_polygon(Point(5, 5), 2., 24)),
-                          region("upper", RockRegion::zone,
-                                 { Point(0, 6), Point(10, 6), Point(10, 10),
-                                   Point(0, 10) }) };
+  rock.regions
+      = { region("lining", RockRegion::body,
+                 circle_polygon(Point(5, 5), 2., 24)),
+          region("upper", RockRegion::zone,
+                 { Point(0, 6), Point(10, 6), Point(10, 10), Point(0, 10) }) };
   rock.regions[0].has_joints = false;
-  rock.joints                = { joint_set("a", "0", "1"),
-                                 joint_set("b", "90", "1") };
-  rock.joints[0].origin      = Point(0, 0.5);
-  rock.joints[1].origin      = Point(0.5, 0);
-  rock.joints[1].region      = "upper";
-  const RockLayout layout    = lay_rock(rock);
-  unsigned int in_lining     = 0;
+  rock.joints = { joint_set("a", "0", "1"), joint_set("b", "90", "1") };
+  rock.joints[0].origin   = Point(0, 0.5);
+  rock.joints[1].origin   = Point(0.5, 0);
+  rock.joints[1].region   = "upper";
+  const RockLayout layout = lay_rock(rock);
+  unsigned int in_lining  = 0;
   for (const unsigned int g : layout.group)
     in_lining += g == 1;
   EXPECT_EQ(in_lining, 1u);
@@ -346,8 +346,7 @@ TEST(RockLayout, voronoi_blocks_have_the_size_asked_for)
     double squares = 0.;
     for (const auto &face : layout.faces->faces())
       squares += face.area * face.area;
-    spread[relaxation > 0]
-        = squares * layout.n_blocks() / (900. * 900.) - 1.;
+    spread[relaxation > 0] = squares * layout.n_blocks() / (900. * 900.) - 1.;
   }
   // Poisson's have a variance of 0.28; relaxed ones a small one.
   EXPECT_LT(spread[1], 0.5 * spread[0]);
@@ -357,13 +356,13 @@ TEST(RockGeometry, gmsh_makes_the_blocks_of_the_layout)
 {
   for (const auto ends : { RockParameters::cut, RockParameters::keep })
   {
-    RockParameters rock = square_rock(20.);
-    rock.dead_ends      = ends;
-    rock.finest_size    = 0.4;
-    rock.regions        = { region("tunnel", RockRegion::body,
-                                   arch_polygon(Point(10, 8), 5., 2., 2.5, 12)),
-                            region("shaft", RockRegion::hole,
-                                   circle_polygon(Point(16, 15), 1., 12)) };
+    RockParameters rock          = square_rock(20.);
+    rock.dead_ends               = ends;
+    rock.finest_size             = 0.4;
+    rock.regions                 = { region("tunnel", RockRegion::body,
+                                            arch_polygon(Point(10, 8), 5., 2., 2.5, 12)),
+                                     region("shaft", RockRegion::hole,
+                                            circle_polygon(Point(16, 15), 1., 12)) };
     rock.regions[0].refines_mesh = true;
     rock.joints = { traces(joint_set("a", "Fisher 20, 8", "normal 3, 0.5"),
                            "exponential 9", "exponential 2"),
