@@ -39,6 +39,9 @@ class Frame:
             raise ValueError(f"no blocks are listed in "
                              f"{os.path.join(output, 'blocks.pvd')}; was a "
                              f"field written?")
+        if os.path.basename(os.path.abspath(output)) == "mechanism":
+            # the series of a factor of safety lists its fields by it
+            self.label = f"factor {self.blocks.time:.4g}"
         for name in ("joints", "contacts"):
             # a series that ended earlier says nothing of this moment
             grid = getattr(self, name)
@@ -113,9 +116,13 @@ def block_colours(number):
     return np.array(STONES)[mixed % np.uint64(len(STONES))]
 
 
-def cell_speed(blocks):
-    v = np.linalg.norm(blocks.point_data["velocity"][:, :2], axis=1)
-    return v[blocks.cells].mean(axis=1)
+UNITS = {"velocity": "m/s", "displacement": "m"}
+
+
+def cell_size(blocks, name):
+    """Of a vector, in the mean over the corners of each cell."""
+    size = np.linalg.norm(blocks.point_data[name][:, :2], axis=1)
+    return size[blocks.cells].mean(axis=1)
 
 
 class Picture:
@@ -136,11 +143,11 @@ class Picture:
         self.extent = self.high - self.low
 
         # A few extremes must not make all others pale or thin.
-        self.speeds = self.contours = self.crosses = None
-        if options.colour == "velocity":
-            fastest = max(np.quantile(cell_speed(f.blocks), 0.99)
-                          for f in frames)
-            self.speeds = Normalize(0.0, fastest or 1.0, clip=True)
+        self.sizes = self.contours = self.crosses = None
+        if options.colour in UNITS:
+            largest = max(np.quantile(cell_size(f.blocks, options.colour),
+                                      0.99) for f in frames)
+            self.sizes = Normalize(0.0, largest or 1.0, clip=True)
         if options.colour == "stress":
             self.contours = Contours(frames)
         self.is_panel = len(frames) > 1
@@ -201,9 +208,9 @@ class Picture:
 
     def colours(self, blocks):
         """Of the cells."""
-        if self.speeds:
+        if self.sizes:
             return plt.get_cmap(VELOCITY_COLOURS)(
-                self.speeds(cell_speed(blocks)))
+                self.sizes(cell_size(blocks, self.options.colour)))
         if self.options.colour == "block":
             return block_colours(blocks.cell_data["block"])
         return np.array(MATERIALS)[
@@ -221,10 +228,11 @@ class Picture:
     def colour_bars(self):
         """(mappable, label) of each scale of colours."""
         bars = []
-        if self.speeds:
-            bars.append((ScalarMappable(self.speeds,
+        if self.sizes:
+            name = self.options.colour
+            bars.append((ScalarMappable(self.sizes,
                                         plt.get_cmap(VELOCITY_COLOURS)),
-                         "velocity [m/s]"))
+                         f"{name} [{UNITS[name]}]"))
         if self.contours:
             bars.append((self.contours.mappable(),
                          f"minor principal stress [{self.contours.unit}]"))

@@ -38,8 +38,8 @@ def add_picture_options(parser, joints="state"):
                                  "displacement"),
                         help="of the blocks, default material; block: a tint "
                              "that stays with each block; stress: the minor "
-                             "principal one; of a field velocity (default) or "
-                             "displacement")
+                             "principal one; velocity, displacement: their "
+                             "magnitude")
     parser.add_argument("--joints", default=joints,
                         choices=("state", "mode", "damage"),
                         help=f"what their colours are, default {joints}")
