@@ -142,77 +142,72 @@ namespace quoin
     return has_cut || has_moved;
   }
 
-  void
-  JointNetwork::cut_at_crossings(std::vector<std::vector<unsigned int>> &cuts)
+  std::vector<JointNetwork::Crossing> JointNetwork::find_crossings() const
   {
+    std::vector<Crossing> result;
     const EdgeTree tree
         = tree_of(all_edges, [&](const unsigned int v) { return point(v); });
     std::vector<unsigned int> near;
     for (unsigned int i = 0; i < all_edges.size(); ++i)
     {
-      const Edge &a  = all_edges[i];
-      const Point a0 = point(a.from), a1 = point(a.to);
-      find(tree, box_of(a0, a1, 0.), near);
+      const Edge &a      = all_edges[i];
+      const Point a0     = point(a.from);
+      const Vector way_a = point(a.to) - a0;
+      find(tree, box_of(a0, point(a.to), 0.), near);
       for (const unsigned int j : near)
       {
         const Edge &b = all_edges[j];
         if (j <= i || a.from == b.from || a.from == b.to || a.to == b.from
             || a.to == b.to)
           continue;
-        const Point b0 = point(b.from), b1 = point(b.to);
-        const Vector along_a = a1 - a0, along_b = b1 - b0;
-        const double det = cross(along_a, along_b);
+        const Point b0     = point(b.from);
+        const Vector way_b = point(b.to) - b0;
+        const double det   = cross(way_a, way_b);
         if (det == 0.)
           continue;
-        const double s = cross(b0 - a0, along_b) / det;
-        const double t = cross(b0 - a0, along_a) / det;
-        if (!(0. < s && s < 1. && 0. < t && t < 1.))
-          continue;
-        const Point where
-            = a.border != none ? a0 + s * along_a : b0 + t * along_b;
-        // An end so near to the other edge is what they will share.
-        const bool both_borders = a.border != none && b.border != none;
-        const double near_end   = std::min(
-              std::min(distance_to(b0, a0, a1), distance_to(b1, a0, a1)),
-              std::min(distance_to(a0, b0, b1), distance_to(a1, b0, b1)));
-        if (near_end <= (both_borders ? touching : near_edge) * tolerance)
-          continue;
-        if (both_borders)
-          fail(where, "borders of the outline or of regions cross. Draw "
-                      "regions inside of the outline, apart from each other or "
-                      "with common edges.");
-        const unsigned int v = add_vertex(where, false);
-        vertices[v].border   = a.border != none ? a.border : b.border;
-        cuts[i].push_back(v);
-        cuts[j].push_back(v);
+        const double s = cross(b0 - a0, way_b) / det;
+        const double t = cross(b0 - a0, way_a) / det;
+        if (0. < s && s < 1. && 0. < t && t < 1.)
+          result.push_back(
+              { i, j, a.border != none ? a0 + s * way_a : b0 + t * way_b });
       }
+    }
+    return result;
+  }
+
+  void
+  JointNetwork::cut_at_crossings(std::vector<std::vector<unsigned int>> &cuts)
+  {
+    for (const Crossing &crossing : find_crossings())
+    {
+      const Edge &a  = all_edges[crossing.first];
+      const Edge &b  = all_edges[crossing.second];
+      const Point a0 = point(a.from), a1 = point(a.to);
+      const Point b0 = point(b.from), b1 = point(b.to);
+      // An end so near to the other edge is what they will share.
+      const bool both_borders = a.border != none && b.border != none;
+      const double near_end   = std::min(
+            std::min(distance_to(b0, a0, a1), distance_to(b1, a0, a1)),
+            std::min(distance_to(a0, b0, b1), distance_to(a1, b0, b1)));
+      if (near_end <= (both_borders ? touching : near_edge) * tolerance)
+        continue;
+      if (both_borders)
+        fail(crossing.where,
+             "borders of the outline or of regions cross. Draw regions inside "
+             "of the outline, apart from each other or with common edges.");
+      const unsigned int v = add_vertex(crossing.where, false);
+      vertices[v].border   = a.border != none ? a.border : b.border;
+      cuts[crossing.first].push_back(v);
+      cuts[crossing.second].push_back(v);
     }
   }
 
   void JointNetwork::refuse_crossings() const
   {
-    const EdgeTree tree
-        = tree_of(all_edges, [&](const unsigned int v) { return point(v); });
-    std::vector<unsigned int> near;
-    for (unsigned int i = 0; i < all_edges.size(); ++i)
-    {
-      const Edge &a  = all_edges[i];
-      const Point a0 = point(a.from), a1 = point(a.to);
-      find(tree, box_of(a0, a1, 0.), near);
-      for (const unsigned int j : near)
-      {
-        const Edge &b = all_edges[j];
-        if (j <= i || a.from == b.from || a.from == b.to || a.to == b.from
-            || a.to == b.to)
-          continue;
-        const Point b0 = point(b.from), b1 = point(b.to);
-        if (cross(a1 - a0, b0 - a0) * cross(a1 - a0, b1 - a0) < 0.
-            && cross(b1 - b0, a0 - b0) * cross(b1 - b0, a1 - b0) < 0.)
-          fail(a0, "borders of the outline or of regions are nearer to each "
-                   "other than 'Shortest edge'. Lower it, or draw them "
-                   "farther apart.");
-      }
-    }
+    for (const Crossing &crossing : find_crossings())
+      fail(crossing.where,
+           "borders of the outline or of regions are nearer to each other than "
+           "'Shortest edge'. Lower it, or draw them farther apart.");
   }
 
   bool JointNetwork::cut_at_ends(std::vector<std::vector<unsigned int>> &cuts)

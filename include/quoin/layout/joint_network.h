@@ -107,6 +107,14 @@ namespace quoin
       }
     };
 
+    /** Where two edges cross that share no end. */
+    struct Crossing
+    {
+      unsigned int first, second;
+      dealii::Point<2> where;
+    };
+
+    std::vector<Crossing> find_crossings() const;
     unsigned int add_vertex(const dealii::Point<2> &position, bool is_corner);
     /** Cuts edges where they cross and where ends lie on them. */
     bool cut_edges();
