@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/exceptions.h>
 #include <quoin/layout/rock_layout.h>
 
 #include <algorithm>
@@ -30,6 +31,9 @@ namespace quoin
         treat_dead_ends();
         join_slivers();
         find_groups();
+        if (layout.n_blocks() == 0)
+          throw InputError("section 'Rock regions': holes leave nothing of the "
+                           "rock. Make them smaller than the 'Outline'.");
         layout.changes.n_joined = layout.network->n_joined();
         return std::move(layout);
       }

@@ -21,7 +21,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import common  # noqa: E402
 from common import Failure  # noqa: E402
 
-TABLES = ("histories.csv", "energies.csv")
+TABLES = ("histories.csv", "energies.csv", "safety.csv")
 # name: parameter file, overrides, ranks, kills
 CASES = {
     # friction and two stages: much history
@@ -108,6 +108,12 @@ CASES = {
         ["Solver=implicit", "Output/Checkpoint interval=0.02",
          "Output/Field interval=5e-2", "Implicit/First step=1e-3",
          "Implicit/Largest step=1e-3"], 1, 3),
+    # a factor of safety between two trials, and the stage after it
+    "safety": (
+        os.path.join(common.VERIFICATION, "sliding_wedges", "two_planes.prm"),
+        ["Output/Checkpoint interval=0.05", "Histories/Interval=1e-2",
+         "Stages/Names=settle, safety, rest", "Stages/rest/Duration=0.5",
+         "Stages/rest/Loads=gravity, held"], 1, 3),
     # cells and joints that become softer under pressure
     "properties": (
         os.path.join(common.VERIFICATION, "property_change", "case.prm"),
