@@ -337,8 +337,10 @@ TEST(MatchedJoints, InitialStressOfRockJoints)
   for (const JointSetParameters &set : { rough, yielding })
   {
     Stack stack(2, 0., set);
-    stack.joints.initialise({ { { xx, yy, xy } }, { { xx, yy, xy } } },
-                            stack.state, stack.state.joints);
+    const MatchedJoints::FaceStress uniform
+        = { { { { xx, yy, xy } }, { { xx, yy, xy } } } };
+    stack.joints.initialise({ uniform, uniform }, stack.state,
+                            stack.state.joints);
     stack.find_forces();
     const double area = 2. * thickness;
     stack.expect_on_lower(area * xy, area * yy, 1e-3);
