@@ -11,6 +11,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cstdlib>
 #include <iostream>
 
 /** Of OpenBLAS, which has no header of its own name everywhere. */
@@ -78,6 +79,9 @@ namespace quoin
     if (parsed >= 0)
       return parsed;
 
+    // Started without mpirun, Open MPI would launch a daemon beside this
+    // process, in case that it spawned others: time, and one more thing to fail.
+    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     // A rank is a core: the matrix products must not start threads of theirs.
     openblas_set_num_threads(1);
