@@ -226,11 +226,16 @@ namespace quoin
       const auto one_at = [&](const unsigned int v)
       {
         const double scale = 1e9 / size;
-        return vertex_at
-            .insert({ { { std::llround(mesh.vertices[v][0] * scale),
-                          std::llround(mesh.vertices[v][1] * scale) } },
-                      v })
-            .first->second;
+        const long long i  = std::llround(mesh.vertices[v][0] * scale);
+        const long long k  = std::llround(mesh.vertices[v][1] * scale);
+        // Rounding may part places that are the same, by one.
+        for (const long long di : { 0, -1, 1 })
+          for (const long long dk : { 0, -1, 1 })
+            if (const auto found = vertex_at.find({ { i + di, k + dk } });
+                found != vertex_at.end())
+              return found->second;
+        vertex_at[{ { i, k } }] = v;
+        return v;
       };
       std::vector<Edge> edges; // those of the first curve are the first ones
       for (const std::string &name : parameters.curves)
@@ -603,6 +608,13 @@ namespace quoin
       geometry.boundary.add_curve(curves[k].points, curves[k].closed);
       geometry.owner.resize(geometry.boundary.n_elements(), k);
     }
+    if (double(geometry.owner.size()) > most_elements)
+      throw InputError("section 'Boundary elements': the boundaries have "
+                       + std::to_string(geometry.owner.size())
+                       + " elements, more than "
+                       + std::to_string(int(most_elements))
+                       + " together. Lower 'Elements', or give a longer "
+                         "'Element length'.");
     check_elements(geometry, parameters);
     check_sides(curves, geometry, parameters);
     return geometry;

@@ -188,14 +188,15 @@ namespace quoin
                       "boundary, left or right of the direction of an open "
                       "one.");
     prm.declare_entry("Elements", "0", Integer(0, 1000000),
-                      "Number of elements; 0: from the element length.");
+                      "Number of elements, 20000 on all boundaries at most; "
+                      "0: from the element length.");
     prm.declare_entry("Element length", "0", Double(),
                       "No element is longer; if they are graded, of the "
                       "shortest; 0: that of the section, and if that is 0, "
                       "too, the edges of the mesh [m]");
     prm.declare_entry("Grading", "1", Double(),
                       "Arc, line with two points: length of the last element "
-                      "by that of the first one [-]");
+                      "by that of the first one, 1e-6 to 1e6 [-]");
     prm.declare_entry("Area", "polygon",
                       Selection("polygon|equal|equal perimeter"),
                       "Circle: a polygon with vertices on the circle, with "
@@ -220,7 +221,7 @@ namespace quoin
     read_shape(section, boundary);
     boundary.n_elements     = section.integer("Elements");
     boundary.element_length = section.nonnegative("Element length");
-    boundary.grading        = section.positive("Grading");
+    boundary.grading        = section.within("Grading", 1e-6, 1e6);
     if (boundary.grading != 1. && boundary.shape != BoundaryShape::arc
         && !(boundary.shape == BoundaryShape::line
              && boundary.points.size() == 2))

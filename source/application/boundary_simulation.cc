@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/boundary_simulation.h>
+#include <quoin/application/step_count.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
@@ -147,13 +148,11 @@ namespace quoin
                                     * geometry.boundary.lengths().minCoeff()
                                     / medium.c1;
     // The run ends at a step, not near one.
-    const double steps = std::ceil(settings.duration / wanted * (1. - 1e-12));
-    if (!(steps < 1e9))
-      throw InputError("section 'Boundary elements': 'Duration = "
-                       + number_text(settings.duration) + "' takes "
-                       + number_text(steps)
-                       + " time steps. Give a larger 'Time step', or a "
-                         "shorter duration.");
+    const double steps
+        = count_steps(settings.duration, wanted, 1e9,
+                      "section 'Boundary elements': 'Duration = "
+                          + number_text(settings.duration) + "'",
+                      "Give a larger 'Time step', or a shorter duration.");
     n_steps = std::uint64_t(steps);
     dt      = settings.duration / steps;
   }

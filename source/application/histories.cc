@@ -139,11 +139,16 @@ namespace quoin
                            "loads.");
       return;
     }
-    case HistoryQuantity::unbalanced_ratio:
+    case HistoryQuantity::unbalanced_ratio: // of the whole model
     case HistoryQuantity::kinetic_share:
     case HistoryQuantity::contacts:
-      return;
-    default: // of boundary elements
+    case HistoryQuantity::load_time:
+    case HistoryQuantity::loading_rate:
+    case HistoryQuantity::boundary_displacement: // see BoundaryHistories
+    case HistoryQuantity::boundary_velocity:
+    case HistoryQuantity::boundary_traction:
+    case HistoryQuantity::boundary_hoop_stress:
+    case HistoryQuantity::boundary_force:
       return;
     }
 

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace quoin
 {
@@ -125,9 +126,11 @@ namespace quoin
   {
     const std::string section = "section 'Incident waves/" + wave.name + "': '"
                                 + wave.signal_entry + "': ";
-    double peak = 0.;
-    for (double t = 0.; t <= duration; t += time_step)
+    double peak  = 0.;
+    const auto n = std::uint64_t(duration / time_step);
+    for (std::uint64_t k = 0; k <= n; ++k)
     {
+      const double t = double(k) * time_step;
       if (!std::isfinite(signal(t)))
         throw InputError(section + "it is not finite at t = " + number_text(t)
                          + " s. Change the expression so that it has a value "

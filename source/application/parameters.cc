@@ -5,6 +5,7 @@
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/construction.h>
+#include <quoin/dynamics/solver.h>
 #include <quoin/layout/rock_parameters.h>
 #include <quoin/tdbem/elastic_medium.h>
 
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -262,6 +264,47 @@ namespace quoin
       return result;
     }
 
+    /** Whether something takes the motion away that an explicit stage has. */
+    bool comes_to_rest(const StageParameters &stage,
+                       const std::vector<LoadParameters> &loads)
+    {
+      if (stage.damping == DampingType::rayleigh)
+        return stage.mass_coefficient + stage.stiffness_coefficient > 0.;
+      return stage.damping != DampingType::none
+             || std::any_of(loads.begin(), loads.end(),
+                            [&](const LoadParameters &load)
+                            {
+                              return (load.type == LoadType::viscous_boundary
+                                      || load.type == LoadType::free_field)
+                                     && names_load(stage, load.name);
+                            });
+    }
+
+    /** What one stage says that cannot have an effect. */
+    void check_stage(const ParameterSection &section,
+                     const StageParameters &stage, const Parameters &parameters,
+                     const bool has_excavated)
+    {
+      if (stage.end == StageEnd::static_ratio && !parameters.is_implicit
+          && !comes_to_rest(stage, parameters.loads))
+        section.fail("Damping", "leaves all motion in the model, which so "
+                                "never comes to the rest that 'End = "
+                                    + section.text("End")
+                                    + "' waits for. Take 'local' or "
+                                      "'adaptive'.");
+      if (has_excavated)
+        return;
+      const std::string why
+          = "has no effect: neither this stage nor one before it has an "
+            "'Excavate'. Name what is excavated, or remove this.";
+      if (stage.release != 1.)
+        section.fail("Release", why);
+      if (stage.release_duration >= 0.)
+        section.fail("Release duration", why);
+      if (stage.releases_linearly)
+        section.fail("Release ramp", why);
+    }
+
     void read_stages(const ParameterSection &top, Parameters &parameters)
     {
       parameters.stages = read_named<StageParameters>(top, "Stages");
@@ -273,9 +316,12 @@ namespace quoin
             .fail("End", "needs a stage before it that brings the model to "
                          "rest: a factor of safety begins with its state.");
       double end = 0.; // of the stage before; NaN: known only as it runs
+      bool has_excavated = false;
       for (const StageParameters &stage : parameters.stages)
       {
         const ParameterSection subsection(section, stage.name);
+        has_excavated = has_excavated || !stage.excavate.empty();
+        check_stage(subsection, stage, parameters, has_excavated);
         if (stage.start_time >= 0.)
         {
           std::ostringstream why;
@@ -485,6 +531,14 @@ namespace quoin
           used.insert(load);
         }
       for (const LoadParameters &load : parameters.loads)
+        for (const StageParameters &stage : parameters.stages)
+          if (load.type == LoadType::initial_stress
+              && names_load(stage, load.name))
+            throw InputError(parameters.file + ", section 'Stages/" + stage.name
+                             + "': 'Loads' names '" + load.name
+                             + "', an initial stress, which acts from the "
+                               "start and does not end. Leave it out there.");
+      for (const LoadParameters &load : parameters.loads)
         if (load.type != LoadType::initial_stress && used.count(load.name) == 0)
           throw InputError(parameters.file + ", section 'Loads/" + load.name
                            + "': no stage uses this load. Name it in the "
@@ -532,6 +586,42 @@ namespace quoin
             .fail("Box", "needs 'Model = boundary elements': leave it empty.");
     }
 
+    /** Histories of boundary elements: where they march beside blocks. */
+    void check_coupled_histories(const ParameterSection &top,
+                                 const Parameters &parameters)
+    {
+      const auto acts = [&](const LoadParameters &load)
+      {
+        return load.type == LoadType::boundary_elements
+               && std::any_of(parameters.stages.begin(),
+                              parameters.stages.end(),
+                              [&](const StageParameters &stage) {
+                                return stage.end == StageEnd::time
+                                       && names_load(stage, load.name);
+                              });
+      };
+      const ParameterSection section(top, "Histories");
+      for (const HistoryParameters &history : parameters.histories)
+      {
+        if (!history.is_of_boundary())
+          continue;
+        const ParameterSection subsection(section, history.name);
+        if (parameters.boundary.boundaries.empty())
+          subsection.fail("Quantity",
+                          "needs 'Model = boundary elements' or a load of "
+                          "'Type = boundary elements'.");
+        if (parameters.is_implicit
+            || std::none_of(parameters.loads.begin(), parameters.loads.end(),
+                            acts))
+          subsection.fail("Quantity",
+                          "is one of boundary elements in motion, but here "
+                          "they are at rest: 'Solver' is implicit, or no "
+                          "stage with 'End = time' names their load. Take "
+                          "'displacement x', 'displacement y' or 'reaction' "
+                          "of that load.");
+      }
+    }
+
     void read_block_model(const ParameterSection &top, Parameters &parameters)
     {
       parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
@@ -551,20 +641,12 @@ namespace quoin
         if (load.type == LoadType::initial_stress)
           parameters.model.initial_stresses.push_back(load);
       read_far_field(top, parameters);
-      if (parameters.boundary.boundaries.empty())
-      {
-        const ParameterSection section(top, "Histories");
-        for (const HistoryParameters &history : parameters.histories)
-          if (history.is_of_boundary())
-            ParameterSection(section, history.name)
-                .fail("Quantity", "needs 'Model = boundary elements' or a load "
-                                  "of 'Type = boundary elements'.");
-      }
       parameters.initial_motion
           = InitialMotion::read(ParameterSection(top, "Initial motion"));
       read_stages(top, parameters);
       parameters.model.absent_groups = groups_placed_later(parameters.stages);
       check_loads(parameters);
+      check_coupled_histories(top, parameters);
       parameters.implicit
           = ImplicitParameters::read(ParameterSection(top, "Implicit"));
       if (parameters.is_implicit && !parameters.boundary.waves.empty())

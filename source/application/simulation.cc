@@ -3,6 +3,7 @@
 
 #include <quoin/application/far_field_setup.h>
 #include <quoin/application/simulation.h>
+#include <quoin/application/step_count.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
@@ -28,6 +29,9 @@ namespace quoin
      * between two steps: beyond, stiff joints that chatter create energy.
      */
     constexpr double cautious_share = 0.5;
+
+    /** No run of so many steps comes to its end. */
+    constexpr double most_steps = 1e12;
   } // namespace
 
   Simulation::Simulation(const Parameters &parameters,
@@ -175,12 +179,16 @@ namespace quoin
       return report_implicit_model();
 
     // Each stage's step is found without starting it.
-    State state = record.state;
+    State state        = record.state;
+    bool time_is_known = true; // until a stage ends when it has settled
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
     {
       const StageParameters &stage = parameters.stages[i];
-      begin_stage(i, state);
+      begin_stage(i, state, time_is_known);
       choose_time_step(stage);
+      time_is_known &= stage.end == StageEnd::time && !stage.slows_loads();
+      if (time_is_known)
+        state.time += double(steps_of_stage) * explicit_solver->get_time_step();
       log.message(
           "stage " + stage.name + ": time step "
           + number_text(explicit_solver->get_time_step()) + " s, "
@@ -224,7 +232,8 @@ namespace quoin
     return nullptr;
   }
 
-  void Simulation::begin_stage(const unsigned int index, State &state)
+  void Simulation::begin_stage(const unsigned int index, State &state,
+                               const bool time_is_known)
   {
     const StageParameters *previous = previous_stage(index);
     try
@@ -234,12 +243,16 @@ namespace quoin
         implicit_solver->begin_stage(parameters.stages[index], previous, state);
       else
         explicit_solver->begin_stage(parameters.stages[index], previous, state);
-      if (implicit_solver || index == 0 || state.step > 0)
+      if (time_is_known)
         solver->check_start(state);
     }
     catch (const InputError &error)
     {
-      throw InputError(parameters.file + ", " + error.what());
+      const std::string what = parameters.file + ", " + error.what();
+      // Wrong input is what is found before anything is computed.
+      if (state.step > 0)
+        throw RunError(what);
+      throw InputError(what);
     }
   }
 
@@ -285,8 +298,13 @@ namespace quoin
     else if (stage.end == StageEnd::time)
     {
       // The stage ends at a step, not near one.
-      steps_of_stage = std::ceil(stage.duration / dt * (1. - 1e-12));
-      dt             = stage.duration / steps_of_stage;
+      steps_of_stage = std::uint64_t(count_steps(
+          stage.duration, dt, most_steps,
+          parameters.file + ", section 'Stages/" + stage.name
+              + "': 'Duration = " + number_text(stage.duration) + "'",
+          "Give a larger 'Time step' in section 'Time stepping', or a shorter "
+          "duration."));
+      dt             = stage.duration / double(steps_of_stage);
     }
     explicit_solver->set_time_step(dt);
   }
@@ -346,8 +364,8 @@ namespace quoin
     // afterwards that this was it.
     const bool row_is_due = history_control.is_due(state.time, dt);
     const bool may_be_last
-        = stage.slows_loads() ? stage.duration - state.load_time
-                                    <= (1. + 1e-6) * state.load_rate * dt
+        = stage.slows_loads() ? loads_are_over(
+              stage, state.load_time + (1. + 1e-6) * state.load_rate * dt)
           : stage.end == StageEnd::time ? state.stage_step + 1 == steps_of_stage
                                         : balance;
     ExplicitSolver::Requests requests;
@@ -369,7 +387,7 @@ namespace quoin
     {
       solver->check_finite(state);
       const auto row = histories->after_step(state);
-      write_energies();
+      write_energies(row.front());
       if (is_first_rank)
         history_table->add_row(row);
       write_far_field_row();
@@ -393,11 +411,16 @@ namespace quoin
                          : ""));
   }
 
+  bool Simulation::loads_are_over(const StageParameters &stage,
+                                  const double load_time) const
+  {
+    return load_time >= (1. - 1e-12) * stage.duration;
+  }
+
   bool Simulation::time_is_over(const StageParameters &stage) const
   {
-    return stage.slows_loads()
-               ? record.state.load_time >= (1. - 1e-12) * stage.duration
-               : record.state.stage_step >= steps_of_stage;
+    return stage.slows_loads() ? loads_are_over(stage, record.state.load_time)
+                               : record.state.stage_step >= steps_of_stage;
   }
 
   bool Simulation::stage_is_over(const StageParameters &stage,
@@ -405,6 +428,8 @@ namespace quoin
   {
     if (stage.end == StageEnd::time)
     {
+      if (time_is_over(stage))
+        return true;
       if (stage.slows_loads() && record.state.stage_step >= stage.maximum_steps)
         throw RunError(
             "stage '" + stage.name + "' has not come to its end within "
@@ -414,7 +439,7 @@ namespace quoin
             + number_text(record.state.load_rate)
             + ". Raise 'Kinetic energy limit' or 'Maximum steps', or damp "
               "more.");
-      return time_is_over(stage);
+      return false;
     }
     if (has_settled(stage, balance))
       return true;

@@ -3,6 +3,7 @@
 
 #include <quoin/application/field_output.h>
 #include <quoin/application/simulation.h>
+#include <quoin/application/step_count.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/output/collective.h>
@@ -21,6 +22,9 @@ namespace quoin
      * a tenth. Modes that grow soon owe all they have to the boundary elements.
      */
     constexpr double largest_created_share = 0.5;
+    /** No run of so many comes to its end; nor does one with so many steps of
+        blocks in each. */
+    constexpr double most_boundary_steps = 1e9;
   } // namespace
 
   double Simulation::choose_far_field_step(const StageParameters &stage,
@@ -28,8 +32,17 @@ namespace quoin
   {
     FarField &far                             = *solver->far_field();
     const BoundaryElementParameters &settings = parameters.boundary;
-    const auto steps = [](const double duration, const double step)
-    { return std::max(1., std::ceil(duration / step * (1. - 1e-12))); };
+    const std::string section
+        = parameters.file + ", section 'Boundary elements': ";
+    const std::string cure
+        = "Give a larger 'Time step', there and in section 'Time stepping', or "
+          "shorter stages.";
+    const auto steps = [&](const double duration, const double step)
+    {
+      return count_steps(duration, step, most_boundary_steps,
+                         section + "a stage of " + number_text(duration) + " s",
+                         cure);
+    };
     double step      = far.time_step();
     const bool first = step == 0.;
     if (first)
@@ -42,8 +55,10 @@ namespace quoin
       if (stage.end == StageEnd::time)
         step = stage.duration / steps(stage.duration, step);
     }
-    const double n_substeps = steps(step, dt);
-    double n_steps          = 0.;
+    const double n_substeps = count_steps(
+        step, dt, most_boundary_steps,
+        section + "a time step of " + number_text(step) + " s", cure);
+    double n_steps = 0.;
     for (const StageParameters &s : parameters.stages)
       if (s.end == StageEnd::time)
         n_steps += steps(s.duration, step);

@@ -49,7 +49,7 @@ namespace quoin
     {
       try
       {
-        take_implicit_step(stage);
+        take_implicit_step();
       }
       catch (const RunError &error)
       {
@@ -68,7 +68,7 @@ namespace quoin
     end_stage(index);
   }
 
-  void Simulation::take_implicit_step(const StageParameters &)
+  void Simulation::take_implicit_step()
   {
     State &state          = record.state;
     const double before   = state.time;
@@ -114,7 +114,7 @@ namespace quoin
   {
     histories->before_step(record.state);
     const auto row = histories->after_step(record.state);
-    write_energies();
+    write_energies(row.front());
     if (is_first_rank)
       history_table->add_row(row);
   }

@@ -91,6 +91,9 @@ namespace quoin
     auto words = split_string_list(text(name), ',');
     if (words.size() == 1 && words.front().empty())
       words.clear();
+    for (const std::string &word : words)
+      if (word.empty())
+        fail(name, "has nothing before or between commas: remove a comma.");
     return words;
   }
 

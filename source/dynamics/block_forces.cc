@@ -27,7 +27,6 @@ namespace quoin
     data    = new_data;
     n_lanes = options.n_lanes == 0 ? native_lanes : options.n_lanes;
 
-    statistics = StripStatistics();
     runs.clear();
     offsets.clear();
     masks.clear();
@@ -77,7 +76,7 @@ namespace quoin
     const auto finish = [&](const unsigned int s)
     {
       if (!members[s].empty())
-        append_run(make_strips(data.cells, members[s], &statistics), tile, s);
+        append_run(make_strips(data.cells, members[s], nullptr), tile, s);
       members[s].clear();
     };
     for (std::size_t cell = tile.cells.begin; cell < tile.cells.end; ++cell)
@@ -151,13 +150,6 @@ namespace quoin
         }
       }
     }
-  }
-
-  double BlockForces::lane_fill() const
-  {
-    return masks.empty() ? 0.
-                         : static_cast<double>(statistics.n_cells)
-                               / (masks.size() * n_lanes);
   }
 
   template <int lanes>

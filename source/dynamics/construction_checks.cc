@@ -31,6 +31,14 @@ namespace quoin
         text += (text.empty() ? "" : ", ") + item.name;
       return text.empty() ? "none" : text;
     }
+
+    /** Laws of one kind remember the same of a joint. */
+    std::string kind_of_law(const JointSetParameters &set)
+    {
+      return set.composite ? "a composite law"
+             : set.rock    ? "a law of rock joints"
+                           : "a Coulomb, elastic or no-tension law";
+    }
   } // namespace
 
   std::vector<std::string>
@@ -180,12 +188,13 @@ namespace quoin
     // The other set's own law, whatever that set follows by now.
     const JointSetParameters &wanted
         = at_start.joints[position(at_start.joints, other)];
-    if (now.composite.has_value() != wanted.composite.has_value())
-      throw InputError(where
-                       + ", but one law is composite and the other is not: a "
-                         "joint cannot change the kind of its law. Give both "
-                         "sets the same 'Law'.");
+    if (kind_of_law(now) != kind_of_law(wanted))
+      throw InputError(where + ", but '" + set + "' has " + kind_of_law(now)
+                       + " and '" + other + "' " + kind_of_law(wanted)
+                       + ": a joint cannot change the kind of its law. Give "
+                         "both sets laws of one kind.");
     now.law       = wanted.law;
     now.composite = wanted.composite;
+    now.rock      = wanted.rock;
   }
 } // namespace quoin

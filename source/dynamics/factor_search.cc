@@ -11,6 +11,7 @@ namespace quoin
   namespace
   {
     constexpr double step = 1.25; // of factors, until there is a bracket
+    constexpr double least_tolerance = 1e-6; // by the highest factor
   }
 
   void SafetyParameters::declare(dealii::ParameterHandler &prm)
@@ -26,7 +27,8 @@ namespace quoin
                       "The search goes no higher [-]");
     prm.declare_entry("Factor tolerance", "0.01", Double(),
                       "The search ends when a stable factor and one that fails "
-                      "are no farther apart [-]");
+                      "are no farther apart; at least a millionth of "
+                      "'Highest factor' [-]");
     prm.declare_entry("Failure displacement", "0", Double(),
                       "A factor fails when the largest displacement since its "
                       "start is beyond this and has grown by half or more "
@@ -47,7 +49,11 @@ namespace quoin
     if (!(safety.lowest <= safety.first && safety.first <= safety.highest))
       section.fail("First factor", "must be between 'Lowest factor' and "
                                    "'Highest factor'.");
-    safety.tolerance            = section.positive("Factor tolerance");
+    safety.tolerance = section.positive("Factor tolerance");
+    if (safety.tolerance < least_tolerance * safety.highest)
+      section.fail("Factor tolerance",
+                   "is less than a millionth of 'Highest factor': the search "
+                   "would not end. Give a larger one.");
     safety.failure_displacement = section.nonnegative("Failure displacement");
     const std::string reduced   = section.text("Reduced strength");
     safety.reduces_blocks       = reduced != "joints";
@@ -77,7 +83,7 @@ namespace quoin
 
   bool FactorSearch::is_over(const SafetyParameters &parameters) const
   {
-    return failing - stable <= parameters.tolerance
+    return (stable > 0. && failing - stable <= parameters.tolerance)
            || stable >= parameters.highest || failing <= parameters.lowest;
   }
 } // namespace quoin

@@ -115,7 +115,7 @@ namespace quoin
               << ". If it may leave, make the box larger or set 'Outside the "
                  "box' to report or delete; if not, look at the last fields. "
                  "The last checkpoint is kept.";
-      throw RunError(message.str());
+      throw ModelFailure(message.str());
     }
     return found;
   }

@@ -87,7 +87,8 @@ namespace quoin
   void StageParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry("Loads", "", Anything(),
-                      "Names of the loads that act in this stage.");
+                      "Names of the loads that act in this stage; initial "
+                      "stresses act in all and are not among them.");
     prm.declare_entry("End", "time",
                       Selection("time|static ratio|factor of safety"),
                       "What ends the stage: its duration; or that the sum of "
@@ -106,7 +107,7 @@ namespace quoin
     prm.declare_entry("Static ratio", "1e-6", Double(),
                       "Unbalanced to applied force at which a stage with "
                       "'End = static ratio' ends, and a factor of safety "
-                      "is stable [-]");
+                      "is stable; below 1 [-]");
     prm.declare_entry("Minimum duration", "0", Double(),
                       "For 'End = static ratio': the stage lasts at least so "
                       "long, for loads that begin later [s]");
@@ -122,7 +123,9 @@ namespace quoin
                       "local: a share of the unbalanced force, against the "
                       "velocity; adaptive: mass-proportional with a "
                       "coefficient that keeps the damping power at half the "
-                      "rate of kinetic energy; Rayleigh: alpha and beta.");
+                      "rate of kinetic energy; Rayleigh: alpha and beta. "
+                      "Explicit stages that settle need one, or a viscous or "
+                      "free-field boundary.");
     prm.declare_entry("Local damping coefficient", "0.8", Double(),
                       "Share of the unbalanced force [-]");
     prm.declare_entry("Rayleigh mass coefficient", "0", Double(),
@@ -153,7 +156,11 @@ namespace quoin
       stage.duration = section.positive("Duration");
     else
     {
-      stage.static_ratio     = section.positive("Static ratio");
+      stage.static_ratio = section.positive("Static ratio");
+      if (stage.static_ratio >= 1.)
+        section.fail("Static ratio", "must be below 1, where all that is "
+                                     "applied is unbalanced: give 1e-3 to "
+                                     "1e-9.");
       stage.minimum_duration = section.nonnegative("Minimum duration");
     }
     stage.maximum_steps = section.integer("Maximum steps");

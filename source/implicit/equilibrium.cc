@@ -5,6 +5,7 @@
 
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace quoin
@@ -249,14 +250,22 @@ namespace quoin
                                   Balance &balance, const bool with_derivatives)
   {
     balance.far_field_energy = 0.;
+    balance.far_field_force  = { { 0., 0. } };
     if (!far_field)
       return;
-    balance.far_field_energy
-        = far_field->add_forces(configuration.nodes.data(),
-                                committed.static_far_field, joint_force.data());
+    const auto &nodes = far_field->nodes();
+    AlignedArray<NodeVector> force(model.exchange().n_local(), no_force);
+    balance.far_field_energy = far_field->add_forces(
+        configuration.nodes.data(), committed.static_far_field, force.data());
+    for (const unsigned int node : nodes)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        joint_force[node].v[d] += force[node].v[d];
+        if (freedoms.is_free(node, d))
+          balance.far_field_force[d] += force[node].v[d];
+      }
     if (!with_derivatives)
       return;
-    const auto &nodes = far_field->nodes();
     for (unsigned int k = 0; k < nodes.size(); ++k)
       for (unsigned int d = 0; d < 2; ++d)
         if (freedoms.is_free(nodes[k], d))

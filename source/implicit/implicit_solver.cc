@@ -138,6 +138,9 @@ namespace quoin
     std::vector<double> ratios;
     for (unsigned int i = 0;; ++i)
     {
+      // Given motion turns arms, which may be those of a line search yet or,
+      // in a resumed run, of nothing.
+      freedoms->update_arms(configuration);
       advance.load_time = target.load_time;
       advance.released  = target.released;
       if (target.path > 0.) // the load time is an unknown
@@ -304,9 +307,6 @@ namespace quoin
 
   bool ImplicitSolver::has_gone_far(const State &state) const
   {
-    // After a resumption within the jump it is not known from where.
-    if (last_equilibrium.nodes.empty())
-      return false;
     double moved = 0.;
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
@@ -324,8 +324,7 @@ namespace quoin
   {
     const double tried = std::abs(state.implicit.step);
     const bool jumped  = state.implicit.jumps;
-    if (!last_equilibrium.nodes.empty())
-      state = last_equilibrium;
+    state              = last_equilibrium;
     fail(state, tried, jumped);
   }
 

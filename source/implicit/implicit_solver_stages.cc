@@ -80,8 +80,8 @@ namespace quoin
         result.push_back(constraint->values(time));
       return result;
     };
-    constexpr double late = 1e9;
-    const Values last     = values(late);
+    constexpr double late = 1e9, earliest = 1e-9; // [s]
+    const Values last = values(late);
     if (values(1.7 * late) != last)
       throw InputError("section 'Stages/" + stage.name
                        + "': 'End = static ratio', but its loads never rest. "
@@ -108,7 +108,7 @@ namespace quoin
         check(motion->parts());
     }
     double rests = late, moves = 0.;
-    for (double t = late; t > 1e-9; t *= 0.9)
+    for (double t = late; t > earliest; t *= 0.9)
       if (values(t) == last)
         rests = t;
       else
@@ -118,12 +118,13 @@ namespace quoin
       }
     if (moves == 0. && values(0.) == last)
       rests = 0.;
-    while (rests - moves > 1e-9 * rests)
+    while (rests > earliest && rests - moves > 1e-9 * rests)
     {
       const double middle                      = 0.5 * (rests + moves);
       (values(middle) == last ? rests : moves) = middle;
     }
-    return rests;
+    // What jumps where the stage begins rests from there on.
+    return rests > earliest ? rests : 0.;
   }
 
   void ImplicitSolver::prepare_stage(const State &state)
@@ -203,7 +204,17 @@ namespace quoin
     for (NodeConstraint *constraint : constraints_on)
       if (auto *platen = dynamic_cast<Platen *>(constraint))
         platen->set_mass(model.mass());
+    if (state.implicit.jumps)
+      last_equilibrium = state.implicit.before_jump.front();
+    state.implicit.before_jump.clear();
     prepare_stage(state);
+  }
+
+  void ImplicitSolver::save(State &state) const
+  {
+    Solver::save(state);
+    if (state.implicit.jumps)
+      state.implicit.before_jump = { last_equilibrium };
   }
 
   void
@@ -351,17 +362,21 @@ namespace quoin
                                                        : balance.drives[b][d];
       return result;
     }
-    const auto *motion = dynamic_cast<const PrescribedMotion *>(*found);
-    for (const Freedoms::Prescribed &given : freedoms->prescribed())
-    {
-      if (given.part != &motion->parts()[given.component])
-        continue;
-      const auto &X
-          = model.mesh().vertices[model.exchange().global(given.node)];
-      const double force = -balance.force[given.node].v[given.component];
-      result[given.component] += force;
-      result[2] += given.component == 0 ? -X[1] * force : X[0] * force;
-    }
+    if (*found == static_far)
+      std::copy(balance.far_field_force.begin(), balance.far_field_force.end(),
+                result.begin());
+    else if (const auto *motion
+             = dynamic_cast<const PrescribedMotion *>(*found))
+      for (const Freedoms::Prescribed &given : freedoms->prescribed())
+      {
+        if (given.part != &motion->parts()[given.component])
+          continue;
+        const auto &X
+            = model.mesh().vertices[model.exchange().global(given.node)];
+        const double force = -balance.force[given.node].v[given.component];
+        result[given.component] += force;
+        result[2] += given.component == 0 ? -X[1] * force : X[0] * force;
+      }
     MPI_Allreduce(MPI_IN_PLACE, result.data(), 3, MPI_DOUBLE, MPI_SUM,
                   communicator);
     return result;
@@ -439,7 +454,7 @@ namespace quoin
             << "; otherwise lower 'Largest step', raise 'Maximum "
                "iterations', or look at the strengths of those joints. The "
                "last equilibrium is kept.";
-    throw RunError(message.str());
+    throw ModelFailure(message.str());
   }
 
   std::string ImplicitSolver::describe_node(const unsigned int node) const

@@ -22,7 +22,7 @@ namespace quoin
   }
 
   Eigen::MatrixXd power_series_coefficients(
-      const unsigned n, const unsigned n_values,
+      const unsigned n, const Eigen::Index n_values,
       const std::function<void(std::complex<double>, Eigen::VectorXcd &)>
           &values)
   {
@@ -52,7 +52,7 @@ namespace quoin
       scaling(k) = std::pow(radius, -double(k)) / points;
 
     Eigen::MatrixXd coefficients(n_values, n);
-    for (unsigned value = 0; value < n_values; ++value)
+    for (Eigen::Index value = 0; value < n_values; ++value)
     {
       row = spectrum.row(value).transpose();
       fftw_execute(plan.get());
@@ -74,7 +74,8 @@ namespace quoin
     if (!(time_step > 0.) || n_lags == 0)
       throw InputError("Convolution quadrature: the time step and the number "
                        "of lags must be positive.");
-    const unsigned entries     = size_ * size_;
+    // The square of many elements is beyond an unsigned number.
+    const Eigen::Index entries = Eigen::Index(size_) * size_;
     const Eigen::MatrixXd both = power_series_coefficients(
         n_lags, 2 * entries,
         [&](const std::complex<double> w, Eigen::VectorXcd &result)
@@ -114,7 +115,8 @@ namespace quoin
     for (unsigned n = begin; n < end; ++n)
       for (unsigned k = 0; k < n_columns; ++k)
       {
-        const unsigned first = (2 * columns.begin + k) * size_ + 2 * rows.begin;
+        const Eigen::Index first
+            = Eigen::Index(2 * columns.begin + k) * size_ + 2 * rows.begin;
         const unsigned column = (n - begin) * n_columns + k;
         G.col(column)         = G_.col(n).segment(first, n_rows);
         H.col(column)         = H_.col(n).segment(first, n_rows);

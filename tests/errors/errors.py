@@ -133,8 +133,12 @@ def base_case_runs(quoin, folder):
     prm = prepare(folder)
     status, printed = run([quoin, prm, "--quiet"])
     expect(status, printed, 0, [])
-    if not os.path.exists(os.path.join(folder, "output", "histories.csv")):
+    output = os.path.join(folder, "output")
+    if not os.path.exists(os.path.join(output, "histories.csv")):
         raise Failure("no output/histories.csv beside the parameter file")
+    times = [[row[0] for row in rows] for rows in tables(output)[0].values()]
+    if times[0] != times[1]:
+        raise Failure("the tables have rows of other times")
 
 
 def boundary_case_runs(quoin, folder):
@@ -356,6 +360,79 @@ def deleted_block(quoin, folder):
     return printed
 
 
+SAFETY = ["Stages/second/End=factor of safety", "Stages/second/Damping=local",
+          "Stages/second/Lowest factor=3", "Stages/second/First factor=3",
+          "Stages/second/Failure displacement=10",
+          "Stages/Names=first, second, third", "Stages/third/Loads=base, push",
+          "Stages/third/Duration=1e-4", "Stages/third/Damping=local"]
+
+
+def failing_block_leaves(quoin, folder):
+    """A block that leaves the box as a factor is tried: the factor fails, the
+    mechanism is that of what is left, and no block is lost after it."""
+    sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+    from vtu import read_at
+    # the lower block hangs from the upper one, by a soft joint
+    hangs = ["Contact/Displacements=large", "Contact/Box=-1, 0.4, 2, 2",
+             "Joints/bed/Curves=bed", "Joints/bed/New contacts between=all",
+             "Joints/bed/Normal stiffness=1e8", "Joints/bed/Shear stiffness=1e8",
+             "Joints/bed/Tensile strength=1e5", "Joints/bed/Cohesion=1e6",
+             "Loads/base/Boundary=top", "Loads/push/Boundary=bottom",
+             "Loads/push/Vertical=-5e4", "Stages/first/End=static ratio",
+             "Stages/first/Static ratio=1e-3"]
+    prm = prepare(folder)
+    for outside, says in (("stop", "has left"), ("delete", "is failing")):
+        output = os.path.join(folder, outside)
+        status, printed = run(
+            [quoin, prm, "--output", output]
+            + settings({"set": hangs + SAFETY
+                        + ["Contact/Outside the box=" + outside]}))
+        expect(status, printed, 0, ["factor 3", says, "even the lowest"])
+        if "Warning: block" in printed:
+            raise Failure("a block is lost after the trial:\n%s" % printed)
+    grid = read_at(os.path.join(output, "mechanism", "blocks.pvd"))
+    moved = abs(grid.point_data["displacement"]).max()
+    if not moved < 1e-5:
+        raise Failure("what is left has moved by %g m" % moved)
+    return printed
+
+
+def safety_changes_nothing(quoin, folder):
+    """What follows a factor of safety is what follows without it."""
+    prm = prepare(folder)
+    rows = []
+    for names in ("first, second, third", "first, third"):
+        output = os.path.join(folder, "with" if "second" in names else "without")
+        status, printed = run(
+            [quoin, prm, "--output", output] + settings({"set": SAFETY + [
+                "Stages/Names=" + names, "Stages/second/Static ratio=1e-3",
+                "Materials/stone/Law=Mohr-Coulomb", "Materials/stone/Cohesion=1e4",
+                "Materials/stone/Friction angle=26.6",
+                "Loads/push/Vertical=-1e5*min(1, T/1e-3)"]}))
+        expect(status, printed, 0, [])
+        rows.append(tables(output)[0]["histories.csv"])
+    if rows[0] != rows[1]:
+        raise Failure("the stage after it ends with\n%s\ninstead of\n%s"
+                      % (rows[0][-1], rows[1][-1]))
+
+
+def last_allowed_step(quoin, folder):
+    """A stage that comes to its end in its last allowed step has not failed."""
+    prm = prepare(folder)
+    words = [quoin, prm, "--set", "Stages/Names=first",
+             "--set", "Stages/first/Kinetic energy limit=1"]
+    output = os.path.join(folder, "one")
+    status, printed = run(words + ["--output", output])
+    expect(status, printed, 0, [])
+    steps = tables(output)[1]["steps"]
+    for allowed, wanted in ((steps, 0), (steps - 1, 2)):
+        status, printed = run(words + [
+            "--output", os.path.join(folder, "other"),
+            "--set", "Stages/first/Maximum steps=%d" % allowed])
+        expect(status, printed, wanted, [] if wanted == 0 else
+               ["Maximum steps", "first"])
+
+
 def implicit_limit_load(quoin, folder):
     """A load that no equilibrium can bear: where it stopped is kept, and from
     the checkpoint it gets no farther."""
@@ -385,7 +462,8 @@ FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing, no_argume
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
              no_number_at_the_end, runaway, reported_block, deleted_block, other_ranks, other_parameters,
-             nothing_to_resume, implicit_limit_load]
+             nothing_to_resume, failing_block_leaves, safety_changes_nothing,
+             last_allowed_step, implicit_limit_load]
 
 
 def main():

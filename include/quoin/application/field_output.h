@@ -20,7 +20,7 @@ namespace quoin
 
   /**
    * Matched joints of this rank. @p state: after
-   * ExplicitSolver::update_histories().
+   * Solver::update_histories().
    */
   JointFields joint_fields(const Model &model, const State &state);
 

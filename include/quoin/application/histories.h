@@ -10,6 +10,7 @@
 #include <quoin/dynamics/solver.h>
 #include <quoin/dynamics/model.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>

@@ -45,7 +45,7 @@ namespace quoin
     std::string load;
     std::string curve;
 
-    /** Of a run of boundary elements: on the boundary. */
+    /** On boundary elements, alone or beyond blocks. */
     bool is_of_boundary() const
     {
       return quantity >= HistoryQuantity::boundary_displacement;

@@ -8,12 +8,13 @@
 
 namespace quoin
 {
-  /** Sections 'Mesh' and 'Wall'. */
+  /** Sections 'Mesh', 'Wall' and 'Rock'. */
   void declare_mesh(dealii::ParameterHandler &prm);
 
   /**
-   * Reads both into @p parameters: a file, or the geometry of a wall, and where
-   * the joints are. Throws an InputError that names file, section and cure.
+   * Reads them into @p parameters: a file, or the geometry of a wall or of
+   * rock, and where the joints are. Throws an InputError that names file,
+   * section and cure.
    */
   void read_mesh(const ParameterSection &top, Parameters &parameters);
 

@@ -80,8 +80,12 @@ namespace quoin
     void set_initial_motion();
     void report_model();
     void report_initial_joints();
-    /** Model and solver begin stage @p index with @p state. */
-    void begin_stage(unsigned int index, State &state);
+    /**
+     * Model and solver begin stage @p index with @p state; loads are not to
+     * begin with a jump, as far as its time is known, @p time_is_known.
+     */
+    void begin_stage(unsigned int index, State &state,
+                     bool time_is_known = true);
     /** They go on with the state of a checkpoint. */
     void resume();
     void open_outputs();
@@ -92,6 +96,8 @@ namespace quoin
     /** Divides the strengths of @p strong by @p factor. */
     void set_strength(const ModelProperties &strong,
                       const SafetyParameters &safety, double factor);
+    /** Of the model and of general contacts. */
+    void set_properties(const ModelProperties &properties);
     /** @p base: the state before the stage. */
     SafetyTrial try_factor(const StageParameters &stage, double factor,
                            const State &base);
@@ -105,7 +111,7 @@ namespace quoin
     void end_stage(unsigned int index);
     void report_implicit_model();
     void run_implicit_stage(unsigned int index);
-    void take_implicit_step(const StageParameters &stage);
+    void take_implicit_step();
     void write_implicit_rows();
     void write_iterations();
     void choose_time_step(const StageParameters &stage);
@@ -121,6 +127,8 @@ namespace quoin
     /** Returns whether the stage is over. */
     bool take_step(const StageParameters &stage);
     void report_blocks_outside();
+    /** Of a stage that slows its loads, whether it ends at @p load_time. */
+    bool loads_are_over(const StageParameters &stage, double load_time) const;
     /** Of a stage that lasts for a given time. */
     bool time_is_over(const StageParameters &stage) const;
     bool stage_is_over(const StageParameters &stage, bool balance);
@@ -129,7 +137,8 @@ namespace quoin
     void write_generated_geometry() const;
     /** A file of the output folder. */
     void write_text(const std::string &name, const std::string &text) const;
-    void write_energies();
+    /** The row of @p time [s], that of the histories beside it. */
+    void write_energies(double time);
     void write_fields();
     void save_checkpoint();
     void checkpoint_if_due();

@@ -30,6 +30,17 @@ namespace quoin
   public:
     using std::runtime_error::runtime_error;
   };
+
+  /**
+   * A RunError about the model and not about the machine, thrown by all ranks:
+   * there is no equilibrium, a block has left the box. Where a factor of safety
+   * is sought, the model has failed.
+   */
+  class ModelFailure : public RunError
+  {
+  public:
+    using RunError::RunError;
+  };
 } // namespace quoin
 
 #endif

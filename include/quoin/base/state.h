@@ -283,13 +283,14 @@ namespace quoin
     std::vector<double> frozen;       /**< p_h of the step under way [Pa] */
     std::vector<double> velocity_sum; /**< over block steps [m] */
     std::vector<double> traction_sum; /**< over block steps [Pa] */
-    double duration    = 0.;          /**< of those block steps [s] */
-    double square_sum  = 0.;          /**< of v Z0 v over block steps [J] */
-    double radiated    = 0.;          /**< as FarField::Ledger [J] */
-    double substep_sum = 0.;
-    double incident    = 0.;
-    double given       = 0.;
-    double mismatch    = 0.;
+    double duration   = 0.;           /**< of those block steps [s] */
+    double square_sum = 0.;           /**< of v Z0 v over block steps [J] */
+    // As FarField::Ledger says.
+    double radiated    = 0.; /**< [J] */
+    double substep_sum = 0.; /**< its substeps [J] */
+    double incident    = 0.; /**< [J] */
+    double given       = 0.; /**< [J] */
+    double mismatch    = 0.; /**< [-] */
     /** Of all boundary elements in the last step, scattered. */
     std::vector<double> displacement, velocity, traction;
     std::vector<double> history; /**< in checkpoints */
@@ -348,6 +349,8 @@ namespace quoin
     }
   };
 
+  struct State;
+
   /** What the implicit solver keeps from step to step; see ImplicitSolver. */
   struct ImplicitState
   {
@@ -369,13 +372,15 @@ namespace quoin
     double drag_step    = 0.;    /**< to try next, of the way [-] */
     unsigned int n_drag = 0;     /**< steps of the way so far */
     double jump_loss    = 0.;    /**< taken by the drag since it began [J] */
+    /** In checkpoints within a jump: the equilibrium before it. */
+    std::vector<State> before_jump;
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
       archive &held &released &step &last_step &follows_path &path_step
           &path_length &farthest &ahead &jumps &jump_time &drag_step &n_drag
-              &jump_loss;
+              &jump_loss &before_jump;
     }
   };
 

@@ -254,14 +254,6 @@ namespace quoin
                               const PlasticHistory &history,
                               unsigned int cell) const;
 
-    const StripStatistics &strip_statistics() const
-    {
-      return statistics;
-    }
-
-    /** Share of the lanes' work that is spent on triangles. */
-    double lane_fill() const;
-
   private:
     /** Strips of equal stiffness that go through the lanes together. */
     struct Run
@@ -334,7 +326,6 @@ namespace quoin
     unsigned int n_lanes = 0;
     std::vector<Tile> tiles;
     std::vector<Run> runs;
-    StripStatistics statistics;
 
     /**
      * The node that enters each lane at each step, as its offset in bytes

@@ -52,8 +52,8 @@ namespace quoin
   };
 
   /**
-   * The blocks and joints of this rank, packed for the explicit solver and
-   * constant from then on, but for what set_properties() changes. Nodes, cells
+   * The blocks and joints of this rank, packed for the solvers and constant
+   * from then on, but for what set_properties() changes. Nodes, cells
    * and blocks have local numbers: whole blocks, deformable ones first, then
    * rigid ones, then the ghosts of nodes that joints reach.
    */

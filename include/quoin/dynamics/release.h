@@ -30,10 +30,6 @@ namespace quoin
     {
       return is_changing;
     }
-    double duration() const
-    {
-      return ramp_duration;
-    }
 
     /** s [-] */
     double share(double load_time) const;

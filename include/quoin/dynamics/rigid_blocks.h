@@ -83,10 +83,6 @@ namespace quoin
     {
       return node_begin;
     }
-    unsigned int end_node() const
-    {
-      return node_begin + arms.size();
-    }
 
     /**
      * Largest omega^2 [1/s^2] of block @p b by itself with the stiffness

@@ -115,7 +115,7 @@ namespace quoin
     bool static_far_field_acts() const;
 
     /** Called before a checkpoint: completes @p state. */
-    void save(State &state) const;
+    virtual void save(State &state) const;
 
     /** Null if displacements are small. */
     virtual const BlockContacts *contacts() const

@@ -12,6 +12,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quoin
@@ -70,6 +71,7 @@ namespace quoin
     /** As ExplicitSolver::begin_stage(). */
     void begin_stage(const StageParameters &stage,
                      const StageParameters *previous, State &state);
+    /** With a state that save() has completed. */
     void resume_stage(const StageParameters &stage, State &state);
 
     /** Load time at which the stage ends [s]. */
@@ -77,9 +79,11 @@ namespace quoin
     {
       return stage_duration;
     }
+    /** A jump has loads of its end from its first step on. */
     bool is_over(const State &state) const
     {
-      return state.implicit.released == 1. && state.load_time >= stage_duration;
+      return state.implicit.released == 1. && !state.implicit.jumps
+             && state.load_time >= stage_duration;
     }
 
     /**
@@ -93,6 +97,8 @@ namespace quoin
     void update_histories(State &) override
     {
     }
+
+    void save(State &state) const override;
 
     std::array<double, 3> resultant(const std::string &load) const override;
 

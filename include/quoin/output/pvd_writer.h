@@ -35,11 +35,6 @@ namespace quoin
      */
     void write() const;
 
-    unsigned int n_records() const
-    {
-      return records.size();
-    }
-
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {

@@ -91,12 +91,6 @@ namespace quoin
       return longest;
     }
 
-    /** Number of decay rates. */
-    unsigned n_rates() const
-    {
-      return unsigned(rates.size());
-    }
-
     /**
      * The largest difference between the first matrix that is left to the
      * exponentials and itself, relative to the largest of that lag: how well

@@ -36,7 +36,7 @@ namespace quoin
    * values have 15 digits. @p values is called n + 1 times.
    */
   Eigen::MatrixXd power_series_coefficients(
-      unsigned n, unsigned n_values,
+      unsigned n, Eigen::Index n_values,
       const std::function<void(std::complex<double>, Eigen::VectorXcd &)>
           &values);
 

@@ -227,6 +227,19 @@ TEST(BoundaryGeometry, CurvesOfAMesh)
   EXPECT_EQ(b.elements.front().a, Vector2d(2., 0.));
 }
 
+TEST(BoundaryGeometry, BlocksThatTouchMakeOneCurve)
+{
+  // Two vertices at the same place but for rounding, one on either side of
+  // half a unit of 1e-9 of the size.
+  MeshData mesh    = square_mesh();
+  mesh.vertices[1] = { 1. + 1e-9 - 4e-16, 0. };
+  mesh.vertices.push_back({ 1. + 1e-9 + 4e-16, 0. });
+  mesh.lines[0][0] = 8; // the edge from 1 to 2
+  EXPECT_EQ(
+      make({ curves({ "lower" }, DomainSide::left) }, 0., mesh).n_elements(),
+      2u);
+}
+
 TEST(BoundaryGeometry, Complaints)
 {
   const MeshData mesh = square_mesh();
@@ -259,4 +272,9 @@ TEST(BoundaryGeometry, Complaints)
                  1.),
        "different sides");
   says(complaint({ circle(1., 16), circle(3., 32) }), "is not on the side of");
+
+  // Given by their number, of all boundaries.
+  other.centre[0]  = 5.;
+  other.n_elements = 15000;
+  says(complaint({ circle(1., 15000), other }), "30000 elements");
 }

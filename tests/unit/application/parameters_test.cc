@@ -81,6 +81,7 @@ subsection Stages
     set Loads = base
     set End = static ratio
     set Start time = 0.75
+    set Damping = local
   end
 end
 subsection Histories
@@ -341,7 +342,8 @@ TEST(Parameters, StagesMustFollowOneAnother)
                       "set Names = preload, rest, shear"),
                  { "section 'Stages/rest'", "Start time = 0.75", "gap" });
   expect_refused(
-      with("set Duration = 0.25", "set End = static ratio"),
+      with("set Duration = 0.25",
+           "set End = static ratio\nset Damping = local"),
       { "section 'Stages/shear'", "Start time = 0.25", "previous end" });
   expect_refused(with("set Names = preload, shear, rest", "set Names ="),
                  { "Stages" });
@@ -357,6 +359,8 @@ TEST(Parameters, LoadsAndStagesMustMatch)
 
 TEST(Parameters, NamesMustDiffer)
 {
+  expect_refused(with("set Names = brick, rock", "set Names = brick,,rock"),
+                 { "section 'Materials'", "Names = brick,,rock", "comma" });
   expect_refused(with("set Names = brick, rock", "set Names = brick, brick"),
                  { "section 'Materials'", "'brick' twice" });
   expect_refused(with("set Names = ux, fy", "set Names = ux, fy, ux"),

@@ -21,6 +21,7 @@ namespace
     prm.declare_entry("Zero", "0", Double());
     prm.declare_entry("Words", "a, b c ,d", Anything());
     prm.declare_entry("Nothing", "", Anything());
+    prm.declare_entry("Gap", "a,,b", Anything());
     prm.declare_entry("Three", "1, -2e3, 0.5", Anything());
     prm.declare_entry("Flag", "yes", Anything());
     prm.declare_entry("Count", "12", dealii::Patterns::Integer());
@@ -57,6 +58,7 @@ TEST(ParameterSection, ReadsValues)
     EXPECT_EQ(inner.list("Words"),
               (std::vector<std::string>{ "a", "b c", "d" }));
     EXPECT_TRUE(inner.list("Nothing").empty());
+    EXPECT_THROW(inner.list("Gap"), InputError);
     EXPECT_EQ(inner.numbers<3>("Three"),
               (std::array<double, 3>{ { 1., -2000., 0.5 } }));
     EXPECT_TRUE(inner.flag("Flag"));

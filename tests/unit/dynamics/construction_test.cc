@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../joints/rock_walk.h"
 #include "test_models.h"
 
+#include <quoin/base/exceptions.h>
 #include <quoin/dynamics/construction.h>
 
 using namespace quoin;
@@ -207,4 +209,35 @@ TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
   parameters.initial_stresses.clear();
   TestRun run(mesh, parameters, {});
   EXPECT_LT(residual_in_motion(run, { change }), 1e-7);
+}
+
+TEST(Construction, RockJointsFollowLawsOfRockJointsOnly)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  ModelParameters parameters = two_blocks();
+  parameters.joints.push_back(elastic_joint(5e9, 2e9, "weak"));
+  parameters.joints.back().curves.clear();
+  StageParameters change    = stage_of({}, {});
+  change.joint_properties   = { { "joint", "weak" } };
+  JointSetParameters &joint = parameters.joints[0],
+                     &weak  = parameters.joints[1];
+  joint.rock                = rock_test::rough();
+  weak.rock                 = rock_test::yielding();
+  {
+    TestRun run(mesh, parameters, {});
+    Construction construction(run.model, { change });
+    construction.begin_stage(0, run.solver, run.state);
+    const RockLaw &now = *run.model.properties().joints[0].rock;
+    ASSERT_TRUE(std::holds_alternative<ContinuouslyYieldingLaw>(now));
+    EXPECT_EQ(std::get<ContinuouslyYieldingLaw>(now).roughness,
+              rock_test::yielding().roughness);
+  }
+  for (const bool from_rock : { false, true })
+  {
+    (from_rock ? weak : joint).rock.reset();
+    (from_rock ? joint : weak).rock = rock_test::rough();
+    TestRun run(mesh, parameters, {});
+    EXPECT_THROW(Construction(run.model, { change }), InputError);
+  }
 }

@@ -3,6 +3,8 @@
 
 #include "implicit_run.h"
 
+#include <quoin/base/exceptions.h>
+#include <quoin/coupling/static_far_field.h>
 #include <quoin/mesh/crossed_triangles.h>
 #include <quoin/output/archive.h>
 
@@ -91,6 +93,38 @@ namespace
     return stream.str();
   }
 
+  /** Friction 0.5 under 1e6 N, then a force of 0.8e6 N a second: it holds
+      until 0.625 s. */
+  struct Sliding
+  {
+    BlockMesh<2> mesh;
+    std::unique_ptr<ImplicitRun> run;
+
+    explicit Sliding(const bool jumps)
+    {
+      make_stack(mesh, 2, 1);
+      ModelParameters parameters        = two_blocks();
+      parameters.joints[0].law.peak     = { 0., 0.5, 0. };
+      parameters.joints[0].law.residual = { 0., 0.5, 0. };
+      ImplicitParameters numbers;
+      numbers.jumps      = jumps;
+      const auto at_rest = component(velocity, "0");
+      run                = std::make_unique<ImplicitRun>(
+          mesh, parameters,
+          std::vector<LoadParameters>{
+                             platen("held", "lower", at_rest, at_rest, at_rest),
+                             platen("press", "upper", component(given_force, "0"),
+                                    component(given_force, "-1e6 * min(1, t/0.5)"), at_rest),
+                             platen("push", "upper", component(given_force, "8e5*t"),
+                                    component(given_force, "-1e6"), at_rest) },
+          numbers);
+      const StageParameters pressed = stage_with({ "held", "press" });
+      run->begin(pressed.loads);
+      run->finish();
+      run->begin({ "held", "push" }, &pressed);
+    }
+  };
+
   double largest_damping_error(const ImplicitRun &run)
   {
     const Energies &energies = run.solver.energies();
@@ -172,27 +206,8 @@ TEST(ImplicitSolver, IterationsConvergeQuadratically)
 
 TEST(ImplicitSolver, SlidingBeyondItsLimitKeepsTheLastEquilibrium)
 {
-  // Friction 0.5 under 1e6 N, and a force of 0.8e6 N a second: until 0.625 s.
-  BlockMesh<2> mesh;
-  make_stack(mesh, 2, 1);
-  ModelParameters parameters        = two_blocks();
-  parameters.joints[0].law.peak     = { 0., 0.5, 0. };
-  parameters.joints[0].law.residual = { 0., 0.5, 0. };
-  ImplicitParameters numbers;
-  numbers.jumps      = false;
-  const auto at_rest = component(velocity, "0");
-  ImplicitRun run(
-      mesh, parameters,
-      { platen("held", "lower", at_rest, at_rest, at_rest),
-        platen("press", "upper", component(given_force, "0"),
-               component(given_force, "-1e6 * min(1, t/0.5)"), at_rest),
-        platen("push", "upper", component(given_force, "8e5*t"),
-               component(given_force, "-1e6"), at_rest) },
-      numbers);
-  const StageParameters pressed = stage_with({ "held", "press" });
-  run.begin(pressed.loads);
-  run.finish();
-  run.begin({ "held", "push" }, &pressed);
+  Sliding sliding(false);
+  ImplicitRun &run = *sliding.run;
   State last;
   try
   {
@@ -214,6 +229,96 @@ TEST(ImplicitSolver, SlidingBeyondItsLimitKeepsTheLastEquilibrium)
   EXPECT_NEAR(run.state.load_time, 0.625, 1e-4);
   last.implicit = run.state.implicit; // the step to try has become smaller
   EXPECT_EQ(bytes(run.state), bytes(last));
+}
+
+TEST(ImplicitSolver, ACollapseResumedWithinItsJumpEndsTheSame)
+{
+  const auto collapse = [](ImplicitRun &run)
+  {
+    try
+    {
+      run.finish();
+    }
+    catch (const RunError &error)
+    {
+      return std::string(error.what());
+    }
+    return std::string("it stands");
+  };
+  Sliding whole(true), other(true);
+  ImplicitRun &run = *whole.run;
+  while (run.state.implicit.n_drag < 3)
+    run.solver.step(run.state);
+  run.solver.save(run.state);
+  other.run->state = run.state;
+  other.run->solver.resume_stage(stage_with({ "held", "push" }),
+                                 other.run->state);
+  const std::string text = collapse(run);
+  EXPECT_NE(text.find("went on moving"), std::string::npos) << text;
+  EXPECT_EQ(collapse(*other.run), text);
+  EXPECT_EQ(bytes(other.run->state), bytes(run.state));
+  EXPECT_EQ(other.run->state.implicit.jumps, false);
+}
+
+TEST(ImplicitSolver, ALoadThatJumpsAtTheStartRestsFromThereOn)
+{
+  BlockMesh<2> mesh;
+  make_row(mesh);
+  ImplicitRun run(mesh, three_blocks(),
+                  { moved("left", "0", ""), moved("floor", "", "0"),
+                    traction("pull", "right", "if(t > 0, 3e6, 0)", "") });
+  StageParameters stage = stage_with({ "left", "floor", "pull" });
+  stage.end             = StageEnd::static_ratio;
+  run.solver.begin_stage(stage, nullptr, run.state);
+  run.finish();
+  EXPECT_NEAR(run.solver.resultant("left")[0], -3e6 * section, 1e-5 * 3e6);
+}
+
+TEST(ImplicitSolver, AGivenRotationResumedIsBitwiseTheSame)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 1);
+  const auto at_rest = component(velocity, "0");
+  const std::vector<LoadParameters> loads
+      = { platen("held", "lower", at_rest, at_rest, at_rest),
+          platen("turn", "upper", at_rest, at_rest,
+                 component(velocity, "1e-3*t")) };
+  const StageParameters stage = stage_with({ "held", "turn" });
+  ImplicitRun run(mesh, two_blocks(), loads), other(mesh, two_blocks(), loads);
+  run.solver.begin_stage(stage, nullptr, run.state);
+  run.solver.step(run.state);
+  other.state = run.state;
+  other.solver.resume_stage(stage, other.state);
+  run.solver.step(run.state);
+  other.solver.step(other.state);
+  EXPECT_EQ(bytes(other.state), bytes(run.state));
+}
+
+TEST(ImplicitSolver, ReactionOfTheFarField)
+{
+  // Boundary elements below the stack, of the same rock, bear the load on it.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 4, 1);
+  const Model model(mesh, { 0, 0 }, two_blocks(), MPI_COMM_SELF);
+  FarFieldDomain domain;
+  domain.boundary.add_curve({ { 4., 0. }, { 2., 0. }, { 0., 0. } }, false);
+  domain.medium    = ElasticMedium::from_young(2500., 1e10, 0.2);
+  domain.interface = { 0, 1 };
+  LoadParameters far;
+  far.name = "far";
+  far.type = LoadType::boundary_elements;
+  ImplicitSolver solver(
+      model, { far, traction("press", "top", "", "-1e6*t") }, {}, { "joint" },
+      std::make_unique<StaticFarField>(
+          "far", domain, mesh, faces_of_curves(mesh, { "bottom" }, "far"),
+          model.exchange(), model.thickness()));
+  State state = model.initial_state();
+  solver.begin_stage(stage_with({ "far", "press" }), nullptr, state);
+  while (!solver.is_over(state))
+    solver.step(state);
+  const double load = 1e6 * 4. * model.thickness();
+  EXPECT_NEAR(solver.resultant("far")[1], load, 1e-5 * load);
+  EXPECT_NEAR(solver.resultant("far")[0], 0., 1e-5 * load);
 }
 
 TEST(ImplicitSolver, RigidBlockUnderAnEccentricLoad)

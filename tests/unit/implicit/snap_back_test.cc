@@ -202,6 +202,7 @@ TEST(SnapBack, ARunThatIsResumedIsBitwiseTheSame)
   while (!whole.run->solver.is_over(whole.run->state))
   {
     states.push_back(whole.run->state);
+    whole.run->solver.save(states.back());
     whole.run->solver.step(whole.run->state);
   }
   ASSERT_GT(states.size(), 20U);
@@ -216,4 +217,17 @@ TEST(SnapBack, ARunThatIsResumedIsBitwiseTheSame)
     other.run->finish();
     EXPECT_EQ(bytes(other.run->state), bytes(whole.run->state)) << share;
   }
+}
+
+TEST(SnapBack, AStageDoesNotEndWithinAJump)
+{
+  // The stage ends so soon after the peak that the jump is one to its end.
+  Bar bar(numbers(PathFollowing::never, true));
+  StageParameters stage = stage_with({ "left", "guide", "pull" });
+  stage.duration        = 1.0005 * strength * compliance / speed;
+  bar.run->solver.begin_stage(stage, nullptr, bar.run->state);
+  bar.run->finish();
+  EXPECT_FALSE(bar.run->state.implicit.jumps);
+  EXPECT_NEAR(bar.stress(), stress_after(speed * stage.duration),
+              1e-6 * strength);
 }
