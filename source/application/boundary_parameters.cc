@@ -3,9 +3,9 @@
 
 #include <quoin/application/boundary_parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/utilities.h>
 
 #include <cmath>
 #include <sstream>
@@ -56,29 +56,17 @@ namespace quoin
                                               const std::string &name)
     {
       std::vector<std::array<double, 2>> result;
-      const auto pairs
-          = dealii::Utilities::split_string_list(section.text(name), ';');
-      for (const std::string &pair : pairs)
+      for (const auto &row :
+           section.rows(name, 2,
+                        "must be points of two numbers, as in 0, 0; 1, 0; 1, "
+                        "2."))
       {
-        const auto words = dealii::Utilities::split_string_list(pair, ',');
-        std::vector<double> values;
-        try
-        {
-          values = dealii::Utilities::string_to_double(words);
-        }
-        catch (const std::exception &)
-        {
-          values.clear();
-        }
-        if (values.size() != 2 || !std::isfinite(values[0])
-            || !std::isfinite(values[1]))
-          section.fail(name, "has '" + pair
-                                 + "' for a point: give two numbers, as in "
-                                   "0, 0; 1, 0; 1, 2.");
-        if (!result.empty() && result.back()[0] == values[0]
-            && result.back()[1] == values[1])
-          section.fail(name, "repeats the point '" + pair + "': give it once.");
-        result.push_back({ { values[0], values[1] } });
+        const std::array<double, 2> point{ { row[0], row[1] } };
+        if (!result.empty() && result.back() == point)
+          section.fail(name, "repeats the point '" + number_text(point[0])
+                                 + ", " + number_text(point[1])
+                                 + "': give it once.");
+        result.push_back(point);
       }
       return result;
     }

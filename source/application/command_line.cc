@@ -6,6 +6,7 @@
 #include <quoin/application/parameters.h>
 #include <quoin/application/simulation.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/output/collective.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -93,10 +94,30 @@ namespace quoin
         std::cerr << "Error: " << what << std::endl;
       return status;
     };
+    // Of one rank alone: others may be waiting for it.
+    const auto abandon = [](const std::string &what)
+    {
+      std::cerr << "Error: " << what << std::endl;
+      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
+        MPI_Abort(MPI_COMM_WORLD, 2);
+      return 2;
+    };
     try
     {
-      Parameters parameters
-          = read_parameters(arguments.file, arguments.overrides);
+      Parameters parameters;
+      // A rank whose machine cannot read the files must not leave the others.
+      std::string message;
+      try
+      {
+        parameters = read_parameters(arguments.file, arguments.overrides);
+      }
+      catch (const InputError &error)
+      {
+        message = error.what();
+      }
+      message = first_message(MPI_COMM_WORLD, message);
+      if (!message.empty())
+        throw InputError(message);
       if (!arguments.output.empty())
         parameters.output_directory = arguments.output;
       if (parameters.is_boundary_model)
@@ -115,17 +136,12 @@ namespace quoin
     }
     catch (const std::bad_alloc &)
     {
-      return report("not enough memory for this model. Coarsen it or use "
-                    "more machines.",
-                    2);
+      return abandon("not enough memory for this model. Coarsen it or use "
+                     "more machines.");
     }
     catch (const std::exception &error)
     {
-      std::cerr << "Error: " << error.what() << std::endl;
-      // Other ranks may be waiting for this one.
-      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-        MPI_Abort(MPI_COMM_WORLD, 2);
-      return 2;
+      return abandon(error.what());
     }
   }
 } // namespace quoin

@@ -141,19 +141,9 @@ namespace quoin
       read_mesh_file(section, parameters);
     if (!generated || !section.text("Joints along").empty())
       parameters.split.joints_along = section.list("Joints along");
-    for (const std::string &pair : section.list("Joints between"))
-    {
-      if (pair == "all")
-      {
-        parameters.split.between_all = true;
-        continue;
-      }
-      const auto names = dealii::Utilities::split_string_list(pair, ':');
-      if (names.size() != 2)
-        section.fail("Joints between",
-                     "must be 'all' or pairs such as rock:concrete.");
-      parameters.split.joints_between.emplace_back(names[0], names[1]);
-    }
+    parameters.split.joints_between = section.pairs(
+        "Joints between", "must be 'all' or pairs such as rock:concrete.",
+        &parameters.split.between_all);
     parameters.split.joint_ends = section.choice<SplitOptions::JointEnds>(
         "Joint ends inside blocks",
         { { "keep", SplitOptions::keep }, { "refuse", SplitOptions::refuse } });

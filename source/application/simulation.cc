@@ -7,6 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
+#include <quoin/joints/composite_parameters.h>
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
@@ -85,8 +86,11 @@ namespace quoin
         = parameters.generated.geometry.empty()
               ? read_gmsh(parameters.mesh_file, communicator,
                           parameters.triangles)
-              : mesh_gmsh_geometry(parameters.generated.geometry, communicator,
-                                   parameters.triangles);
+              : mesh_gmsh_geometry(parameters.generated.geometry,
+                                   parameters.generated.name == "wall"
+                                       ? "section Wall"
+                                       : "section Rock",
+                                   communicator, parameters.triangles);
     split_into_blocks(as_read, parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 
@@ -174,6 +178,13 @@ namespace quoin
                   "symmetric to "
                   + number_text(far->asymmetry()) + " of its largest entry");
 
+    for (const JointSetParameters &set : parameters.model.joints)
+    {
+      const std::string warning
+          = set.composite ? snap_back_warning(*set.composite) : "";
+      if (!warning.empty())
+        log.warning("section 'Joints/" + set.name + "': " + warning);
+    }
     report_initial_joints();
     if (implicit_solver)
       return report_implicit_model();

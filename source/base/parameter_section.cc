@@ -97,24 +97,66 @@ namespace quoin
     return words;
   }
 
+  namespace
+  {
+    /** None if one of @p words is no finite number. */
+    std::vector<double> finite_numbers(const std::vector<std::string> &words)
+    {
+      std::vector<double> values;
+      try
+      {
+        values = dealii::Utilities::string_to_double(words);
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+      }
+      if (!std::all_of(values.begin(), values.end(),
+                       [](const double value) { return std::isfinite(value); }))
+        values.clear();
+      return values;
+    }
+  } // namespace
+
+  std::vector<std::vector<double>>
+  ParameterSection::rows(const std::string &name, const std::size_t n_columns,
+                         const std::string &must_be) const
+  {
+    std::vector<std::vector<double>> result;
+    for (const std::string &row : split_string_list(text(name), ';'))
+    {
+      result.push_back(finite_numbers(split_string_list(row, ',')));
+      if (result.back().size() != n_columns)
+        fail(name, must_be);
+    }
+    return result;
+  }
+
+  std::vector<std::pair<std::string, std::string>>
+  ParameterSection::pairs(const std::string &name, const std::string &must_be,
+                          bool *const all) const
+  {
+    std::vector<std::pair<std::string, std::string>> result;
+    for (const std::string &pair : list(name))
+    {
+      if (all != nullptr && pair == "all")
+      {
+        *all = true;
+        continue;
+      }
+      const auto words = split_string_list(pair, ':');
+      if (words.size() != 2 || words[0].empty() || words[1].empty())
+        fail(name, must_be);
+      result.emplace_back(words[0], words[1]);
+    }
+    return result;
+  }
+
   std::vector<double>
   ParameterSection::number_list(const std::string &name,
                                 const std::size_t size) const
   {
-    const auto words = list(name);
-    std::vector<double> values;
-    try
-    {
-      values = dealii::Utilities::string_to_double(words);
-    }
-    catch (const std::exception &)
-    {
-      values.clear();
-    }
-    if (values.size() != size
-        || !std::all_of(values.begin(), values.end(),
-                        [](const double value)
-                        { return std::isfinite(value); }))
+    const auto values = finite_numbers(list(name));
+    if (values.size() != size)
       fail(name,
            "must be " + std::to_string(size) + " numbers separated by commas.");
     return values;

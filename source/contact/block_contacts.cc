@@ -185,9 +185,9 @@ namespace quoin
     }
 
     double friction = 0., fracture = 0., lost = 0.;
-    updates += watched.size();
+    updates += contacts.pairs.size();
     begin_contacts(contacts);
-    for (const unsigned int i : watched)
+    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
     {
       ContactPair &pair = contacts.pairs[i];
       if (!pair.active)
@@ -318,7 +318,7 @@ namespace quoin
     // Before any pair is brought to the present, so that heirs go on from the
     // same past as those they follow, whatever the order of the pairs.
     new_contacts.clear();
-    for (const unsigned int i : watched)
+    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
     {
       ContactPair &pair = contacts.pairs[i];
       if (pair.active)

@@ -6,13 +6,12 @@
 // forces.
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/wall_clock.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/contact_search.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numeric>
 #include <sstream>
 #include <tuple>
 
@@ -65,6 +64,7 @@ namespace quoin
   {
     laws.clear();
     rocks.clear();
+    can_dilate = false;
     for (const JointSetParameters &set : sets)
     {
       laws.push_back(set.law);
@@ -159,10 +159,10 @@ namespace quoin
       moved                  = std::max(moved, dx * dx + dy * dy);
       fastest                = std::max(fastest, v[0] * v[0] + v[1] * v[1]);
     }
-    const double changed = hand_over(state, joints) || search_is_due;
-    search_is_due        = false;
-    double values[4]
-        = { std::sqrt(moved), std::sqrt(fastest), changed, deepest_ratio };
+    const bool changed = hand_over(state, joints) || search_is_due;
+    search_is_due      = false;
+    double values[4]   = { std::sqrt(moved), std::sqrt(fastest),
+                         changed ? 1. : 0., deepest_ratio };
     MPI_Allreduce(MPI_IN_PLACE, values, 4, MPI_DOUBLE, MPI_MAX,
                   exchange.communicator());
     const double step_length = values[1] * dt;
@@ -177,11 +177,9 @@ namespace quoin
     double left        = budget - values[0];
     if (is_first || values[2] > 0. || left < ahead)
     {
-      const auto start = std::chrono::steady_clock::now();
+      const auto start = WallClock::now();
       search(state);
-      seconds += std::chrono::duration<double>(std::chrono::steady_clock::now()
-                                               - start)
-                     .count();
+      seconds += seconds_since(start);
       left = budget;
     }
     const double interval = ahead > 0. ? std::clamp(std::floor(left / ahead),
@@ -364,30 +362,6 @@ namespace quoin
     gather(state);
     inherit_shifts(contacts);
     reanchor(contacts);
-    find_distances();
-  }
-
-  void BlockContacts::find_distances()
-  {
-    const auto ends = [&](const unsigned int e)
-    {
-      const double *p = position[local_edges[e].nodes[0]].v;
-      const double *q = position[local_edges[e].nodes[1]].v;
-      return EdgeEnds{ edge_numbers[e], { p[0], q[0] }, { p[1], q[1] } };
-    };
-    pair_distance.clear();
-    for (const auto &[a, b] : pair_edges)
-      pair_distance.push_back(distance(ends(a), ends(b)));
-  }
-
-  void BlockContacts::watch(const ContactState &contacts, const double reach)
-  {
-    if (pair_distance.empty()) // of a resumed run, until the next search
-      return;
-    watched.clear();
-    for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
-      if (contacts.pairs[i].active || pair_distance[i] <= 2. * reach)
-        watched.push_back(i);
   }
 
   void BlockContacts::inherit_shifts(ContactState &contacts) const
@@ -541,9 +515,6 @@ namespace quoin
     compact_force.assign(n_nodes, NodeVector{ { 0., 0. } });
     compact_viscous.assign(n_nodes, NodeVector{ { 0., 0. } });
     openings.assign(n_pairs, {});
-    pair_distance.clear();
-    watched.resize(n_pairs);
-    std::iota(watched.begin(), watched.end(), 0);
     deepest_ratio = 0.;
     bound_search  = contacts.n_searches;
   }
@@ -601,8 +572,10 @@ namespace quoin
       if (std::sqrt(v[0] * v[0] + v[1] * v[1]) >= speed)
         first = std::min(first, exchange.global(i));
     }
-    first         = dealii::Utilities::MPI::min(first, exchange.communicator());
-    const auto &p = mesh.vertices[first == nowhere ? 0 : first];
+    first = dealii::Utilities::MPI::min(first, exchange.communicator());
+    if (first == nowhere) // the root was rounded otherwise than here
+      first = 0;
+    const auto &p = mesh.vertices[first];
     std::ostringstream message;
     message << "block " << mesh.block_of_vertex(first) << ", at rest at ("
             << p[0] << ", " << p[1] << ") m, moves at " << speed

@@ -48,6 +48,9 @@ namespace quoin
     contact.skin                = section.nonnegative("Skin");
     contact.deepest             = section.within("Deepest overlap", 1e-6, 1.);
     contact.has_box             = !section.text("Box").empty();
+    if (!contact.has_box && section.text("Outside the box") != "report")
+      section.fail("Outside the box", "needs a 'Box': give one, or leave this "
+                                      "at 'report'.");
     if (contact.has_box)
     {
       if (!contact.large_displacements)

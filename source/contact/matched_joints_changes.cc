@@ -41,16 +41,40 @@ namespace quoin
   {
     // Tractions at the limit are not beyond it.
     constexpr double margin = 1e-9;
-    double n                = 0.;
+    // Of those of rock joints, which an iteration finds.
+    constexpr double rock_margin = 1e-6;
+    double n                     = 0.;
     for (unsigned int i = 0; i < segments.size(); ++i)
       for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
       {
-        const JointStrength &peak = laws[segments[i].set].peak;
-        const double sigma        = history.normal_traction[p];
-        const double tau          = std::abs(history.shear_traction[p]);
-        const double size         = margin * (std::abs(sigma) + tau);
-        if (sigma > peak.tension + size
-            || tau + sigma * peak.friction > peak.cohesion + size)
+        const unsigned int set = segments[i].set;
+        const double sigma     = history.normal_traction[p];
+        const double tau       = history.shear_traction[p];
+        const double size      = std::abs(sigma) + std::abs(tau);
+        bool is_beyond;
+        if (rocks[set])
+        {
+          // Their strength depends on their history: do they hold as they are?
+          RockPoint point;
+          std::visit(
+              [&](const auto &law)
+              {
+                point = read_point(law, history, p);
+                law.update(point, 0., 0.);
+              },
+              *rocks[set]);
+          is_beyond = std::abs(point.normal_traction - sigma)
+                          + std::abs(point.shear_traction - tau)
+                      > rock_margin * size;
+        }
+        else
+        {
+          const JointStrength &peak = laws[set].peak;
+          is_beyond                 = sigma > peak.tension + margin * size
+                      || std::abs(tau) + sigma * peak.friction
+                             > peak.cohesion + margin * size;
+        }
+        if (is_beyond)
           n += segments[i].share;
       }
     return dealii::Utilities::MPI::sum(n, communicator);

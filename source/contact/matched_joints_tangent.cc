@@ -196,7 +196,7 @@ namespace quoin
     const double sigma = history.normal_traction[p];
     const double tau   = std::abs(history.shear_traction[p]);
     const double shear = tau + sigma * law.peak.friction - law.peak.cohesion;
-    return std::max(sigma - law.peak.tension, shear)
-           / std::max(std::abs(sigma), tau);
+    const double size  = std::max(std::abs(sigma), tau);
+    return size > 0. ? std::max(sigma - law.peak.tension, shear) / size : 0.;
   }
 } // namespace quoin

@@ -372,6 +372,7 @@ namespace quoin
     {
       const CapturedNode &before = captured[captured_positions[k]];
       const auto traction        = transfer.force(k, p);
+      double reaction[2]         = { 0., 0. };
       for (unsigned int d = 0; d < 2; ++d)
       {
         if (before.owner[d] != this)
@@ -387,8 +388,11 @@ namespace quoin
         state.pending.external += force * w1;
         state.energy.damping += rayleigh * w0;
         state.pending.damping += rayleigh * w1;
+        reaction[d] = force;
         last_resultant[d] += force;
       }
+      last_resultant[2]
+          += moment_of(reaction, before, state.nodes[before.node]);
     }
     if (is_first_rank)
     {

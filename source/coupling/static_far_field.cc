@@ -169,6 +169,7 @@ namespace quoin
     {
       const CapturedNode &before = captured[captured_positions[k]];
       const auto traction        = transfer.force(k, p);
+      double reaction[2]         = { 0., 0. };
       for (unsigned int d = 0; d < 2; ++d)
       {
         const double v0 = before.velocity.v[d];
@@ -186,8 +187,11 @@ namespace quoin
             = step.mass_damping * before.mass * 0.5 * (v0 + v1);
         state.energy.damping += rayleigh * w0;
         state.pending.damping += rayleigh * w1;
-        last_resultant[d] += held - thickness * traction[d];
+        reaction[d] = held - thickness * traction[d];
+        last_resultant[d] += reaction[d];
       }
+      last_resultant[2]
+          += moment_of(reaction, before, state.nodes[before.node]);
     }
     transfer.gather(
         [&](const unsigned int k)

@@ -3,8 +3,6 @@
 
 #include <quoin/dynamics/stage_parameters.h>
 
-#include <deal.II/base/utilities.h>
-
 namespace quoin
 {
   namespace
@@ -13,22 +11,6 @@ namespace quoin
     using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
     using dealii::Patterns::Selection;
-
-    /** Pairs a:b, separated by commas. */
-    std::vector<std::pair<std::string, std::string>>
-    read_pairs(const ParameterSection &section, const std::string &name,
-               const std::string &example)
-    {
-      std::vector<std::pair<std::string, std::string>> result;
-      for (const std::string &pair : section.list(name))
-      {
-        const auto words = dealii::Utilities::split_string_list(pair, ':');
-        if (words.size() != 2 || words[0].empty() || words[1].empty())
-          section.fail(name, "must be pairs such as " + example + ".");
-        result.emplace_back(words[0], words[1]);
-      }
-      return result;
-    }
 
     void declare_construction(dealii::ParameterHandler &prm)
     {
@@ -77,10 +59,11 @@ namespace quoin
                                            "it, or raise 'Duration'.");
       }
       stage.releases_linearly = section.text("Release ramp") == "linear";
-      stage.materials         = read_pairs(section, "Materials",
-                                           "lining:young_concrete, rock:grouted");
-      stage.joint_properties
-          = read_pairs(section, "Joint properties", "bed:weak_bed");
+      stage.materials         = section.pairs(
+                  "Materials",
+                  "must be pairs such as lining:young_concrete, rock:grouted.");
+      stage.joint_properties = section.pairs(
+          "Joint properties", "must be pairs such as bed:weak_bed.");
     }
   } // namespace
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/number_text.h>
+#include <quoin/base/unread_parameters.h>
 #include <quoin/joints/composite_parameters.h>
 
 #include <deal.II/base/numbers.h>
@@ -99,12 +101,30 @@ namespace quoin
 
     law.compression = positive_or_none(section, "Compressive strength");
     if (std::isinf(law.compression))
+    {
+      refuse_unread(section, "Compressive strength",
+                    { { "Compressive fracture energy", "0", { "a number" } },
+                      { "Peak crushing", "0", { "a number" } } });
       return law;
+    }
     law.compression_energy = section.positive("Compressive fracture energy");
     law.peak_crushing      = section.positive("Peak crushing");
     law.cap_shear          = section.positive("Cap shear");
     law.cap_normal         = section.positive("Cap normal");
     law.cap_offset         = section.nonnegative("Cap offset");
     return law;
+  }
+
+  std::string snap_back_warning(const CompositeLaw &law)
+  {
+    if (law.softens_gently())
+      return "";
+    return "the joint drops by itself at failure and does not dissipate its "
+           "fracture energies. 'Normal stiffness' should be above ft^2 / GfI = "
+           + number_text(law.tension * law.tension / law.tension_energy)
+           + " Pa/m and above the slope of the cap, 'Shear stiffness' above "
+             "c^2 / GfII = "
+           + number_text(law.cohesion * law.cohesion / law.shear_energy)
+           + " Pa/m.";
   }
 } // namespace quoin

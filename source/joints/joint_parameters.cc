@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/unread_parameters.h>
 #include <quoin/joints/composite_parameters.h>
 #include <quoin/joints/joint_parameters.h>
 
 #include <deal.II/base/numbers.h>
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 
@@ -35,6 +35,27 @@ namespace quoin
           rock);
       result.residual = result.peak;
       return result;
+    }
+
+    /**
+     * Refuses strengths that the law does not have. What is another law's alone
+     * may stay, so that a file can change the law of one that it includes; so
+     * may the strength of an elastic joint.
+     */
+    void refuse_unread_parameters(const ParameterSection &section)
+    {
+      const std::vector<std::string> brittle
+          = { "Coulomb", "Barton-Bandis", "continuously yielding" };
+      refuse_unread(section, "Law",
+                    { { "Residual cohesion", "0", brittle },
+                      { "Residual tensile strength", "0", brittle },
+                      { "Residual friction angle",
+                        "same",
+                        { "Coulomb", "composite", "Barton-Bandis",
+                          "continuously yielding" } },
+                      { "Critical shear displacement",
+                        "1e300",
+                        { "Coulomb", "no tension" } } });
     }
 
     JointStrength divided(const JointStrength &strength, const double factor)
@@ -81,7 +102,9 @@ namespace quoin
                       "phi; of 'continuously yielding' that of the unworn "
                       "joint, not read if 'Law = Barton-Bandis' [deg]");
     prm.declare_entry("Tensile strength", "0", Double(), "ft [Pa]");
-    prm.declare_entry("Dilation angle", "0", Double(), "psi [deg]");
+    prm.declare_entry("Dilation angle", "0", Double(),
+                      "psi, at most the friction angle, once failed too "
+                      "[deg]");
     prm.declare_entry("Critical shear displacement", "1e300", Double(),
                       "Slip beyond which the joint dilates no more [m]");
     prm.declare_entry("Residual cohesion", "0", Double(),
@@ -101,20 +124,11 @@ namespace quoin
     JointSetParameters set;
     set.name   = name;
     set.curves = section.list("Curves");
-    for (const std::string &pair : section.list("New contacts between"))
-    {
-      if (pair == "all")
-      {
-        set.all_new_contacts = true;
-        continue;
-      }
-      const auto names = dealii::Utilities::split_string_list(pair, ':');
-      if (names.size() != 2 || names[0].empty() || names[1].empty())
-        section.fail("New contacts between",
-                     "must be 'all' or pairs of materials such as "
-                     "rock:concrete.");
-      set.new_contacts.emplace_back(names[0], names[1]);
-    }
+    set.new_contacts
+        = section.pairs("New contacts between",
+                        "must be 'all' or pairs of materials such as "
+                        "rock:concrete.",
+                        &set.all_new_contacts);
     const bool is_new = set.all_new_contacts || !set.new_contacts.empty();
     if (set.curves.empty() && !is_new)
       set.curves = { name };
@@ -134,6 +148,7 @@ namespace quoin
       return set;
     }
 
+    refuse_unread_parameters(section);
     if (kind == "Barton-Bandis" || kind == "continuously yielding")
     {
       set.rock = read_rock_law(section);
@@ -157,12 +172,25 @@ namespace quoin
     law.peak.cohesion       = section.nonnegative("Cohesion");
     law.peak.friction       = tangent_of_degrees(peak_angle);
     law.peak.tension        = section.nonnegative("Tensile strength");
-    law.dilation
-        = tangent_of_degrees(section.within("Dilation angle", 0., peak_angle));
     law.critical_shear_displacement
         = section.nonnegative("Critical shear displacement");
 
     law.residual = law.peak;
+    // A joint dilates once it has failed: beyond the residual friction that
+    // would create energy.
+    double highest_dilation = peak_angle;
+    if (kind == "Coulomb" && section.text("Residual friction angle") != "same")
+    {
+      const double angle
+          = section.numbers<1>("Residual friction angle").front();
+      if (!(angle >= 0. && angle <= 89.))
+        section.fail("Residual friction angle",
+                     "must lie between 0 and 89 degrees, or be 'same'.");
+      law.residual.friction = tangent_of_degrees(angle);
+      highest_dilation      = std::min(peak_angle, angle);
+    }
+    law.dilation = tangent_of_degrees(
+        section.within("Dilation angle", 0., highest_dilation));
     if (kind == "no tension")
     {
       if (law.peak.tension > 0.)
@@ -173,15 +201,6 @@ namespace quoin
     }
     law.residual.cohesion = section.nonnegative("Residual cohesion");
     law.residual.tension  = section.nonnegative("Residual tensile strength");
-    if (section.text("Residual friction angle") != "same")
-    {
-      const double angle
-          = section.numbers<1>("Residual friction angle").front();
-      if (!(angle >= 0. && angle <= 89.))
-        section.fail("Residual friction angle",
-                     "must lie between 0 and 89 degrees, or be 'same'.");
-      law.residual.friction = tangent_of_degrees(angle);
-    }
     if (law.residual.cohesion > law.peak.cohesion)
       section.fail("Residual cohesion", "must not exceed 'Cohesion'.");
     if (law.residual.tension > law.peak.tension)
@@ -195,7 +214,9 @@ namespace quoin
     JointSetParameters weak = set;
     weak.law.peak           = divided(set.law.peak, factor);
     weak.law.residual       = divided(set.law.residual, factor);
-    weak.law.dilation = std::min(set.law.dilation, weak.law.peak.friction);
+    weak.law.dilation
+        = std::min(set.law.dilation, std::min(weak.law.peak.friction,
+                                              weak.law.residual.friction));
     if (weak.composite)
     {
       CompositeLaw &law = *weak.composite;

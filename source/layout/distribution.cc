@@ -161,6 +161,11 @@ namespace quoin
       throw std::invalid_argument(
           "must have a finite mean and a standard deviation that is not "
           "negative.");
+    // Bessel functions of nearly no concentration cannot be told apart.
+    if (result.kind == DistributionKind::von_mises && result.deviation > 180.)
+      throw std::invalid_argument("must not have a standard deviation above "
+                                  "180 degrees, where any dip is as likely: "
+                                  "take 'uniform'.");
     if (result.deviation == 0. && expected == 2)
       result.kind = DistributionKind::constant;
     if ((result.kind == DistributionKind::log_normal

@@ -125,7 +125,7 @@ namespace quoin
       if (!has_cut && !has_joined)
         return refuse_crossings();
     }
-    fail(vertices.back().position,
+    fail(last_moved,
          "joints cannot be cut at their crossings without moving them more "
          "than 'Shortest edge' again and again. Change it.");
   }
@@ -262,6 +262,7 @@ namespace quoin
         if (!touches)
         {
           ++joined;
+          last_moved   = vertex.position;
           has_acted[v] = has_acted[edge.from] = has_acted[edge.to] = true;
         }
         cuts[e].push_back(v);
@@ -335,8 +336,8 @@ namespace quoin
   {
     if (moving.is_free())
       return true;
-    // Points of a border stay on their line, and borders that the user drew
-    // close to each other stay apart.
+    // Points of a border stay on their line or go to a corner, and borders that
+    // the user drew close to each other stay apart.
     if (moving.is_corner)
       return to.is_corner
              && moving.position.distance(to.position) <= touching * tolerance;
@@ -396,6 +397,7 @@ namespace quoin
       else
       {
         has_joined = true;
+        last_moved = point(becomes[v]);
         joined += nearest > touching * tolerance;
       }
     }

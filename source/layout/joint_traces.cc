@@ -2,13 +2,11 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/number_table.h>
 #include <quoin/layout/joint_traces.h>
-
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace quoin
 {
@@ -156,44 +154,23 @@ namespace quoin
       return pieces;
     }
 
-    /** x1, y1, x2, y2 in each row; a first row of words is a heading. */
     std::vector<Piece> read_traces(const RockJoints &joints)
     {
-      std::ifstream stream(joints.file);
       std::vector<Piece> pieces;
-      std::string line;
-      for (unsigned int number = 1; std::getline(stream, line); ++number)
+      try
       {
-        line = dealii::Utilities::trim(line.substr(0, line.find('#')));
-        if (!line.empty() && line.back() == '\r')
-          line.pop_back();
-        if (line.empty())
-          continue;
-        std::vector<double> v;
-        try
+        for (const TableRow &row :
+             read_number_table(joints.file, 4, "x1, y1, x2, y2 [m] of a trace"))
         {
-          v = dealii::Utilities::string_to_double(
-              dealii::Utilities::split_string_list(line, ','));
+          const auto &v = row.values;
+          pieces.push_back({ { Point(v[0], v[1]), Point(v[2], v[3]) } });
         }
-        catch (const dealii::ExceptionBase &)
-        {
-          if (number == 1)
-            continue;
-        }
-        if (v.size() != 4
-            || std::any_of(v.begin(), v.end(),
-                           [](const double x) { return !std::isfinite(x); }))
-          throw InputError("section 'Rock joints/" + joints.name + "', '"
-                           + joints.file + "', line " + std::to_string(number)
-                           + ": a trace is x1, y1, x2, y2 [m], four finite "
-                             "numbers with commas. Correct the line.");
-        pieces.push_back({ { Point(v[0], v[1]), Point(v[2], v[3]) } });
       }
-      if (pieces.empty())
+      catch (const InputError &error)
+      {
         throw InputError("section 'Rock joints/" + joints.name
-                         + "': 'File = " + joints.file
-                         + "' has no traces. Each line should be x1, y1, x2, "
-                           "y2 [m].");
+                         + "', 'File': " + error.what());
+      }
       return pieces;
     }
 

@@ -4,6 +4,7 @@
 #include <quoin/layout/rock_layout.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -59,6 +60,13 @@ namespace quoin
       void write_sizes();
       /** Name of the curve along edge @p e; empty: it has none. */
       std::string curve_name(unsigned int e);
+      /** Regions whose outlines part what is on both sides of a border. */
+      std::vector<unsigned int> regions_of_border(unsigned int e) const;
+      void add_joint_curve(const std::string &name);
+      unsigned int region_of(const unsigned int face) const
+      {
+        return face == BlockFaces::outside ? none : layout.region[face];
+      }
       std::string side_name(const Point &p) const;
       bool is_block(const unsigned int face) const
       {
@@ -120,6 +128,30 @@ namespace quoin
       return name;
     }
 
+    std::vector<unsigned int>
+    Writer::regions_of_border(const unsigned int e) const
+    {
+      // Where outlines coincide the edge bears the earliest one's number. The
+      // later region of the two beside it always ends there.
+      const unsigned int left  = region_of(layout.faces->face(2 * e));
+      const unsigned int right = region_of(layout.faces->face(2 * e + 1));
+      if (left == right)
+        return {};
+      const unsigned int later
+          = left == none || (right != none && right > left) ? right : left;
+      const unsigned int earlier = left == later ? right : left;
+      if (earlier != none && network.edges()[e].line == 1 + earlier)
+        return { earlier, later };
+      return { later };
+    }
+
+    void Writer::add_joint_curve(const std::string &name)
+    {
+      if (std::find(joint_curves.begin(), joint_curves.end(), name)
+          == joint_curves.end())
+        joint_curves.push_back(name);
+    }
+
     std::string Writer::curve_name(const unsigned int e)
     {
       const auto &edge       = network.edges()[e];
@@ -127,18 +159,27 @@ namespace quoin
       const bool right_there = is_block(layout.faces->face(2 * e + 1));
       if (edge.line == 0)
         return side_name(network.middle(edge));
-      const std::string &name = layout.line_names[edge.line];
-      if (edge.border != JointNetwork::none)
+      if (edge.border == JointNetwork::none)
       {
-        const RockRegion &region = rock.regions[edge.line - 1];
-        if (left_there && right_there && !region.is_outlined)
-          return "";
+        const std::string &name = layout.line_names[edge.line];
+        if (left_there && right_there)
+          add_joint_curve(name);
+        return name;
       }
-      if (left_there && right_there
-          && std::find(joint_curves.begin(), joint_curves.end(), name)
-                 == joint_curves.end())
-        joint_curves.push_back(name);
-      return name;
+      if (left_there != right_there)
+      {
+        // A wall of the hole, whatever is beside it.
+        const unsigned int hole
+            = region_of(layout.faces->face(left_there ? 2 * e + 1 : 2 * e));
+        return rock.regions[hole].name;
+      }
+      for (const unsigned int r : regions_of_border(e))
+        if (rock.regions[r].is_outlined)
+        {
+          add_joint_curve(rock.regions[r].name);
+          return rock.regions[r].name;
+        }
+      return "";
     }
 
     void Writer::write_points_and_lines()
@@ -154,8 +195,12 @@ namespace quoin
         const std::string name = curve_name(e);
         if (!name.empty())
           curves[name].push_back(e + 1);
-        if (edge.border != JointNetwork::none && edge.line > 0
-            && rock.regions[edge.line - 1].refines_mesh)
+        const auto regions = edge.border == JointNetwork::none
+                                 ? std::vector<unsigned int>()
+                                 : regions_of_border(e);
+        if (std::any_of(regions.begin(), regions.end(),
+                        [&](const unsigned int r)
+                        { return rock.regions[r].refines_mesh; }))
           refined.push_back(e + 1);
       }
     }
@@ -198,9 +243,7 @@ namespace quoin
         text << "Line{" << number << "} In Surface{" << f + 1 << "};\n";
         const std::string &name = layout.line_names[crack.line];
         curves[name].push_back(number++);
-        if (std::find(joint_curves.begin(), joint_curves.end(), name)
-            == joint_curves.end())
-          joint_curves.push_back(name);
+        add_joint_curve(name);
       }
     }
 

@@ -87,17 +87,57 @@ namespace quoin
       layout.first_joint_line = layout.line_names.size();
     }
 
+    /**
+     * @p pieces without points that are no farther than @p shortest from the
+     * one before on the same line: pieces that short are left out, and a finely
+     * drawn line would go with them. Ends of lines stay.
+     */
+    std::vector<Piece> thinned(const std::vector<Piece> &pieces,
+                               const double shortest)
+    {
+      std::vector<Piece> result;
+      for (std::size_t i = 0; i < pieces.size();)
+      {
+        std::vector<Point> kept = { pieces[i][0] };
+        Point end;
+        do
+        {
+          end = pieces[i][1];
+          if (end.distance(kept.back()) > shortest)
+            kept.push_back(end);
+          ++i;
+        } while (i < pieces.size() && pieces[i][0] == end);
+        while (kept.size() > 1 && kept.back().distance(end) <= shortest)
+          kept.pop_back();
+        kept.push_back(end);
+        for (std::size_t k = 1; k < kept.size(); ++k)
+          result.push_back({ { kept[k - 1], kept[k] } });
+      }
+      return result;
+    }
+
     void Layer::add_joints()
     {
       for (unsigned int j = 0; j < rock.joints.size(); ++j)
       {
+        const RockJoints &joints = rock.joints[j];
         layout.traces.push_back(make_joint_traces(rock, j));
-        for (const Piece &piece : layout.traces.back().pieces)
-          if (piece[0].distance(piece[1]) > rock.shortest_edge)
+        const bool is_drawn = joints.kind == RockJoints::polyline
+                              || joints.kind == RockJoints::traces;
+        const auto &pieces = layout.traces.back().pieces;
+        for (const Piece &piece :
+             is_drawn ? thinned(pieces, rock.shortest_edge) : pieces)
+        {
+          const double length = piece[0].distance(piece[1]);
+          if (length > rock.shortest_edge)
+          {
             layout.network->add(piece, layout.line_names.size(), false);
-          else
-            ++layout.changes.n_short;
-        layout.line_names.push_back(rock.joints[j].name);
+            continue;
+          }
+          ++layout.changes.n_short;
+          layout.changes.short_length += length;
+        }
+        layout.line_names.push_back(joints.name);
       }
     }
 
@@ -249,6 +289,7 @@ namespace quoin
       for (unsigned int f = 0; f < layout.faces->faces().size(); ++f)
       {
         const unsigned int region = region_at(layout.faces->inner_point(f));
+        layout.region.push_back(region);
         layout.group.push_back(is_hole(region)  ? none
                                : region == none ? 0
                                                 : 1 + region);

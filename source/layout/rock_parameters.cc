@@ -3,8 +3,6 @@
 
 #include <quoin/layout/rock_parameters.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -26,26 +24,11 @@ namespace quoin
                         const std::string &name, const std::size_t at_least)
     {
       Polygon points;
-      for (const std::string &one :
-           dealii::Utilities::split_string_list(section.text(name), ';'))
-      {
-        if (one.empty())
-          continue;
-        std::vector<double> v;
-        try
-        {
-          v = dealii::Utilities::string_to_double(
-              dealii::Utilities::split_string_list(one, ','));
-        }
-        catch (const dealii::ExceptionBase &)
-        {
-          v.clear();
-        }
-        if (v.size() != 2 || !std::isfinite(v[0] + v[1]))
-          section.fail(name, "must be points x, y [m], separated by "
-                             "semicolons, such as '0, 0; 10, 0; 10, 5'.");
-        points.emplace_back(v[0], v[1]);
-      }
+      for (const auto &row :
+           section.rows(name, 2,
+                        "must be points x, y [m], separated by semicolons, "
+                        "such as '0, 0; 10, 0; 10, 5'."))
+        points.emplace_back(row[0], row[1]);
       if (points.size() < at_least)
         section.fail(name, "needs at least " + std::to_string(at_least)
                                + " points x, y, separated by semicolons.");
@@ -217,9 +200,10 @@ namespace quoin
       joints.is_persistent = section.text("Trace length") == "persistent";
       if (!joints.is_persistent)
       {
-        joints.length = read_length(section, "Trace length");
-        joints.gap    = section.text("Gap") == "0" ? Distribution()
-                                                   : read_length(section, "Gap");
+        joints.length          = read_length(section, "Trace length");
+        const Distribution gap = read_distribution(section, "Gap");
+        if (gap.kind != DistributionKind::constant || gap.mean != 0.)
+          joints.gap = read_length(section, "Gap");
       }
       const auto origin = section.numbers<2>("Origin");
       joints.origin     = Point(origin[0], origin[1]);
@@ -331,7 +315,7 @@ namespace quoin
       return result;
     }
 
-    /** Regions are inside of the outline; joints name regions that exist. */
+    /** Joints name regions that exist, and have names of their own. */
     void check_names(const ParameterSection &top, const RockParameters &rock)
     {
       const ParameterSection section(top, "Rock joints");
@@ -360,6 +344,14 @@ namespace quoin
       const ParameterSection section(top, "Rock regions");
       for (const RockRegion &region : rock.regions)
       {
+        if (region.use != RockRegion::zone
+            && (region.name == rock.group
+                || std::find(rock.sides.begin(), rock.sides.end(), region.name)
+                       != rock.sides.end()))
+          section.fail("Names", "has '" + region.name
+                                    + "', which is the 'Group' of section "
+                                      "'Rock' or a side of the outline, too. "
+                                      "Take another name.");
         const bool is_inside = std::all_of(
             region.polygon.begin(), region.polygon.end(),
             [&](const Point &p)

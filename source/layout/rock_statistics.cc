@@ -350,8 +350,10 @@ namespace quoin
            << " m with the same block on both sides are cracks";
     if (changes.n_short > 0)
       text << "\n"
-           << count(changes.n_short, "joint", "joints") << " shorter than "
-           << number_text(rock.shortest_edge) << " m left out";
+           << count(changes.n_short, "piece", "pieces")
+           << " of joints, shorter than " << number_text(rock.shortest_edge)
+           << " m, left out, " << number_text(changes.short_length)
+           << " m in all";
     if (changes.n_slivers > 0)
       text << "\nslivers: " << count(changes.n_slivers, "block", "blocks")
            << " of " << number_text(changes.sliver_area)

@@ -37,19 +37,21 @@ namespace quoin
     std::vector<std::array<double, 2>>
     read_surface(const ParameterSection &section)
     {
+      const std::string must_be = "must be the height of a level surface, or "
+                                  "points x, y; x, y with x ascending [m].";
+      const bool is_level
+          = section.text("Surface").find_first_of(",;") == std::string::npos;
+      const auto rows = section.rows("Surface", is_level ? 1 : 2, must_be);
+      if (rows.empty())
+        section.fail("Surface", must_be);
+      if (is_level)
+        return { { { 0., rows[0][0] } } };
       std::vector<std::array<double, 2>> surface;
-      const auto points = split_string_list(section.text("Surface"), ';');
-      for (const std::string &point : points)
+      for (const auto &row : rows)
       {
-        const auto values = numbers(split_string_list(point, ','));
-        if (points.size() == 1 && values.size() == 1)
-          return { { { 0., values[0] } } };
-        if (values.size() != 2
-            || (!surface.empty() && values[0] <= surface.back()[0]))
-          section.fail("Surface",
-                       "must be the height of a level surface, or points x, "
-                       "y; x, y with x ascending [m].");
-        surface.push_back({ { values[0], values[1] } });
+        if (!surface.empty() && row[0] <= surface.back()[0])
+          section.fail("Surface", must_be);
+        surface.push_back({ { row[0], row[1] } });
       }
       return surface;
     }

@@ -2,8 +2,10 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/unread_parameters.h>
 #include <quoin/loads/load_parameters.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -84,6 +86,36 @@ namespace quoin
                                         : "."));
         }
       return { quantity, time_function(section, name, text) };
+    }
+
+    void refuse_unread_parameters(const ParameterSection &section)
+    {
+      const std::vector<std::string> initial = { "initial stress" };
+      const std::vector<std::string> in_situ = { "in-situ stress" };
+      const std::vector<std::string> viscous = { "viscous boundary" };
+      refuse_unread(section, "Type",
+                    { { "Boundary",
+                        "",
+                        { "prescribed motion", "traction", "viscous boundary",
+                          "free-field boundary", "platen" } },
+                      { "Group", "", { "platen" } },
+                      { "Groups", "", { "initial stress", "in-situ stress" } },
+                      { "Quantity", "velocity", { "prescribed motion" } },
+                      { "Rotation", "free", { "platen" } },
+                      { "Pressure", "free", { "traction" } },
+                      { "Incident normal velocity", "0", viscous },
+                      { "Incident shear velocity", "0", viscous },
+                      { "Far field material", "", viscous },
+                      { "Base", "", { "free-field boundary" } },
+                      { "Stress", "0, 0, 0", initial },
+                      { "Stress gradient", "0, 0, 0", initial },
+                      { "Stress zz", "elastic", initial },
+                      { "Surface", "0", in_situ },
+                      { "Unit weight", "", in_situ },
+                      { "Surface pressure", "0", in_situ },
+                      { "Horizontal ratio", "1", in_situ },
+                      { "Horizontal surface stress", "0", in_situ },
+                      { "Out-of-plane ratio", "same", in_situ } });
     }
   } // namespace
 
@@ -208,6 +240,7 @@ namespace quoin
                   { "in-situ stress", LoadType::initial_stress },
                   { "boundary elements", LoadType::boundary_elements } });
     load.boundaries = section.list("Boundary");
+    refuse_unread_parameters(section);
 
     switch (load.type)
     {
@@ -262,14 +295,15 @@ namespace quoin
         load.stress_zz = section.numbers<2>("Stress zz");
       break;
     case LoadType::boundary_elements:
-      if (!load.boundaries.empty())
-        section.fail("Boundary", "has no meaning here: section 'Boundary "
-                                 "elements' names the curves. Remove it.");
       break;
     }
-    if (load.type != LoadType::traction && section.text("Pressure") != "free")
-      section.fail("Pressure", "acts on boundaries alone: it is for loads with "
-                               "'Type = traction'. Leave it at 'free'.");
+    if ((load.type == LoadType::prescribed_motion
+         || load.type == LoadType::traction || load.type == LoadType::gravity)
+        && std::all_of(load.components.begin(), load.components.end(),
+                       [](const LoadComponent &component)
+                       { return component.quantity == LoadQuantity::free; }))
+      section.fail("Vertical", "and 'Horizontal' are free, and nothing else is "
+                               "given: the load would do nothing. Give one.");
     if ((load.type == LoadType::prescribed_motion
          || load.type == LoadType::traction
          || load.type == LoadType::viscous_boundary

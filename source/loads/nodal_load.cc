@@ -42,6 +42,11 @@ namespace quoin
     std::vector<unsigned int> faces;
     for (const auto &name : names)
     {
+      if (std::count(names.begin(), names.end(), name) > 1)
+        throw InputError("section 'Loads/" + load + "': 'Boundary' names '"
+                         + name
+                         + "' twice, and the load would act on it twice. Name "
+                           "it once.");
       const unsigned int line
           = position(mesh.line_names, name, load, "Boundary", "physical curve");
       const auto n_before = faces.size();

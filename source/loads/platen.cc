@@ -84,7 +84,8 @@ namespace quoin
     }
     moments = sum(moments, communicator);
 
-    if (!continues || !platen.active)
+    const bool is_new = !continues || !platen.active;
+    if (is_new)
     {
       platen        = PlatenState();
       platen.active = true;
@@ -114,7 +115,7 @@ namespace quoin
     }
     spin = sum<1>({ spin }, communicator)[0];
     resume_stage(state);
-    if (!continues)
+    if (is_new)
       platen.velocity[2] = spin / inertia[2];
   }
 

@@ -65,7 +65,6 @@ namespace quoin
     for (const unsigned int c : captured_positions)
     {
       const CapturedNode &before = captured[c];
-      const NodeRecord &node     = state.nodes[before.node];
       double reaction[2]         = { 0., 0. };
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -81,8 +80,7 @@ namespace quoin
         last_resultant[d] += reaction[d];
       }
       last_resultant[2]
-          += (node.X[0] + before.displacement.v[0]) * reaction[1]
-             - (node.X[1] + before.displacement.v[1]) * reaction[0];
+          += moment_of(reaction, before, state.nodes[before.node]);
     }
   }
 

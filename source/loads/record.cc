@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <regex>
 #include <sstream>
@@ -34,6 +35,13 @@ namespace quoin
       return dot == std::string::npos ? "" : upper(file.substr(dot + 1));
     }
 
+    /** Fortran may write D for E. */
+    std::string with_c_exponent(std::string number)
+    {
+      std::replace(number.begin(), number.end(), 'D', 'E');
+      return number;
+    }
+
     const char *const real = "([-+]?[0-9]*\\.?[0-9]+(?:[ED][-+]?[0-9]+)?)";
 
     /** The line that says how many values there are, and their spacing. */
@@ -49,22 +57,34 @@ namespace quoin
           && !std::regex_search(line, found, before))
         return false;
       n    = std::stoul(found[1]);
-      step = std::stod(found[2]);
+      step = std::stod(with_c_exponent(found[2]));
       return true;
     }
 
     /** In m and s, by the header or, if it is silent, the kind of file. */
-    double unit(const std::string &header, const std::string &kind)
+    double unit(const std::string &header, const std::string &name)
     {
-      static const std::regex of_gravity(
-          "(UNITS?\\s*(OF|:|=)?\\s*\\(?G\\b)|\\(G\\)");
-      if (std::regex_search(header, of_gravity))
+      static const std::regex stated("UNITS?\\s*(?:OF|IN|:|=)\\s*\\(?([A-Z]+)");
+      static const std::map<std::string, double> known
+          = { { "G", gravity }, { "CM", 0.01 }, { "GAL", 0.01 }, { "M", 1. } };
+      std::smatch found;
+      if (std::regex_search(header, found, stated))
+      {
+        const auto factor = known.find(found[1]);
+        if (factor == known.end())
+          throw InputError("the record '" + name + "' says that its unit is '"
+                           + found[1].str()
+                           + "', which is not known. Convert it to g, cm/s^2 "
+                             "or m/s^2 (velocities: cm/s or m/s).");
+        return factor->second;
+      }
+      if (std::regex_search(header, std::regex("\\(G\\)")))
         return gravity;
       if (std::regex_search(header, std::regex("\\bCM\\b")))
         return 0.01;
-      if (std::regex_search(header, std::regex("\\bM/S|\\bM/SEC")))
+      if (std::regex_search(header, std::regex("\\bM/S")))
         return 1.;
-      return kind == "AT2" ? gravity : 0.01;
+      return extension(name) == "AT2" ? gravity : 0.01;
     }
 
     TimeTable read_peer(const std::string &name)
@@ -87,13 +107,12 @@ namespace quoin
         throw InputError("the record '" + name
                          + "' has no header with the number of points and the "
                            "time step, such as 'NPTS= 2000, DT= .0200 SEC'.");
-      const double factor = unit(header, extension(name));
+      const double factor = unit(header, name);
       TimeTable table;
       std::string word;
       while (table.size() < n && file >> word)
       {
-        // Fortran may write D for E; neighbours are separated by spaces.
-        std::replace(word.begin(), word.end(), 'D', 'E');
+        word             = with_c_exponent(word);
         std::size_t used = 0;
         double value     = 0.;
         try

@@ -96,26 +96,35 @@ namespace quoin
           && parameters.frequency * parameters.step <= 0.1))
       throw InputError("a synthetic record needs ten samples or more in a "
                        "period of the ground: give a shorter 'step'.");
+    if (!(low_frequency * parameters.step <= 0.1))
+      throw InputError("a synthetic record needs ten samples or more in a "
+                       "period of its 'high-pass': lower it, or give a shorter "
+                       "'step'.");
     if (!(parameters.damping > 0. && parameters.damping < 1.
           && parameters.low_damping > 0. && parameters.low_damping < 1.))
       throw InputError("the damping of a synthetic record must be between 0 "
                        "and 1.");
     const double n_steps = std::round(parameters.duration / parameters.step);
+    // Before it is recorded, the motion becomes stationary.
+    const double warm_up = std::ceil(
+        3. / (low_frequency * parameters.low_damping * parameters.step));
     if (!(parameters.duration * parameters.frequency >= 2. && n_steps < 1e7))
       throw InputError("a synthetic record must last for two periods of the "
                        "ground or more, and have less than ten million "
                        "samples.");
+
+    if (!(warm_up < 1e7))
+      throw InputError("a synthetic record becomes stationary only after ten "
+                       "million samples, because its 'high-pass' is so low: "
+                       "raise it.");
 
     NormalDeviates noise(parameters.seed);
     Oscillator ground(2. * pi * parameters.frequency, parameters.damping,
                       parameters.step);
     Oscillator low(2. * pi * low_frequency, parameters.low_damping,
                    parameters.step);
-    // Before it is recorded, the motion becomes stationary.
-    const long warm_up = long(std::ceil(
-        3. / (low_frequency * parameters.low_damping * parameters.step)));
     TimeTable table;
-    for (long k = -warm_up; k <= long(n_steps); ++k)
+    for (long k = -long(warm_up); k <= long(n_steps); ++k)
     {
       ground.advance(noise());
       const double acceleration = ground.absolute_acceleration();

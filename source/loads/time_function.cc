@@ -33,8 +33,10 @@ namespace quoin
       }
       else
       {
-        std::string name = named.substr(6);
-        name.erase(0, name.find_first_not_of(' '));
+        const std::string name = dealii::Utilities::trim(named.substr(5));
+        if (name.empty())
+          throw InputError("names no file: give 'table FILE' or 'table FILE "
+                           "times' and an expression.");
         const auto table = std::make_shared<const TimeTable>(
             read_time_table(name.front() == '/' ? name : folder + name));
         evaluate = [table](const TimePoint &time)

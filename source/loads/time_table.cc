@@ -2,46 +2,23 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/number_table.h>
 #include <quoin/loads/time_table.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 namespace quoin
 {
   TimeTable read_time_table(const std::string &name)
   {
-    std::ifstream file(name);
-    if (!file)
-      throw InputError("the table '" + name + "' cannot be read.");
     TimeTable table;
-    std::string line;
-    unsigned int number = 0;
-    while (std::getline(file, line))
+    for (const TableRow &row : read_number_table(name, 2, "a time and a value"))
     {
-      ++number;
-      std::replace(line.begin(), line.end(), ',', ' ');
-      line = line.substr(0, line.find('#'));
-      std::istringstream words(line);
-      double time, value;
-      std::string rest;
-      if (words >> time >> value && !(words >> rest))
-      {
-        if (!table.empty() && time <= table.back().first)
-          throw InputError("the table '" + name
-                           + "' goes back in time "
-                             "in line "
-                           + std::to_string(number) + ".");
-        table.emplace_back(time, value);
-      }
-      else if (!table.empty()
-               && line.find_first_not_of(" \t\r") != std::string::npos)
-        throw InputError("line " + std::to_string(number) + " of the table '"
-                         + name + "' is not a time and a value.");
+      if (!table.empty() && row.values[0] <= table.back().first)
+        throw InputError("the table '" + name + "' goes back in time in line "
+                         + std::to_string(row.line) + ".");
+      table.emplace_back(row.values[0], row.values[1]);
     }
-    if (table.empty())
-      throw InputError("the table '" + name + "' has no rows.");
     return table;
   }
 

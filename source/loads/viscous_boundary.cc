@@ -91,6 +91,7 @@ namespace quoin
     const double mean[2] = { 0.5 * (v0[0] + v1[0]), 0.5 * (v0[1] + v1[1]) };
     const double drag[2]
         = { cxx * mean[0] + cxy * mean[1], cxy * mean[0] + cyy * mean[1] };
+    double reaction[2] = { 0., 0. };
     for (unsigned int d = 0; d < 2; ++d)
     {
       if (before.owner[d] != owner)
@@ -104,8 +105,10 @@ namespace quoin
       const double rayleigh = step.mass_damping * before.mass * mean[d];
       state.energy.damping += rayleigh * w0;
       state.pending.damping += rayleigh * w1;
-      resultant[d] += pull[d] - drag[d];
+      reaction[d] = pull[d] - drag[d];
+      resultant[d] += reaction[d];
     }
+    resultant[2] += moment_of(reaction, before, state.nodes[before.node]);
   }
 
   ViscousBoundary::ViscousBoundary(const LoadParameters &parameters,

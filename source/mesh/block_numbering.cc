@@ -232,8 +232,6 @@ namespace quoin
     const std::vector<unsigned int> vertex_order
         = blockwise(mesh.block_first_vertex);
     permute(mesh, cell_order, vertex_order);
-    if (mesh.triangulation.n_levels() > 0)
-      build_triangulation(mesh);
   }
 
   namespace

@@ -459,11 +459,9 @@ namespace quoin
     {
       if (data.triangles.empty())
         fail("there are no triangles in it.");
-      mesh.triangulation.clear();
       mesh.group_names        = data.group_names;
       mesh.line_names         = data.line_names;
       mesh.n_reoriented_cells = data.n_reoriented;
-      mesh.source             = data.source;
 
       resolve_names();
       find_neighbours();

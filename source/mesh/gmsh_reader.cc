@@ -79,14 +79,15 @@ namespace quoin
       gmsh::model::mesh::generate(2);
     }
 
-    /** Starts every message with the file. */
+    /** Starts every message with the file, or what it was made from. */
     class Reader
     {
     public:
-      Reader(const std::string &filename, const TriangleKind kind)
-        : filename(filename), kind(kind)
+      Reader(const std::string &filename, const TriangleKind kind,
+             const std::string &maker = "")
+        : filename(filename), is_generated(!maker.empty()), kind(kind)
       {
-        mesh.source = filename;
+        mesh.source = is_generated ? maker : filename;
       }
 
       MeshData read();
@@ -94,7 +95,7 @@ namespace quoin
     private:
       [[noreturn]] void fail(const std::string &what) const
       {
-        throw InputError("Mesh '" + filename + "': " + what);
+        throw InputError("Mesh '" + mesh.source + "': " + what);
       }
 
       void check_file() const;
@@ -108,6 +109,7 @@ namespace quoin
       void read_vertices();
 
       const std::string filename;
+      const bool is_generated;
       const TriangleKind kind;
       MeshData mesh;
       Quadrangles quadrangles;
@@ -169,7 +171,8 @@ namespace quoin
       if (!logged.empty() || !thrown.empty())
         fail("gmsh could not make a mesh of it: "
              + (logged.empty() ? thrown : logged)
-             + ". Open the file in gmsh and mend it there.");
+             + (is_generated ? ". Change the parameters of that section."
+                             : ". Open the file in gmsh and mend it there."));
     }
 
     std::vector<int> Reader::physical_groups(const int dim,
@@ -443,9 +446,17 @@ namespace quoin
         {
           mesh_and_error.first = read();
         }
-        catch (const InputError &error)
+        catch (const std::exception &error)
         {
           mesh_and_error.second = error.what();
+        }
+        catch (const std::string &message) // gmsh throws these, too
+        {
+          mesh_and_error.second = "gmsh could not read the mesh: " + message;
+        }
+        catch (...)
+        {
+          mesh_and_error.second = "gmsh could not read the mesh.";
         }
       mesh_and_error
           = dealii::Utilities::MPI::broadcast(communicator, mesh_and_error);
@@ -458,7 +469,7 @@ namespace quoin
     class TemporaryGeometry
     {
     public:
-      explicit TemporaryGeometry(const std::string &text)
+      TemporaryGeometry(const std::string &text, const std::string &maker)
       {
         std::error_code ignored;
         name = std::filesystem::temp_directory_path(ignored)
@@ -469,21 +480,29 @@ namespace quoin
         std::ofstream stream(name);
         stream << text;
         stream.close();
-        if (file < 0 || !stream)
-          throw InputError("the geometry of the wall cannot be written to '"
-                           + name
-                           + "'. Give a folder with space in the environment "
-                             "variable TMPDIR.");
+        if (file >= 0 && stream)
+          return;
+        remove();
+        throw InputError("Mesh '" + maker + "': its geometry cannot be written "
+                         + "to '" + name
+                         + "'. Give a folder with space in the environment "
+                           "variable TMPDIR.");
       }
       ~TemporaryGeometry()
       {
-        std::error_code ignored;
-        std::filesystem::remove(name, ignored);
+        remove();
       }
       TemporaryGeometry(const TemporaryGeometry &)            = delete;
       TemporaryGeometry &operator=(const TemporaryGeometry &) = delete;
 
       std::string name;
+
+    private:
+      void remove() const
+      {
+        std::error_code ignored;
+        std::filesystem::remove(name, ignored);
+      }
     };
   } // namespace
 
@@ -495,14 +514,15 @@ namespace quoin
   }
 
   MeshData mesh_gmsh_geometry(const std::string &geometry,
+                              const std::string &maker,
                               const MPI_Comm &communicator,
                               const TriangleKind kind)
   {
     return read_and_send(communicator,
                          [&]()
                          {
-                           const TemporaryGeometry file(geometry);
-                           return read_gmsh(file.name, kind);
+                           const TemporaryGeometry file(geometry, maker);
+                           return Reader(file.name, kind, maker).read();
                          });
   }
 

@@ -3,8 +3,6 @@
 
 #include <quoin/mesh/wall_parameters.h>
 
-#include <deal.II/base/utilities.h>
-
 #include <cmath>
 
 namespace quoin
@@ -78,25 +76,12 @@ namespace quoin
                                            const WallParameters &wall)
     {
       std::vector<WallOpening> openings;
-      for (const std::string &one :
-           dealii::Utilities::split_string_list(section.text("Openings"), ';'))
+      for (const auto &v :
+           section.rows("Openings", 4,
+                        "must be four numbers for each opening: left, right, "
+                        "first course, last course; openings are separated by "
+                        "semicolons."))
       {
-        if (one.empty())
-          continue;
-        std::vector<double> v;
-        try
-        {
-          v = dealii::Utilities::string_to_double(
-              dealii::Utilities::split_string_list(one, ','));
-        }
-        catch (const dealii::ExceptionBase &)
-        {
-          v.clear();
-        }
-        if (v.size() != 4)
-          section.fail("Openings", "must be four numbers for each opening: "
-                                   "left, right, first course, last course; "
-                                   "openings are separated by semicolons.");
         if (!(0. <= v[0] && v[0] < v[1] && v[1] <= wall.length))
           section.fail("Openings", "must have 0 <= left < right <= 'Length'.");
         const double first = v[2], last = v[3];

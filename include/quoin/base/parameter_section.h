@@ -51,6 +51,20 @@ namespace quoin
       std::copy(values.begin(), values.end(), result.begin());
       return result;
     }
+    /**
+     * Rows of @p n_columns finite numbers, such as "0, 0; 10, 5"; none if the
+     * text is empty. @p must_be: the end of the message about anything else.
+     */
+    std::vector<std::vector<double>> rows(const std::string &name,
+                                          std::size_t n_columns,
+                                          const std::string &must_be) const;
+    /**
+     * Pairs of words, such as "a:b, c:d". If @p all is given, the word 'all'
+     * may stand among them and sets it. @p must_be: as of rows().
+     */
+    std::vector<std::pair<std::string, std::string>>
+    pairs(const std::string &name, const std::string &must_be,
+          bool *all = nullptr) const;
     /** One of the words of @p table, and what it stands for. */
     template <typename Enum>
     Enum choice(const std::string &name,

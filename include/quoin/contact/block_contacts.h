@@ -191,9 +191,6 @@ namespace quoin
     void reanchor(ContactState &contacts) const;
     float share(const ContactPair &pair) const;
     void bind(const ContactState &contacts);
-    void find_distances();
-    /** Leaves out pairs too far apart if nothing moves more than @p reach. */
-    void watch(const ContactState &contacts, double reach);
     void gather(const State &state);
 
     /** False if the edges do not overlap. */
@@ -260,11 +257,9 @@ namespace quoin
     std::vector<NodeRecord> ghost_nodes;
     std::vector<NodeVector> ghost_velocity;
     std::vector<std::array<unsigned int, 2>> pair_edges; /**< local */
-    std::vector<float> pair_share;         /**< of the energy that we count */
-    std::vector<double> pair_depth;        /**< that is too deep [m] */
-    std::vector<double> reference_lengths; /**< of the local edges [m] */
-    std::vector<double> pair_distance; /**< at the last search [m] or empty */
-    std::vector<unsigned int> watched; /**< pairs that may touch by now */
+    std::vector<float> pair_share;          /**< of the energy that we count */
+    std::vector<double> pair_depth;         /**< that is too deep [m] */
+    std::vector<double> reference_lengths;  /**< of the local edges [m] */
     std::vector<unsigned int> edge_numbers; /**< of the local edges */
     std::vector<unsigned int> edge_pairs_begin, edge_pairs;
 

@@ -20,6 +20,9 @@ namespace quoin
    * asks its user not to give it.
    */
   CompositeLaw read_composite_law(const ParameterSection &section);
+
+  /** What to say of a law that drops by itself; empty: it softens gently. */
+  std::string snap_back_warning(const CompositeLaw &law);
 } // namespace quoin
 
 #endif

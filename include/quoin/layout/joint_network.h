@@ -19,7 +19,8 @@ namespace quoin
    * What is nearer is moved together, by less than the tolerance: an end within
    * it of an edge is joined to it, ends within it of each other become one.
    * Borders do not move: corners of theirs stay where they are, other points
-   * on them stay on their line.
+   * on them stay on their line, but for those within the tolerance of a corner
+   * of another border, which go there.
    */
   class JointNetwork
   {
@@ -133,6 +134,7 @@ namespace quoin
     std::vector<Edge> all_edges;
     unsigned int n_borders = 0;
     unsigned int joined    = 0;
+    dealii::Point<2> last_moved; /**< an end, to where [m] */
   };
 } // namespace quoin
 

@@ -25,10 +25,12 @@ namespace quoin
     double crack_length      = 0.; /**< [m] */
     unsigned int n_bridges   = 0;  /**< edges with one block on both sides */
     double bridge_length     = 0.; /**< [m] */
-    unsigned int n_short     = 0; /**< joints below 'Shortest edge', left out */
-    unsigned int n_slivers   = 0; /**< blocks joined to a neighbour */
-    double sliver_area       = 0.;   /**< [m^2] */
-    unsigned int n_kept_slivers = 0; /**< that have no neighbour to join */
+    /** Pieces of joints below 'Shortest edge', left out. */
+    unsigned int n_short        = 0;
+    double short_length         = 0.; /**< [m] */
+    unsigned int n_slivers      = 0;  /**< blocks joined to a neighbour */
+    double sliver_area          = 0.; /**< [m^2] */
+    unsigned int n_kept_slivers = 0;  /**< that have no neighbour to join */
   };
 
   /** Blocks of rock, before they are meshed. */
@@ -44,6 +46,8 @@ namespace quoin
     std::unique_ptr<BlockFaces> faces;
     /** Of each face: 0: rock, 1 + r: region r; none: a hole. */
     std::vector<unsigned int> group;
+    /** Of each face: the region that prevails there, or none: plain rock. */
+    std::vector<unsigned int> region;
     std::vector<JointNetwork::Edge> cracks; /**< inside of blocks */
 
     std::vector<JointTraces> traces; /**< of each kind of joints, as made */

@@ -37,6 +37,15 @@ namespace quoin
     const NodeConstraint *owner[2];
   };
 
+  /** Moment about the origin [N m] of @p force [N] on a node, as it was at t.
+   */
+  inline double moment_of(const double *force, const CapturedNode &before,
+                          const NodeRecord &node)
+  {
+    return (node.X[0] + before.displacement.v[0]) * force[1]
+           - (node.X[1] + before.displacement.v[1]) * force[0];
+  }
+
   /** The step under way, from t to t + dt. */
   struct StepContext
   {

@@ -14,8 +14,8 @@ namespace quoin
   using TimeTable = std::vector<std::pair<double, double>>;
 
   /**
-   * Reads a file with rows "time, value" or "time value". Lines before the
-   * first row are a header; what follows a # is a comment. Throws InputError.
+   * Reads a file with rows "time, value" or "time value", see
+   * read_number_table(). Throws InputError.
    */
   TimeTable read_time_table(const std::string &file);
 

@@ -63,7 +63,8 @@ namespace quoin
 
   /**
    * Books the work of what move_with_dashpot() did, for the components that
-   * @p owner moved, and adds its forces to @p resultant [N].
+   * @p owner moved, and adds its forces [N] and their moment about the
+   * origin [N m] to @p resultant.
    */
   void account_for_dashpot(const StepContext &step, const CapturedNode &before,
                            const std::array<double, 3> &damping,

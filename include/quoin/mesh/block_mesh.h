@@ -5,7 +5,6 @@
 #define quoin_mesh_block_mesh_h
 
 #include <deal.II/base/point.h>
-#include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <array>
@@ -53,11 +52,10 @@ namespace quoin
   };
 
   /**
-   * The blocks that a mesh fell into: one triangulation of all blocks, which
-   * share no vertices, and how they touch. Blocks are numbered one after the
+   * The blocks that a mesh fell into: the triangles of all blocks, which share
+   * no vertices, and how they touch. Blocks are numbered one after the
    * other; cells and vertices are block-major, and within a block the
-   * vertices on its boundary come first. Vertex numbers are those of the
-   * triangulation; cell numbers its active cell indices.
+   * vertices on its boundary come first.
    *
    * A quadratic mesh is one of six-node triangles, each of which is the four
    * consecutive cells of cut_into_quadratic_triangles(); the fourth has the
@@ -67,8 +65,6 @@ namespace quoin
   template <int dim>
   struct BlockMesh
   {
-    dealii::Triangulation<dim> triangulation;
-
     std::vector<dealii::Point<dim>> vertices;
     std::vector<std::array<unsigned int, 3>> cells; /**< counter-clockwise */
     std::vector<unsigned int> cell_group;           /**< into group_names */
@@ -86,9 +82,6 @@ namespace quoin
 
     /** Cells that the mesh file listed clockwise and that were turned. */
     unsigned int n_reoriented_cells = 0;
-
-    /** The mesh file, for messages. */
-    std::string source;
 
     unsigned int n_blocks() const
     {
@@ -136,14 +129,6 @@ namespace quoin
       return cells[quadratic ? cell | 3U : cell];
     }
   };
-
-  /**
-   * Make BlockMesh::triangulation from the arrays: vertex numbers and active
-   * cell indices are theirs, the material id is the cell group and the
-   * boundary id of boundary and joint faces the index of their name. Not
-   * needed by the explicit operators; large benchmarks may do without it.
-   */
-  void build_triangulation(BlockMesh<2> &mesh);
 } // namespace quoin
 
 #endif

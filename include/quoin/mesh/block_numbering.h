@@ -25,7 +25,7 @@ namespace quoin
 
   /**
    * Permute the blocks: new block i is old block new_order[i]. The order within
-   * blocks stays. A triangulation that was built is built again.
+   * blocks stays.
    */
   void renumber_blocks(BlockMesh<2> &mesh,
                        const std::vector<unsigned int> &new_order);

@@ -53,8 +53,12 @@ namespace quoin
   MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator,
                      TriangleKind kind = TriangleKind::plain);
 
-  /** Mesh the text @p geometry of a .geo file, on all ranks. */
+  /**
+   * Mesh the text @p geometry of a .geo file, on all ranks. @p maker: what made
+   * it, for messages.
+   */
   MeshData mesh_gmsh_geometry(const std::string &geometry,
+                              const std::string &maker,
                               const MPI_Comm &communicator,
                               TriangleKind kind = TriangleKind::plain);
 

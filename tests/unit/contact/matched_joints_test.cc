@@ -360,6 +360,29 @@ TEST(MatchedJoints, InitialStressOfRockJoints)
   }
 }
 
+TEST(MatchedJoints, RockJointsAreBeyondTheirStrengthIfTheyCannotHold)
+{
+  for (const RockLaw &law :
+       { RockLaw(rock_test::rough()), RockLaw(rock_test::yielding()) })
+    // Residual friction is 0.53 or 0.58, that of the unworn joint 1 or 1.19.
+    for (const auto &[ratio, n_beyond] :
+         { std::pair<double, double>{ 0.7, 0. }, { -0.7, 0. }, { 1.3, 4. } })
+    {
+      JointSetParameters set = elastic_joint(kn, ks);
+      set.rock               = law;
+      Stack stack(2, 0., set);
+      const MatchedJoints::FaceStress uniform
+          = { { { { 0., -2e6, ratio * 2e6 } },
+                { { 0., -2e6, ratio * 2e6 } } } };
+      stack.joints.initialise({ uniform, uniform }, stack.state,
+                              stack.state.joints);
+      EXPECT_EQ(
+          stack.joints.n_beyond_strength(stack.state.joints, MPI_COMM_SELF),
+          n_beyond)
+          << ratio;
+    }
+}
+
 TEST(MatchedJoints, ViscousForcesOfRockJointsByTheStiffnessOfTheMoment)
 {
   JointSetParameters set = elastic_joint(kn, ks);

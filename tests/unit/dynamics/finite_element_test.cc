@@ -13,6 +13,7 @@
 #include <deal.II/fe/fe_system.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_fe.h>
+#include <deal.II/grid/tria.h>
 
 #include <gtest/gtest.h>
 
@@ -53,7 +54,13 @@ namespace quoin
   {
     BlockMesh<2> mesh;
     split_into_blocks(square(5), SplitOptions(), mesh);
-    build_triangulation(mesh);
+    std::vector<dealii::CellData<2>> triangles(mesh.n_cells(),
+                                               dealii::CellData<2>(3));
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      triangles[c].vertices.assign(mesh.cells[c].begin(), mesh.cells[c].end());
+    dealii::Triangulation<2> triangulation;
+    triangulation.create_triangulation(mesh.vertices, triangles,
+                                       dealii::SubCellData());
 
     const LinearElastic rock{ 2500., 3e10, 0.3 };
     const auto stiffness = plane_stiffness(rock, PlaneAssumption::plane_strain);
@@ -80,7 +87,7 @@ namespace quoin
     // - integral of B^T C B u with Lame's constants of plane strain.
     const dealii::FESystem<2> element(dealii::FE_SimplexP<2>(1), 2);
     const dealii::MappingFE<2> mapping(dealii::FE_SimplexP<2>(1));
-    dealii::DoFHandler<2> dofs(mesh.triangulation);
+    dealii::DoFHandler<2> dofs(triangulation);
     dofs.distribute_dofs(element);
     dealii::FEValues<2> values(mapping, element, dealii::QGaussSimplex<2>(1),
                                dealii::update_gradients

@@ -87,6 +87,15 @@ TEST(CompositeParameters, NoneIsInfinite)
   EXPECT_EQ(law.residual_friction, law.friction);
 }
 
+TEST(CompositeParameters, WarnsOfALawThatSnapsBack)
+{
+  EXPECT_EQ(snap_back_warning(read(wall)), "");
+  const std::string warning
+      = snap_back_warning(read(wall + "set Tensile fracture energy = 0.5\n"));
+  EXPECT_NE(warning.find("ft^2 / GfI = 1.25e+11 Pa/m"), std::string::npos)
+      << warning;
+}
+
 TEST(CompositeParameters, Refuses)
 {
   expect_refused("set Tensile fracture energy = 0\n", "Tensile fracture energy",

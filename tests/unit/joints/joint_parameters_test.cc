@@ -112,6 +112,9 @@ TEST(JointParameters, RefusesWhatMakesNoSense)
                  "between 0 and 89");
   expect_refused("set Friction angle = 20\nset Dilation angle = 21\n",
                  "Dilation angle = 21", "between 0 and 20");
+  expect_refused("set Friction angle = 35\nset Residual friction angle = 15\n"
+                 "set Dilation angle = 25\n",
+                 "Dilation angle = 25", "between 0 and 15");
   expect_refused("set Residual friction angle = some\n",
                  "Residual friction angle = some", "1 numbers");
   expect_refused("set Residual friction angle = -4\n",
@@ -123,4 +126,6 @@ TEST(JointParameters, RefusesWhatMakesNoSense)
                  "must not exceed 'Tensile strength'");
   expect_refused("set Law = no tension\nset Tensile strength = 5\n",
                  "Tensile strength = 5", "Coulomb");
+  expect_refused("set Law = no tension\nset Residual cohesion = 1\n",
+                 "Residual cohesion = 1", "no effect with 'Law = no tension'");
 }

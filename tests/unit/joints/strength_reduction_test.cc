@@ -21,7 +21,7 @@ TEST(StrengthReduction, CoulombJoint)
   set.law.shear_stiffness       = 3e9;
   set.law.peak                  = { 1e6, 0.8, 0.4e6 };
   set.law.residual              = { 0.2e6, 0.6, 0.1e6 };
-  set.law.dilation              = 0.7;
+  set.law.dilation              = 0.55;
   const JointSetParameters weak = reduced(set, factor);
   EXPECT_EQ(weak.name, "bed");
   EXPECT_EQ(weak.law.normal_stiffness, 8e9);
@@ -32,8 +32,8 @@ TEST(StrengthReduction, CoulombJoint)
   EXPECT_DOUBLE_EQ(weak.law.residual.cohesion, 0.2e6 / factor);
   EXPECT_DOUBLE_EQ(weak.law.residual.friction, 0.375);
   EXPECT_DOUBLE_EQ(weak.law.residual.tension, 0.1e6 / factor);
-  EXPECT_DOUBLE_EQ(weak.law.dilation, 0.5);
-  EXPECT_DOUBLE_EQ(reduced(set, 1.).law.dilation, 0.7);
+  EXPECT_DOUBLE_EQ(weak.law.dilation, 0.375); // not above residual friction
+  EXPECT_DOUBLE_EQ(reduced(set, 1.).law.dilation, 0.55);
 }
 
 TEST(StrengthReduction, ElasticJointHasNoStrengthToReduce)

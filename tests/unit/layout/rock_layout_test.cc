@@ -282,6 +282,25 @@ TEST(RockLayout, joins_slivers_to_the_neighbour_with_the_longest_joint)
             std::string::npos);
 }
 
+TEST(RockLayout, finely_drawn_joints_do_not_vanish)
+{
+  RockParameters rock = square_rock(10.);
+  rock.shortest_edge  = 0.1;
+  RockJoints line;
+  line.kind = RockJoints::polyline;
+  line.name = "fault";
+  for (double x = -0.03; x < 10.1; x += 0.08)
+    line.points.emplace_back(x, 5. + std::sin(x));
+  rock.joints             = { line };
+  const RockLayout layout = lay_rock(rock);
+  EXPECT_EQ(layout.n_blocks(), 2u);
+  EXPECT_EQ(layout.changes.n_short, 0u);
+  double lower = 0.; // the area below
+  for (const auto &face : layout.faces->faces())
+    lower = std::max(lower, face.area);
+  EXPECT_NEAR(lower, 50. + 1. - std::cos(10.), 0.05);
+}
+
 TEST(RockLayout, joints_keep_to_their_region_and_out_of_others)
 {
   RockParameters rock = square_rock(10.);
@@ -352,6 +371,43 @@ TEST(RockLayout, voronoi_blocks_have_the_size_asked_for)
   EXPECT_LT(spread[1], 0.5 * spread[0]);
 }
 
+TEST(RockGeometry, borders_that_a_body_and_a_hole_share)
+{
+  const Polygon tunnel = { Point(3, 3), Point(7, 3), Point(7, 7), Point(3, 7) };
+  const Polygon invert = { Point(3, 3), Point(7, 3), Point(7, 4), Point(3, 4) };
+  const Polygon below  = { Point(3, 2), Point(7, 2), Point(7, 3), Point(3, 3) };
+  const RockRegion hole = region("tunnel", RockRegion::hole, tunnel);
+  // A body beside the hole or, on its floor, within it; first and last.
+  for (const std::vector<RockRegion> &regions :
+       { std::vector<RockRegion>{ region("slab", RockRegion::body, below),
+                                  hole },
+         std::vector<RockRegion>{ hole,
+                                  region("slab", RockRegion::body, below) },
+         std::vector<RockRegion>{ hole,
+                                  region("slab", RockRegion::body, invert) } })
+  {
+    RockParameters rock     = square_rock(10.);
+    rock.regions            = regions;
+    const RockLayout layout = lay_rock(rock);
+    const auto geometry     = rock_geometry(rock, layout);
+    EXPECT_EQ(geometry.joint_curves, std::vector<std::string>{ "slab" });
+    SplitOptions options;
+    options.joints_along = geometry.joint_curves;
+    BlockMesh<2> mesh;
+    split_into_blocks(mesh_gmsh_geometry(geometry.text, "rock", MPI_COMM_SELF),
+                      options, mesh);
+    EXPECT_EQ(mesh.n_blocks(), 2u);
+    // The hole's walls go round it, on whatever they are.
+    double length = 0.;
+    for (const BlockFace &face : mesh.boundary_faces)
+      if (face.name < mesh.line_names.size()
+          && mesh.line_names[face.name] == "tunnel")
+        length += mesh.vertices[face.vertices[0]].distance(
+            mesh.vertices[face.vertices[1]]);
+    EXPECT_NEAR(length, regions[1].polygon == invert ? 14. : 16., 1e-9);
+  }
+}
+
 TEST(RockGeometry, gmsh_makes_the_blocks_of_the_layout)
 {
   for (const auto ends : { RockParameters::cut, RockParameters::keep })
@@ -372,8 +428,8 @@ TEST(RockGeometry, gmsh_makes_the_blocks_of_the_layout)
     SplitOptions options;
     options.joints_along = geometry.joint_curves;
     BlockMesh<2> mesh;
-    split_into_blocks(mesh_gmsh_geometry(geometry.text, MPI_COMM_SELF), options,
-                      mesh);
+    split_into_blocks(mesh_gmsh_geometry(geometry.text, "rock", MPI_COMM_SELF),
+                      options, mesh);
     EXPECT_EQ(mesh.n_blocks(), layout.n_blocks());
     double area = 0.;
     for (const auto &cell : mesh.cells)

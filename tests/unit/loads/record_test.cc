@@ -58,6 +58,7 @@ TEST(Record, ReadsHeadersOfThePeerDatabase)
          "NPTS=   5, DT=   .0200 SEC,\n",
          "Acceleration time history in units of g\r\n"
          "NPTS= 5 DT= 2.0E-02 SEC\r\n",
+         "ACCELERATION (G)\nNPTS= 5, DT= 2.0D-02 SEC\n",
          "UNITS: G  FILTER POINTS: HP=0.1 Hz LP=30.0 Hz\n"
          "   5    0.0200    NPTS, DT\n" })
   {
@@ -92,6 +93,10 @@ TEST(Record, RefusesBrokenFiles)
   expect(complaint("a.at2", "NPTS= 4, DT= .01 SEC\n1 2 3\n"),
          "ends after 3 of 4 values");
   expect(complaint("a.at2", "NPTS= 4, DT= .01 SEC\n1 2 x 4\n"), "'x'");
+  expect(complaint("a.at2", "IN UNITS OF MM/S/S\nNPTS= 1, DT= 1 SEC\n1\n"),
+         "NPTS");
+  expect(complaint("a.at2", "IN UNITS OF MM/S/S\nNPTS= 2, DT= 1 SEC\n1 2\n"),
+         "'MM'");
   expect(complaint("a.at2", "NPTS= 4, DT= 0 SEC\n1 2 3 4\n"), "NPTS");
   EXPECT_THROW(Record(TimeTable{ { 0., 1. } }), InputError);
 }
@@ -166,6 +171,19 @@ TEST(SyntheticRecord, HasItsAriasIntensity)
   for (const auto &[time, value] : record.samples())
     sum += value * value * parameters.step;
   EXPECT_NEAR(0.5 * M_PI / g * sum, 1.5, 1e-12);
+}
+
+TEST(SyntheticRecord, RefusesAHighPassThatCannotBe)
+{
+  for (const double frequency : { 1e-9, 20. })
+  {
+    SyntheticRecordParameters parameters;
+    parameters.low_frequency = frequency;
+    EXPECT_NE(message_of<InputError>([&] { synthetic_record(parameters); })
+                  .find("high-pass"),
+              std::string::npos)
+        << frequency;
+  }
 }
 
 TEST(SyntheticRecord, SeedsAreReproducible)

@@ -118,8 +118,15 @@ TEST(TimeFunction, BadTables)
   expect(complaint("0,1\n0,2\n"), "goes back in time in line 2");
   expect(complaint("0,1\n1,2\n2;3\n"), "line 3");
   expect(complaint("0,1\n1\n"), "is not a time and a value");
+  expect(complaint("0;0\n1,1\n2,2\n"), "line 1");
   expect(complaint("time,value\n"), "has no rows");
 
+  for (const std::string text : { "table times sin(t)", "table  times 2" })
+  {
+    const std::string message
+        = message_of<InputError>([&] { TimeFunction(text, "./"); });
+    EXPECT_NE(message.find("names no file"), std::string::npos) << message;
+  }
   const std::string message = message_of<InputError>(
       [] { TimeFunction("table not_there.csv", "some/folder/"); });
   expect("t.csv: " + message, "some/folder/not_there.csv' cannot be read");

@@ -8,7 +8,6 @@
 
 #include <deal.II/base/utilities.h>
 
-#include <map>
 
 using namespace quoin;
 using namespace quoin::test;
@@ -76,10 +75,8 @@ TEST(BlockNumbering, PermutesBlocks)
   for (unsigned int b = 0; b < 4; ++b)
     EXPECT_EQ(corner(permuted, b), corner(mesh, order[b]));
 
-  build_triangulation(mesh);
   renumber_blocks(mesh, order);
   EXPECT_EQ(mesh.cells, permuted.cells);
-  EXPECT_EQ(mesh.triangulation.get_vertices(), mesh.vertices);
   EXPECT_ANY_THROW(renumber_blocks(mesh, { 0, 1, 2 }));
   EXPECT_ANY_THROW(renumber_blocks(mesh, { 0, 1, 2, 2 }));
 }
@@ -137,51 +134,6 @@ TEST(BlockNumbering, PartitionsWithFewBlocks)
     ++load.at(p);
   std::sort(load.begin(), load.end());
   EXPECT_EQ(load, (std::vector<unsigned int>{ 1, 2, 2 }));
-}
-
-TEST(BlockMesh, BuildsATriangulationWithTheSameNumbers)
-{
-  MeshData data = tiles(3);
-  add_curve(data, "crack", 1, 4, 1, 6);
-  SplitOptions options;
-  options.joints_along = { "joint", "crack" };
-  BlockMesh<2> mesh;
-  split_into_blocks(data, options, mesh);
-  build_triangulation(mesh);
-
-  EXPECT_EQ(mesh.triangulation.get_vertices(), mesh.vertices);
-  ASSERT_EQ(mesh.triangulation.n_active_cells(), mesh.n_cells());
-  std::map<unsigned int, unsigned int> n_faces;
-  for (const auto &cell : mesh.triangulation.active_cell_iterators())
-  {
-    const unsigned int c = cell->active_cell_index();
-    EXPECT_EQ(cell->material_id(), mesh.cell_group[c]);
-    for (unsigned int k = 0; k < 3; ++k)
-    {
-      EXPECT_EQ(cell->vertex_index(k), mesh.cells[c][k]);
-      if (cell->face(k)->at_boundary())
-        ++n_faces[cell->face(k)->boundary_id()];
-    }
-  }
-  EXPECT_EQ(n_faces[index_of("bottom", data.line_names)], 6U);
-  EXPECT_EQ(n_faces[index_of("joint", data.line_names)], 48U);
-  EXPECT_EQ(n_faces[index_of("crack", data.line_names)], 4U);
-  EXPECT_EQ(n_faces[0], 18U);
-}
-
-TEST(BlockMesh, BuildsATriangulationWithACrackOfOneEdge)
-{
-  MeshData data;
-  add_grid(data, 3, 3, "rock");
-  add_curve(data, "crack", 1, 1, 2, 1);
-  SplitOptions options;
-  options.joints_along = { "crack" };
-  BlockMesh<2> mesh;
-  split_into_blocks(data, options, mesh);
-  ASSERT_EQ(mesh.joint_faces.size(), 1U);
-  EXPECT_EQ(mesh.joint_faces[0].lower, mesh.joint_faces[0].upper);
-  build_triangulation(mesh);
-  EXPECT_EQ(mesh.triangulation.n_active_cells(), 18U);
 }
 
 TEST(MeshData, SurvivesSerialization)

@@ -138,7 +138,6 @@ TEST(QuadraticTriangles, StayTogetherInBlocks)
 
   const std::vector<unsigned int> order = { 2, 0, 3, 1 };
   ASSERT_EQ(mesh.n_blocks(), order.size());
-  build_triangulation(mesh);
   renumber_blocks(mesh, order);
   expect_consistent(mesh, 30., 1);
   expect_quadratic(mesh);

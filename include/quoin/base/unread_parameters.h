@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_base_unread_parameters_h
+#define quoin_base_unread_parameters_h
+
+#include <quoin/base/parameter_section.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** A parameter that has no meaning for all kinds of its section. */
+  struct SelectiveParameter
+  {
+    std::string name;
+    std::string unset;              /**< its value where it is not given */
+    std::vector<std::string> kinds; /**< that read it */
+  };
+
+  /**
+   * Refuses what is set without effect: a parameter of @p table that the kind
+   * of the section, the value of @p chooser, does not read. Numbers are
+   * compared as such.
+   */
+  void refuse_unread(const ParameterSection &section,
+                     const std::string &chooser,
+                     const std::vector<SelectiveParameter> &table);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_table.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Whether it is meant as a number, such as "2", "-.5" or "5m". */
+    bool begins_as_number(const std::string &word)
+    {
+      const std::size_t first = word.find_first_not_of("+-.");
+      return first != std::string::npos
+             && std::isdigit(static_cast<unsigned char>(word[first]));
+    }
+
+    /** The numbers in @p words; none if one is no finite number. */
+    std::vector<double> numbers(const std::vector<std::string> &words)
+    {
+      std::vector<double> values;
+      try
+      {
+        values = dealii::Utilities::string_to_double(words);
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+      }
+      if (!std::all_of(values.begin(), values.end(),
+                       [](const double value) { return std::isfinite(value); }))
+        values.clear();
+      return values;
+    }
+  } // namespace
+
+  std::vector<TableRow> read_number_table(const std::string &file,
+                                          const unsigned int n_columns,
+                                          const std::string &row)
+  {
+    std::ifstream stream(file);
+    if (!stream)
+      throw InputError("the table '" + file + "' cannot be read.");
+    std::vector<TableRow> rows;
+    std::string line;
+    for (unsigned int number = 1; std::getline(stream, line); ++number)
+    {
+      line = line.substr(0, line.find('#'));
+      std::replace(line.begin(), line.end(), ',', ' ');
+      std::istringstream stream_of_words(line);
+      std::vector<std::string> words;
+      for (std::string word; stream_of_words >> word;)
+        words.push_back(word);
+      if (words.empty()
+          || (rows.empty()
+              && std::none_of(words.begin(), words.end(), begins_as_number)))
+        continue;
+      const auto values = numbers(words);
+      if (values.size() != n_columns)
+        throw InputError("line " + std::to_string(number) + " of the table '"
+                         + file + "' is not " + row
+                         + ". Correct it, or put a # before it if it is a "
+                           "heading.");
+      rows.push_back({ number, values });
+    }
+    if (rows.empty())
+      throw InputError("the table '" + file + "' has no rows. Each should be "
+                       + row + ".");
+    return rows;
+  }
+} // namespace quoin
