@@ -2,6 +2,8 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/far_field_setup.h>
+#include <quoin/application/input_advice.h>
+#include <quoin/application/model_summary.h>
 #include <quoin/application/simulation.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
@@ -55,7 +57,7 @@ namespace quoin
     make_model();
     report_model();
     if (options.check)
-      return;
+      return report_costs();
     open_outputs();
     if (record.state.stage == parameters.stages.size())
     {
@@ -171,6 +173,9 @@ namespace quoin
                   + number_text(far->asymmetry()) + " of its largest entry");
 
     report_initial_joints();
+    if (options.check)
+      report_parts();
+    advise(model_advice(parameters, *model));
     if (implicit_solver)
       return report_implicit_model();
 
@@ -181,6 +186,8 @@ namespace quoin
       const StageParameters &stage = parameters.stages[i];
       begin_stage(i, state);
       choose_time_step(stage);
+      if (options.check)
+        log.message(stage_line(stage, false));
       log.message(
           "stage " + stage.name + ": time step "
           + number_text(explicit_solver->get_time_step()) + " s, "
@@ -197,6 +204,7 @@ namespace quoin
                        + number_text(100. * explicit_solver->added_mass_share())
                        + " % of mass"
                  : ""));
+      advise_about_stage(i, state);
     }
     construction->restart();
   }

@@ -80,6 +80,15 @@ namespace quoin
     void set_initial_motion();
     void report_model();
     void report_initial_joints();
+    /** Materials, joints and loads. */
+    void report_parts();
+    void advise(const std::vector<std::string> &advice);
+    /** Of what is likely a mistake, once the stage has begun with @p state. */
+    void advise_about_stage(unsigned int index, const State &state);
+    /** Time, memory, disk; takes about half a second. */
+    void report_costs();
+    void report_steps(const StageParameters &stage, State state);
+    void report_iterations(unsigned int index, const State &state);
     /** Model and solver begin stage @p index with @p state. */
     void begin_stage(unsigned int index, State &state);
     /** They go on with the state of a checkpoint. */
