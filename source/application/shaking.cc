@@ -163,7 +163,7 @@ namespace quoin
                                           const double shear_wave,
                                           const double length)
   {
-    if (!(length * shaking.frequency * edges_of_a_wave > shear_wave))
+    if (!(length * shaking.frequency * fewest_edges > shear_wave))
       return {};
     return { "boundary elements: " + shaking.name
              + " brings frequencies of up to " + number_text(shaking.frequency)

@@ -3,6 +3,8 @@
 
 #include <quoin/application/signal_frequency.h>
 
+#include <deal.II/base/numbers.h>
+
 #include <fftw3.h>
 
 #include <algorithm>
@@ -46,8 +48,11 @@ namespace quoin
     constexpr double rounding = 1e-6;
     if (samples.size() < 3)
       return 0.;
-    // Without the line both ends are zero: one period has one sample less.
-    const std::size_t n = samples.size() - 1;
+    // Without the line both ends are zero: one period has one sample less. An
+    // oscillation that is cut off fades, or its end would be as broad as the
+    // spectrum.
+    constexpr double fading_share = 0.25;
+    const std::size_t n           = samples.size() - 1;
     const double first = samples.front(), last = samples.back();
     double largest = 0., left = 0.;
     for (std::size_t i = 0; i <= n; ++i)
@@ -55,6 +60,9 @@ namespace quoin
       largest = std::max(largest, std::abs(samples[i]));
       samples[i] -= first + (last - first) * double(i) / double(n);
       left = std::max(left, std::abs(samples[i]));
+      const double to_go
+          = std::min(1., (1. - double(i) / double(n)) / fading_share);
+      samples[i] *= 0.5 - 0.5 * std::cos(dealii::numbers::PI * to_go);
     }
     if (!(left > rounding * largest))
       return 0.;

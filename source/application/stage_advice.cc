@@ -104,30 +104,46 @@ namespace quoin
       return nullptr;
     }
 
-    /** Height of the jump of a force, by its largest value; 0: there is none.
+    /**
+     * Freedom @p d of all loads of @p stage that act where @p load does, in
+     * the same way, at @p t of a stage that began at @p start [s].
      */
+    double force_like(const Parameters &parameters,
+                      const StageParameters &stage, const LoadParameters &load,
+                      const unsigned int d, const double t, const double start)
+    {
+      double sum = 0.;
+      for (const LoadParameters &other : parameters.loads)
+        if (names_load(stage, other.name) && other.type == load.type
+            && other.boundaries == load.boundaries
+            && other.groups == load.groups
+            && other.components[d].quantity == LoadQuantity::force)
+          sum += other.components[d].value({ t, start + t });
+      return sum;
+    }
+
+    /** Of a force; without height if there is none worth a word. */
     Jump jump_of(const Parameters &parameters, const unsigned int index,
-                 const LoadParameters &load, const LoadComponent &component)
+                 const LoadParameters &load, const unsigned int d)
     {
       /** Share of the largest value that counts as a jump. */
       constexpr double smallest    = 0.2;
       constexpr double late        = 1e9; /**< where loads rest [s] */
       const StageParameters &stage = parameters.stages[index];
       const double start           = start_of_stage(parameters.stages, index);
-      const FunctionOfTime value   = [&](const double t) {
-        return component.value({ t, start + t });
-      };
+      const FunctionOfTime value   = [&](const double t)
+      { return force_like(parameters, stage, load, d, t, start); };
       double largest = 0.;
       for (const double v : sampled(value, stage.duration, 1025))
         largest = std::max(largest, std::abs(v));
-      if (largest == 0.)
-        return {};
       Jump jump                     = largest_jump(value, stage.duration);
       const StageParameters *before = stage_before(parameters, index);
-      const bool acted              = before && names_load(*before, load.name);
-      const double t
-          = before && before->end == StageEnd::time ? before->duration : late;
-      const double last = acted ? component.value({ t, start }) : 0.;
+      double last                   = 0.;
+      if (before && before->end == StageEnd::time)
+        last = force_like(parameters, *before, load, d, before->duration,
+                          start - before->duration);
+      else if (before)
+        last = force_like(parameters, *before, load, d, late, start);
       // At the start of the run it may be what the initial stress bears.
       const bool is_borne
           = index == 0 && !parameters.model.initial_stresses.empty();
@@ -151,11 +167,11 @@ namespace quoin
                 && load->type != LoadType::gravity
                 && load->type != LoadType::platen))
           continue;
-        for (const LoadComponent &component : load->components)
+        for (unsigned int d = 0; d < 3; ++d)
         {
-          if (component.quantity != LoadQuantity::force)
+          if (load->components[d].quantity != LoadQuantity::force)
             continue;
-          const Jump jump = jump_of(parameters, index, *load, component);
+          const Jump jump = jump_of(parameters, index, *load, d);
           if (jump.height == 0.)
             continue;
           advice.push_back(
@@ -195,7 +211,7 @@ namespace quoin
           length = wave;
         }
       }
-      if (!(fewest < edges_of_a_wave))
+      if (!(fewest < fewest_edges))
         return;
       const CellSize &size = sizes[worst];
       advice.push_back(

@@ -29,8 +29,9 @@ namespace quoin
   /**
    * The frequency [Hz] below which energy_share of the energy of @p samples,
    * @p interval [s] apart, lies, by their discrete Fourier transform. The line
-   * from the first to the last sample is taken off before: what is cut off at
-   * the end has no jump there, and a constant or a ramp has no frequency, 0.
+   * from the first to the last sample is taken off before, and the last quarter
+   * fades by a cosine: what is cut off at the end has no jump there, and a
+   * constant or a ramp has no frequency, 0.
    */
   double highest_frequency(std::vector<double> samples, double interval);
 
