@@ -203,6 +203,8 @@ namespace quoin
     log.message("material " + settings.material + ": P waves "
                 + number_text(medium.c1) + " m/s, S waves "
                 + number_text(medium.c2) + " m/s");
+    if (options.check)
+      report_parts();
     if (!sampled_points.empty())
       log.message("sampled field: " + std::to_string(sampled_points.size())
                   + " points");

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace quoin
@@ -17,6 +18,53 @@ namespace quoin
   namespace
   {
     constexpr double degrees = 180. / dealii::numbers::PI;
+
+    std::string range_text(const double low, const double high,
+                           const std::string &unit)
+    {
+      // Without the sign of a zero.
+      const std::string first = number_text(low + 0.),
+                        last  = number_text(high + 0.);
+      return (low == high ? first : "from " + first + " to " + last) + " "
+             + unit;
+    }
+
+    /** Of @p function at @p n_times times and in the middle of elements. */
+    std::string values_on(const SpaceTimeFunction &function,
+                          const std::vector<Eigen::Vector2d> &places,
+                          const double duration, const std::string &unit)
+    {
+      const unsigned int n_times = function.depends_on_time() ? 512 : 0;
+      double low = std::numeric_limits<double>::infinity(), high = -low;
+      for (const Eigen::Vector2d &x : places)
+      {
+        for (unsigned int i = 0; i <= n_times; ++i)
+        {
+          const double value
+              = function(x, n_times == 0 ? 0. : duration * i / n_times);
+          low  = std::min(low, value);
+          high = std::max(high, value);
+        }
+        if (!function.depends_on_place())
+          break;
+      }
+      return range_text(low, high, unit);
+    }
+
+    std::string type_text(const IncidentWaveParameters &wave)
+    {
+      switch (wave.type)
+      {
+      case IncidentWaveType::plane_p:
+        return "plane P wave";
+      case IncidentWaveType::plane_sv:
+        return "plane SV wave";
+      case IncidentWaveType::rayleigh:
+        return "Rayleigh wave";
+      default:
+        return "line source";
+      }
+    }
 
     std::string count_text(const std::size_t n, const std::string &what)
     {
@@ -40,24 +88,30 @@ namespace quoin
                                      : std::string("unlimited"));
     }
 
-    std::string strength_text(const JointStrength &strength)
+    /** What of @p strength differs from @p other. */
+    std::string strength_text(const JointStrength &strength,
+                              const JointStrength &other)
     {
-      return named("friction angle", std::atan(strength.friction) * degrees,
-                   "degrees")
-             + ", " + named("cohesion", strength.cohesion, "Pa") + ", "
-             + named("tensile strength", strength.tension, "Pa");
+      std::vector<std::string> words;
+      if (strength.friction != other.friction)
+        words.push_back(named("friction angle",
+                              std::atan(strength.friction) * degrees,
+                              "degrees"));
+      if (strength.cohesion != other.cohesion)
+        words.push_back(named("cohesion", strength.cohesion, "Pa"));
+      if (strength.tension != other.tension)
+        words.push_back(named("tensile strength", strength.tension, "Pa"));
+      return joined(words);
     }
 
     std::string coulomb_text(const CoulombLaw &law)
     {
       if (!std::isfinite(law.peak.tension))
         return "elastic";
-      const bool is_brittle = law.residual.cohesion != law.peak.cohesion
-                              || law.residual.friction != law.peak.friction
-                              || law.residual.tension != law.peak.tension;
-      return "Coulomb, " + strength_text(law.peak)
-             + (is_brittle ? "; once failed " + strength_text(law.residual)
-                           : std::string());
+      constexpr double nan       = std::numeric_limits<double>::quiet_NaN();
+      const std::string residual = strength_text(law.residual, law.peak);
+      return "Coulomb, " + strength_text(law.peak, { nan, nan, nan })
+             + (residual.empty() ? "" : " (once failed " + residual + ")");
     }
 
     std::string composite_text(const CompositeLaw &law)
@@ -88,32 +142,6 @@ namespace quoin
                + named("down to", law.residual_angle * degrees, "degrees");
       }
     };
-
-    std::string stiffness_text(const MaterialParameters &material,
-                               const PlaneAssumption plane)
-    {
-      const LinearElastic &elastic = material.elastic;
-      const std::string density
-          = "density " + number_text(elastic.density) + " kg/m^3";
-      if (material.rigid)
-        return "rigid, " + density;
-      const WaveSpeeds speeds = wave_speeds(elastic, plane);
-      std::string text = material.strength ? "Mohr-Coulomb, " : "elastic, ";
-      text += "E " + number_text(elastic.young) + " Pa, nu "
-              + number_text(elastic.poisson) + ", " + density + ", P waves "
-              + number_text(speeds.p) + " m/s, S waves " + number_text(speeds.s)
-              + " m/s";
-      if (!material.strength)
-        return text;
-      const MohrCoulombStrength &strength = *material.strength;
-      return text + ", " + named("cohesion", strength.cohesion, "Pa") + ", "
-             + named("friction angle", strength.friction_angle * degrees,
-                     "degrees")
-             + ", "
-             + named("dilation angle", strength.dilation_angle * degrees,
-                     "degrees")
-             + ", " + named("tensile strength", strength.tension, "Pa");
-    }
 
     /** Names and units of the components of a load. */
     std::vector<std::array<std::string, 2>>
@@ -218,6 +246,32 @@ namespace quoin
              std::sqrt(stiffness.c33 / material.density) };
   }
 
+  std::string material_text(const MaterialParameters &material,
+                            const PlaneAssumption plane)
+  {
+    const LinearElastic &elastic = material.elastic;
+    const std::string density
+        = "density " + number_text(elastic.density) + " kg/m^3";
+    if (material.rigid)
+      return "rigid, " + density;
+    const WaveSpeeds speeds = wave_speeds(elastic, plane);
+    std::string text = material.strength ? "Mohr-Coulomb, " : "elastic, ";
+    text += "E " + number_text(elastic.young) + " Pa, nu "
+            + number_text(elastic.poisson) + ", " + density + ", P waves "
+            + number_text(speeds.p) + " m/s, S waves " + number_text(speeds.s)
+            + " m/s";
+    if (!material.strength)
+      return text;
+    const MohrCoulombStrength &strength = *material.strength;
+    return text + ", " + named("cohesion", strength.cohesion, "Pa") + ", "
+           + named("friction angle", strength.friction_angle * degrees,
+                   "degrees")
+           + ", "
+           + named("dilation angle", strength.dilation_angle * degrees,
+                   "degrees")
+           + ", " + named("tensile strength", strength.tension, "Pa");
+  }
+
   std::vector<std::string>
   material_lines(const Parameters &parameters, const BlockMesh<2> &mesh,
                  const std::vector<unsigned int> &material_of_group)
@@ -239,7 +293,7 @@ namespace quoin
           "material " + materials[m].name + ": "
           + count_text(blocks[m].size(), "block") + ", "
           + count_text(n_cells[m] / (mesh.quadratic ? 4 : 1), "triangle") + "; "
-          + stiffness_text(materials[m], parameters.model.plane));
+          + material_text(materials[m], parameters.model.plane));
     return lines;
   }
 
@@ -295,9 +349,7 @@ namespace quoin
         }
       start += ends ? duration : 0.;
     }
-    return low == high ? number_text(low) + " " + unit
-                       : "from " + number_text(low) + " to " + number_text(high)
-                             + " " + unit;
+    return range_text(low, high, unit);
   }
 
   std::string place_text(const LoadParameters &load, const BlockMesh<2> &mesh)
@@ -361,5 +413,50 @@ namespace quoin
     for (const auto &[set, other] : stage.joint_properties)
       text += "; joints " + set + " become " + other;
     return text;
+  }
+
+  std::vector<std::string>
+  boundary_lines(const BoundaryElementParameters &parameters,
+                 const BoundaryGeometry &geometry, const double duration)
+  {
+    std::vector<std::string> lines;
+    for (unsigned int k = 0; k < parameters.boundaries.size(); ++k)
+    {
+      const BoundaryCurveParameters &curve = parameters.boundaries[k];
+      std::vector<Eigen::Vector2d> middles;
+      for (unsigned int e = 0; e < geometry.owner.size(); ++e)
+        if (geometry.owner[e] == k)
+          middles.push_back(0.5
+                            * (geometry.boundary.elements[e].a
+                               + geometry.boundary.elements[e].b));
+      if (curve.shape == BoundaryShape::interface || middles.empty())
+        continue;
+      std::string text = "boundary " + curve.name + ": given";
+      for (unsigned int d = 0; d < 2; ++d)
+        text += std::string(d == 0 ? " horizontal " : ", vertical ")
+                + (curve.traction_is_given[d] ? "traction " : "displacement ")
+                + values_on(curve.value[d], middles, duration,
+                            curve.traction_is_given[d] ? "Pa" : "m");
+      lines.push_back(text + ", pressure "
+                      + values_on(curve.pressure, middles, duration, "Pa"));
+    }
+    for (const IncidentWaveParameters &wave : parameters.waves)
+    {
+      if (duration == 0.)
+        break;
+      const bool is_source = wave.type == IncidentWaveType::line_source;
+      const auto function  = wave.function(0., duration, duration / 512.);
+      double low = function(0.), high = low;
+      for (unsigned int i = 1; i <= 512; ++i)
+      {
+        low  = std::min(low, function(duration * i / 512.));
+        high = std::max(high, function(duration * i / 512.));
+      }
+      lines.push_back("incident wave " + wave.name + ": " + type_text(wave)
+                      + (wave.half_plane ? " in the half-plane" : "")
+                      + (is_source ? ", moment " : ", displacement ")
+                      + range_text(low, high, is_source ? "N" : "m"));
+    }
+    return lines;
   }
 } // namespace quoin

@@ -26,6 +26,12 @@ namespace quoin
 
     /** Iterations that a step takes at least, if joints yield. */
     constexpr double few_iterations = 3.;
+
+    /** Of the stages that end by time [s]. */
+    double total_duration(const std::vector<StageParameters> &stages)
+    {
+      return start_of_stage(stages, stages.size());
+    }
   } // namespace
 
   void Simulation::report_parts()
@@ -100,39 +106,43 @@ namespace quoin
                              + least + ", " + bytes_text(of_rows)));
   }
 
-  void Simulation::report_steps(const StageParameters &stage, State state)
+  void Simulation::take_trial_step(const StageParameters &stage,
+                                   const State &start, State &state)
+  {
+    if (stage.end == StageEnd::time && state.stage_step >= steps_of_stage)
+      state = start;
+    ExplicitSolver::Requests requests;
+    requests.balance = state.stage_step % ExplicitSolver::balance_interval == 0;
+    requests.energies
+        = history_control.is_due(state.time, explicit_solver->get_time_step())
+          || (requests.balance && stage.end == StageEnd::static_ratio);
+    try
+    {
+      explicit_solver->step(state, requests);
+    }
+    catch (const RunError &)
+    {
+      // Of no account: the stages before, which bring the model to where this
+      // one begins, have not run.
+      state = start;
+    }
+  }
+
+  void Simulation::report_steps(const StageParameters &stage,
+                                const State &start)
   {
     // The state is a copy; what steps leave in the solver is lost with it,
     // since nothing runs after a check.
-    double seconds = 0.;
-    try
-    {
-      seconds = seconds_per_call(
-          [&]()
-          {
-            const double dt = explicit_solver->get_time_step();
-            ExplicitSolver::Requests requests;
-            requests.balance
-                = state.stage_step % ExplicitSolver::balance_interval == 0;
-            requests.energies
-                = history_control.is_due(state.time, dt)
-                  || (requests.balance && stage.end == StageEnd::static_ratio);
-            explicit_solver->step(state, requests);
-          },
-          measuring_time / double(parameters.stages.size()), communicator);
-    }
-    catch (const RunError &error)
-    {
-      log.warning("stage " + stage.name
-                  + ": its first steps fail: " + error.what());
-      return;
-    }
+    State state          = start;
+    const double seconds = seconds_per_call(
+        [&]() { take_trial_step(stage, start, state); },
+        measuring_time / double(parameters.stages.size()), communicator);
     if (stage.end != StageEnd::time)
       log.message("stage " + stage.name + ": "
-                  + seconds_text(many_steps * seconds) + " for each "
-                  + number_text(many_steps) + " steps; how many it takes is "
-                  + (stage.safety ? "seen as factors are tried"
-                                  : "seen as it settles"));
+                  + seconds_text(many_steps * seconds)
+                  + " for each 10 000 steps, of which it takes as many as it "
+                    "needs"
+                  + (stage.safety ? " for each factor" : " to settle"));
     else
       log.message("stage " + stage.name + ": about "
                   + seconds_text(double(steps_of_stage) * seconds)

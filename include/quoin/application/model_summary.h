@@ -4,6 +4,7 @@
 #ifndef quoin_application_model_summary_h
 #define quoin_application_model_summary_h
 
+#include <quoin/application/boundary_geometry.h>
 #include <quoin/application/parameters.h>
 #include <quoin/mesh/block_mesh.h>
 #include <quoin/mesh/mesh_report.h>
@@ -37,6 +38,15 @@ namespace quoin
 
   std::vector<std::string> load_lines(const Parameters &parameters,
                                       const BlockMesh<2> &mesh);
+
+  /** What is given on boundary elements in @p duration [s], and waves. */
+  std::vector<std::string>
+  boundary_lines(const BoundaryElementParameters &parameters,
+                 const BoundaryGeometry &geometry, double duration);
+
+  /** Law, stiffness, density, wave speeds and strength. */
+  std::string material_text(const MaterialParameters &material,
+                            PlaneAssumption plane);
 
   /** Loads, end, damping and what is built, but no time step. */
   std::string stage_line(const StageParameters &stage, bool is_implicit);

@@ -87,7 +87,10 @@ namespace quoin
     void advise_about_stage(unsigned int index, const State &state);
     /** Time, memory, disk; takes about half a second. */
     void report_costs();
-    void report_steps(const StageParameters &stage, State state);
+    void report_steps(const StageParameters &stage, const State &start);
+    /** From @p start again after the stage's end or a failure. */
+    void take_trial_step(const StageParameters &stage, const State &start,
+                         State &state);
     void report_iterations(unsigned int index, const State &state);
     /** Model and solver begin stage @p index with @p state. */
     void begin_stage(unsigned int index, State &state);
