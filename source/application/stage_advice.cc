@@ -152,6 +152,21 @@ namespace quoin
       return jump.height > smallest * largest ? jump : Jump();
     }
 
+    /** What moves with its weight alone is not shaken by it. */
+    bool holds_anything(const Parameters &parameters,
+                        const StageParameters &stage)
+    {
+      return std::any_of(stage.loads.begin(), stage.loads.end(),
+                         [&](const std::string &name)
+                         {
+                           const LoadParameters *load
+                               = find_load(parameters, name);
+                           return load && load->type != LoadType::gravity
+                                  && load->type != LoadType::traction
+                                  && load->type != LoadType::initial_stress;
+                         });
+    }
+
     void advise_about_jumps(const Parameters &parameters,
                             const unsigned int index, const double rise,
                             std::vector<std::string> &advice)
@@ -164,8 +179,9 @@ namespace quoin
         const LoadParameters *load = find_load(parameters, name);
         if (!load
             || (load->type != LoadType::traction
-                && load->type != LoadType::gravity
-                && load->type != LoadType::platen))
+                && load->type != LoadType::platen
+                && !(load->type == LoadType::gravity
+                     && holds_anything(parameters, stage))))
           continue;
         for (unsigned int d = 0; d < 3; ++d)
         {

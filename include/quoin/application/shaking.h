@@ -14,9 +14,9 @@ namespace quoin
 {
   /**
    * Edges of an S wave below which we warn: eight to ten are right, and with
-   * six it runs five per cent too slowly; theory.md, section 7.
+   * five it runs seven per cent too slowly; theory.md, section 7.
    */
-  constexpr double fewest_edges = 6.;
+  constexpr double fewest_edges = 5.;
 
   /** A signal that shakes, and up to which frequency [Hz]; 0: it does not. */
   struct Shaking
