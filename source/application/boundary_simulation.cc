@@ -75,7 +75,7 @@ namespace quoin
     naming(parameters.file,
            [&]() { settings.is_static ? solve_static() : make_operators(); });
     if (options.check)
-      return;
+      return report_costs();
     open_outputs();
     if (record.finished)
     {
@@ -202,11 +202,14 @@ namespace quoin
     log.message("material " + settings.material + ": P waves "
                 + number_text(medium.c1) + " m/s, S waves "
                 + number_text(medium.c2) + " m/s");
+    if (options.check)
+      report_parts();
     if (!sampled_points.empty())
       log.message("sampled field: " + std::to_string(sampled_points.size())
                   + " points");
     if (settings.is_static)
       return;
+    advise();
     const double low  = medium.c1 * dt / lengths.maxCoeff();
     const double high = medium.c1 * dt / lengths.minCoeff();
     log.message("time step " + number_text(dt) + " s, c1 dt / L "
@@ -327,6 +330,18 @@ namespace quoin
     return step == n_steps || field_control.is_due(step * dt, dt);
   }
 
+  VectorXd BoundarySimulation::scattered_values(const double begin,
+                                                const double end,
+                                                const VectorXd &u_incident,
+                                                const VectorXd &p_incident)
+  {
+    VectorXd values         = (*given)(begin, end);
+    const auto &of_traction = given->traction_is_given();
+    for (Eigen::Index k = 0; k < values.size(); ++k)
+      values[k] -= of_traction[k] ? p_incident[k] : u_incident[k];
+    return values;
+  }
+
   void BoundarySimulation::take_step()
   {
     const auto start         = WallClock::now();
@@ -334,11 +349,8 @@ namespace quoin
     const double begin = record.step * dt, end = step * dt;
     const VectorXd u_incident = waves->displacements(end);
     const VectorXd p_incident = waves->tractions(begin, end);
-    VectorXd values           = (*given)(begin, end);
     const auto &of_traction   = given->traction_is_given();
-    for (Eigen::Index k = 0; k < values.size(); ++k)
-      values[k] -= of_traction[k] ? p_incident[k] : u_incident[k];
-    march->step(values);
+    march->step(scattered_values(begin, end, u_incident, p_incident));
     if (!march->u().allFinite() || !march->p().allFinite())
       throw RunError("boundary elements: the solution is not finite any more "
                      "at time "
@@ -347,7 +359,7 @@ namespace quoin
                        "stable with this time step: take 'Formulation = "
                        "Galerkin' and a larger 'Step ratio'.");
     if (needs_record())
-      for (Eigen::Index k = 0; k < values.size(); ++k)
+      for (Eigen::Index k = 0; k < march->u().size(); ++k)
       {
         record.all_u[k * n_steps + record.step] = march->u()[k];
         record.all_p[k * n_steps + record.step] = march->p()[k];

@@ -2,6 +2,8 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/far_field_setup.h>
+#include <quoin/application/input_advice.h>
+#include <quoin/application/model_summary.h>
 #include <quoin/application/simulation.h>
 #include <quoin/application/step_count.h>
 #include <quoin/base/exceptions.h>
@@ -60,7 +62,7 @@ namespace quoin
     make_model();
     report_model();
     if (options.check)
-      return;
+      return report_costs();
     open_outputs();
     if (record.state.stage == parameters.stages.size())
     {
@@ -186,6 +188,9 @@ namespace quoin
         log.warning("section 'Joints/" + set.name + "': " + warning);
     }
     report_initial_joints();
+    if (options.check)
+      report_parts();
+    advise(model_advice(parameters, *model));
     if (implicit_solver)
       return report_implicit_model();
 
@@ -197,9 +202,8 @@ namespace quoin
       const StageParameters &stage = parameters.stages[i];
       begin_stage(i, state, time_is_known);
       choose_time_step(stage);
-      time_is_known &= stage.end == StageEnd::time && !stage.slows_loads();
-      if (time_is_known)
-        state.time += double(steps_of_stage) * explicit_solver->get_time_step();
+      if (options.check)
+        log.message(stage_line(stage, false));
       log.message(
           "stage " + stage.name + ": time step "
           + number_text(explicit_solver->get_time_step()) + " s, "
@@ -216,6 +220,10 @@ namespace quoin
                        + number_text(100. * explicit_solver->added_mass_share())
                        + " % of mass"
                  : ""));
+      advise_about_stage(i, state);
+      time_is_known &= stage.end == StageEnd::time && !stage.slows_loads();
+      if (time_is_known)
+        state.time += double(steps_of_stage) * explicit_solver->get_time_step();
     }
     construction->restart();
   }

@@ -3,6 +3,7 @@
 
 // What Simulation does with the implicit solver.
 
+#include <quoin/application/model_summary.h>
 #include <quoin/application/simulation.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
@@ -17,6 +18,8 @@ namespace quoin
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
     {
       begin_stage(i, state);
+      if (options.check)
+        log.message(stage_line(parameters.stages[i], true));
       log.message("stage " + parameters.stages[i].name
                   + ": equilibrium up to the load time "
                   + number_text(implicit_solver->duration()) + " s, "

@@ -10,6 +10,7 @@
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -19,6 +20,12 @@ namespace quoin
   {
     using Gram = dealii::SymmetricTensor<2, 3>;
 
+    /** Below this share of the largest a motion counts as not held. */
+    constexpr double not_held = 1e-8;
+
+    /** Below this share of all forces a resultant is rounding. */
+    constexpr double least_push = 1e-6;
+
     /** Adds the square of one held freedom's row on the rigid motions. */
     void add_row(Gram &gram, const double x, const double y, const double turn)
     {
@@ -27,41 +34,107 @@ namespace quoin
         for (unsigned int j = i; j < 3; ++j)
           gram[i][j] += row[i] * row[j];
     }
-  } // namespace
 
-  void check_no_free_bodies(const Model &model,
-                            const std::vector<NodeConstraint *> &constraints,
-                            const std::string &stage, const State &state)
-  {
-    const BlockMesh<2> &mesh     = model.mesh();
-    const NodeExchange &exchange = model.exchange();
-    const unsigned int n         = mesh.n_blocks();
-    const auto centre            = mesh.vertices[0];
-    double size                  = 0.;
-    for (const auto &p : mesh.vertices)
-      size = std::max(size, p.distance(centre));
-
-    // What holds each block: rows x, y, size * rotation. All blocks of a
-    // platen are one body, whose rows go to the first of them.
-    std::vector<double> gram_entries(6 * n, 0.);
-    std::vector<unsigned int> rank(n), parent(n);
-    boost::disjoint_sets<unsigned int *, unsigned int *> bodies(rank.data(),
-                                                                parent.data());
-    for (unsigned int b = 0; b < n; ++b)
-      bodies.make_set(b);
-    for (const NodeConstraint *constraint : constraints)
+    /**
+     * Blocks that joints and platens make one body, and what holds each body:
+     * the sum of the squared rows x, y, size * rotation.
+     */
+    class Bodies
     {
-      const auto holds   = constraint->supports()
-                               ? std::array<bool, 3>{ { true, true, false } }
-                               : constraint->holds();
-      unsigned int first = n;
-      std::set<unsigned int> blocks;
-      for (const unsigned int node : constraint->nodes())
+    public:
+      /** @p with_drag: whether dashpots and the like hold. Collective. */
+      Bodies(const Model &model,
+             const std::vector<NodeConstraint *> &constraints,
+             const State &state, bool with_drag);
+
+      /** The block that stands for the body of @p block. */
+      unsigned int body(const unsigned int block)
       {
-        const unsigned int v     = exchange.global(node);
-        const unsigned int block = mesh.block_of_vertex(v);
-        blocks.insert(block);
-        const auto r = (mesh.vertices[v] - centre) / size;
+        return sets.find_set(block);
+      }
+      const Gram &gram(const unsigned int block)
+      {
+        return grams[body(block)];
+      }
+      /** From the point that rotations are about, by the model's size. */
+      dealii::Tensor<1, 2> arm(const dealii::Point<2> &p) const
+      {
+        return (p - origin) / size;
+      }
+
+    private:
+      std::array<bool, 3> held_by(const NodeConstraint &constraint,
+                                  bool with_drag) const;
+      void add_nodes(const NodeConstraint &constraint,
+                     const std::array<bool, 3> &holds);
+      /** All blocks of a platen are one body, its rows go to the first. */
+      void add_platen(const NodeConstraint &constraint,
+                      const std::array<bool, 3> &holds);
+      void add_joints(const State &state);
+      void add(const unsigned int block, const Gram &gram)
+      {
+        for (unsigned int k = 0; k < 6; ++k)
+          entries[6 * block + k]
+              += gram[Gram::unrolled_to_component_indices(k)];
+      }
+
+      const BlockMesh<2> &mesh;
+      const NodeExchange &exchange;
+      const unsigned int n;
+      const dealii::Point<2> origin;
+      double size = 0.;
+      std::vector<double> entries;
+      std::vector<unsigned int> rank, parent;
+      boost::disjoint_sets<unsigned int *, unsigned int *> sets;
+      std::vector<Gram> grams;
+    };
+
+    Bodies::Bodies(const Model &model,
+                   const std::vector<NodeConstraint *> &constraints,
+                   const State &state, const bool with_drag)
+      : mesh(model.mesh()), exchange(model.exchange()), n(mesh.n_blocks()),
+        origin(mesh.vertices[0]), entries(6 * n, 0.), rank(n), parent(n),
+        sets(rank.data(), parent.data()), grams(n)
+    {
+      for (const auto &p : mesh.vertices)
+        size = std::max(size, p.distance(origin));
+      for (unsigned int b = 0; b < n; ++b)
+        sets.make_set(b);
+      for (const NodeConstraint *constraint : constraints)
+      {
+        const auto holds = held_by(*constraint, with_drag);
+        // A platen that may turn holds its centre alone, which lies within
+        // its nodes; a single row each is what it prescribes.
+        if (!constraint->is_global() || holds[2])
+          add_nodes(*constraint, holds);
+        if (constraint->is_global())
+          add_platen(*constraint, holds);
+      }
+      dealii::Utilities::MPI::sum(entries, exchange.communicator(), entries);
+      add_joints(state);
+      for (unsigned int b = 0; b < n; ++b)
+        for (unsigned int k = 0; k < 6; ++k)
+          grams[body(b)][Gram::unrolled_to_component_indices(k)]
+              += entries[6 * b + k];
+    }
+
+    std::array<bool, 3> Bodies::held_by(const NodeConstraint &constraint,
+                                        const bool with_drag) const
+    {
+      const bool drags
+          = with_drag && constraint.moves_all() && !constraint.is_global();
+      if (constraint.supports() || drags)
+        return { { true, true, false } };
+      return constraint.holds();
+    }
+
+    void Bodies::add_nodes(const NodeConstraint &constraint,
+                           const std::array<bool, 3> &holds)
+    {
+      for (const unsigned int node : constraint.nodes())
+      {
+        const unsigned int v = exchange.global(node);
+        const auto r         = arm(mesh.vertices[v]);
         Gram gram;
         if (holds[0])
           add_row(gram, 1., 0., -r[1]);
@@ -69,61 +142,139 @@ namespace quoin
           add_row(gram, 0., 1., r[0]);
         if (holds[2])
           add_row(gram, 0., 0., 1.);
-        if (constraint->is_global() && !holds[2])
-          // A platen that may turn holds its centre alone, which lies
-          // within its nodes; a single row each is what it prescribes.
-          gram = Gram();
-        for (unsigned int k = 0; k < 6; ++k)
-          gram_entries[6 * block + k]
-              += gram[Gram::unrolled_to_component_indices(k)];
+        add(mesh.block_of_vertex(v), gram);
       }
-      if (!constraint->is_global())
-        continue;
-      first = dealii::Utilities::MPI::min(blocks.empty() ? n : *blocks.begin(),
-                                          exchange.communicator());
+    }
+
+    void Bodies::add_platen(const NodeConstraint &constraint,
+                            const std::array<bool, 3> &holds)
+    {
+      std::set<unsigned int> blocks;
+      for (const unsigned int node : constraint.nodes())
+        blocks.insert(mesh.block_of_vertex(exchange.global(node)));
+      const unsigned int first = dealii::Utilities::MPI::min(
+          blocks.empty() ? n : *blocks.begin(), exchange.communicator());
       std::vector<unsigned int> member(n, 0);
       for (const unsigned int block : blocks)
         member[block] = 1;
       dealii::Utilities::MPI::max(member, exchange.communicator(), member);
       for (unsigned int block = 0; block < n; ++block)
         if (member[block])
-          bodies.union_set(block, first);
-      if (!holds[2] && !blocks.empty() && *blocks.begin() == first)
-      {
-        Gram gram;
-        const auto r
-            = (mesh.vertices[exchange.global(constraint->nodes().front())]
-               - centre)
-              / size;
-        if (holds[0])
-          add_row(gram, 1., 0., -r[1]);
-        if (holds[1])
-          add_row(gram, 0., 1., r[0]);
-        for (unsigned int k = 0; k < 6; ++k)
-          gram_entries[6 * first + k]
-              += gram[Gram::unrolled_to_component_indices(k)];
-      }
-    }
-    dealii::Utilities::MPI::sum(gram_entries, exchange.communicator(),
-                                gram_entries);
-    for (const JointFace &face : mesh.joint_faces)
-    {
-      const unsigned int a = mesh.block_of_vertex(face.lower[0]);
-      const unsigned int b = mesh.block_of_vertex(face.upper[0]);
-      if (!state.is_absent(a) && !state.is_absent(b))
-        bodies.union_set(a, b);
+          sets.union_set(block, first);
+      if (holds[2] || blocks.empty() || *blocks.begin() != first)
+        return;
+      Gram gram;
+      const auto r
+          = arm(mesh.vertices[exchange.global(constraint.nodes().front())]);
+      if (holds[0])
+        add_row(gram, 1., 0., -r[1]);
+      if (holds[1])
+        add_row(gram, 0., 1., r[0]);
+      add(first, gram);
     }
 
-    std::vector<Gram> body_gram(n);
-    for (unsigned int b = 0; b < n; ++b)
-      for (unsigned int k = 0; k < 6; ++k)
-        body_gram[bodies.find_set(b)][Gram::unrolled_to_component_indices(k)]
-            += gram_entries[6 * b + k];
-    for (unsigned int b = 0; b < n; ++b)
+    void Bodies::add_joints(const State &state)
     {
-      const auto values
-          = dealii::eigenvalues(body_gram[bodies.find_set(b)]); // descending
-      if (state.is_absent(b) || values[2] > 1e-8 * values[0])
+      for (const JointFace &face : mesh.joint_faces)
+      {
+        const unsigned int a = mesh.block_of_vertex(face.lower[0]);
+        const unsigned int b = mesh.block_of_vertex(face.upper[0]);
+        if (!state.is_absent(a) && !state.is_absent(b))
+          sets.union_set(a, b);
+      }
+    }
+
+    /** Force x, y [N] and moment over the size [N], and all forces [N]. */
+    struct Push
+    {
+      std::array<double, 3> resultant{};
+      double total = 0.;
+    };
+
+    std::vector<Push> pushes(const Model &model, Bodies &bodies,
+                             const std::vector<const NodalLoad *> &loads,
+                             const TimePoint &time)
+    {
+      const BlockMesh<2> &mesh     = model.mesh();
+      const NodeExchange &exchange = model.exchange();
+      std::vector<NodeVector> force(exchange.n_local(),
+                                    NodeVector{ { 0., 0. } });
+      for (const NodalLoad *load : loads)
+        load->add_forces(time, force.data());
+      std::vector<double> sums(4 * mesh.n_blocks(), 0.);
+      for (unsigned int i = 0; i < exchange.n_owned(); ++i)
+      {
+        const unsigned int v = exchange.global(i);
+        const auto r         = bodies.arm(mesh.vertices[v]);
+        const double *f      = force[i].v;
+        double *sum          = &sums[4 * bodies.body(mesh.block_of_vertex(v))];
+        sum[0] += f[0];
+        sum[1] += f[1];
+        sum[2] += r[0] * f[1] - r[1] * f[0];
+        sum[3] += std::hypot(f[0], f[1]);
+      }
+      dealii::Utilities::MPI::sum(sums, exchange.communicator(), sums);
+      std::vector<Push> result(mesh.n_blocks());
+      for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+        result[b] = { { { sums[4 * b], sums[4 * b + 1], sums[4 * b + 2] } },
+                      sums[4 * b + 3] };
+      return result;
+    }
+
+    /** Rigid motions that @p gram does not hold. */
+    std::vector<dealii::Tensor<1, 3>> free_motions(const Gram &gram)
+    {
+      std::vector<dealii::Tensor<1, 3>> motions;
+      if (gram.norm() == 0.)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          motions.emplace_back();
+          motions.back()[d] = 1.;
+        }
+        return motions;
+      }
+      const auto modes = dealii::eigenvectors(gram); // descending
+      for (const auto &[value, motion] : modes)
+        if (value <= not_held * modes[0].first)
+          motions.push_back(motion);
+      return motions;
+    }
+
+    bool pushes_along(const Push &push, const dealii::Tensor<1, 3> &motion)
+    {
+      double along = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+        along += push.resultant[d] * motion[d];
+      return std::abs(along) > least_push * push.total;
+    }
+
+    dealii::Point<2> centre_of_block(const BlockMesh<2> &mesh,
+                                     const unsigned int block)
+    {
+      dealii::Point<2> low  = mesh.vertices[mesh.block_first_vertex[block]];
+      dealii::Point<2> high = low;
+      for (unsigned int v = mesh.block_first_vertex[block];
+           v < mesh.block_first_vertex[block + 1]; ++v)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          low[d]  = std::min(low[d], mesh.vertices[v][d]);
+          high[d] = std::max(high[d], mesh.vertices[v][d]);
+        }
+      return low + 0.5 * (high - low);
+    }
+  } // namespace
+
+  void check_no_free_bodies(const Model &model,
+                            const std::vector<NodeConstraint *> &constraints,
+                            const std::string &stage, const State &state)
+  {
+    const BlockMesh<2> &mesh = model.mesh();
+    Bodies bodies(model, constraints, state, false);
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+    {
+      const auto values = dealii::eigenvalues(bodies.gram(b)); // descending
+      if (state.is_absent(b) || values[2] > not_held * values[0])
         continue;
       const auto &p = mesh.vertices[mesh.block_first_vertex[b]];
       std::ostringstream message;
@@ -135,5 +286,46 @@ namespace quoin
                  "stage by 'time'.";
       throw InputError(message.str());
     }
+  }
+
+  std::vector<PushedBody>
+  find_pushed_bodies(const Model &model,
+                     const std::vector<NodeConstraint *> &constraints,
+                     const std::vector<const NodalLoad *> &loads,
+                     const std::vector<TimePoint> &times, const State &state)
+  {
+    const BlockMesh<2> &mesh = model.mesh();
+    Bodies bodies(model, constraints, state, true);
+    std::vector<unsigned int> n_blocks(mesh.n_blocks(), 0);
+    std::vector<PushedBody> found;
+    std::vector<std::vector<dealii::Tensor<1, 3>>> motions;
+    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+    {
+      if (state.is_absent(b) || n_blocks[bodies.body(b)]++ > 0)
+        continue;
+      const auto motions_of_body = free_motions(bodies.gram(b));
+      if (motions_of_body.empty())
+        continue;
+      found.push_back(
+          { b, 0, centre_of_block(mesh, b), motions_of_body.size() == 3 });
+      motions.push_back(motions_of_body);
+    }
+    std::vector<bool> is_pushed(found.size(), false);
+    for (unsigned int t = 0; t < times.size() && !found.empty(); ++t)
+    {
+      const auto push = pushes(model, bodies, loads, times[t]);
+      for (unsigned int i = 0; i < found.size(); ++i)
+        for (const auto &motion : motions[i])
+          if (pushes_along(push[bodies.body(found[i].block)], motion))
+            is_pushed[i] = true;
+    }
+    std::vector<PushedBody> result;
+    for (unsigned int i = 0; i < found.size(); ++i)
+      if (is_pushed[i])
+      {
+        found[i].n_blocks = n_blocks[bodies.body(found[i].block)];
+        result.push_back(found[i]);
+      }
+    return result;
   }
 } // namespace quoin

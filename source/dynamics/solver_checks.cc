@@ -11,6 +11,20 @@
 
 namespace quoin
 {
+  std::vector<PushedBody> Solver::pushed_bodies(const State &state) const
+  {
+    constexpr unsigned int n_times = 32;
+    const double duration
+        = stage.end == StageEnd::time ? stage.duration : stage.minimum_duration;
+    std::vector<TimePoint> times;
+    for (unsigned int i = 0; i <= n_times; ++i)
+    {
+      const double t = duration * i / n_times;
+      times.push_back({ t, state.stage_start + t });
+    }
+    return find_pushed_bodies(model, constraints_on, loads_on, times, state);
+  }
+
   void Solver::check_finite(const State &state) const
   {
     unsigned int bad     = -1;

@@ -250,7 +250,7 @@ namespace quoin
                                   Balance &balance, const bool with_derivatives)
   {
     balance.far_field_energy = 0.;
-    balance.far_field_force  = { { 0., 0. } };
+    balance.far_field_force  = { { 0., 0., 0. } };
     if (!far_field)
       return;
     const auto &nodes = far_field->nodes();
@@ -258,12 +258,19 @@ namespace quoin
     balance.far_field_energy = far_field->add_forces(
         configuration.nodes.data(), committed.static_far_field, force.data());
     for (const unsigned int node : nodes)
+    {
+      const auto &X = model.mesh().vertices[model.exchange().global(node)];
       for (unsigned int d = 0; d < 2; ++d)
       {
-        joint_force[node].v[d] += force[node].v[d];
-        if (freedoms.is_free(node, d))
-          balance.far_field_force[d] += force[node].v[d];
+        const double by_far_field = force[node].v[d];
+        joint_force[node].v[d] += by_far_field;
+        if (!freedoms.is_free(node, d))
+          continue;
+        balance.far_field_force[d] += by_far_field;
+        balance.far_field_force[2]
+            += d == 0 ? -X[1] * by_far_field : X[0] * by_far_field;
       }
+    }
     if (!with_derivatives)
       return;
     for (unsigned int k = 0; k < nodes.size(); ++k)

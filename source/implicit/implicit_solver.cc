@@ -180,6 +180,20 @@ namespace quoin
     }
   }
 
+  void ImplicitSolver::try_iteration(const State &state)
+  {
+    const Configuration configuration = freedoms->configuration(state);
+    const Target target               = choose_target(state);
+    double path_by_advance = 0., share = 0.;
+    advance.load_time = target.load_time;
+    advance.released  = target.released;
+    advance.given     = freedoms->given_motion(configuration, advance.load_time,
+                                               state.stage_start);
+    equilibrium->linearise(state, configuration, broken, advance, balance,
+                           by_advance, by_unknown, path_by_advance);
+    find_correction(target, configuration, true, path_by_advance, share);
+  }
+
   bool ImplicitSolver::break_joints()
   {
     double largest = 0.;

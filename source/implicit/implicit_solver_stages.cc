@@ -363,8 +363,7 @@ namespace quoin
       return result;
     }
     if (*found == static_far)
-      std::copy(balance.far_field_force.begin(), balance.far_field_force.end(),
-                result.begin());
+      result = balance.far_field_force;
     else if (const auto *motion
              = dynamic_cast<const PrescribedMotion *>(*found))
       for (const Freedoms::Prescribed &given : freedoms->prescribed())

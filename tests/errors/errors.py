@@ -5,8 +5,8 @@
 
 errors.json lists wrong inputs: exit status 1, a message with the words under
 "says", and nothing written; with "status": 2 they fail in the second stage, and
-what the first one wrote is kept. The functions below are failures of other
-kinds.
+what the first one wrote is kept; with "warns" they are right, but --check warns
+of one thing, with these words. The functions below are failures of other kinds.
 """
 import argparse
 import json
@@ -126,6 +126,22 @@ def failed_run(quoin, case, folder):
     return printed
 
 
+def warned_of(quoin, case, folder):
+    """--check warns of this and of nothing else."""
+    prm = prepare(folder, case.get("edit"))
+    if "prm" in case:
+        prm = os.path.join(folder, case["prm"])
+    status, printed = run([quoin, prm, "--check"] + settings(case))
+    expect(status, printed, 0, [])
+    warnings = [line for line in printed.splitlines()
+                if line.startswith("Warning: ")]
+    if len(warnings) != 1:
+        raise Failure("%d warnings, not 1:\n%s"
+                      % (len(warnings), "\n".join(warnings)))
+    expect(0, warnings[0], 0, case["warns"])
+    return warnings[0]
+
+
 # -- failures of another kind -------------------------------------------------
 
 def base_case_runs(quoin, folder):
@@ -162,7 +178,12 @@ def check_writes_nothing(quoin, folder):
     prm = prepare(folder)
     before = set(os.listdir(folder))
     status, printed = run([quoin, prm, "--check"])
-    expect(status, printed, 0, [])
+    expect(status, printed, 0, [
+        "material stone: 2 blocks", "P waves 3098 m/s", "joints bed: 1 m",
+        "load push: traction on 5 nodes of top", "vertical -1e+05 Pa",
+        "stage second: about", "memory: ", "disk: 2 moments of fields"])
+    if "Warning" in printed:
+        raise Failure("--check warns of the base case:\n%s" % printed)
     stray = set(os.listdir(folder)) - before
     if stray:
         raise Failure("--check left behind %s" % ", ".join(sorted(stray)))
@@ -479,6 +500,7 @@ def main():
     with open(os.path.join(HERE, "errors.json")) as stream:
         tests = [(case["name"], lambda folder, case=case:
                   (failed_run if case.get("status") == 2
+                   else warned_of if "warns" in case
                    else wrong_input)(quoin, case, folder))
                  for case in json.load(stream)]
     tests += [(function.__name__.replace("_", " "),

@@ -75,6 +75,16 @@ namespace quoin
     void make_sampled_points();
     void choose_time_step();
     void report();
+    /** Material and what is given. */
+    void report_parts();
+    /** Warns of elements that are too long for what they are given. */
+    void advise();
+    /** Time, memory, disk; takes about half a second. */
+    void report_costs();
+    /** What all steps take, by some of them; spoils the history [s]. */
+    double seconds_of_march();
+    /** What points in the domain take, by one of them [s]. */
+    double seconds_of_points() const;
     void make_operators();
     void report_passivity();
     void report_stability();
@@ -85,6 +95,10 @@ namespace quoin
     void solve_static();
     void write_static();
     void take_step();
+    /** What is given in a step, without what incident waves have of it. */
+    Eigen::VectorXd scattered_values(double begin, double end,
+                                     const Eigen::VectorXd &u_incident,
+                                     const Eigen::VectorXd &p_incident);
     void write_boundary(double time, const BoundaryState &state);
     void write_row(double time, const BoundaryState &state);
     void write_domain();

@@ -80,6 +80,18 @@ namespace quoin
     void set_initial_motion();
     void report_model();
     void report_initial_joints();
+    /** Materials, joints and loads. */
+    void report_parts();
+    void advise(const std::vector<std::string> &advice);
+    /** Of what is likely a mistake, once the stage has begun with @p state. */
+    void advise_about_stage(unsigned int index, const State &state);
+    /** Time, memory, disk; takes about half a second. */
+    void report_costs();
+    void report_steps(const StageParameters &stage, const State &start);
+    /** From @p start again after the stage's end or a failure. */
+    void take_trial_step(const StageParameters &stage, const State &start,
+                         State &state);
+    void report_iterations(unsigned int index, const State &state);
     /**
      * Model and solver begin stage @p index with @p state; loads are not to
      * begin with a jump, as far as its time is known, @p time_is_known.

@@ -5,6 +5,7 @@
 #define quoin_dynamics_free_bodies_h
 
 #include <quoin/dynamics/model.h>
+#include <quoin/loads/nodal_load.h>
 #include <quoin/loads/node_constraint.h>
 
 #include <string>
@@ -21,6 +22,27 @@ namespace quoin
   void check_no_free_bodies(const Model &model,
                             const std::vector<NodeConstraint *> &constraints,
                             const std::string &stage, const State &state);
+
+  /** A body that loads push where nothing holds it. */
+  struct PushedBody
+  {
+    unsigned int block;      /**< the first of it */
+    unsigned int n_blocks;   /**< that joints tie to it, itself included */
+    dealii::Point<2> centre; /**< of the first block [m] */
+    bool is_loose;           /**< nothing holds any of its three motions */
+  };
+
+  /**
+   * The bodies of check_no_free_bodies() to which @p loads give a force or
+   * moment, at one of @p times, along a rigid motion that nothing holds. Here
+   * boundaries of dashpots, free fields and boundary elements hold too.
+   * Collective.
+   */
+  std::vector<PushedBody>
+  find_pushed_bodies(const Model &model,
+                     const std::vector<NodeConstraint *> &constraints,
+                     const std::vector<const NodalLoad *> &loads,
+                     const std::vector<TimePoint> &times, const State &state);
 } // namespace quoin
 
 #endif

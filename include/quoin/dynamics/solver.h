@@ -7,6 +7,7 @@
 #include <quoin/base/state.h>
 #include <quoin/coupling/far_field.h>
 #include <quoin/coupling/static_far_field.h>
+#include <quoin/dynamics/free_bodies.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/release.h>
 #include <quoin/dynamics/stage_parameters.h>
@@ -94,6 +95,12 @@ namespace quoin
 
     /** Throws an InputError about loads that would begin with a jump. */
     void check_start(const State &state) const;
+
+    /**
+     * Bodies that the loads of the stage that has begun with @p state push
+     * where nothing holds them; see find_pushed_bodies().
+     */
+    std::vector<PushedBody> pushed_bodies(const State &state) const;
 
     /** Force x, y [N] and moment [N m] of a load; collective. */
     virtual std::array<double, 3> resultant(const std::string &load) const;

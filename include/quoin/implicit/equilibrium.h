@@ -32,8 +32,9 @@ namespace quoin
     JointHistory joints; /**< brought to the configuration */
     PlasticHistory plastic;
     double far_field_energy = 0.; /**< of all ranks [J] */
-    /** By it on the nodes that are free there, x, y of this rank [N]. */
-    std::array<double, 2> far_field_force{ { 0., 0. } };
+    /** By it on the nodes that are free there, x, y [N] and their moment about
+     * the origin [N m], of this rank. */
+    std::array<double, 3> far_field_force{ { 0., 0., 0. } };
     EnergyAccounts lost; /**< by joints and cells on the way, this rank [J] */
 
     /** Inelastic opening and slip on the way, mean over the joints that

@@ -10,6 +10,7 @@
 #include <quoin/implicit/implicit_parameters.h>
 #include <quoin/implicit/linear_solver.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -92,6 +93,17 @@ namespace quoin
      * smallest step; the state is then the last equilibrium.
      */
     void step(State &state);
+
+    /**
+     * Makes the matrix, its factors and the first correction of the step to
+     * come, for whoever wants to know what that costs, and forgets them.
+     */
+    void try_iteration(const State &state);
+    /** Steps that the stage takes at least, if none is cut. */
+    double least_steps() const
+    {
+      return rests ? 1. : std::ceil(1. / parameters.largest_step * (1. - 1e-9));
+    }
 
     /** Histories of an equilibrium are those of its positions. */
     void update_histories(State &) override

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_application_cost_estimate_h
+#define quoin_application_cost_estimate_h
+
+#include <quoin/application/parameters.h>
+#include <quoin/dynamics/model.h>
+
+#include <mpi.h>
+
+#include <functional>
+#include <string>
+
+namespace quoin
+{
+  /**
+   * Seconds that @p task takes in the mean, which is called in ever longer
+   * rows for up to @p budget seconds, but at least twice: the first call,
+   * which may have to allocate, does not count. The first rank's clock
+   * counts; collective.
+   */
+  double seconds_per_call(const std::function<void()> &task, double budget,
+                          MPI_Comm communicator);
+
+  /** What a run writes, as far as its stages end by time. */
+  struct PlannedOutput
+  {
+    double moments = 0.;    /**< of fields */
+    double rows    = 0.;    /**< of histories.csv and energies.csv */
+    bool is_least  = false; /**< a stage may write more */
+  };
+
+  /** @p time_steps: of each stage [s]; empty: rows are not counted. */
+  PlannedOutput planned_output(const Parameters &parameters,
+                               const std::vector<double> &time_steps);
+
+  /** Of blocks.pvd and joints.pvd for one moment, all ranks [B]; collective. */
+  double bytes_of_fields(const Model &model);
+
+  /** Of a row of a table with @p n_columns [B]. */
+  double bytes_of_row(std::size_t n_columns);
+
+  /** Resident memory of all ranks [B]; collective. */
+  double resident_memory(MPI_Comm communicator);
+
+  /** "12 MB" */
+  std::string bytes_text(double bytes);
+
+  /** "0.3 s", "12 s", "3:05 min" */
+  std::string seconds_text(double seconds);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// What BoundarySimulation says with --check beyond sizes and the time step,
+// and what it warns of in any run.
+
+#include <quoin/application/boundary_simulation.h>
+#include <quoin/application/cost_estimate.h>
+#include <quoin/application/model_summary.h>
+#include <quoin/application/shaking.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
+#include <quoin/base/wall_clock.h>
+
+#include <algorithm>
+
+namespace quoin
+{
+  namespace
+  {
+    using Eigen::VectorXd;
+
+    /** For measuring what steps cost [s]. */
+    constexpr double measuring_time = 0.4;
+
+    /** Integrals over elements, one a step, for measuring a point. */
+    constexpr double most_integrals = 1e5;
+
+    /** Of a vtu file for each element or point and moment [B]. */
+    constexpr double bytes_of_element = 250., bytes_of_point = 150.;
+  } // namespace
+
+  void BoundarySimulation::report_parts()
+  {
+    for (const MaterialParameters &material : parameters.model.materials)
+      if (material.name == settings.material)
+        log.message("material " + material.name + ": "
+                    + material_text(material, parameters.model.plane));
+    for (const std::string &line :
+         boundary_lines(settings, geometry, settings.duration))
+      log.message(line);
+  }
+
+  void BoundarySimulation::advise()
+  {
+    for (const std::string &text : element_advice(
+             fastest_boundary_value(settings, geometry, settings.duration),
+             medium.c2, geometry.boundary.lengths().maxCoeff()))
+      log.warning(text);
+  }
+
+  double BoundarySimulation::seconds_of_march()
+  {
+    BoundaryMarch trial(*kernel, *history, given->traction_is_given());
+    std::uint64_t step = 0;
+    // History is applied to blocks of steps at once: all steps count, from the
+    // first one on, which begins such a block.
+    const auto begin = WallClock::now();
+    double seconds   = 0.;
+    do
+    {
+      const double start = double(step) * dt, end = start + dt;
+      trial.step(scattered_values(start, end, waves->displacements(end),
+                                  waves->tractions(start, end)));
+      ++step;
+      seconds = dealii::Utilities::MPI::broadcast(communicator,
+                                                  seconds_since(begin));
+    } while (seconds < measuring_time && step < n_steps);
+    return seconds / double(step) * double(n_steps);
+  }
+
+  double BoundarySimulation::seconds_of_points() const
+  {
+    const double n_elements = geometry.boundary.n_elements();
+    // All steps, or as many as are measured in a moment.
+    const auto n = static_cast<unsigned int>(
+        std::clamp(most_integrals / n_elements, 1., double(n_steps)));
+    const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(
+        n, Eigen::Index(geometry.boundary.n_unknowns()));
+    const BoundaryRecord record{ dt, settings.decay, zero, zero };
+    const double share = double(n_steps) / n;
+    const auto seconds = [&](const Eigen::Vector2d &point,
+                             const std::vector<unsigned int> &steps)
+    {
+      const auto start = WallClock::now();
+      domain_displacements(record, { point }, steps);
+      return dealii::Utilities::MPI::max(seconds_since(start), communicator)
+             * share;
+    };
+    const auto due = [&](const auto &is_due)
+    {
+      std::vector<unsigned int> steps(1, n);
+      for (unsigned int step = 1; step < n; ++step)
+        if (is_due(step))
+          steps.push_back(step);
+      return steps;
+    };
+    double result = 0.;
+    if (!histories->interior_points().empty())
+      result += double(histories->interior_points().size())
+                * seconds(histories->interior_points().front(),
+                          due([this](const unsigned int step)
+                              { return row_is_due(step); }));
+    if (!sampled_points.empty())
+      result += double(sampled_points.size())
+                * seconds(sampled_points.front(),
+                          due([this](const unsigned int step)
+                              { return fields_are_due(step); }));
+    return result
+           / double(dealii::Utilities::MPI::n_mpi_processes(communicator));
+  }
+
+  void BoundarySimulation::report_costs()
+  {
+    // Nobody would read it; and statics is solved by now.
+    if (options.quiet || settings.is_static)
+      return;
+    std::string text = "time: about " + seconds_text(seconds_of_march())
+                       + (settings.direct_history ? " or more" : "") + " for "
+                       + std::to_string(n_steps) + " steps";
+    if (needs_record())
+      text += ", and " + seconds_text(seconds_of_points()) + " for "
+              + std::to_string(points_in_domain().size())
+              + " points in the domain";
+    log.message(text);
+    log.message("memory: " + bytes_text(resident_memory(communicator))
+                + " by now"
+                + (needs_record() ? ", and the record of the boundary" : ""));
+    double moments = 0., rows = 0.;
+    for (std::uint64_t step = 0; step <= n_steps; ++step)
+    {
+      moments += fields_are_due(step) ? 1. : 0.;
+      rows += row_is_due(step) ? 1. : 0.;
+    }
+    log.message(
+        "disk: " + number_text(moments) + " moments of fields, "
+        + bytes_text(
+            moments
+            * (bytes_of_element * double(geometry.boundary.n_elements())
+               + bytes_of_point * double(sampled_points.size())))
+        + "; " + number_text(rows) + " rows of tables, "
+        + bytes_text(rows * bytes_of_row(histories->column_names().size())));
+  }
+} // namespace quoin

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../dynamics/test_models.h"
+#include "../output/temporary_directory.h"
+
+#include <quoin/application/cost_estimate.h>
+#include <quoin/application/field_output.h>
+#include <quoin/application/input_advice.h>
+#include <quoin/application/model_summary.h>
+#include <quoin/application/shaking.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  /** Two blocks on a base that are pushed, in plane strain. */
+  Parameters good_parameters()
+  {
+    Parameters parameters;
+    parameters.model       = two_blocks();
+    parameters.model.plane = PlaneAssumption::plane_strain;
+    parameters.loads       = { motion("base", "bottom", "0", "0"),
+                               traction("push", "top", "1e3 * sin(pi*t)", "") };
+    parameters.stages      = { stage_with({ "base", "push" }) };
+    return parameters;
+  }
+
+  /** Advice about the model and stage @p stage, in one text. */
+  std::string advice(const Parameters &parameters, const unsigned int stage = 0)
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, 3, 2);
+    const Model model(mesh, std::vector<unsigned int>(mesh.n_blocks(), 0),
+                      parameters.model, MPI_COMM_SELF);
+    std::string text;
+    for (const auto &list : { model_advice(parameters, model),
+                              stage_advice(parameters, stage, model,
+                                           model.initial_state(), 1e-4) })
+      for (const std::string &line : list)
+        text += line + "\n";
+    return text;
+  }
+
+  void expect(const Parameters &parameters, const std::string &word,
+              const unsigned int stage = 0)
+  {
+    const std::string text = advice(parameters, stage);
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+  }
+} // namespace
+
+TEST(InputAdvice, NoneForWhatIsRight)
+{
+  EXPECT_EQ(advice(good_parameters()), "");
+}
+
+TEST(InputAdvice, MeshTooCoarseForItsWaves)
+{
+  // S waves have sqrt(1e10 / 2.4 / 2500) = 1291 m/s; edges are 1 m, for the
+  // diagonals of squares do not count.
+  Parameters parameters = good_parameters();
+  const auto shake      = [&](const double frequency)
+  {
+    parameters.loads[1].components[0].value
+        = TimeFunction("sin(2*pi*" + std::to_string(frequency) + "*t)", "./");
+  };
+  shake(240.);
+  EXPECT_EQ(advice(parameters), "");
+  shake(270.);
+  expect(parameters, "Refine the mesh");
+  // What comes to rest has no waves.
+  parameters.stages[0].damping = DampingType::local;
+  EXPECT_EQ(advice(parameters), "");
+}
+
+TEST(InputAdvice, ForcesThatJump)
+{
+  Parameters parameters = good_parameters();
+  auto &push            = parameters.loads[1].components[0].value;
+  push                  = TimeFunction("1e3", "./");
+  expect(parameters, "jumps by 1000 at 0 s");
+  push = TimeFunction("if(t < 0.25, 1e3 * t, 2e3 * t)", "./");
+  EXPECT_EQ(advice(parameters), ""); // by less than a fifth
+  push = TimeFunction("if(t < 0.25, 0, 2e3 * t)", "./");
+  expect(parameters, "jumps by 500 at 0.25 s");
+  // The same force by another load in the stage before.
+  push                   = TimeFunction("1e3", "./");
+  StageParameters before = parameters.stages[0];
+  parameters.loads.push_back(traction("ramp", "top", "1e3 * t", ""));
+  before.loads = { "base", "ramp" };
+  parameters.stages.insert(parameters.stages.begin(), before);
+  EXPECT_EQ(advice(parameters, 1), "");
+  parameters.stages[0].duration = 0.5;
+  expect(parameters, "jumps by 500 at 0 s", 1);
+  parameters.stages.erase(parameters.stages.begin());
+  parameters.stages[0].damping               = DampingType::rayleigh;
+  parameters.stages[0].stiffness_coefficient = 1e-5;
+  EXPECT_EQ(advice(parameters), "");
+}
+
+TEST(InputAdvice, AStageThatNothingBringsToRest)
+{
+  Parameters parameters    = good_parameters();
+  parameters.stages[0].end = StageEnd::static_ratio;
+  expect(parameters, "nothing damps it");
+}
+
+TEST(InputAdvice, LocalDampingOfWavesThatComeIn)
+{
+  Parameters parameters                      = good_parameters();
+  parameters.loads[1].type                   = LoadType::viscous_boundary;
+  parameters.loads[1].components[0].quantity = LoadQuantity::velocity;
+  EXPECT_EQ(advice(parameters), "");
+  parameters.stages[0] = stage_with({ "base", "push" }, DampingType::local);
+  expect(parameters, "waves come in");
+}
+
+TEST(InputAdvice, JointsAndMaterials)
+{
+  Parameters parameters = good_parameters();
+  // E/h is 1e10 Pa/m, E/L 1e10 / sqrt(13).
+  CoulombLaw &law      = parameters.model.joints[0].law;
+  law.normal_stiffness = 1.1e12;
+  expect(parameters, "times E/h");
+  law.normal_stiffness = 2e6;
+  expect(parameters, "thousandth");
+  law.normal_stiffness = 2e10;
+  // A curve on the outside has no joint.
+  parameters.model.joints.push_back(elastic_joint(1e10, 1e10, "sides"));
+  expect(parameters, "act on nothing");
+  parameters.stages[0].joint_properties = { { "joint", "sides" } };
+  EXPECT_EQ(advice(parameters), "");
+
+  parameters                                    = good_parameters();
+  parameters.model.materials[1].elastic.poisson = 0.47;
+  expect(parameters, "lock");
+  parameters.triangles = TriangleKind::crossed;
+  EXPECT_EQ(advice(parameters), "");
+}
+
+TEST(InputAdvice, OutputAndLoadsWithoutFunctions)
+{
+  Parameters parameters     = good_parameters();
+  parameters.field_interval = 1e-5;
+  expect(parameters, "writes fields");
+  parameters.field_interval   = 0.;
+  parameters.history_interval = 1e-5;
+  expect(parameters, "shorter than the time step");
+  parameters.history_interval = 0.;
+  parameters.loads[1]         = traction("push", "top", "", "");
+  expect(parameters, "it does nothing");
+}
+
+TEST(InputAdvice, BoundaryElementsTooLong)
+{
+  const Shaking shaking{ "the incident wave w", 100. };
+  EXPECT_TRUE(element_advice(shaking, 2000., 3.9).empty());
+  EXPECT_EQ(element_advice(shaking, 2000., 4.1).size(), 1U);
+  EXPECT_TRUE(element_advice({}, 2000., 4.1).empty());
+}
+
+TEST(ModelSummary, SaysWhatThereIs)
+{
+  const Parameters parameters = good_parameters();
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  const Model model(mesh, std::vector<unsigned int>(mesh.n_blocks(), 0),
+                    parameters.model, MPI_COMM_SELF);
+  const auto materials
+      = material_lines(parameters, mesh, model.properties().material_of_group);
+  ASSERT_EQ(materials.size(), 2U);
+  EXPECT_EQ(materials[0],
+            "material lower: 1 block, 12 triangles; elastic, E 1e+10 Pa, nu "
+            "0.2, density 2500 kg/m^3, P waves 2108 m/s, S waves 1291 m/s");
+  const auto joints = joint_lines(parameters, make_mesh_report(mesh));
+  ASSERT_EQ(joints.size(), 1U);
+  EXPECT_EQ(joints[0],
+            "joints joint: 3 m; elastic, kn 2e+10 Pa/m, ks 1e+10 Pa/m");
+  const auto loads = load_lines(parameters, mesh);
+  ASSERT_EQ(loads.size(), 2U);
+  EXPECT_EQ(loads[0], "load base: prescribed motion on 4 nodes of bottom, "
+                      "horizontal 0 m/s, vertical 0 m/s");
+  EXPECT_EQ(loads[1], "load push: traction on 4 nodes of top, horizontal from "
+                      "0 to 1000 Pa");
+  EXPECT_EQ(stage_line(parameters.stages[0], false),
+            "stage stage: loads base, push; lasts 1 s; no damping");
+}
+
+TEST(CostEstimate, CountsMomentsAndRows)
+{
+  Parameters parameters       = good_parameters();
+  parameters.field_interval   = 0.25;
+  parameters.history_interval = 0.01;
+  PlannedOutput planned       = planned_output(parameters, { 1e-4 });
+  EXPECT_EQ(planned.moments, 5.);
+  EXPECT_EQ(planned.rows, 101.);
+  EXPECT_FALSE(planned.is_least);
+  parameters.history_interval        = 0.;
+  parameters.stages[0].kinetic_limit = 0.1;
+  planned                            = planned_output(parameters, { 1e-3 });
+  EXPECT_EQ(planned.rows, 1001.);
+  EXPECT_TRUE(planned.is_least);
+}
+
+TEST(CostEstimate, FieldsAreAsLargeAsTheyAreWritten)
+{
+  ModelParameters parameters = two_blocks();
+  for (const bool yields : { false, true })
+  {
+    if (yields)
+    {
+      parameters.materials[0].strength = MohrCoulombStrength();
+      parameters.joints[0].composite   = CompositeLaw();
+    }
+    BlockMesh<2> mesh;
+    make_stack(mesh, 60, 40);
+    const Model model(mesh, std::vector<unsigned int>(mesh.n_blocks(), 0),
+                      parameters, MPI_COMM_SELF);
+    const TemporaryDirectory directory;
+    BlockOutput blocks(directory.path(), MPI_COMM_SELF);
+    JointOutput joints(directory.path(), MPI_COMM_SELF);
+    blocks.start();
+    joints.start();
+    blocks.write(0., block_fields(model, model.initial_state()));
+    joints.write(0., joint_fields(model, model.initial_state()));
+    double written = 0.;
+    for (const auto &file :
+         std::filesystem::recursive_directory_iterator(directory.path()))
+      if (file.is_regular_file())
+        written += double(file.file_size());
+    EXPECT_NEAR(bytes_of_fields(model), written, 0.01 * written);
+  }
+}
+
+TEST(CostEstimate, Texts)
+{
+  EXPECT_EQ(bytes_text(400.), "1 kB");
+  EXPECT_EQ(bytes_text(12345.), "12.3 kB");
+  EXPECT_EQ(bytes_text(2.34e9), "2.3 GB");
+  EXPECT_EQ(seconds_text(0.1234), "0.12 s");
+}
