@@ -5,6 +5,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
 #include <quoin/output/progress.h>
+#include <quoin/tdbem/clustered_history.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -16,23 +17,39 @@
 namespace quoin
 {
   double seconds_per_call(const std::function<void()> &task,
-                          const double budget, const MPI_Comm communicator)
+                          const double budget, const MPI_Comm communicator,
+                          const unsigned int period)
   {
     const auto begin = WallClock::now();
     task();
-    for (std::uint64_t n = 1;; n *= 2)
+    const double first = seconds_since(begin);
+    double row         = 0.;
+    std::uint64_t n = 1, n_calls = 1;
+    for (;; n *= 2)
     {
       const auto start = WallClock::now();
       for (std::uint64_t i = 0; i < n; ++i)
         task();
-      const double seconds = seconds_since(start) / double(n);
+      row = seconds_since(start);
+      n_calls += n;
       // The next row takes as long as all before.
-      const double to_come = seconds_since(begin) + 2. * double(n) * seconds;
-      const auto [wanted, mean] = dealii::Utilities::MPI::broadcast(
-          communicator, std::make_pair(to_come, seconds));
-      if (wanted > budget)
-        return mean;
+      if (dealii::Utilities::MPI::broadcast(communicator,
+                                            seconds_since(begin) + 2. * row)
+          > budget)
+        break;
     }
+    const double all  = seconds_since(begin);
+    const double rest = (all - first) / double(n_calls - 1);
+    const double mean = period == 1        ? row / double(n)
+                        : n_calls < period ? rest + (first - rest) / period
+                                           : all / double(n_calls);
+    return dealii::Utilities::MPI::broadcast(communicator, mean);
+  }
+
+  unsigned int period_of(const BoundaryHistory &history)
+  {
+    const auto *clustered = dynamic_cast<const ClusteredHistory *>(&history);
+    return clustered ? clustered->block_size() : 1;
   }
 
   PlannedOutput planned_output(const Parameters &parameters,
@@ -50,10 +67,10 @@ namespace quoin
       if (stage.end != StageEnd::time)
         continue;
       if (parameters.field_interval > 0.)
-        result.moments += std::floor(stage.duration / parameters.field_interval
-                                     * (1. + 1e-9));
+        result.moments += std::uint64_t(
+            stage.duration / parameters.field_interval * (1. + 1e-9));
       if (i < time_steps.size())
-        result.rows += std::floor(
+        result.rows += std::uint64_t(
             stage.duration
             / std::max(parameters.history_interval, time_steps[i]));
     }

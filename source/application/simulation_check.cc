@@ -39,7 +39,9 @@ namespace quoin
     for (const auto &lines :
          { material_lines(parameters, mesh,
                           model->properties().material_of_group),
-           joint_lines(parameters, mesh_report), load_lines(parameters, mesh) })
+           joint_lines(parameters, mesh_report), load_lines(parameters, mesh),
+           boundary_lines(parameters.boundary, boundary_geometry,
+                          total_duration(parameters.stages)) })
       for (const std::string &line : lines)
         log.message(line);
   }
@@ -93,16 +95,16 @@ namespace quoin
 
     const PlannedOutput planned = planned_output(parameters, time_steps);
     const std::string least     = planned.is_least ? " or more" : "";
-    const double of_fields      = planned.moments * bytes_of_fields(*model);
+    const double of_fields = double(planned.moments) * bytes_of_fields(*model);
     constexpr std::size_t n_energies = 15;
     const double of_rows
-        = planned.rows
+        = double(planned.rows)
           * bytes_of_row(n_energies + histories->column_names().size());
-    log.message("disk: " + number_text(planned.moments) + " moments of fields"
-                + least + ", " + bytes_text(of_fields)
+    log.message("disk: " + std::to_string(planned.moments)
+                + " moments of fields" + least + ", " + bytes_text(of_fields)
                 + (implicit_solver
                        ? ""
-                       : "; " + number_text(planned.rows) + " rows of tables"
+                       : "; " + std::to_string(planned.rows) + " rows of tables"
                              + least + ", " + bytes_text(of_rows)));
   }
 
@@ -136,7 +138,11 @@ namespace quoin
     State state          = start;
     const double seconds = seconds_per_call(
         [&]() { take_trial_step(stage, start, state); },
-        measuring_time / double(parameters.stages.size()), communicator);
+        measuring_time / double(parameters.stages.size()), communicator,
+        solver->far_field_acts()
+            ? period_of(solver->far_field()->boundary_history())
+                  * solver->far_field()->n_substeps()
+            : 1);
     if (stage.end != StageEnd::time)
       log.message("stage " + stage.name + ": "
                   + seconds_text(many_steps * seconds)

@@ -6,29 +6,35 @@
 
 #include <quoin/application/parameters.h>
 #include <quoin/dynamics/model.h>
+#include <quoin/tdbem/boundary_history.h>
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
 namespace quoin
 {
   /**
-   * Seconds that @p task takes in the mean, which is called in ever longer
-   * rows for up to @p budget seconds, but at least twice: the first call,
-   * which may have to allocate, does not count. The first rank's clock
+   * Seconds that a call of @p task takes in the mean, which is called in ever
+   * longer rows for up to @p budget seconds, but at least twice. Without a
+   * period the first call, which may have to allocate, does not count; else it
+   * is one that costs more, as every @p period calls. The first rank's clock
    * counts; collective.
    */
   double seconds_per_call(const std::function<void()> &task, double budget,
-                          MPI_Comm communicator);
+                          MPI_Comm communicator, unsigned int period = 1);
+
+  /** After how many steps a history of boundary elements costs more again. */
+  unsigned int period_of(const BoundaryHistory &history);
 
   /** What a run writes, as far as its stages end by time. */
   struct PlannedOutput
   {
-    double moments = 0.;    /**< of fields */
-    double rows    = 0.;    /**< of histories.csv and energies.csv */
-    bool is_least  = false; /**< a stage may write more */
+    std::uint64_t moments = 0;     /**< of fields */
+    std::uint64_t rows    = 0;     /**< of histories.csv and energies.csv */
+    bool is_least         = false; /**< a stage may write more */
   };
 
   /** @p time_steps: of each stage [s]; empty: rows are not counted. */

