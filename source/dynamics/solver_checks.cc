@@ -101,6 +101,6 @@ namespace quoin
                "soft that blocks run into each other (raise 'Normal "
                "stiffness'), or a time step too long (lower 'Share of "
                "critical time step'). The last checkpoint is kept.";
-    throw RunError(message.str());
+    throw ModelFailure(message.str());
   }
 } // namespace quoin
