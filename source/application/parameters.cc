@@ -105,8 +105,9 @@ namespace quoin
       prm.enter_subsection("Time stepping");
       prm.declare_entry("Share of critical time step", "0.8", Double(),
                         "Of the bound that is computed from blocks, joints "
-                        "and damping; with local damping or joints that can "
-                        "fail no more than 0.5 is used [-]");
+                        "and damping; with local damping, joints that can "
+                        "fail or large displacements no more than 0.5 is "
+                        "used [-]");
       prm.declare_entry("Time step", "0", Double(),
                         "0: as the share says; else this one, which must be "
                         "below the critical one [s]");

@@ -51,7 +51,8 @@ namespace quoin
                       "Pressure under which the joint dilates no more, or "
                       "'none': any [Pa]");
     prm.declare_entry("Dilation decay", "0", Double(),
-                      "How fast dilation wears off with slip, delta [1/m]");
+                      "How fast dilation wears off with slip, delta; not read "
+                      "without 'Cohesion' and 'Shear fracture energy' [1/m]");
     prm.declare_entry("Compressive strength", "none", Anything(),
                       "fm of the masonry, or 'none': no crushing [Pa]");
     prm.declare_entry("Compressive fracture energy", "0", Double(),

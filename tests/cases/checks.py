@@ -1093,3 +1093,63 @@ def creep(case, folder, output, histories):
           % (settled, moved, drift))
     return {"motion at rest": (float(moved / settled), case["tolerance"]),
             "drift": (float(drift / settled), case["tolerance"])}
+
+
+def tunnel_closure(histories, until):
+    """Vertical and horizontal closure of the tutorial's tunnel [m] in the last
+    row before the time @p until [s]."""
+    row = np.nonzero(histories["time"] <= until)[0][-1]
+    return (histories["invert_y"][row] - histories["crown_y"][row],
+            histories["left_x"][row] - histories["right_x"][row])
+
+
+def kirsch_closure(young):
+    """Of the tutorial's tunnel in rock without joints, Kirsch 1898 [m]."""
+    radius, nu, vertical, horizontal = 2.5, 0.25, 5.2e6, 3.64e6
+    mean, half = (vertical + horizontal) / 2, (vertical - horizontal) / 2
+    factor = 2 * radius * (1 + nu) / young
+    return (factor * (mean + (3 - 4 * nu) * half),
+            factor * (mean - (3 - 4 * nu) * half))
+
+
+def tunnel_without_joints(case, folder, output, histories):
+    """The tutorial's tunnel with joints that are as good as none, the closure
+    against that of Kirsch."""
+    found = tunnel_closure(histories, histories["time"][-1])
+    return {"%s closure" % name: (float(abs(u / exact - 1)),
+                                  case["tolerance"])
+            for name, u, exact in zip(("vertical", "horizontal"), found,
+                                      kirsch_closure(20e9))}
+
+
+def tunnel_in_blast(case, folder, output, histories):
+    """The tutorial's tunnel: closure before the blast between that of rock
+    without joints and 1.6 times that of rock as soft as it is with them
+    (joints slip, and a wedge comes loose); the wave as it comes in, 0.5 m/s;
+    the walls move between once and twice as fast; no energy from nothing."""
+    histories = strictly_increasing(histories)
+    start = histories["time"][-1] - case["blast"]
+    result = {}
+    for name, u, stiff, soft in zip(
+            ("vertical", "horizontal"), tunnel_closure(histories, start),
+            kirsch_closure(20e9), kirsch_closure(13e9)):
+        print("  %s closure %.2f mm, Kirsch %.2f and %.2f mm"
+              % (name, 1e3 * u, 1e3 * stiff, 1e3 * soft))
+        result["%s closure, stiff rock by found" % name] = (
+            float(stiff / u), 1.0)
+        result["%s closure by that of soft rock" % name] = (
+            float(u / soft), 1.6)
+    angle = np.radians(60)
+    later = histories["time"] > start
+
+    def fastest(place):
+        v = (histories[place + "_vx"] * np.sin(angle)
+             + histories[place + "_vy"] * np.cos(angle))
+        return float(np.max(v[later])) / 0.5
+
+    result["wave that comes in"] = (abs(fastest("edge") - 1),
+                                    case["tolerance"])
+    result["facing wall, from 1.5"] = (abs(fastest("left") - 1.5), 0.5)
+    result["far wall, from 1.25"] = (abs(fastest("right") - 1.25), 0.25)
+    result["energy residual"] = (residual_of(energies(output)), 1e-3)
+    return result

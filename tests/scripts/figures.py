@@ -6,7 +6,9 @@ known, and whether every script draws a picture of a real run or says in a
 sentence why not."""
 import argparse
 import csv
+import importlib.util
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -345,6 +347,15 @@ class Pictures(unittest.TestCase):
                    "--at", "displacement=0.1e-3,0.3e-3,end")
         self.refuses("No such file", "wall_figure", "--spec", "no.json",
                      "--at", "displacement=end")
+
+    def test_paraview_view(self):
+        """ParaView need not be there; whoever has none is told what to do."""
+        status, printed, _ = self.script("paraview_view", "--help")
+        self.assertEqual(status, 0)
+        self.assertIn("--animate", printed)
+        if importlib.util.find_spec("paraview") is None \
+                and shutil.which("pvpython") is None:
+            self.refuses("Install it", "paraview_view")
 
     def test_parameters(self):
         self.assertEqual(run_parameters.joint_sets(self.output), ["mortar"])

@@ -66,7 +66,7 @@ namespace quoin
    * come in and into which they leave (@cite JinWangZhang1998, Eqs. 14-18).
    *
    * The elements take steps of several block steps each, K. In step M their
-   * tractions on the interface are p = p_h + Z0 (v - v_in), v the mean
+   * tractions on the interface are p = p_h + Z0 v, v the mean
    * velocity over each element: Z0, the lag-0 impedance condensed to the
    * interface, times a velocity, and p_h, which follows from the history, the
    * given values and the field that comes in, and is frozen during the step.

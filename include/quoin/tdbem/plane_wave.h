@@ -25,7 +25,7 @@ namespace quoin
    * wave comes at more than the critical angle, whose sine is c2/c1. Then the
    * P wave clings to the surface, coefficients are complex, and signals contain
    * the Hilbert transform of f: that of the reflected SV wave at all depths,
-   * as cos(phi) f + sin(phi) H f.
+   * as cos(phi) f - sin(phi) H f.
    *
    * So that the field starts at all places with the value zero, f must be zero
    * before the wave's start; it must also be such that no wave has arrived yet
