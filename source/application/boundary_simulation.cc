@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/boundary_simulation.h>
+#include <quoin/application/model_summary.h>
 #include <quoin/application/step_count.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
@@ -199,11 +200,14 @@ namespace quoin
                  : "from " + number_text(least) + " to " + number_text(most))
           + " m");
     }
-    log.message("material " + settings.material + ": P waves "
-                + number_text(medium.c1) + " m/s, S waves "
-                + number_text(medium.c2) + " m/s");
+    for (const MaterialParameters &material : parameters.model.materials)
+      if (material.name == settings.material)
+        log.message("material " + material.name + ": "
+                    + material_text(material, parameters.model.plane));
     if (options.check)
-      report_parts();
+      for (const std::string &line :
+           boundary_lines(settings, geometry, settings.duration))
+        log.message(line);
     if (!sampled_points.empty())
       log.message("sampled field: " + std::to_string(sampled_points.size())
                   + " points");

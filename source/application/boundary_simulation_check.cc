@@ -6,7 +6,6 @@
 
 #include <quoin/application/boundary_simulation.h>
 #include <quoin/application/cost_estimate.h>
-#include <quoin/application/model_summary.h>
 #include <quoin/application/shaking.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
@@ -29,17 +28,6 @@ namespace quoin
     /** Of a vtu file for each element or point and moment [B]. */
     constexpr double bytes_of_element = 250., bytes_of_point = 150.;
   } // namespace
-
-  void BoundarySimulation::report_parts()
-  {
-    for (const MaterialParameters &material : parameters.model.materials)
-      if (material.name == settings.material)
-        log.message("material " + material.name + ": "
-                    + material_text(material, parameters.model.plane));
-    for (const std::string &line :
-         boundary_lines(settings, geometry, settings.duration))
-      log.message(line);
-  }
 
   void BoundarySimulation::advise()
   {

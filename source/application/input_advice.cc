@@ -204,11 +204,12 @@ namespace quoin
           duration += stage.duration;
       const double n = duration / parameters.field_interval;
       if (n > many_moments)
-        advice.push_back(
-            "'Field interval = " + number_text(parameters.field_interval)
-            + "' in section 'Output' writes fields " + number_text(n)
-            + " times. Some hundred make a film: take "
-            + number_text(duration / 200.) + " s.");
+        advice.push_back("'Field interval = "
+                         + number_text(parameters.field_interval)
+                         + "' in section 'Output' writes fields "
+                         + std::to_string(std::uint64_t(n))
+                         + " times. Some hundred make a film: take "
+                         + number_text(duration / 200.) + " s.");
     }
   } // namespace
 

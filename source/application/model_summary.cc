@@ -431,14 +431,26 @@ namespace quoin
                                + geometry.boundary.elements[e].b));
       if (curve.shape == BoundaryShape::interface || middles.empty())
         continue;
-      std::string text = "boundary " + curve.name + ": given";
+      std::vector<std::string> words;
+      const auto add
+          = [&](const std::string &name, const SpaceTimeFunction &function,
+                const std::string &unit)
+      {
+        const std::string values = values_on(function, middles, duration, unit);
+        if (values != "0 Pa")
+          words.push_back(name + " " + values);
+      };
+      const std::string directions[] = { "horizontal ", "vertical " };
       for (unsigned int d = 0; d < 2; ++d)
-        text += std::string(d == 0 ? " horizontal " : ", vertical ")
-                + (curve.traction_is_given[d] ? "traction " : "displacement ")
-                + values_on(curve.value[d], middles, duration,
-                            curve.traction_is_given[d] ? "Pa" : "m");
-      lines.push_back(text + ", pressure "
-                      + values_on(curve.pressure, middles, duration, "Pa"));
+      {
+        const bool traction = curve.traction_is_given[d];
+        add(directions[d] + (traction ? "traction" : "displacement"),
+            curve.value[d], traction ? "Pa" : "m");
+      }
+      add("pressure", curve.pressure, "Pa");
+      lines.push_back(
+          "boundary " + curve.name + ": "
+          + (words.empty() ? "free of traction" : "given " + joined(words)));
     }
     for (const IncidentWaveParameters &wave : parameters.waves)
     {

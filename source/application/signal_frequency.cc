@@ -76,14 +76,15 @@ namespace quoin
     if (!plan)
       return 0.;
     fftw_execute(plan.get());
-    // All but the first and, of an even number, the last stand for two.
+    // The mean, which may be but what the line left, is no shaking. The last of
+    // an even number stands for one frequency, the others for two.
     const auto energy = [&](const std::size_t k)
-    { return std::norm(spectrum[k]) * (k == 0 || 2 * k == n ? 0.5 : 1.); };
+    { return std::norm(spectrum[k]) * (2 * k == n ? 0.5 : 1.); };
     double total = 0.;
-    for (std::size_t k = 0; k < spectrum.size(); ++k)
+    for (std::size_t k = 1; k < spectrum.size(); ++k)
       total += energy(k);
     double below = 0.;
-    for (std::size_t k = 0; k < spectrum.size(); ++k)
+    for (std::size_t k = 1; k < spectrum.size(); ++k)
     {
       below += energy(k);
       if (below >= energy_share * total)

@@ -135,14 +135,20 @@ namespace quoin
   {
     // The state is a copy; what steps leave in the solver is lost with it,
     // since nothing runs after a check.
-    State state          = start;
-    const double seconds = seconds_per_call(
-        [&]() { take_trial_step(stage, start, state); },
-        measuring_time / double(parameters.stages.size()), communicator,
-        solver->far_field_acts()
-            ? period_of(solver->far_field()->boundary_history())
-                  * solver->far_field()->n_substeps()
-            : 1);
+    State state         = start;
+    unsigned int period = 1;
+    if (solver->far_field_acts())
+    {
+      const FarField &far = *solver->far_field();
+      period = period_of(far.boundary_history()) * far.n_substeps();
+      // The first two prepare matrices for their steps.
+      for (unsigned int i = 0; i < 2; ++i)
+        take_trial_step(stage, start, state);
+    }
+    const double seconds
+        = seconds_per_call([&]() { take_trial_step(stage, start, state); },
+                           measuring_time / double(parameters.stages.size()),
+                           communicator, period);
     if (stage.end != StageEnd::time)
       log.message("stage " + stage.name + ": "
                   + seconds_text(many_steps * seconds)

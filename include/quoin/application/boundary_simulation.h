@@ -75,8 +75,6 @@ namespace quoin
     void make_sampled_points();
     void choose_time_step();
     void report();
-    /** Material and what is given. */
-    void report_parts();
     /** Warns of elements that are too long for what they are given. */
     void advise();
     /** Time, memory, disk; takes about half a second. */

@@ -20,8 +20,9 @@ namespace quoin
    * Seconds that a call of @p task takes in the mean, which is called in ever
    * longer rows for up to @p budget seconds, but at least twice. Without a
    * period the first call, which may have to allocate, does not count; else it
-   * is one that costs more, as every @p period calls. The first rank's clock
-   * counts; collective.
+   * is one that costs more, as every @p period calls, of which as many are
+   * taken if four budgets are enough. The first rank's clock counts;
+   * collective.
    */
   double seconds_per_call(const std::function<void()> &task, double budget,
                           MPI_Comm communicator, unsigned int period = 1);

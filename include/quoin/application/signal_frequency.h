@@ -31,7 +31,8 @@ namespace quoin
    * @p interval [s] apart, lies, by their discrete Fourier transform. The line
    * from the first to the last sample is taken off before, and the last quarter
    * fades by a cosine: what is cut off at the end has no jump there, and a
-   * constant or a ramp has no frequency, 0.
+   * constant or a ramp has no frequency, 0. The mean that is left does not
+   * count.
    */
   double highest_frequency(std::vector<double> samples, double interval);
 
