@@ -41,9 +41,7 @@ namespace quoin
   {
     // Tractions at the limit are not beyond it.
     constexpr double margin = 1e-9;
-    // Of those of rock joints, which an iteration finds.
-    constexpr double rock_margin = 1e-6;
-    double n                     = 0.;
+    double n                = 0.;
     for (unsigned int i = 0; i < segments.size(); ++i)
       for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
       {
@@ -54,18 +52,11 @@ namespace quoin
         bool is_beyond;
         if (rocks[set])
         {
-          // Their strength depends on their history: do they hold as they are?
-          RockPoint point;
-          std::visit(
-              [&](const auto &law)
-              {
-                point = read_point(law, history, p);
-                law.update(point, 0., 0.);
-              },
-              *rocks[set]);
-          is_beyond = std::abs(point.normal_traction - sigma)
-                          + std::abs(point.shear_traction - tau)
-                      > rock_margin * size;
+          // Their strength depends on their history.
+          is_beyond
+              = !std::visit([&](const auto &law)
+                            { return law.holds(read_point(law, history, p)); },
+                            *rocks[set]);
         }
         else
         {

@@ -151,6 +151,18 @@ namespace quoin
      * mobilised as far as these need: an offset of closure and slip.
      */
     void initialise(RockPoint &point, double normal, double shear) const;
+
+    /** Whether @p point, at zero opening and slip, bears its tractions; at
+        rest they would come down to what it does bear if not. */
+    bool holds(RockPoint point) const
+    {
+      constexpr double margin = 1e-6; // of what an iteration finds
+      const double sigma = point.normal_traction, tau = point.shear_traction;
+      update(point, 0., 0.);
+      return std::abs(point.normal_traction - sigma)
+                 + std::abs(point.shear_traction - tau)
+             <= margin * (std::abs(sigma) + std::abs(tau));
+    }
   };
 
   template <typename Number>

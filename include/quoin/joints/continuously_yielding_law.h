@@ -155,6 +155,24 @@ namespace quoin
         offset of closure and slip. */
     void initialise(RockPoint &point, double normal, double shear) const;
 
+    /** phi_m [rad] after @p worn slip [m]. */
+    template <typename Number>
+    Number bounding_angle(const Number &worn) const
+    {
+      using std::exp;
+      return residual_angle
+             + (initial_angle - residual_angle) * exp(-(worn / roughness));
+    }
+
+    /** Whether @p point bears its tractions; slip would lower them if not. */
+    bool holds(const RockPoint &point) const
+    {
+      constexpr double margin = 1e-9;
+      return std::abs(point.shear_traction)
+             <= -(1. + margin) * point.normal_traction
+                    * std::tan(bounding_angle(point.worn_slip));
+    }
+
   private:
     /** flow() under a given strength: tractions and slips alone. */
     template <typename Number>
@@ -246,15 +264,13 @@ namespace quoin
     using std::tan;
     const Number traction = closure.traction(closure_now);
     const Number ks       = stiffness.at(traction);
-    const double extra    = initial_angle - residual_angle;
-    const auto bound      = [&](const Number &worn) // phi_m
-    { return residual_angle + extra * exp(-(worn / roughness)); };
 
     // By the wear in the middle of the step.
     const Number first
-        = load(point, traction * tan(bound(Number(point.worn_slip))), ks, slip)
+        = load(point, traction * tan(bounding_angle(Number(point.worn_slip))),
+               ks, slip)
               .wear;
-    Number angle            = bound(point.worn_slip + 0.5 * first);
+    Number angle = bounding_angle(Number(point.worn_slip + 0.5 * first));
     RockFlow<Number> result = load(point, traction * tan(angle), ks, slip);
     const Number tau        = abs(result.shear_traction);
     if (value_of(tau) >= value_of(traction) * std::tan(initial_angle))

@@ -251,12 +251,13 @@ TEST(ImplicitSolver, ACollapseResumedWithinItsJumpEndsTheSame)
     run.solver.step(run.state);
   run.solver.save(run.state);
   other.run->state = run.state;
+  run.state.implicit.before_jump.clear(); // of the checkpoint alone
   other.run->solver.resume_stage(stage_with({ "held", "push" }),
                                  other.run->state);
   const std::string text = collapse(run);
   EXPECT_NE(text.find("went on moving"), std::string::npos) << text;
   EXPECT_EQ(collapse(*other.run), text);
-  EXPECT_EQ(bytes(other.run->state), bytes(run.state));
+  EXPECT_TRUE(bytes(other.run->state) == bytes(run.state));
   EXPECT_EQ(other.run->state.implicit.jumps, false);
 }
 
@@ -296,7 +297,7 @@ TEST(ImplicitSolver, AGivenRotationResumedIsBitwiseTheSame)
 
 TEST(ImplicitSolver, ReactionOfTheFarField)
 {
-  // Boundary elements below the stack, of the same rock, bear the load on it.
+  // Boundary elements below the stack, of the same rock, resist its turning.
   BlockMesh<2> mesh;
   make_stack(mesh, 4, 1);
   const Model model(mesh, { 0, 0 }, two_blocks(), MPI_COMM_SELF);
@@ -308,17 +309,22 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
   far.name = "far";
   far.type = LoadType::boundary_elements;
   ImplicitSolver solver(
-      model, { far, traction("press", "top", "", "-1e6*t") }, {}, { "joint" },
+      model,
+      { far,
+        platen("turn", "upper", component(given_force, "0"),
+               component(given_force, "0"), component(given_force, "1e6*t")) },
+      {}, { "joint" },
       std::make_unique<StaticFarField>(
           "far", domain, mesh, faces_of_curves(mesh, { "bottom" }, "far"),
           model.exchange(), model.thickness()));
   State state = model.initial_state();
-  solver.begin_stage(stage_with({ "far", "press" }), nullptr, state);
+  solver.begin_stage(stage_with({ "far", "turn" }), nullptr, state);
   while (!solver.is_over(state))
     solver.step(state);
-  const double load = 1e6 * 4. * model.thickness();
-  EXPECT_NEAR(solver.resultant("far")[1], load, 1e-5 * load);
-  EXPECT_NEAR(solver.resultant("far")[0], 0., 1e-5 * load);
+  const auto reaction = solver.resultant("far");
+  EXPECT_NEAR(reaction[2], -1e6, 1e-5 * 1e6);
+  for (unsigned int d = 0; d < 2; ++d)
+    EXPECT_NEAR(reaction[d], 0., 1e-5 * 1e6);
 }
 
 TEST(ImplicitSolver, RigidBlockUnderAnEccentricLoad)
