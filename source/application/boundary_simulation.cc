@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/boundary_simulation.h>
+#include <quoin/application/open_log.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
@@ -124,6 +125,7 @@ namespace quoin
     MeshData mesh;
     if (!parameters.mesh_file.empty())
       mesh = read_gmsh(parameters.mesh_file, communicator);
+    run_identity = run_fingerprint(parameters, mesh);
     geometry  = make_boundary_geometry(settings, mesh);
     histories = std::make_unique<BoundaryHistories>(
         parameters.histories, geometry, settings, parameters.model.thickness);

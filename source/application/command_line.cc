@@ -11,8 +11,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <thread>
 
 /** Of OpenBLAS, which has no header of its own name everywhere. */
 extern "C" void openblas_set_num_threads(int n_threads);
@@ -70,6 +72,41 @@ namespace quoin
       }
       return -1;
     }
+    /** Where ranks meet that have failed, apart from what they do else. */
+    class Errors
+    {
+    public:
+      Errors()
+      {
+        MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
+      }
+      ~Errors()
+      {
+        MPI_Comm_free(&communicator);
+      }
+      Errors(const Errors &)            = delete;
+      Errors &operator=(const Errors &) = delete;
+
+      MPI_Comm communicator;
+    };
+
+    /** Whether all ranks come here within a time. */
+    bool all_have_failed(const Errors &errors)
+    {
+      using namespace std::chrono;
+      constexpr auto patience = seconds(20);
+      MPI_Request request;
+      MPI_Ibarrier(errors.communicator, &request);
+      const auto start = steady_clock::now();
+      int all          = 0;
+      while (!all && steady_clock::now() - start < patience)
+      {
+        MPI_Test(&request, &all, MPI_STATUS_IGNORE);
+        if (!all)
+          std::this_thread::sleep_for(milliseconds(1));
+      }
+      return all != 0;
+    }
   } // namespace
 
   int run_command_line(int argc, char **argv)
@@ -85,12 +122,17 @@ namespace quoin
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     // A rank is a core: the matrix products must not start threads of theirs.
     openblas_set_num_threads(1);
+    const Errors errors;
     const bool first
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    const auto report = [first](const std::string &what, const int status)
+    const auto report = [&](const std::string &what, const int status)
     {
-      if (first)
+      // A failure that not all ranks have leaves the others waiting.
+      const bool alone = !all_have_failed(errors);
+      if (first || alone)
         std::cerr << "Error: " << what << std::endl;
+      if (alone)
+        MPI_Abort(MPI_COMM_WORLD, status);
       return status;
     };
     try
@@ -121,11 +163,7 @@ namespace quoin
     }
     catch (const std::exception &error)
     {
-      std::cerr << "Error: " << error.what() << std::endl;
-      // Other ranks may be waiting for this one.
-      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-        MPI_Abort(MPI_COMM_WORLD, 2);
-      return 2;
+      return report(error.what(), 2);
     }
   }
 } // namespace quoin

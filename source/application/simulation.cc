@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/far_field_setup.h>
+#include <quoin/application/open_log.h>
 #include <quoin/application/simulation.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
@@ -83,12 +84,22 @@ namespace quoin
                           parameters.triangles)
               : mesh_gmsh_geometry(parameters.generated.geometry, communicator,
                                    parameters.triangles);
+    run_identity = run_fingerprint(parameters, as_read);
     split_into_blocks(as_read, parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 
     // Whole blocks to ranks: blocks share no nodes, only joints cross ranks.
-    auto rank_of_block = partition_blocks(
-        mesh, dealii::Utilities::MPI::n_mpi_processes(communicator));
+    const unsigned int n_ranks
+        = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    if (n_ranks > mesh.n_blocks())
+      throw InputError(
+          parameters.file + ": the model has "
+          + std::to_string(mesh.n_blocks())
+          + (mesh.n_blocks() == 1 ? " block" : " blocks") + " and the run "
+          + std::to_string(n_ranks)
+          + " MPI ranks, to which whole blocks are dealt. Take fewer ranks, or "
+            "split the mesh into more blocks.");
+    auto rank_of_block = partition_blocks(mesh, n_ranks);
     try
     {
       renumber_blocks(
@@ -374,6 +385,8 @@ namespace quoin
         history_table->add_row(row);
       write_far_field_row();
     }
+    if (balance || over)
+      check_tables();
     return over;
   }
 

@@ -383,7 +383,8 @@ namespace quoin
         if (vertex[i] == 1)
         {
           const double *x = &coordinates[3 * i];
-          if (std::abs(x[2]) > plane_tolerance * size)
+          // Not a number is off the plane, too.
+          if (!(std::abs(x[2]) <= plane_tolerance * size))
           {
             std::ostringstream message;
             message << "node " << tags[i] << " at (" << x[0] << ", " << x[1]

@@ -9,6 +9,7 @@ what the first one wrote is kept. The functions below are failures of other
 kinds.
 """
 import argparse
+import glob
 import json
 import math
 import os
@@ -16,6 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
@@ -268,6 +270,17 @@ def other_ranks(quoin, folder):
     expect(status, printed, 1, ["1 MPI rank", "2", "same number"])
 
 
+def more_ranks_than_blocks(quoin, folder):
+    """Whole blocks are dealt to ranks."""
+    if not shutil.which("mpirun"):
+        raise Skip("no mpirun")
+    status, printed = run(["mpirun", "--oversubscribe", "-np", "3", quoin,
+                           prepare(folder), "--quiet"])
+    expect(status, printed, 1, ["case.prm", "2 blocks", "3 MPI ranks",
+                                "fewer ranks"])
+    return printed
+
+
 def other_parameters(quoin, folder):
     """A checkpoint of other parameters."""
     prm = prepare(folder)
@@ -381,11 +394,246 @@ def implicit_limit_load(quoin, folder):
     return printed
 
 
+def starting(words, folder):
+    """A run under way, once it has written its log; and the file it prints to."""
+    screen = open(os.path.join(folder, "screen"), "w")
+    process = subprocess.Popen(words, env=ENVIRONMENT, stdout=screen,
+                               stderr=subprocess.STDOUT)
+    log = os.path.join(folder, "output", "log.txt")
+    deadline = time.monotonic() + 60
+    while not os.path.exists(log) and process.poll() is None \
+            and time.monotonic() < deadline:
+        time.sleep(0.01)
+    if process.poll() is not None or not os.path.exists(log):
+        process.kill()
+        raise Failure("the first run does not begin")
+    return process
+
+
+LONG = ["--set", "Stages/first/Duration=1e3", "--set", "Histories/Interval=1",
+        "--set", "Output/Checkpoint interval=0.05"]
+
+
+def two_runs_at_once(quoin, folder):
+    """The second run in one folder is refused, and the first goes on; killed,
+    it leaves nothing in the way of being resumed."""
+    prm = prepare(folder)
+    words = [quoin, prm, "--output", os.path.join(folder, "output")] + LONG
+    first = starting(words, folder)
+    try:
+        status, printed = run(words)
+        expect(status, printed, 1, ["another run", "output", "--output"])
+        status, printed = run(words + ["--resume"])
+        expect(status, printed, 1, ["another run"])
+        if first.poll() is not None:
+            raise Failure("the first run has ended")
+        latest = os.path.join(folder, "output", "checkpoint", "latest")
+        deadline = time.monotonic() + 60
+        while not os.path.exists(latest) and time.monotonic() < deadline:
+            time.sleep(0.01)
+    finally:
+        first.kill()
+        first.wait()
+    again = starting(words + ["--resume"], folder)
+    time.sleep(0.2)
+    ended = again.poll()
+    again.kill()
+    again.wait()
+    if ended is not None:
+        with open(os.path.join(folder, "screen")) as stream:
+            raise Failure("it cannot be resumed:\n" + stream.read())
+    return printed
+
+
+def odd_names(quoin, folder):
+    """Names that are hard to read, from another working directory; links."""
+    odd = os.path.join(folder, "-a b'c\"d \u00fc\u4e2d%s;$HOME&(x)")
+    os.mkdir(odd)
+    prm = prepare(odd)
+    long = "n" * 200
+    os.rename(os.path.join(odd, "base.geo"),
+              os.path.join(odd, "-m \u00e4'\".geo"))
+    for name in ("-c a\u00df.prm", long + ".prm"):
+        shutil.copy(prm, os.path.join(odd, name))
+    output = os.path.join(folder, "-out \u00fc '\"")
+    words = ["--quiet", "--set", "Mesh/File=-m \u00e4'\".geo"]
+    status, printed = run([os.path.abspath(quoin), "./-c a\u00df.prm",
+                           "--output", "./" + long] + words, cwd=odd)
+    expect(status, printed, 0, [])
+    status, printed = run([quoin, os.path.join(odd, long + ".prm"),
+                           "--output", output] + words)
+    expect(status, printed, 0, [])
+    if not os.path.exists(os.path.join(output, "histories.csv")):
+        raise Failure("no histories.csv in '%s'" % output)
+    # without --output, beside the file that a link leads to or the link
+    link = os.path.join(folder, "link")
+    os.symlink(odd, link)
+    program = os.path.join(folder, "program")
+    os.symlink(quoin, program)
+    status, printed = run([program, os.path.join(link, "-c a\u00df.prm"),
+                           "--set", "Output directory=."] + words)
+    expect(status, printed, 0, [])
+    if not os.path.exists(os.path.join(odd, "histories.csv")):
+        raise Failure("no histories.csv in the folder of the parameter file")
+    # what belongs to the user there is kept
+    mine = os.path.join(odd, "checkpoint", "notes")
+    os.mkdir(mine)
+    status, printed = run([quoin, os.path.join(odd, "-c a\u00df.prm"),
+                           "--set", "Output directory=."] + words)
+    expect(status, printed, 0, [])
+    if not os.path.isdir(mine):
+        raise Failure("a folder that is none of the program's was removed")
+
+
+def file_of_another_system(quoin, folder):
+    """A byte order mark and carriage returns change nothing."""
+    prm = prepare(folder)
+    with open(prm) as stream:
+        text = stream.read()
+    with open(prm, "w", encoding="utf-8-sig", newline="\r\n") as stream:
+        stream.write(text)
+    status, printed = run([quoin, prm, "--check"])
+    expect(status, printed, 0, ["2 blocks"])
+
+
+def output_is_a_file(quoin, folder):
+    """An output directory that is a file."""
+    prm = prepare(folder)
+    output = os.path.join(folder, "file")
+    open(output, "w").close()
+    status, printed = run([quoin, prm, "--output", output])
+    expect(status, printed, 1, [output, "file of this name"])
+
+
+def old_results(quoin, folder):
+    """A run does not leave what an earlier one said of its end."""
+    prm = prepare(folder)
+    output = os.path.join(folder, "output")
+    status, printed = run([quoin, prm, "--output", output])
+    expect(status, printed, 0, [])
+    for name in ("safety.csv", "far_field.csv", "boundary.pvd"):
+        open(os.path.join(output, name), "w").close()
+    first = starting([quoin, prm, "--output", output] + LONG, folder)
+    time.sleep(0.2)
+    first.kill()
+    first.wait()
+    left = {"summary.json", "safety.csv", "far_field.csv", "boundary.pvd"} \
+        & set(os.listdir(output))
+    if left:
+        raise Failure("still there: %s" % ", ".join(sorted(left)))
+
+
+def changed_inputs(quoin, folder):
+    """A checkpoint of another mesh or another table is refused."""
+    prm = prepare(folder)
+    table = os.path.join(folder, "push.csv")
+    with open(table, "w") as stream:
+        stream.write("0, 0\n1, 1\n")
+    output = os.path.join(folder, "output")
+    words = [quoin, prm, "--output", output, "--set",
+             "Loads/push/Vertical=table push.csv times -1e5"]
+    status, printed = run(words)
+    expect(status, printed, 0, [])
+    status, printed = run(words + ["--resume"])
+    expect(status, printed, 0, ["nothing is left to do"])
+    with open(table, "w") as stream:
+        stream.write("0, 0\n1, 2\n")
+    status, printed = run(words + ["--resume"])
+    expect(status, printed, 1, ["table", "without --resume"])
+    with open(table, "w") as stream:
+        stream.write("0, 0\n1, 1\n")
+    geometry = os.path.join(folder, "base.geo")
+    with open(geometry) as stream:
+        text = stream.read()
+    with open(geometry, "w") as stream:
+        stream.write(text.replace("h = 0.25", "h = 0.2"))
+    status, printed = run(words + ["--resume"])
+    expect(status, printed, 1, ["mesh", "without --resume"])
+    return printed
+
+
+def damaged_checkpoints(quoin, folder):
+    """Bytes that differ, files that are cut short or gone, other formats."""
+    prm = prepare(folder)
+    output = os.path.join(folder, "output")
+    words = [quoin, prm, "--output", output]
+    status, printed = run(words)
+    expect(status, printed, 0, [])
+    checkpoint = os.path.join(output, "checkpoint")
+    whole = os.path.join(folder, "whole")
+    shutil.copytree(checkpoint, whole)
+    latest = os.path.join(checkpoint, "latest")
+    archive = glob.glob(os.path.join(checkpoint, "*", "rank_0.bin"))[0]
+    size = os.path.getsize(archive)
+
+    def spoil(path, change):
+        with open(path, "rb") as stream:
+            data = bytearray(stream.read())
+        data = change(data)
+        with open(path, "wb") as stream:
+            stream.write(data)
+
+    def flip(place):
+        def change(data):
+            data[place % len(data)] ^= 0x55
+            return data
+        return change
+
+    attempts = [(archive, lambda data: data[:0], "damaged"),
+                (archive, lambda data: data[:-1], "damaged"),
+                (archive, lambda data: data + b"x", "damaged"),
+                (archive, flip(size // 2), "damaged"),
+                (archive, flip(0), "damaged"),
+                (latest, lambda data: data[:len(data) // 2], "damaged"),
+                (latest, lambda data: b"", "damaged"),
+                (latest, lambda data: bytes(100), "damaged"),
+                (latest, lambda data: data.replace(b"format ", b"format 1"),
+                 "another version"),
+                (latest, lambda data: data.replace(b"version ", b"version 1"),
+                 "version"),
+                (latest, lambda data: data.replace(b"ranks 1", b"ranks 9"),
+                 "damaged"),
+                (latest, lambda data: data.replace(
+                    b"ranks 1", b"ranks 99999999999999"), "damaged"),
+                (latest, lambda data: data.replace(
+                    b"directory ", b"directory ../"), "damaged")]
+    for number, (path, change, word) in enumerate(attempts):
+        spoil(path, change)
+        status, printed = run(words + ["--resume"])
+        try:
+            expect(status, printed, 1, [word, "without --resume"])
+        except Failure as failure:
+            raise Failure("attempt %d: %s" % (number, failure))
+        shutil.rmtree(checkpoint)
+        shutil.copytree(whole, checkpoint)
+    os.remove(archive)
+    status, printed = run(words + ["--resume"])
+    expect(status, printed, 1, ["damaged", "without --resume"])
+    return printed
+
+
+def full_disk_on_two_ranks(quoin, folder):
+    """A table that the first rank cannot write stops both."""
+    if not shutil.which("mpirun"):
+        raise Skip("no mpirun")
+    prm = prepare(folder)
+    output = os.path.join(folder, "output")
+    script = "ulimit -f 300 && trap '' XFSZ && exec mpirun --oversubscribe " \
+        "-np 2 '%s' '%s' --quiet --output '%s' --set Stages/first/Duration=1e3"
+    status, printed = run(["bash", "-c", script % (quoin, prm, output)])
+    expect(status, printed, 2, [".csv", "too large"])
+    return printed
+
+
 FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing, no_arguments,
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
-             no_number_at_the_end, runaway, reported_block, deleted_block, other_ranks, other_parameters,
-             nothing_to_resume, implicit_limit_load]
+             no_number_at_the_end, runaway, reported_block, deleted_block, other_ranks,
+             more_ranks_than_blocks, other_parameters,
+             nothing_to_resume, implicit_limit_load,
+             two_runs_at_once, odd_names, file_of_another_system,
+             output_is_a_file, old_results,
+             changed_inputs, damaged_checkpoints, full_disk_on_two_ranks]
 
 
 def main():
