@@ -126,8 +126,8 @@ namespace quoin
     if (!parameters.mesh_file.empty())
       mesh = read_gmsh(parameters.mesh_file, communicator);
     run_identity = run_fingerprint(parameters, mesh);
-    geometry  = make_boundary_geometry(settings, mesh);
-    histories = std::make_unique<BoundaryHistories>(
+    geometry     = make_boundary_geometry(settings, mesh);
+    histories    = std::make_unique<BoundaryHistories>(
         parameters.histories, geometry, settings, parameters.model.thickness);
     hoop_stress = std::make_unique<TangentialStress>(geometry.boundary, medium);
     given       = std::make_unique<GivenValues>(geometry, settings);

@@ -45,21 +45,20 @@ namespace quoin
                                                histories->column_names());
     open_log(run_identity, output, options.resume, communicator, lock, log,
              record);
-    all_or_none<RunError>(
-        communicator,
-        [&]()
-        {
-          if (!is_first_rank)
-            return;
-          if (options.resume)
-            history_table->resume(record.histories_bytes);
-          else
-            history_table->start();
-          AtomicFile used(output + "/used_parameters.prm");
-          used.stream() << parameters.effective;
-          used.commit();
-          record.boundary_output.start();
-        });
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (!is_first_rank)
+                              return;
+                            if (options.resume)
+                              history_table->resume(record.histories_bytes);
+                            else
+                              history_table->start();
+                            AtomicFile used(output + "/used_parameters.prm");
+                            used.stream() << parameters.effective;
+                            used.commit();
+                            record.boundary_output.start();
+                          });
   }
 
   void BoundarySimulation::write_static()

@@ -117,7 +117,8 @@ namespace quoin
       return parsed;
 
     // Started without mpirun, Open MPI would launch a daemon beside this
-    // process, in case that it spawned others: time, and one more thing to fail.
+    // process, in case that it spawned others: time, and one more thing to
+    // fail.
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     // A rank is a core: the matrix products must not start threads of theirs.

@@ -640,11 +640,12 @@ namespace quoin
                            "gives one: remove that, or take 'explicit'.");
     }
     /** Whether the section that @p prm is in has a parameter @p name. */
-    bool has_entry(const ParameterHandler &prm, const std::string &name)
+    bool has_entry(ParameterHandler &prm, const std::string &name)
     {
       try
       {
-        prm.get(name);
+        // get() gives an empty text for what is not there.
+        prm.set(name, prm.get(name));
         return true;
       }
       catch (const dealii::ExceptionBase &)

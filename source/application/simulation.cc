@@ -93,8 +93,7 @@ namespace quoin
         = dealii::Utilities::MPI::n_mpi_processes(communicator);
     if (n_ranks > mesh.n_blocks())
       throw InputError(
-          parameters.file + ": the model has "
-          + std::to_string(mesh.n_blocks())
+          parameters.file + ": the model has " + std::to_string(mesh.n_blocks())
           + (mesh.n_blocks() == 1 ? " block" : " blocks") + " and the run "
           + std::to_string(n_ranks)
           + " MPI ranks, to which whole blocks are dealt. Take fewer ranks, or "
@@ -175,6 +174,14 @@ namespace quoin
                   + number_text(mesh_report.unmatched_position[0]) + ", "
                   + number_text(mesh_report.unmatched_position[1])
                   + ") m: no joint is made there. Mesh both sides alike.");
+
+    if (mesh_report.overlaps)
+      log.warning("blocks overlap near ("
+                  + number_text(mesh_report.overlap_position[0]) + ", "
+                  + number_text(mesh_report.overlap_position[1])
+                  + ") m, where both then have their mass and stiffness. Take "
+                    "the surface out that is there twice, or cut it out of "
+                    "the other.");
 
     if (const StaticFarField *far = solver->static_far_field())
       log.message("static boundary elements: their forces' matrix was "

@@ -173,8 +173,8 @@ namespace quoin
       section.fail("Joint thickness", "must not be negative.");
     if (wall.n_courses == 0)
       section.fail("Courses", "must be at least 1.");
-    wall.unit_length    = section.positive("Unit length") + joint[0];
-    wall.unit_height    = section.positive("Unit height") + joint[1];
+    wall.unit_length = section.positive("Unit length") + joint[0];
+    wall.unit_height = section.positive("Unit height") + joint[1];
     check_number_of_units(section, wall);
     wall.offset         = section.within("Offset", 0., 1.);
     wall.begins_shifted = section.text("First course") == "shifted";
@@ -188,12 +188,13 @@ namespace quoin
     wall.element_size   = section.nonnegative("Element size");
     if (wall.element_size == 0.)
       wall.element_size = 0.5 * wall.unit_height;
-    const double height = wall.n_courses * wall.unit_height
-                          + wall.bottom_platen + wall.top_platen;
+    const double height = wall.n_courses * wall.unit_height + wall.bottom_platen
+                          + wall.top_platen;
     if (!(2. * wall.length / wall.element_size * height / wall.element_size
           <= most_elements))
-      section.fail("Element size", "makes more than 100 million elements. Check "
-                                   "that lengths are in metres.");
+      section.fail("Element size",
+                   "makes more than 100 million elements. Check "
+                   "that lengths are in metres.");
     wall.structured = section.text("Elements") == "structured";
     if (wall.structured && wall.bond == WallBond::random)
       section.fail("Elements", "must be 'free' with 'Bond = random', whose "

@@ -54,8 +54,8 @@ namespace quoin
     {
       AtomicFile file(path.string());
       std::ostream &out = file.stream();
-      out << first_words << format << "\nversion " << manifest.info.version << "\nstep "
-          << manifest.info.step << "\ntime "
+      out << first_words << format << "\nversion " << manifest.info.version
+          << "\nstep " << manifest.info.step << "\ntime "
           << shortest_text(manifest.info.time) << "\nparameters "
           << manifest.info.parameters << "\ndirectory " << manifest.directory
           << "\nranks " << manifest.archives.size() << "\n";
@@ -117,11 +117,9 @@ namespace quoin
     /** Whether a directory beside the manifest is one of a checkpoint. */
     bool is_of_checkpoint(const std::string &name)
     {
-      const auto end = name.find_first_not_of("0123456789");
-      const std::string rest
-          = end == std::string::npos ? "" : name.substr(end);
-      return end != 0
-             && (rest.empty() || rest == ".tmp" || rest == "-again");
+      const auto end         = name.find_first_not_of("0123456789");
+      const std::string rest = end == std::string::npos ? "" : name.substr(end);
+      return end != 0 && (rest.empty() || rest == ".tmp" || rest == "-again");
     }
 
     /** A name that the valid checkpoint does not use. */

@@ -200,10 +200,9 @@ namespace
 
   void try_mesh(const Input &input, Mutator &mutator)
   {
-    const MeshData data
-        = read_gmsh(input.file.string(), mutator.below(4) == 0
-                                             ? TriangleKind::quadratic
-                                             : TriangleKind::plain);
+    const MeshData data = read_gmsh(
+        input.file.string(),
+        mutator.below(4) == 0 ? TriangleKind::quadratic : TriangleKind::plain);
     for (const auto &p : data.vertices)
       require(std::isfinite(p[0]) && std::isfinite(p[1]),
               "a vertex that is not finite was accepted");
@@ -368,13 +367,13 @@ namespace
         what = "ends the process with status "
                + std::to_string(WEXITSTATUS(status));
       const Input input = make_input(originals, options, next);
-      std::cout << "input " << next << " ("
-                << input.file.filename().string() << "): " << what << std::endl;
+      std::cout << "input " << next << " (" << input.file.filename().string()
+                << "): " << what << std::endl;
       if (!options.keep.empty())
-        std::ofstream(fs::path(options.keep)
-                          / (std::to_string(next)
-                             + input.file.extension().string()),
-                      std::ios::binary)
+        std::ofstream(
+            fs::path(options.keep)
+                / (std::to_string(next) + input.file.extension().string()),
+            std::ios::binary)
             << input.text;
       ++n_findings;
       ++next;
@@ -385,7 +384,8 @@ namespace
   }
 } // namespace
 
-int main(int argc, char **argv)
+int
+main(int argc, char **argv)
 {
   Options options;
   CLI::App app("Wrong inputs for the readers of quoin");

@@ -47,68 +47,68 @@ namespace quoin
     static const Words &numbers()
     {
       static const Words all
-          = { "nan",   "inf",         "-inf", "1e400",  "-1e400", "1e-400",
-              "1e300", "-1e300",      "0",    "-1",     "-0.5",   "1e-300",
-              "1e9",   "99999999999", "1e-9", "0x10",   "1,2",    "",
-              "1e",    "--1",         "1..2", "1 2",    "two",    "2147483648",
-              "1e5",   "0.3333",      "4294967295" };
+          = { "nan",    "inf",       "-inf",   "1e400",       "-1e400",
+              "1e-400", "1e300",     "-1e300", "0",           "-1",
+              "-0.5",   "1e-300",    "1e9",    "99999999999", "1e-9",
+              "0x10",   "1,2",       "",       "1e",          "--1",
+              "1..2",   "1 2",       "two",    "2147483648",  "1e5",
+              "0.3333", "4294967295" };
       return all;
     }
 
     static const Words &values()
     {
-      static const Words all
-          = { "",
-              "1/0",
-              "0/0",
-              "sqrt(-1)",
-              "log(0)",
-              "exp(1e9)",
-              "((((((((",
-              "if(t, 1",
-              "t; t",
-              "t, t",
-              "rand()",
-              "x + y + z",
-              "t^t^t^t^t",
-              "table",
-              "table  times 2",
-              "table nowhere.csv",
-              "record",
-              "record nowhere.AT2",
-              "synthetic",
-              "synthetic frequency 1e-300",
-              "synthetic high-pass 1e-12",
-              "synthetic duration 1e12 step 1e-12",
-              "wavelet Ricker 0",
-              "wavelet Ricker 1e300 1e300",
-              "pulse exponential 1 1.0000000001",
-              "cycles 1 1e-300",
-              "all",
-              "none",
-              "a:b:c",
-              ":",
-              ",",
-              ",,,",
-              "a, a",
-              "Names",
-              "/",
-              "../../..",
-              "velocity ",
-              "displacement t/0",
-              "force if(t>0,1,0)",
-              "Fisher 30, 1e6",
-              "log-normal 1, 1e200",
-              "normal 1e-300, 0",
-              "exponential 1e-300",
-              "uniform 1, 1e300",
-              "\"quoted\"",
-              "M\xC3\xBCller",
-              "\xFF\xFE",
-              "%s%s%n",
-              "$HOME",
-              "# nothing",
-              "Line <99999999999999999999>" };
+      static const Words all = { "",
+                                 "1/0",
+                                 "0/0",
+                                 "sqrt(-1)",
+                                 "log(0)",
+                                 "exp(1e9)",
+                                 "((((((((",
+                                 "if(t, 1",
+                                 "t; t",
+                                 "t, t",
+                                 "rand()",
+                                 "x + y + z",
+                                 "t^t^t^t^t",
+                                 "table",
+                                 "table  times 2",
+                                 "table nowhere.csv",
+                                 "record",
+                                 "record nowhere.AT2",
+                                 "synthetic",
+                                 "synthetic frequency 1e-300",
+                                 "synthetic high-pass 1e-12",
+                                 "synthetic duration 1e12 step 1e-12",
+                                 "wavelet Ricker 0",
+                                 "wavelet Ricker 1e300 1e300",
+                                 "pulse exponential 1 1.0000000001",
+                                 "cycles 1 1e-300",
+                                 "all",
+                                 "none",
+                                 "a:b:c",
+                                 ":",
+                                 ",",
+                                 ",,,",
+                                 "a, a",
+                                 "Names",
+                                 "/",
+                                 "../../..",
+                                 "velocity ",
+                                 "displacement t/0",
+                                 "force if(t>0,1,0)",
+                                 "Fisher 30, 1e6",
+                                 "log-normal 1, 1e200",
+                                 "normal 1e-300, 0",
+                                 "exponential 1e-300",
+                                 "uniform 1, 1e300",
+                                 "\"quoted\"",
+                                 "M\xC3\xBCller",
+                                 "\xFF\xFE",
+                                 "%s%s%n",
+                                 "$HOME",
+                                 "# nothing",
+                                 "Line <99999999999999999999>" };
       return all;
     }
 
@@ -169,7 +169,8 @@ namespace quoin
           const auto [other, n]     = line_of(text);
           const std::string from    = text.substr(other, n);
           const std::size_t another = from.find('=');
-          value = another == std::string::npos ? from : from.substr(another + 1);
+          value
+              = another == std::string::npos ? from : from.substr(another + 1);
         }
         }
         while (!value.empty() && value.back() == '\n')
@@ -211,8 +212,9 @@ namespace quoin
           text[below(text.size())] = static_cast<char>(below(256));
         break;
       case 6:
-        text.insert(place, std::string(1, "\0\t\r\n\"'\\#{}();,=<>\x7F\xFF"
-                                          [below(20)]));
+        text.insert(
+            place,
+            std::string(1, "\0\t\r\n\"'\\#{}();,=<>\x7F\xFF"[below(20)]));
         break;
       case 7: // carriage returns
         for (std::size_t i = 0; i < text.size(); ++i)
@@ -223,8 +225,8 @@ namespace quoin
         text.insert(0, "\xEF\xBB\xBF");
         break;
       case 9: // a line that never ends
-        text.insert(place, std::string(1 + below(200000),
-                                       " a9(,\t;.-"[below(9)]));
+        text.insert(place,
+                    std::string(1 + below(200000), " a9(,\t;.-"[below(9)]));
         break;
       case 10:
         text.erase(place, 1 + below(40));

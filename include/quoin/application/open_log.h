@@ -44,15 +44,14 @@ namespace quoin
                 const bool resume, const MPI_Comm communicator,
                 OutputLock &lock, Log &log, Record &record)
   {
-    all_or_none<InputError>(
-        communicator,
-        [&]()
-        {
-          int rank;
-          MPI_Comm_rank(communicator, &rank);
-          if (rank == 0)
-            take_output(output, resume, lock);
-        });
+    all_or_none<InputError>(communicator,
+                            [&]()
+                            {
+                              int rank;
+                              MPI_Comm_rank(communicator, &rank);
+                              if (rank == 0)
+                                take_output(output, resume, lock);
+                            });
     CheckpointInfo info;
     if (resume)
       info = load_checkpoint(output, communicator, QUOIN_VERSION, fingerprint,
