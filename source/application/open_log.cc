@@ -48,7 +48,8 @@ namespace quoin
     namespace fs = std::filesystem;
     std::error_code error;
     fs::create_directories(output, error);
-    if (!fs::is_directory(output))
+    std::error_code ignored;
+    if (!fs::is_directory(output, ignored))
       throw InputError(
           "the output directory '" + output + "' cannot be made: "
           + (error ? error.message() : "there is a file of this name")

@@ -202,7 +202,8 @@ namespace quoin
     std::string read_text(const std::string &file)
     {
       std::ifstream stream(file);
-      if (!stream || std::filesystem::is_directory(file))
+      std::error_code error;
+      if (!stream || std::filesystem::is_directory(file, error))
         throw InputError("the parameter file '" + file
                          + "' cannot be read. Check the path.");
       std::ostringstream stored;

@@ -258,7 +258,8 @@ namespace quoin
       if (file.empty())
         section.fail("File", "must name a table of traces.");
       joints.file = file.front() == '/' ? file : section.folder() + file;
-      if (!std::filesystem::is_regular_file(joints.file))
+      std::error_code error; // a name may be too long for any file
+      if (!std::filesystem::is_regular_file(joints.file, error))
         section.fail("File", "does not exist: there is no file '" + joints.file
                                  + "'. Give the path from the folder of the "
                                    "parameter file.");

@@ -11,6 +11,7 @@
 #include <memory>
 #include <regex>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace quoin
@@ -84,7 +85,14 @@ namespace quoin
         // may be anything.
         line = upper(line.substr(0, 200));
         header += line + "\n";
-        found = find_size(line, n, step);
+        try
+        {
+          found = find_size(line, n, step);
+        }
+        catch (const std::out_of_range &)
+        {
+          break; // a step beyond all numbers
+        }
       }
       if (!found || n < 2 || !(step > 0.))
         throw InputError("the record '" + name

@@ -354,10 +354,15 @@ namespace
                   std::min<std::uint64_t>(end, next + batch), *shared);
       int status = 0;
       waitpid(child, &status, 0);
-      next = shared->under_way;
-      if (WIFEXITED(status) && WEXITSTATUS(status) == 0 && next > options.first
-          && shared->finding[0] == '\0')
+      next                 = shared->under_way;
+      const bool has_ended = WIFEXITED(status) && shared->finding[0] == '\0';
+      if (has_ended && WEXITSTATUS(status) == 0 && next > options.first)
         continue;
+      if (has_ended && WEXITSTATUS(status) == 1)
+      {
+        ++next; // refused where gmsh crashed
+        continue;
+      }
       std::string what = shared->finding;
       if (what.empty() && WIFSIGNALED(status))
         what = WTERMSIG(status) == SIGALRM

@@ -198,7 +198,8 @@ namespace quoin
       {
         const std::string line = text.substr(begin, length);
         text.erase(begin, length);
-        text.insert(line_of(text + "\n").first, line);
+        if (!text.empty())
+          text.insert(line_of(text).first, line);
         break;
       }
       case 3:
