@@ -192,6 +192,11 @@ namespace
       return;
     parameters.output_directory = "/nonexistent/quoin";
     const RunOptions check{ false, true, true };
+    // Matrices of many boundary elements take long, as they should.
+    for (const BoundaryCurveParameters &curve : parameters.boundary.boundaries)
+      if (curve.n_elements > 100
+          || (curve.element_length > 0. && curve.element_length < 0.05))
+        return;
     if (parameters.is_boundary_model)
       BoundarySimulation(parameters, check, MPI_COMM_SELF).run();
     else
