@@ -72,6 +72,7 @@ namespace quoin
       }
       return -1;
     }
+
     /** Where ranks meet that have failed, apart from what they do else. */
     class Errors
     {
@@ -90,11 +91,14 @@ namespace quoin
       MPI_Comm communicator;
     };
 
-    /** Whether all ranks come here within a time. */
+    /**
+     * Whether all ranks come here within a time. If they are only late, the
+     * run ends all the same, with the message of more than one of them.
+     */
     bool all_have_failed(const Errors &errors)
     {
       using namespace std::chrono;
-      constexpr auto patience = seconds(20);
+      constexpr auto patience = seconds(5);
       MPI_Request request;
       MPI_Ibarrier(errors.communicator, &request);
       const auto start = steady_clock::now();

@@ -548,6 +548,11 @@ namespace quoin
                              + "', which is no load. Loads are: " + join(names)
                              + ".");
           used.insert(load);
+          if (std::count(stage.loads.begin(), stage.loads.end(), load) > 1)
+            throw InputError(parameters.file + ", section 'Stages/" + stage.name
+                             + "': 'Loads' names '" + load
+                             + "' twice, but it acts once. Remove one, or "
+                               "give the load another value.");
         }
       for (const LoadParameters &load : parameters.loads)
         if (load.type != LoadType::initial_stress && used.count(load.name) == 0)

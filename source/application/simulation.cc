@@ -175,6 +175,16 @@ namespace quoin
                   + number_text(mesh_report.unmatched_position[1])
                   + ") m: no joint is made there. Mesh both sides alike.");
 
+    // A double has 16 digits.
+    double farthest = 0.;
+    for (unsigned int d = 0; d < 2; ++d)
+      farthest = std::max({ farthest, std::abs(mesh_report.lower_left[d]),
+                            std::abs(mesh_report.upper_right[d]) });
+    if (mesh_report.shortest_edge < 1e-8 * farthest)
+      log.warning("coordinates of up to " + number_text(farthest)
+                  + " m leave few digits to edges of "
+                  + number_text(mesh_report.shortest_edge)
+                  + " m. Move the model nearer to the origin.");
     if (mesh_report.overlaps)
       log.warning("blocks overlap near ("
                   + number_text(mesh_report.overlap_position[0]) + ", "

@@ -280,6 +280,19 @@ def other_ranks(quoin, folder):
     expect(status, printed, 1, ["1 MPI rank", "2", "same number"])
 
 
+def failure_of_one_rank(quoin, folder):
+    """What one rank alone finds wrong ends the other one, too."""
+    if not shutil.which("mpirun"):
+        raise Skip("no mpirun")
+    prm = prepare(folder)
+    rank = ["-np", "1", quoin]
+    status, printed = run(["mpirun", "--oversubscribe"] + rank
+                          + [prm, "--quiet", ":"] + rank
+                          + [os.path.join(folder, "nowhere.prm"), "--quiet"])
+    expect(status, printed, 1, ["nowhere.prm", "cannot be read"])
+    return printed
+
+
 def more_ranks_than_blocks(quoin, folder):
     """Whole blocks are dealt to ranks."""
     if not shutil.which("mpirun"):
@@ -507,6 +520,40 @@ def file_of_another_system(quoin, folder):
     expect(status, printed, 0, ["2 blocks"])
 
 
+def far_from_the_origin(quoin, folder):
+    """Coordinates that leave few digits; nothing is said of those on maps."""
+    prm = prepare(folder)
+    geometry = os.path.join(folder, "base.geo")
+    with open(geometry) as stream:
+        text = stream.read()
+    for far, words in ((4e6, []), (1e9, ["Warning: coordinates", "digits"])):
+        shift = "Translate{%.0f, 0, 0}{Surface{1}; Surface{2};}\n" % far
+        with open(geometry, "w") as stream:
+            stream.write(text.replace("Physical Curve(\"bottom\")",
+                                      shift + "Physical Curve(\"bottom\")"))
+        status, printed = run([quoin, prm, "--check", "--set",
+                               "Histories/u/Point=%.1f, 1" % (far + 0.5)])
+        expect(status, printed, 0, words)
+        if not words and "digits" in printed:
+            raise Failure("a warning without need:\n" + printed)
+
+
+def blocks_that_overlap(quoin, folder):
+    """A surface within another one, which was not cut out of it."""
+    prm = prepare(folder)
+    with open(os.path.join(folder, "base.geo"), "a") as stream:
+        stream.write("\nRectangle(9) = {0.3, 0.1, 0, 0.3, 0.3};\n"
+                     "Physical Surface(\"lining\") = {9};\n")
+    with open(os.path.join(folder, "base.geo")) as stream:
+        text = stream.read()
+    with open(os.path.join(folder, "base.geo"), "w") as stream:
+        stream.write("SetFactory(\"OpenCASCADE\");\n" + text)
+    status, printed = run([quoin, prm, "--check", "--set",
+                           "Materials/stone/Groups=rock, lid, lining"])
+    expect(status, printed, 0, ["Warning: blocks overlap near"])
+    return printed
+
+
 def output_is_a_file(quoin, folder):
     """An output directory that is a file."""
     prm = prepare(folder)
@@ -631,9 +678,10 @@ FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing, no_argume
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
              no_number_at_the_end, runaway, reported_block, deleted_block, other_ranks,
-             more_ranks_than_blocks, other_parameters,
+             failure_of_one_rank, more_ranks_than_blocks, other_parameters,
              nothing_to_resume, implicit_limit_load,
              two_runs_at_once, odd_names, file_of_another_system,
+             far_from_the_origin, blocks_that_overlap,
              output_is_a_file, old_results,
              changed_inputs, damaged_checkpoints, full_disk_on_two_ranks]
 
