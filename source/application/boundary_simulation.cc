@@ -3,6 +3,7 @@
 
 #include <quoin/application/boundary_simulation.h>
 #include <quoin/application/model_summary.h>
+#include <quoin/application/open_log.h>
 #include <quoin/application/step_count.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
@@ -126,8 +127,9 @@ namespace quoin
     MeshData mesh;
     if (!parameters.mesh_file.empty())
       mesh = read_gmsh(parameters.mesh_file, communicator);
-    geometry  = make_boundary_geometry(settings, mesh);
-    histories = std::make_unique<BoundaryHistories>(
+    run_identity = run_fingerprint(parameters, mesh);
+    geometry     = make_boundary_geometry(settings, mesh);
+    histories    = std::make_unique<BoundaryHistories>(
         parameters.histories, geometry, settings, parameters.model.thickness);
     hoop_stress = std::make_unique<TangentialStress>(geometry.boundary, medium);
     given       = std::make_unique<GivenValues>(geometry, settings);

@@ -7,6 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
+#include <quoin/output/atomic_file.h>
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/collective.h>
 #include <quoin/output/json_file.h>
@@ -14,9 +15,6 @@
 #include <nlohmann/json.hpp>
 
 #include <sys/resource.h>
-
-#include <filesystem>
-#include <fstream>
 
 namespace quoin
 {
@@ -45,30 +43,22 @@ namespace quoin
   {
     history_table = std::make_unique<CsvTable>(output + "/histories.csv",
                                                histories->column_names());
-    open_log(parameters, output, options.resume, communicator, log, record);
-    all_or_none<RunError>(
-        communicator,
-        [&]()
-        {
-          if (!is_first_rank)
-            return;
-          if (options.resume)
-            history_table->resume(record.histories_bytes);
-          else
-          {
-            std::filesystem::remove_all(output + "/checkpoint");
-            std::filesystem::remove(output + "/field.pvd");
-            history_table->start();
-          }
-          std::ofstream used(output + "/used_parameters.prm");
-          used << parameters.effective;
-          used.close();
-          if (!used)
-            throw RunError("'" + output
-                           + "/used_parameters.prm' cannot be written. Is the "
-                             "disk full?");
-          record.boundary_output.start();
-        });
+    open_log(run_identity, output, options.resume, communicator, lock, log,
+             record);
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (!is_first_rank)
+                              return;
+                            if (options.resume)
+                              history_table->resume(record.histories_bytes);
+                            else
+                              history_table->start();
+                            AtomicFile used(output + "/used_parameters.prm");
+                            used.stream() << parameters.effective;
+                            used.commit();
+                            record.boundary_output.start();
+                          });
   }
 
   void BoundarySimulation::write_static()
@@ -123,8 +113,10 @@ namespace quoin
 
   void BoundarySimulation::checkpoint_if_due()
   {
-    if (parameters.checkpoint_interval == 0.
-        || record.step % clock_interval != 0)
+    if (record.step % clock_interval != 0)
+      return;
+    all_or_none<RunError>(communicator, [&]() { history_table->check(); });
+    if (parameters.checkpoint_interval == 0.)
       return;
     // The first rank's clock counts for all.
     const bool due = dealii::Utilities::MPI::broadcast(
@@ -155,7 +147,7 @@ namespace quoin
     info.step       = record.step;
     info.time       = record.step * dt;
     info.version    = QUOIN_VERSION;
-    info.parameters = fingerprint(parameters.effective);
+    info.parameters = run_identity;
     quoin::save_checkpoint(output, communicator, info, record);
     last_checkpoint = WallClock::now();
   }

@@ -12,8 +12,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
+#include <thread>
 
 /** Of OpenBLAS, which has no header of its own name everywhere. */
 extern "C" void openblas_set_num_threads(int n_threads);
@@ -71,6 +73,45 @@ namespace quoin
       }
       return -1;
     }
+
+    /** Where ranks meet that have failed, apart from what they do else. */
+    class Errors
+    {
+    public:
+      Errors()
+      {
+        MPI_Comm_dup(MPI_COMM_WORLD, &communicator);
+      }
+      ~Errors()
+      {
+        MPI_Comm_free(&communicator);
+      }
+      Errors(const Errors &)            = delete;
+      Errors &operator=(const Errors &) = delete;
+
+      MPI_Comm communicator;
+    };
+
+    /**
+     * Whether all ranks come here within a time. If they are only late, the
+     * run ends all the same, with the message of more than one of them.
+     */
+    bool all_have_failed(const Errors &errors)
+    {
+      using namespace std::chrono;
+      constexpr auto patience = seconds(5);
+      MPI_Request request;
+      MPI_Ibarrier(errors.communicator, &request);
+      const auto start = steady_clock::now();
+      int all          = 0;
+      while (!all && steady_clock::now() - start < patience)
+      {
+        MPI_Test(&request, &all, MPI_STATUS_IGNORE);
+        if (!all)
+          std::this_thread::sleep_for(milliseconds(1));
+      }
+      return all != 0;
+    }
   } // namespace
 
   int run_command_line(int argc, char **argv)
@@ -81,26 +122,24 @@ namespace quoin
       return parsed;
 
     // Started without mpirun, Open MPI would launch a daemon beside this
-    // process, in case that it spawned others: time, and one more thing to fail.
+    // process, in case that it spawned others: time, and one more thing to
+    // fail.
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     // A rank is a core: the matrix products must not start threads of theirs.
     openblas_set_num_threads(1);
+    const Errors errors;
     const bool first
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    const auto report = [first](const std::string &what, const int status)
+    const auto report = [&](const std::string &what, const int status)
     {
-      if (first)
+      // A failure that not all ranks have leaves the others waiting.
+      const bool alone = !all_have_failed(errors);
+      if (first || alone)
         std::cerr << "Error: " << what << std::endl;
+      if (alone)
+        MPI_Abort(MPI_COMM_WORLD, status);
       return status;
-    };
-    // Of one rank alone: others may be waiting for it.
-    const auto abandon = [](const std::string &what)
-    {
-      std::cerr << "Error: " << what << std::endl;
-      if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
-        MPI_Abort(MPI_COMM_WORLD, 2);
-      return 2;
     };
     try
     {
@@ -136,12 +175,13 @@ namespace quoin
     }
     catch (const std::bad_alloc &)
     {
-      return abandon("not enough memory for this model. Coarsen it or use "
-                     "more machines.");
+      return report("not enough memory for this model. Coarsen it or use "
+                    "more machines.",
+                    2);
     }
     catch (const std::exception &error)
     {
-      return abandon(error.what());
+      return report(error.what(), 2);
     }
   }
 } // namespace quoin

@@ -117,7 +117,8 @@ namespace quoin
                              "a bond, or section 'Rock' an outline.");
       parameters.mesh_file
           = name.front() == '/' ? name : section.folder() + name;
-      if (!std::filesystem::exists(parameters.mesh_file))
+      std::error_code error; // a name may be too long for any file
+      if (!std::filesystem::exists(parameters.mesh_file, error))
         section.fail("File",
                      "does not exist: there is no file '" + parameters.mesh_file
                          + "'. Give the path from the folder of the parameter "

@@ -10,6 +10,7 @@
 #include <quoin/tdbem/elastic_medium.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -158,17 +159,33 @@ namespace quoin
       return "section '" + (joined.empty() ? "/" : joined) + "'";
     }
 
+    /** In one line, and no longer than anyone reads. */
+    std::string one_line(const std::string &text)
+    {
+      constexpr std::size_t longest = 1000;
+      std::string line;
+      for (const char c : text)
+      {
+        const bool is_space = std::isspace(static_cast<unsigned char>(c)) != 0;
+        if (line.size() == longest)
+          return line + " ... ";
+        if (!is_space || (!line.empty() && line.back() != ' '))
+          line += is_space ? ' ' : c;
+      }
+      return line;
+    }
+
     /** The reason of a library's error in one line, and where it is. */
     std::string describe(const dealii::ExceptionBase &error,
                          const std::string &source, const std::string &text)
     {
       std::ostringstream reason;
       error.print_info(reason);
-      std::string message
-          = std::regex_replace(reason.str(), std::regex("\\s+"), " ");
+      std::string message = one_line(reason.str());
       std::smatch match;
       std::string where = source;
-      if (std::regex_search(message, match, std::regex("[Ll]ine <?(\\d+)>?")))
+      if (std::regex_search(message, match,
+                            std::regex("[Ll]ine <?(\\d{1,9})>?")))
       {
         const unsigned int line = std::stoul(match[1]);
         where += (source.rfind("--set", 0) == 0
@@ -177,10 +194,54 @@ namespace quoin
                  + ", " + section_of_line(text, line);
         message = std::regex_replace(
             message,
-            std::regex("^ *[Ll]ine <?\\d+>? of (input )?file <[^>]*>: *"), "");
+            std::regex("^ *[Ll]ine <?\\d{1,9}>? of (input )?file <[^>]*>: *"),
+            "");
       }
       return where + ": " + message
              + " Correct it; --print-parameters shows what exists.";
+    }
+
+    std::string read_text(const std::string &file)
+    {
+      std::ifstream stream(file);
+      std::error_code error;
+      if (!stream || std::filesystem::is_directory(file, error))
+        throw InputError("the parameter file '" + file
+                         + "' cannot be read. Check the path.");
+      std::ostringstream stored;
+      stored << stream.rdbuf();
+      std::string text = stored.str();
+      // Some editors put a mark in front that is no text.
+      if (text.rfind("\xEF\xBB\xBF", 0) == 0)
+        text.erase(0, 3);
+      return text;
+    }
+
+    /** Refuses a file that includes itself, which would never end. */
+    void check_includes(const std::string &file, const std::string &text,
+                        std::set<std::filesystem::path> &open)
+    {
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);)
+      {
+        std::istringstream words(line);
+        std::string first, name;
+        words >> first;
+        if (first != "include")
+          continue;
+        std::getline(words >> std::ws, name);
+        name = dealii::Utilities::trim(name.substr(0, name.find('#')));
+        std::error_code error;
+        if (!std::filesystem::is_regular_file(name, error))
+          continue;
+        const auto path = std::filesystem::canonical(name, error);
+        if (!open.insert(path).second)
+          throw InputError(file + ": it includes '" + name
+                           + "', which is being read already: this would never "
+                             "end. Remove one of the lines 'include'.");
+        check_includes(name, read_text(name), open);
+        open.erase(path);
+      }
     }
 
     /** @p source: the file, or the option, that @p text is from. */
@@ -189,20 +250,28 @@ namespace quoin
                const bool skip_undefined)
     {
       // 'include' resolves against the folder of the file.
-      const auto here   = std::filesystem::current_path();
-      const auto folder = std::filesystem::path(file).parent_path();
+      namespace fs = std::filesystem;
       struct Return
       {
-        std::filesystem::path to;
+        fs::path to;
         ~Return()
         {
-          std::filesystem::current_path(to);
+          std::error_code error;
+          if (!to.empty())
+            fs::current_path(to, error);
         }
-      } back{ here };
-      if (!folder.empty())
-        std::filesystem::current_path(folder);
+      } back;
       try
       {
+        const auto folder = fs::path(file).parent_path();
+        std::error_code error;
+        std::set<fs::path> open{ fs::canonical(file, error) };
+        if (!folder.empty())
+        {
+          back.to = fs::current_path();
+          fs::current_path(folder);
+        }
+        check_includes(source, text, open);
         std::istringstream stream(text);
         prm.parse_input(stream, source, "", skip_undefined);
       }
@@ -210,17 +279,11 @@ namespace quoin
       {
         throw InputError(describe(error, source, text));
       }
-    }
-
-    std::string read_text(const std::string &file)
-    {
-      std::ifstream stream(file);
-      if (!stream || std::filesystem::is_directory(file))
-        throw InputError("the parameter file '" + file
-                         + "' cannot be read. Check the path.");
-      std::ostringstream text;
-      text << stream.rdbuf();
-      return text.str();
+      catch (const fs::filesystem_error &error)
+      {
+        throw InputError(file + ": its folder cannot be entered: "
+                         + error.code().message() + ". Check the path.");
+      }
     }
 
     /** What "Section/Name=value" would be in a parameter file. */
@@ -243,12 +306,13 @@ namespace quoin
       return text;
     }
 
-    /** The file first, then what the command line overrides. */
+    /** The text of the file first, then what the command line overrides. */
     void parse_all(ParameterHandler &prm, const std::string &file,
+                   const std::string &text,
                    const std::vector<std::string> &overrides,
                    const bool skip_undefined)
     {
-      parse(prm, file, file, read_text(file), skip_undefined);
+      parse(prm, file, file, text, skip_undefined);
       for (const std::string &option : overrides)
         parse(prm, file, "--set \"" + option + "\"", override_text(option),
               skip_undefined);
@@ -530,6 +594,11 @@ namespace quoin
                              + "', which is no load. Loads are: " + join(names)
                              + ".");
           used.insert(load);
+          if (std::count(stage.loads.begin(), stage.loads.end(), load) > 1)
+            throw InputError(parameters.file + ", section 'Stages/" + stage.name
+                             + "': 'Loads' names '" + load
+                             + "' twice, but it acts once. Remove one, or "
+                               "give the load another value.");
         }
       for (const LoadParameters &load : parameters.loads)
         for (const StageParameters &stage : parameters.stages)
@@ -658,14 +727,54 @@ namespace quoin
         top.fail("Solver", "leaves out inertia, but section 'Initial motion' "
                            "gives one: remove that, or take 'explicit'.");
     }
+    /** Whether the section that @p prm is in has a parameter @p name. */
+    bool has_entry(ParameterHandler &prm, const std::string &name)
+    {
+      try
+      {
+        // get() gives an empty text for what is not there.
+        prm.set(name, prm.get(name));
+        return true;
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+        return false;
+      }
+    }
+
+    /** The tables and records that values of @p text name and that exist. */
+    std::vector<std::string> time_files(const std::string &text,
+                                        const std::string &folder)
+    {
+      std::vector<std::string> result;
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);)
+        for (const std::string word : { " table ", " record " })
+        {
+          const std::size_t place = line.find(word);
+          if (place == std::string::npos)
+            continue;
+          std::string name
+              = dealii::Utilities::trim(line.substr(place + word.size()));
+          // What follows: of a table a factor, of a record options.
+          name = name.substr(0, name.find(word == " table " ? " times " : " "));
+          if (!name.empty() && name.front() != '/')
+            name = folder + name;
+          std::error_code error;
+          if (std::filesystem::is_regular_file(name, error))
+            result.push_back(name);
+        }
+      return result;
+    }
   } // namespace
 
   Parameters read_parameters(const std::string &file,
                              const std::vector<std::string> &overrides)
   {
+    const std::string text = read_text(file);
     ParameterHandler names;
     declare_names(names);
-    parse_all(names, file, overrides, true);
+    parse_all(names, file, text, overrides, true);
 
     ParameterHandler prm;
     declare_fixed(prm);
@@ -686,13 +795,18 @@ namespace quoin
           throw InputError(file + ", section '" + section.name
                            + "': 'Names' lists '" + name
                            + "' twice. Names must differ.");
+        if (has_entry(prm, name))
+          throw InputError(file + ", section '" + section.name
+                           + "': 'Names' lists '" + name
+                           + "', which is a parameter of this section. Take "
+                             "another name.");
         prm.enter_subsection(name);
         section.declare_one(prm);
         prm.leave_subsection();
       }
       prm.leave_subsection();
     }
-    parse_all(prm, file, overrides, false);
+    parse_all(prm, file, text, overrides, false);
 
     Parameters parameters;
     parameters.file = file;
@@ -731,7 +845,8 @@ namespace quoin
 
     std::ostringstream effective;
     prm.print_parameters(effective, ParameterHandler::ShortPRM);
-    parameters.effective = effective.str();
+    parameters.effective  = effective.str();
+    parameters.time_files = time_files(parameters.effective, top.folder());
     return parameters;
   }
 

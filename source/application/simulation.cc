@@ -4,6 +4,7 @@
 #include <quoin/application/far_field_setup.h>
 #include <quoin/application/input_advice.h>
 #include <quoin/application/model_summary.h>
+#include <quoin/application/open_log.h>
 #include <quoin/application/simulation.h>
 #include <quoin/application/step_count.h>
 #include <quoin/base/exceptions.h>
@@ -93,12 +94,21 @@ namespace quoin
                                        ? "section Wall"
                                        : "section Rock",
                                    communicator, parameters.triangles);
+    run_identity = run_fingerprint(parameters, as_read);
     split_into_blocks(as_read, parameters.split, mesh);
     mesh_report = make_mesh_report(mesh);
 
     // Whole blocks to ranks: blocks share no nodes, only joints cross ranks.
-    auto rank_of_block = partition_blocks(
-        mesh, dealii::Utilities::MPI::n_mpi_processes(communicator));
+    const unsigned int n_ranks
+        = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    if (n_ranks > mesh.n_blocks())
+      throw InputError(
+          parameters.file + ": the model has " + std::to_string(mesh.n_blocks())
+          + (mesh.n_blocks() == 1 ? " block" : " blocks") + " and the run "
+          + std::to_string(n_ranks)
+          + " MPI ranks, to which whole blocks are dealt. Take fewer ranks, or "
+            "split the mesh into more blocks.");
+    auto rank_of_block = partition_blocks(mesh, n_ranks);
     try
     {
       renumber_blocks(
@@ -174,6 +184,24 @@ namespace quoin
                   + number_text(mesh_report.unmatched_position[0]) + ", "
                   + number_text(mesh_report.unmatched_position[1])
                   + ") m: no joint is made there. Mesh both sides alike.");
+
+    // A double has 16 digits.
+    double farthest = 0.;
+    for (unsigned int d = 0; d < 2; ++d)
+      farthest = std::max({ farthest, std::abs(mesh_report.lower_left[d]),
+                            std::abs(mesh_report.upper_right[d]) });
+    if (mesh_report.shortest_edge < 1e-8 * farthest)
+      log.warning("coordinates of up to " + number_text(farthest)
+                  + " m leave few digits to edges of "
+                  + number_text(mesh_report.shortest_edge)
+                  + " m. Move the model nearer to the origin.");
+    if (mesh_report.overlaps)
+      log.warning("blocks overlap near ("
+                  + number_text(mesh_report.overlap_position[0]) + ", "
+                  + number_text(mesh_report.overlap_position[1])
+                  + ") m, where both then have their mass and stiffness. Take "
+                    "the surface out that is there twice, or cut it out of "
+                    "the other.");
 
     if (const StaticFarField *far = solver->static_far_field())
       log.message("static boundary elements: their forces' matrix was "
@@ -411,6 +439,8 @@ namespace quoin
         history_table->add_row(row);
       write_far_field_row();
     }
+    if (balance || over)
+      check_tables();
     return over;
   }
 

@@ -108,6 +108,7 @@ namespace quoin
     // end there is a row.
     if (state.implicit.released == 1. && !state.implicit.jumps)
       write_implicit_rows();
+    check_tables();
     if (state.time > before
         && field_control.is_due(state.time, state.time - before))
       write_fields();

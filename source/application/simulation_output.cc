@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 namespace quoin
 {
@@ -53,7 +52,8 @@ namespace quoin
                                     "load time [s]", "unbalanced ratio [-]",
                                     "line search [-]",
                                     "linear iterations [-]" });
-    open_log(parameters, output, options.resume, communicator, log, record);
+    open_log(run_identity, output, options.resume, communicator, lock, log,
+             record);
 
     all_or_none<RunError>(
         communicator,
@@ -72,17 +72,16 @@ namespace quoin
           }
           else
           {
-            std::filesystem::remove_all(output + "/checkpoint");
             history_table->start();
             energy_table->start();
             if (convergence_table)
               convergence_table->start();
             if (far_field_table)
-            {
               far_field_table->start();
-              record.boundary_output.start();
-            }
           }
+          // After a resumption: cut back to what the checkpoint had.
+          if (far_field_table)
+            record.boundary_output.start();
           write_text("used_parameters.prm", parameters.effective);
           if (!options.resume)
             write_generated_geometry();
@@ -159,6 +158,19 @@ namespace quoin
                           });
   }
 
+  void Simulation::check_tables()
+  {
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            for (const auto *table :
+                                 { &history_table, &energy_table,
+                                   &far_field_table, &convergence_table })
+                              if (*table)
+                                (*table)->check();
+                          });
+  }
+
   void Simulation::checkpoint_if_due()
   {
     if (parameters.checkpoint_interval == 0.
@@ -204,7 +216,7 @@ namespace quoin
     info.step       = record.state.step;
     info.time       = record.state.time;
     info.version    = QUOIN_VERSION;
-    info.parameters = fingerprint(parameters.effective);
+    info.parameters = run_identity;
     quoin::save_checkpoint(output, communicator, info, record);
     record.state.far_field.history.clear();
     record.state.implicit.before_jump.clear();

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <sstream>
 
 namespace quoin
 {
@@ -46,9 +48,18 @@ namespace quoin
 
   double ParameterSection::number(const std::string &name) const
   {
-    const double value = prm.get_double(name);
+    double value = std::numeric_limits<double>::quiet_NaN();
+    try
+    {
+      value = prm.get_double(name);
+    }
+    catch (const dealii::ExceptionBase &)
+    {
+      // The pattern lets numbers pass that are too small for this.
+    }
     if (!std::isfinite(value))
-      fail(name, "must be a finite number.");
+      fail(name, "must be a finite number, and 0 rather than one below "
+                 "1e-300.");
     return value;
   }
 

@@ -15,6 +15,17 @@ namespace quoin
     using Point  = dealii::Point<2>;
     using Vector = dealii::Tensor<1, 2>;
 
+    /** Lines and traces of a set, or Voronoi polygons; more take hours. */
+    constexpr std::size_t most_traces = 1000000;
+
+    [[noreturn]] void refuse_number(const RockJoints &joints,
+                                    const std::string &what)
+    {
+      throw InputError("section 'Rock joints/" + joints.name + "': there are "
+                       + "more than " + std::to_string(most_traces) + " "
+                       + what);
+    }
+
     double draw_positive(const Distribution &distribution, RandomStream &random,
                          unsigned int &n_redrawn)
     {
@@ -80,6 +91,10 @@ namespace quoin
           offset += sign * spacing;
           if (sign * (offset - middle_across) > reach)
             return;
+          if (result.drawn.spacing.size() == most_traces)
+            refuse_number(joints, "lines from 'Origin' to the far side of the "
+                                  "rock. Raise 'Spacing', or move 'Origin' "
+                                  "nearer to the rock.");
           result.drawn.spacing.push_back(spacing);
           if (std::abs(offset - middle_across) <= reach)
             lay_line(line, offset);
@@ -116,6 +131,9 @@ namespace quoin
         {
           const double length
               = draw_positive(joints.length, random, result.drawn.n_redrawn);
+          if (result.drawn.length.size() == most_traces)
+            refuse_number(joints, "traces. Raise 'Trace length', 'Gap' or "
+                                  "'Spacing'.");
           result.drawn.length.push_back(length);
           add_trace(foot + (place + 0.5 * length) * along, length, random);
           place += length;
@@ -206,10 +224,16 @@ namespace quoin
       whole = read_traces(joints);
       break;
     case RockJoints::voronoi:
-      whole = voronoi_borders(bounding_box(rock.outline), joints.block_size,
-                              joints.relaxation,
+    {
+      const auto box = bounding_box(rock.outline);
+      if (!((box[2] - box[0]) / joints.block_size * (box[3] - box[1])
+                / joints.block_size
+            <= most_traces))
+        refuse_number(joints, "polygons in the rock. Raise 'Block size'.");
+      whole = voronoi_borders(box, joints.block_size, joints.relaxation,
                               RandomStream(rock.seed, joints.name, 0));
       break;
+    }
     }
 
     const RockRegion *region = find_region(rock, joints.region);

@@ -19,6 +19,9 @@ namespace quoin
     using dealii::Patterns::Integer;
     using dealii::Patterns::Selection;
 
+    /** More do not fit into the memory of a machine. */
+    constexpr double most_elements = 1e8;
+
     /** "x, y; x, y; ..." */
     Polygon read_points(const ParameterSection &section,
                         const std::string &name, const std::size_t at_least)
@@ -64,6 +67,11 @@ namespace quoin
       if (distribution.kind == DistributionKind::von_mises)
         section.fail(name, "is a length: 'Fisher' is for angles. Take "
                            "'log-normal' or 'exponential'.");
+      // Beyond, most values are nothing beside the mean, or below all numbers.
+      if (distribution.kind == DistributionKind::log_normal
+          && distribution.deviation > 1e3 * distribution.mean)
+        section.fail(name, "must have a standard deviation of at most a "
+                           "thousand times its mean.");
       if (distribution.share_below_zero() > 0.025)
         section.fail(name, "must be positive, and with this mean and deviation "
                            "one value in forty would not be. Take "
@@ -93,7 +101,7 @@ namespace quoin
     prm.declare_entry("Rise", "0", Double(),
                       "Of the arch's roof above its walls, at most half of "
                       "its width [m]");
-    prm.declare_entry("Corners", "24", Integer(3),
+    prm.declare_entry("Corners", "24", Integer(3, 10000),
                       "Of the polygon instead of the circle, or chords of the "
                       "arch's roof");
     prm.declare_entry("Use", "body", Selection("body|hole|zone"),
@@ -179,7 +187,7 @@ namespace quoin
                       "relative to the folder of this file");
     prm.declare_entry("Block size", "0", Double(),
                       "Voronoi: root of the mean area of polygons [m]");
-    prm.declare_entry("Relaxation", "0", Integer(0),
+    prm.declare_entry("Relaxation", "0", Integer(0, 1000),
                       "Voronoi: how often sites are moved to the middle of "
                       "their polygons, which become more regular; 5 are many");
     prm.declare_entry("Region", "", Anything(),
@@ -234,7 +242,8 @@ namespace quoin
       if (file.empty())
         section.fail("File", "must name a table of traces.");
       joints.file = file.front() == '/' ? file : section.folder() + file;
-      if (!std::filesystem::is_regular_file(joints.file))
+      std::error_code error; // a name may be too long for any file
+      if (!std::filesystem::is_regular_file(joints.file, error))
         section.fail("File", "does not exist: there is no file '" + joints.file
                                  + "'. Give the path from the folder of the "
                                    "parameter file.");
@@ -379,6 +388,11 @@ namespace quoin
       if (rock.finest_size > rock.element_size)
         section.fail("Finest element size",
                      "must not exceed 'Element size', which it refines.");
+      const double n = 2. * std::abs(signed_area(rock.outline))
+                       / rock.element_size / rock.element_size;
+      if (!(n <= most_elements))
+        section.fail("Element size", "makes more than 100 million elements. "
+                                     "Check that it is in metres.");
       if (rock.shortest_edge == 0.)
         rock.shortest_edge = 0.1 * rock.element_size;
       if (rock.smallest_block == 0.)

@@ -12,6 +12,7 @@
 #include <memory>
 #include <regex>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace quoin
@@ -100,8 +101,18 @@ namespace quoin
       for (unsigned int k = 0; k < 20 && !found && std::getline(file, line);
            ++k)
       {
-        header += upper(line) + "\n";
-        found = find_size(upper(line), n, step);
+        // Regular expressions take stack for each character of a line that
+        // may be anything.
+        line = upper(line.substr(0, 200));
+        header += line + "\n";
+        try
+        {
+          found = find_size(line, n, step);
+        }
+        catch (const std::out_of_range &)
+        {
+          break; // a step beyond all numbers
+        }
       }
       if (!found || n < 2 || !(step > 0.))
         throw InputError("the record '" + name

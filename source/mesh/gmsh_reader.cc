@@ -14,8 +14,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -31,11 +35,78 @@ namespace quoin
     constexpr double plane_tolerance
         = 1e-9; // of the mesh's size: what binary and text files round to
 
+    /** What is said if gmsh does not come back: handlers see statics only. */
+    char last_words[1000];
+    volatile std::sig_atomic_t is_in_gmsh = 0;
+
+    extern "C" void say_last_words()
+    {
+      if (is_in_gmsh == 0)
+        return;
+      if (write(STDERR_FILENO, last_words, std::strlen(last_words)) < 0)
+        _exit(2);
+      _exit(1); // which mpirun takes as the end of all ranks
+    }
+
+    extern "C" void catch_crash(int)
+    {
+      say_last_words();
+    }
+
+    /**
+     * gmsh crashes on many files that are damaged, and ends the process at the
+     * commands Exit and Abort of a geometry. This must look like any other
+     * refusal of a file.
+     */
+    class CrashGuard
+    {
+    public:
+      explicit CrashGuard(const std::string &filename)
+      {
+        std::snprintf(
+            last_words, sizeof(last_words),
+            "Error: Mesh '%.500s': gmsh came to its end while it read "
+            "the file, which is damaged or has a command such as "
+            "Exit. Open it in gmsh and mend it there.\n",
+            filename.c_str());
+        static const int registered = std::atexit(say_last_words);
+        static_cast<void>(registered);
+        // A stack of its own, for what overflows the other one.
+        stack_t other{};
+        other.ss_sp   = stack.data();
+        other.ss_size = stack.size();
+        sigaltstack(&other, &old_stack);
+        struct sigaction action = {};
+        action.sa_handler       = catch_crash;
+        action.sa_flags         = SA_ONSTACK;
+        for (std::size_t i = 0; i < signals.size(); ++i)
+          sigaction(signals[i], &action, &old_actions[i]);
+        is_in_gmsh = 1;
+      }
+      ~CrashGuard()
+      {
+        is_in_gmsh = 0;
+        for (std::size_t i = 0; i < signals.size(); ++i)
+          sigaction(signals[i], &old_actions[i], nullptr);
+        sigaltstack(&old_stack, nullptr);
+      }
+      CrashGuard(const CrashGuard &)            = delete;
+      CrashGuard &operator=(const CrashGuard &) = delete;
+
+    private:
+      static constexpr std::array<int, 5> signals
+          = { SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT };
+      std::vector<char> stack = std::vector<char>(1 << 16);
+      stack_t old_stack{};
+      struct sigaction old_actions[signals.size()] = {};
+    };
+
     /** The gmsh library, silent, for as long as this object lives. */
     class GmshSession
     {
     public:
-      GmshSession()
+      /** For work on the file @p filename. */
+      explicit GmshSession(const std::string &filename) : guard(filename)
       {
         gmsh::initialize(0, nullptr, /* readConfigFiles = */ false);
         gmsh::option::setNumber("General.Terminal", 0);
@@ -65,6 +136,9 @@ namespace quoin
           }
         return result;
       }
+
+    private:
+      const CrashGuard guard;
     };
 
     void mesh_surfaces(const TriangleKind kind)
@@ -386,7 +460,8 @@ namespace quoin
         if (vertex[i] == 1)
         {
           const double *x = &coordinates[3 * i];
-          if (std::abs(x[2]) > plane_tolerance * size)
+          // Not a number is off the plane, too.
+          if (!(std::abs(x[2]) <= plane_tolerance * size))
           {
             std::ostringstream message;
             message << "node " << tags[i] << " at (" << x[0] << ", " << x[1]
@@ -416,7 +491,7 @@ namespace quoin
     MeshData Reader::read()
     {
       check_file();
-      const GmshSession session;
+      const GmshSession session(filename);
       open_and_mesh();
       read_triangles();
       read_lines();
@@ -529,7 +604,7 @@ namespace quoin
   void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file,
                        const TriangleKind kind)
   {
-    const GmshSession session;
+    const GmshSession session(geo_file);
     try
     {
       gmsh::open(geo_file);

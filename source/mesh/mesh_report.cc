@@ -21,6 +21,8 @@ namespace quoin
 {
   namespace
   {
+    namespace bg = boost::geometry;
+
     void add_quality(const BlockMesh<2> &mesh, MeshReport &report)
     {
       report.shortest_edge  = std::numeric_limits<double>::max();
@@ -77,41 +79,87 @@ namespace quoin
       report.n_joint_ends = ends.size();
     }
 
-    /** Outer edges of opposite direction that share a part of a line. */
-    void add_unmatched_edges(const BlockMesh<2> &mesh, MeshReport &report)
+    /** The outer edges of a mesh and which of them are near. */
+    class OuterEdges
     {
-      namespace bg = boost::geometry;
-      using Point  = bg::model::point<double, 2, bg::cs::cartesian>;
-      using Box    = bg::model::box<Point>;
-      using Entry  = std::pair<Box, unsigned int>;
+    public:
+      OuterEdges(const BlockMesh<2> &mesh, const double tolerance) : mesh(mesh)
+      {
+        entries.reserve(mesh.boundary_faces.size());
+        for (unsigned int f = 0; f < mesh.boundary_faces.size(); ++f)
+        {
+          const auto &p = end(f, 0), &q = end(f, 1);
+          entries.push_back({ Box(Corner(std::min(p[0], q[0]) - tolerance,
+                                         std::min(p[1], q[1]) - tolerance),
+                                  Corner(std::max(p[0], q[0]) + tolerance,
+                                         std::max(p[1], q[1]) + tolerance)),
+                              f });
+        }
+        tree = Tree(entries);
+      }
 
-      const double tolerance = 1e-3 * report.shortest_edge;
-      const auto end
-          = [&mesh](const unsigned int f, const unsigned int k) -> const auto &
+      unsigned int n() const
+      {
+        return entries.size();
+      }
+      const dealii::Point<2> &end(const unsigned int f,
+                                  const unsigned int k) const
       {
         return mesh.vertices[mesh.boundary_faces[f].vertices[k]];
-      };
-
-      std::vector<Entry> entries;
-      entries.reserve(mesh.boundary_faces.size());
-      for (unsigned int f = 0; f < mesh.boundary_faces.size(); ++f)
-      {
-        const auto &p = end(f, 0), &q = end(f, 1);
-        entries.push_back({ Box(Point(std::min(p[0], q[0]) - tolerance,
-                                      std::min(p[1], q[1]) - tolerance),
-                                Point(std::max(p[0], q[0]) + tolerance,
-                                      std::max(p[1], q[1]) + tolerance)),
-                            f });
       }
-      const bg::index::rtree<Entry, bg::index::rstar<16>> tree(entries);
-
-      std::vector<Entry> met;
-      for (const auto &[box, f] : entries)
+      /** Calls @p act with each edge after @p f whose box meets its own. */
+      template <typename Act>
+      void for_near(const unsigned int f, const Act &act)
       {
         met.clear();
-        tree.query(bg::index::intersects(box), std::back_inserter(met));
-        const auto &p       = end(f, 0);
-        const auto edge     = end(f, 1) - p;
+        tree.query(bg::index::intersects(entries[f].first),
+                   std::back_inserter(met));
+        for (const Entry &entry : met)
+          if (entry.second > f)
+            act(entry.second);
+      }
+      /** How many blocks lie on each other at @p p: windings around it. */
+      int coverage(const dealii::Point<2> &p, const double right)
+      {
+        met.clear();
+        tree.query(
+            bg::index::intersects(Box(Corner(p[0], p[1]), Corner(right, p[1]))),
+            std::back_inserter(met));
+        int windings = 0;
+        for (const Entry &entry : met)
+        {
+          const auto &a = end(entry.second, 0), &b = end(entry.second, 1);
+          if ((a[1] <= p[1]) == (b[1] <= p[1]))
+            continue;
+          const double side
+              = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+          const bool up = b[1] > a[1];
+          if (up ? side > 0. : side < 0.) // p is left of the crossing
+            windings += up ? 1 : -1;
+        }
+        return windings;
+      }
+
+    private:
+      using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
+      using Box    = bg::model::box<Corner>;
+      using Entry  = std::pair<Box, unsigned int>;
+      using Tree   = bg::index::rtree<Entry, bg::index::rstar<16>>;
+
+      const BlockMesh<2> &mesh;
+      std::vector<Entry> entries;
+      Tree tree;
+      std::vector<Entry> met;
+    };
+
+    /** Outer edges of opposite direction that share a part of a line. */
+    void add_unmatched_edges(OuterEdges &edges, const double tolerance,
+                             MeshReport &report)
+    {
+      for (unsigned int f = 0; f < edges.n(); ++f)
+      {
+        const auto &p       = edges.end(f, 0);
+        const auto edge     = edges.end(f, 1) - p;
         const double length = edge.norm();
         const auto t        = edge / length;
         const auto along    = [&](const auto &x) { return t * (x - p); };
@@ -120,20 +168,74 @@ namespace quoin
           const auto d = x - p;
           return std::abs(t[0] * d[1] - t[1] * d[0]);
         };
-        for (const auto &entry : met)
+        edges.for_near(
+            f,
+            [&](const unsigned int g)
+            {
+              if (off(edges.end(g, 0)) > tolerance
+                  || off(edges.end(g, 1)) > tolerance)
+                return;
+              const double from = std::max(0., along(edges.end(g, 1)));
+              const double to   = std::min(length, along(edges.end(g, 0)));
+              if (to - from <= 2. * tolerance)
+                return;
+              if (report.unmatched_length == 0.)
+                report.unmatched_position = p + 0.5 * (from + to) * t;
+              report.unmatched_length += to - from;
+            });
+      }
+    }
+
+    /** Whether both ends of each edge are well beyond the other one. */
+    bool cross(const OuterEdges &edges, const unsigned int f,
+               const unsigned int g)
+    {
+      // Two meshes along an arc cross by less.
+      constexpr double share = 0.1;
+      const auto sides = [&](const unsigned int one, const unsigned int other)
+      {
+        const auto edge  = edges.end(one, 1) - edges.end(one, 0);
+        const auto place = [&](const unsigned int k)
         {
-          const unsigned int g = entry.second;
-          if (g <= f || off(end(g, 0)) > tolerance
-              || off(end(g, 1)) > tolerance)
-            continue;
-          const double from = std::max(0., along(end(g, 1)));
-          const double to   = std::min(length, along(end(g, 0)));
-          if (to - from <= 2. * tolerance)
-            continue;
-          if (report.unmatched_length == 0.)
-            report.unmatched_position = p + 0.5 * (from + to) * t;
-          report.unmatched_length += to - from;
-        }
+          const auto d = edges.end(other, k) - edges.end(one, 0);
+          return (edge[0] * d[1] - edge[1] * d[0]) / edge.norm();
+        };
+        const double a = place(0), b = place(1);
+        return a * b < 0.
+               && std::min(std::abs(a), std::abs(b))
+                      > share
+                            * edges.end(other, 0).distance(edges.end(other, 1));
+      };
+      return sides(f, g) && sides(g, f);
+    }
+
+    void add_overlaps(const BlockMesh<2> &mesh, OuterEdges &edges,
+                      MeshReport &report)
+    {
+      const auto add = [&](const dealii::Point<2> &p)
+      {
+        if (!report.overlaps)
+          report.overlap_position = p;
+        report.overlaps = true;
+      };
+      for (unsigned int f = 0; f < edges.n() && !report.overlaps; ++f)
+        edges.for_near(f,
+                       [&](const unsigned int g)
+                       {
+                         if (cross(edges, f, g))
+                           add(edges.end(f, 0)
+                               + 0.5 * (edges.end(f, 1) - edges.end(f, 0)));
+                       });
+      // What lies within another block crosses nothing.
+      for (unsigned int b = 0; b < mesh.n_blocks() && !report.overlaps; ++b)
+      {
+        const auto &cell = mesh.cells[mesh.block_first_cell[b]];
+        const dealii::Point<2> middle((mesh.vertices[cell[0]]
+                                       + mesh.vertices[cell[1]]
+                                       + mesh.vertices[cell[2]])
+                                      / 3.);
+        if (edges.coverage(middle, report.upper_right[0]) > 1)
+          add(middle);
       }
     }
   } // namespace
@@ -151,7 +253,10 @@ namespace quoin
       return report;
     add_quality(mesh, report);
     add_joints(mesh, report);
-    add_unmatched_edges(mesh, report);
+    const double tolerance = 1e-3 * report.shortest_edge;
+    OuterEdges edges(mesh, tolerance);
+    add_unmatched_edges(edges, tolerance, report);
+    add_overlaps(mesh, edges, report);
     return report;
   }
 
@@ -189,6 +294,9 @@ namespace quoin
            << " m without matching, first at (" << unmatched_position[0] << ", "
            << unmatched_position[1]
            << "): there is no joint there. Give both sides the same nodes";
+    if (overlaps)
+      text << "\nblocks overlap, first near (" << overlap_position[0] << ", "
+           << overlap_position[1] << ")";
     return text.str();
   }
 } // namespace quoin

@@ -102,6 +102,20 @@ namespace quoin
       return openings;
     }
 
+    /** More do not fit into the memory of a machine. */
+    constexpr double most_units = 1e6, most_elements = 1e8;
+
+    void check_number_of_units(const ParameterSection &section,
+                               const WallParameters &wall)
+    {
+      const double in_course = 1. + wall.length / wall.unit_length;
+      if (!(in_course <= most_units))
+        section.fail("Length", "is that of more than a million units. Check "
+                               "that it and 'Unit length' are in metres.");
+      if (!(in_course * wall.n_courses <= most_units))
+        section.fail("Courses", "makes more than a million units.");
+    }
+
     void read_random(const ParameterSection &section, WallParameters &wall)
     {
       const auto lengths   = section.numbers<2>("Random lengths");
@@ -115,6 +129,9 @@ namespace quoin
         section.fail("Random lengths",
                      "must be shortest and longest unit with 0 < shortest <= "
                      "longest.");
+      if (!((1. + wall.length / lengths[0]) * wall.n_courses <= most_units))
+        section.fail("Random lengths", "make more than a million units. Check "
+                                       "that they are in metres.");
       if (wall.random_overlap > 0.5 * lengths[0])
         section.fail("Random overlap",
                      "must not exceed half of the shortest unit.");
@@ -141,8 +158,9 @@ namespace quoin
       section.fail("Joint thickness", "must not be negative.");
     if (wall.n_courses == 0)
       section.fail("Courses", "must be at least 1.");
-    wall.unit_length    = section.positive("Unit length") + joint[0];
-    wall.unit_height    = section.positive("Unit height") + joint[1];
+    wall.unit_length = section.positive("Unit length") + joint[0];
+    wall.unit_height = section.positive("Unit height") + joint[1];
+    check_number_of_units(section, wall);
     wall.offset         = section.within("Offset", 0., 1.);
     wall.begins_shifted = section.text("First course") == "shifted";
     wall.shortest       = section.within("Shortest piece", 0., 0.5);
@@ -155,6 +173,13 @@ namespace quoin
     wall.element_size   = section.nonnegative("Element size");
     if (wall.element_size == 0.)
       wall.element_size = 0.5 * wall.unit_height;
+    const double height = wall.n_courses * wall.unit_height + wall.bottom_platen
+                          + wall.top_platen;
+    if (!(2. * wall.length / wall.element_size * height / wall.element_size
+          <= most_elements))
+      section.fail("Element size",
+                   "makes more than 100 million elements. Check "
+                   "that lengths are in metres.");
     wall.structured = section.text("Elements") == "structured";
     if (wall.structured && wall.bond == WallBond::random)
       section.fail("Elements", "must be 'free' with 'Bond = random', whose "

@@ -36,7 +36,9 @@ namespace quoin
       std::vector<ArchiveRecord> archives; /**< one for each rank */
     };
 
-    const std::string first_line = "quoin checkpoint, format 1";
+    const std::string first_words = "quoin checkpoint, format ";
+    /** Of archives and manifest: one more when what is written changes. */
+    constexpr unsigned int format = 2;
 
     fs::path root_of(const std::string &output_directory)
     {
@@ -52,8 +54,8 @@ namespace quoin
     {
       AtomicFile file(path.string());
       std::ostream &out = file.stream();
-      out << first_line << "\nversion " << manifest.info.version << "\nstep "
-          << manifest.info.step << "\ntime "
+      out << first_words << format << "\nversion " << manifest.info.version
+          << "\nstep " << manifest.info.step << "\ntime "
           << shortest_text(manifest.info.time) << "\nparameters "
           << manifest.info.parameters << "\ndirectory " << manifest.directory
           << "\nranks " << manifest.archives.size() << "\n";
@@ -63,7 +65,10 @@ namespace quoin
       file.commit(true);
     }
 
-    /** False if the file is not there, not ours or cut short. */
+    /**
+     * False if the file is not there, not ours or cut short, or if it has
+     * another format.
+     */
     bool read_manifest(const fs::path &path, Manifest &manifest)
     {
       std::ifstream in(path);
@@ -78,7 +83,8 @@ namespace quoin
         }
         return line.substr(std::min(key.size() + 1, line.size()));
       };
-      if (!std::getline(in, line) || line != first_line)
+      if (!std::getline(in, line)
+          || line != first_words + std::to_string(format))
         return false;
       std::size_t n_ranks = 0;
 
@@ -97,6 +103,23 @@ namespace quoin
       }
       value("end");
       return static_cast<bool>(in);
+    }
+
+    /** Whether @p path is a manifest of another format than this one. */
+    bool has_other_format(const fs::path &path)
+    {
+      std::ifstream in(path);
+      std::string line;
+      return std::getline(in, line) && line.rfind(first_words, 0) == 0
+             && line != first_words + std::to_string(format);
+    }
+
+    /** Whether a directory beside the manifest is one of a checkpoint. */
+    bool is_of_checkpoint(const std::string &name)
+    {
+      const auto end         = name.find_first_not_of("0123456789");
+      const std::string rest = end == std::string::npos ? "" : name.substr(end);
+      return end != 0 && (rest.empty() || rest == ".tmp" || rest == "-again");
     }
 
     /** A name that the valid checkpoint does not use. */
@@ -161,7 +184,8 @@ namespace quoin
       std::vector<fs::path> old;
       for (const fs::directory_entry &entry :
            fs::directory_iterator(root, error))
-        if (entry.is_directory(error) && entry.path().filename() != keep)
+        if (entry.is_directory(error) && entry.path().filename() != keep
+            && is_of_checkpoint(entry.path().filename()))
           old.push_back(entry.path());
       for (const fs::path &path : old)
         fs::remove_all(path, error);
@@ -178,6 +202,11 @@ namespace quoin
       if (!checkpoint_exists(output_directory))
         throw InputError("There is no checkpoint in '" + root.string()
                          + "' to resume from: " + fresh);
+      if (has_other_format(root / "latest"))
+        throw InputError(where
+                         + "was written by another version of the program, "
+                           "which kept other things: use that one or "
+                         + fresh);
       Manifest manifest;
       if (!read_manifest(root / "latest", manifest))
         throw InputError(where + "cannot be used, because its file 'latest' "
@@ -194,8 +223,9 @@ namespace quoin
       if (manifest.info.parameters != parameters)
         throw InputError(where
                          + "belongs to other parameters than those of "
-                           "this run (compare used_parameters.prm): "
-                           "use the same parameters or "
+                           "this run (compare used_parameters.prm), or to "
+                           "another mesh, table or record: use the same "
+                           "ones or "
                          + fresh);
       return manifest;
     }
@@ -216,6 +246,17 @@ namespace quoin
   {
     std::error_code error;
     return fs::exists(root_of(output_directory) / "latest", error);
+  }
+
+  void remove_checkpoint(const std::string &output_directory)
+  {
+    const fs::path root = root_of(output_directory);
+    std::error_code error;
+    // The manifest first: without it the rest is no checkpoint.
+    for (const char *name : { "latest", "latest.tmp" })
+      fs::remove(root / name, error);
+    remove_others(root, "");
+    fs::remove(root, error); // unless other things are in it
   }
 
   void
@@ -312,7 +353,8 @@ namespace quoin
           {
             read(buffer);
           }
-          catch (const boost::archive::archive_exception &error)
+          // Of the archive, or of arrays too large for what it says.
+          catch (const std::exception &error)
           {
             throw InputError("The checkpoint file '" + path.string()
                              + "' cannot be read (" + error.what()

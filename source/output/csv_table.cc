@@ -79,7 +79,6 @@ namespace quoin
       *end++    = i + 1 < n_columns ? ',' : '\n';
       buffer->sputn(text, end - text);
     }
-    check();
   }
 
   void CsvTable::flush()
@@ -107,7 +106,7 @@ namespace quoin
 
   void CsvTable::check() const
   {
-    if (buffer->error() != 0)
+    if (buffer && buffer->error() != 0)
       throw RunError(write_failure(path, buffer->error()));
   }
 } // namespace quoin

@@ -9,6 +9,7 @@ what the first one wrote is kept; with "warns" they are right, but --check warns
 of one thing, with these words. The functions below are failures of other kinds.
 """
 import argparse
+import glob
 import json
 import math
 import os
@@ -17,6 +18,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
@@ -226,21 +228,31 @@ def read_only_output_on_two_ranks(quoin, folder):
     expect(status, printed, 2, ["log.txt"])
 
 
-def full_disk(quoin, folder):
-    """A disk that fills up: the file is named, the run ends with 2."""
+def fill_disk(quoin, folder, ranks):
+    """The end of a run with many columns on a disk that fills up."""
     if os.geteuid() != 0 or not shutil.which("unshare"):
         raise Skip("needs root and unshare")
+    if ranks > 1 and not shutil.which("mpirun"):
+        raise Skip("no mpirun")
     tiny = os.path.join(folder, "tiny")
     os.mkdir(tiny)
     mount = "mount -t tmpfs -o size=256k tmpfs '%s'" % tiny
     if run(["unshare", "-m", "sh", "-c", mount])[0] != 0:
         raise Skip("no mount namespace here")
     prm = prepare(folder)
-    script = "%s && exec '%s' '%s' --output '%s/output' " \
-        "--set 'Stages/first/Duration=2' --set 'Histories/Interval=0'" % (
-            mount, quoin, prm, tiny)
+    script = "%s && exec %s '%s' '%s' --output '%s/output' " \
+        "--set Stages/first/Duration=2 --set Histories/Interval=0 " \
+        "--set 'Histories/Names=%s'" % (
+            mount, "mpirun --oversubscribe -np %d" % ranks if ranks > 1 else "",
+            quoin, prm, tiny, ", ".join(["u"] + ["u%d" % i for i in range(99)]))
     status, printed = run(["unshare", "-m", "sh", "-c", script])
     expect(status, printed, 2, [tiny + "/output", "space"])
+    return printed
+
+
+def full_disk(quoin, folder):
+    """A disk that fills up: the file is named, the run ends with 2."""
+    return fill_disk(quoin, folder, 1)
 
 
 def fail_and_resume(quoin, folder, end):
@@ -292,6 +304,30 @@ def other_ranks(quoin, folder):
         "mpirun", "--oversubscribe", "-np", "2", quoin, prm, "--output",
         output, "--resume"])
     expect(status, printed, 1, ["1 MPI rank", "2", "same number"])
+
+
+def failure_of_one_rank(quoin, folder):
+    """What one rank alone finds wrong ends the other one, too."""
+    if not shutil.which("mpirun"):
+        raise Skip("no mpirun")
+    prm = prepare(folder)
+    rank = ["-np", "1", quoin]
+    status, printed = run(["mpirun", "--oversubscribe"] + rank
+                          + [prm, "--quiet", ":"] + rank
+                          + [os.path.join(folder, "nowhere.prm"), "--quiet"])
+    expect(status, printed, 1, ["nowhere.prm", "cannot be read"])
+    return printed
+
+
+def more_ranks_than_blocks(quoin, folder):
+    """Whole blocks are dealt to ranks."""
+    if not shutil.which("mpirun"):
+        raise Skip("no mpirun")
+    status, printed = run(["mpirun", "--oversubscribe", "-np", "3", quoin,
+                           prepare(folder), "--quiet"])
+    expect(status, printed, 1, ["case.prm", "2 blocks", "3 MPI ranks",
+                                "fewer ranks"])
+    return printed
 
 
 def other_parameters(quoin, folder):
@@ -478,12 +514,274 @@ def implicit_limit_load(quoin, folder):
     return printed
 
 
+def starting(words, folder):
+    """A run under way, once it has written to its log; it prints to 'screen'."""
+    log = os.path.join(folder, "output", "log.txt")
+
+    def written():
+        return os.stat(log).st_mtime_ns if os.path.exists(log) else 0
+
+    before = written()
+    with open(os.path.join(folder, "screen"), "w") as screen:
+        process = subprocess.Popen(words, env=ENVIRONMENT, stdout=screen,
+                                   stderr=subprocess.STDOUT)
+    deadline = time.monotonic() + 60
+    while written() == before and process.poll() is None \
+            and time.monotonic() < deadline:
+        time.sleep(0.01)
+    if process.poll() is not None or written() == before:
+        process.kill()
+        with open(os.path.join(folder, "screen")) as stream:
+            raise Failure("a run does not begin:\n" + stream.read())
+    return process
+
+
+LONG = ["--set", "Stages/first/Duration=1e3", "--set", "Histories/Interval=1",
+        "--set", "Output/Checkpoint interval=0.05"]
+
+
+def two_runs_at_once(quoin, folder):
+    """The second run in one folder is refused, and the first goes on; killed,
+    it leaves nothing in the way of being resumed."""
+    prm = prepare(folder)
+    words = [quoin, prm, "--output", os.path.join(folder, "output")] + LONG
+    first = starting(words, folder)
+    try:
+        status, printed = run(words)
+        expect(status, printed, 1, ["another run", "output", "--output"])
+        status, printed = run(words + ["--resume"])
+        expect(status, printed, 1, ["another run"])
+        if first.poll() is not None:
+            raise Failure("the first run has ended")
+        latest = os.path.join(folder, "output", "checkpoint", "latest")
+        deadline = time.monotonic() + 60
+        while not os.path.exists(latest) and time.monotonic() < deadline:
+            time.sleep(0.01)
+    finally:
+        first.kill()
+        first.wait()
+    again = starting(words + ["--resume"], folder)
+    again.kill()
+    again.wait()
+    return printed
+
+
+def odd_names(quoin, folder):
+    """Names that are hard to read, from another working directory; links."""
+    odd = os.path.join(folder, "-a b'c\"d \u00fc\u4e2d%s;$HOME&(x)")
+    os.mkdir(odd)
+    prm = prepare(odd)
+    long = "n" * 200
+    os.rename(os.path.join(odd, "base.geo"),
+              os.path.join(odd, "-m \u00e4'\".geo"))
+    for name in ("-c a\u00df.prm", long + ".prm"):
+        shutil.copy(prm, os.path.join(odd, name))
+    output = os.path.join(folder, "-out \u00fc '\"")
+    words = ["--quiet", "--set", "Mesh/File=-m \u00e4'\".geo"]
+    status, printed = run([os.path.abspath(quoin), "./-c a\u00df.prm",
+                           "--output", "./" + long] + words, cwd=odd)
+    expect(status, printed, 0, [])
+    status, printed = run([quoin, os.path.join(odd, long + ".prm"),
+                           "--output", output] + words)
+    expect(status, printed, 0, [])
+    if not os.path.exists(os.path.join(output, "histories.csv")):
+        raise Failure("no histories.csv in '%s'" % output)
+    # without --output, beside the file that a link leads to or the link
+    link = os.path.join(folder, "link")
+    os.symlink(odd, link)
+    program = os.path.join(folder, "program")
+    os.symlink(quoin, program)
+    status, printed = run([program, os.path.join(link, "-c a\u00df.prm"),
+                           "--set", "Output directory=."] + words)
+    expect(status, printed, 0, [])
+    if not os.path.exists(os.path.join(odd, "histories.csv")):
+        raise Failure("no histories.csv in the folder of the parameter file")
+    # what belongs to the user there is kept
+    mine = os.path.join(odd, "checkpoint", "notes")
+    os.mkdir(mine)
+    status, printed = run([quoin, os.path.join(odd, "-c a\u00df.prm"),
+                           "--set", "Output directory=."] + words)
+    expect(status, printed, 0, [])
+    if not os.path.isdir(mine):
+        raise Failure("a folder that is none of the program's was removed")
+
+
+def file_of_another_system(quoin, folder):
+    """A byte order mark and carriage returns change nothing."""
+    prm = prepare(folder)
+    with open(prm) as stream:
+        text = stream.read()
+    with open(prm, "w", encoding="utf-8-sig", newline="\r\n") as stream:
+        stream.write(text)
+    status, printed = run([quoin, prm, "--check"])
+    expect(status, printed, 0, ["2 blocks"])
+
+
+def far_from_the_origin(quoin, folder):
+    """Coordinates that leave few digits; nothing is said of those on maps."""
+    prm = prepare(folder)
+    geometry = os.path.join(folder, "base.geo")
+    with open(geometry) as stream:
+        text = stream.read()
+    for far, words in ((4e6, []), (1e9, ["Warning: coordinates", "digits"])):
+        shift = "Translate{%.0f, 0, 0}{Surface{1}; Surface{2};}\n" % far
+        with open(geometry, "w") as stream:
+            stream.write(text.replace("Physical Curve(\"bottom\")",
+                                      shift + "Physical Curve(\"bottom\")"))
+        status, printed = run([quoin, prm, "--check", "--set",
+                               "Histories/u/Point=%.1f, 1" % (far + 0.5)])
+        expect(status, printed, 0, words)
+        if not words and "digits" in printed:
+            raise Failure("a warning without need:\n" + printed)
+
+
+def blocks_that_overlap(quoin, folder):
+    """A surface within another one, which was not cut out of it."""
+    prm = prepare(folder)
+    with open(os.path.join(folder, "base.geo"), "a") as stream:
+        stream.write("\nRectangle(9) = {0.3, 0.1, 0, 0.3, 0.3};\n"
+                     "Physical Surface(\"lining\") = {9};\n")
+    with open(os.path.join(folder, "base.geo")) as stream:
+        text = stream.read()
+    with open(os.path.join(folder, "base.geo"), "w") as stream:
+        stream.write("SetFactory(\"OpenCASCADE\");\n" + text)
+    status, printed = run([quoin, prm, "--check", "--set",
+                           "Materials/stone/Groups=rock, lid, lining"])
+    expect(status, printed, 0, ["Warning: blocks overlap near"])
+    return printed
+
+
+def output_is_a_file(quoin, folder):
+    """An output directory that is a file."""
+    prm = prepare(folder)
+    output = os.path.join(folder, "file")
+    open(output, "w").close()
+    status, printed = run([quoin, prm, "--output", output])
+    expect(status, printed, 1, [output, "directory", "--output"])
+
+
+def old_results(quoin, folder):
+    """A run does not leave what an earlier one said of its end."""
+    prm = prepare(folder)
+    output = os.path.join(folder, "output")
+    status, printed = run([quoin, prm, "--output", output])
+    expect(status, printed, 0, [])
+    for name in ("safety.csv", "far_field.csv", "boundary.pvd"):
+        open(os.path.join(output, name), "w").close()
+    first = starting([quoin, prm, "--output", output] + LONG, folder)
+    first.kill()
+    first.wait()
+    left = {"summary.json", "safety.csv", "far_field.csv", "boundary.pvd"} \
+        & set(os.listdir(output))
+    if left:
+        raise Failure("still there: %s" % ", ".join(sorted(left)))
+
+
+def changed_inputs(quoin, folder):
+    """A checkpoint of another mesh or another table is refused."""
+    prm = prepare(folder)
+    table = os.path.join(folder, "push.csv")
+    with open(table, "w") as stream:
+        stream.write("0, 0\n1, 1\n")
+    output = os.path.join(folder, "output")
+    words = [quoin, prm, "--output", output, "--set",
+             "Loads/push/Vertical=table push.csv times -1e5"]
+    status, printed = run(words)
+    expect(status, printed, 0, [])
+    status, printed = run(words + ["--resume"])
+    expect(status, printed, 0, ["nothing is left to do"])
+    with open(table, "w") as stream:
+        stream.write("0, 0\n1, 2\n")
+    status, printed = run(words + ["--resume"])
+    expect(status, printed, 1, ["table", "without --resume"])
+    with open(table, "w") as stream:
+        stream.write("0, 0\n1, 1\n")
+    geometry = os.path.join(folder, "base.geo")
+    with open(geometry) as stream:
+        text = stream.read()
+    with open(geometry, "w") as stream:
+        stream.write(text.replace("h = 0.25", "h = 0.2"))
+    status, printed = run(words + ["--resume"])
+    expect(status, printed, 1, ["mesh", "without --resume"])
+    return printed
+
+
+def damaged_checkpoints(quoin, folder):
+    """Bytes that differ, files that are cut short or gone, other formats."""
+    prm = prepare(folder)
+    output = os.path.join(folder, "output")
+    words = [quoin, prm, "--output", output]
+    status, printed = run(words)
+    expect(status, printed, 0, [])
+    checkpoint = os.path.join(output, "checkpoint")
+    whole = os.path.join(folder, "whole")
+    shutil.copytree(checkpoint, whole)
+    latest = os.path.join(checkpoint, "latest")
+    archive = glob.glob(os.path.join(checkpoint, "*", "rank_0.bin"))[0]
+    size = os.path.getsize(archive)
+
+    def spoil(path, change):
+        with open(path, "rb") as stream:
+            data = bytearray(stream.read())
+        data = change(data)
+        with open(path, "wb") as stream:
+            stream.write(data)
+
+    def flip(place):
+        def change(data):
+            data[place % len(data)] ^= 0x55
+            return data
+        return change
+
+    attempts = [(archive, lambda data: data[:0], "damaged"),
+                (archive, lambda data: data[:-1], "damaged"),
+                (archive, lambda data: data + b"x", "damaged"),
+                (archive, flip(size // 2), "damaged"),
+                (archive, flip(0), "damaged"),
+                (latest, lambda data: data[:len(data) // 2], "damaged"),
+                (latest, lambda data: b"", "damaged"),
+                (latest, lambda data: bytes(100), "damaged"),
+                (latest, lambda data: data.replace(b"format ", b"format 1"),
+                 "another version"),
+                (latest, lambda data: data.replace(b"version ", b"version 1"),
+                 "version"),
+                (latest, lambda data: data.replace(b"ranks 1", b"ranks 9"),
+                 "damaged"),
+                (latest, lambda data: data.replace(
+                    b"ranks 1", b"ranks 99999999999999"), "damaged"),
+                (latest, lambda data: data.replace(
+                    b"directory ", b"directory ../"), "damaged")]
+    for number, (path, change, word) in enumerate(attempts):
+        spoil(path, change)
+        status, printed = run(words + ["--resume"])
+        try:
+            expect(status, printed, 1, [word, "without --resume"])
+        except Failure as failure:
+            raise Failure("attempt %d: %s" % (number, failure))
+        shutil.rmtree(checkpoint)
+        shutil.copytree(whole, checkpoint)
+    os.remove(archive)
+    status, printed = run(words + ["--resume"])
+    expect(status, printed, 1, ["damaged", "without --resume"])
+    return printed
+
+
+def full_disk_on_two_ranks(quoin, folder):
+    """A table that the first rank cannot write stops both, at once."""
+    return fill_disk(quoin, folder, 2)
+
+
 FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing, no_arguments,
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
-             no_number_at_the_end, runaway, reported_block, deleted_block, other_ranks, other_parameters,
-             nothing_to_resume, failing_block_leaves, safety_changes_nothing,
-             last_allowed_step, implicit_limit_load]
+             no_number_at_the_end, runaway, reported_block, deleted_block,
+             other_ranks, failure_of_one_rank, more_ranks_than_blocks,
+             other_parameters, nothing_to_resume, failing_block_leaves,
+             safety_changes_nothing, last_allowed_step, implicit_limit_load,
+             two_runs_at_once, odd_names, file_of_another_system,
+             far_from_the_origin, blocks_that_overlap, output_is_a_file,
+             old_results, changed_inputs, damaged_checkpoints,
+             full_disk_on_two_ranks]
 
 
 def main():

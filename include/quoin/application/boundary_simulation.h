@@ -14,6 +14,7 @@
 #include <quoin/output/boundary_output.h>
 #include <quoin/output/csv_table.h>
 #include <quoin/output/log.h>
+#include <quoin/output/output_lock.h>
 #include <quoin/output/progress.h>
 #include <quoin/tdbem/boundary_march.h>
 #include <quoin/tdbem/elastic_medium.h>
@@ -128,8 +129,10 @@ namespace quoin
     const bool is_first_rank;
     const std::string output;
 
+    OutputLock lock;
     Log log;
     Progress progress;
+    std::string run_identity; /**< what a resumed run must share */
     ElasticMedium medium{};
     BoundaryGeometry geometry;
     std::unique_ptr<IncidentWaves> waves;

@@ -7,46 +7,55 @@
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
+#include <quoin/mesh/mesh_data.h>
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/collective.h>
 #include <quoin/output/log.h>
+#include <quoin/output/output_lock.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <filesystem>
 #include <string>
 
 namespace quoin
 {
   /**
-   * Makes the folder @p output and begins the log of a run, or goes on with
-   * that of the run which @p record is read from, its last checkpoint.
-   * Collective. Throws an InputError if the folder cannot be made or there is
-   * no such checkpoint.
+   * What a run must have in common with the one that it resumes: a
+   * fingerprint() of all parameters, of the mesh as it was read or generated,
+   * and of the files of tables and records.
+   */
+  std::string run_fingerprint(const Parameters &parameters,
+                              const MeshData &mesh);
+
+  /**
+   * Makes the folder @p output and takes its @p lock; if the run does not
+   * @p resume another, results of earlier runs go that this one may not write
+   * again, and would be taken for its own. Throws an InputError if there can
+   * be no such folder, or if another run holds it.
+   */
+  void take_output(const std::string &output, bool resume, OutputLock &lock);
+
+  /**
+   * Takes the folder @p output, see take_output(), and begins the log of a
+   * run, or goes on with that of the run which @p record is read from, its last
+   * checkpoint, whose @p fingerprint must be the same. Collective. Throws an
+   * InputError if the folder cannot be had or there is no such checkpoint.
    */
   template <typename Record>
-  void open_log(const Parameters &parameters, const std::string &output,
-                const bool resume, const MPI_Comm communicator, Log &log,
-                Record &record)
+  void open_log(const std::string &fingerprint, const std::string &output,
+                const bool resume, const MPI_Comm communicator,
+                OutputLock &lock, Log &log, Record &record)
   {
-    all_or_none<InputError>(
-        communicator,
-        [&]()
-        {
-          std::error_code error;
-          if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
-            return;
-          std::filesystem::create_directories(output, error);
-          if (!std::filesystem::is_directory(output))
-            throw InputError("the output directory '" + output
-                             + "' cannot be made: " + error.message()
-                             + ". Choose another with 'Output directory' or "
-                               "--output.");
-        });
+    all_or_none<InputError>(communicator,
+                            [&]()
+                            {
+                              int rank;
+                              MPI_Comm_rank(communicator, &rank);
+                              if (rank == 0)
+                                take_output(output, resume, lock);
+                            });
     CheckpointInfo info;
     if (resume)
-      info = load_checkpoint(output, communicator, QUOIN_VERSION,
-                             fingerprint(parameters.effective), record);
+      info = load_checkpoint(output, communicator, QUOIN_VERSION, fingerprint,
+                             record);
     all_or_none<RunError>(communicator,
                           [&]() { log.open(output + "/log.txt", resume); });
     if (resume)

@@ -63,6 +63,8 @@ namespace quoin
 
     /** All values; paths stay relative to the parameter file. */
     std::string effective;
+    /** Of tables and records, relative to the working directory. */
+    std::vector<std::string> time_files;
   };
 
   /**

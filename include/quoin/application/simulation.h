@@ -21,6 +21,7 @@
 #include <quoin/output/csv_table.h>
 #include <quoin/output/joint_output.h>
 #include <quoin/output/log.h>
+#include <quoin/output/output_lock.h>
 #include <quoin/output/progress.h>
 #include <quoin/tdbem/passivity.h>
 
@@ -154,6 +155,8 @@ namespace quoin
     void write_fields();
     void save_checkpoint();
     void checkpoint_if_due();
+    /** Stops all ranks if the first one could not write a table. */
+    void check_tables();
     void write_summary(bool finished);
     ProgressFigures progress_figures(const StageParameters &stage) const;
     double energy_residual() const;
@@ -164,8 +167,10 @@ namespace quoin
     const bool is_first_rank;
     const std::string output;
 
+    OutputLock lock;
     Log log;
     Progress progress;
+    std::string run_identity; /**< what a resumed run must share */
     BlockMesh<2> mesh;
     MeshReport mesh_report;
     std::unique_ptr<Model> model;

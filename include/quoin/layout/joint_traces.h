@@ -38,7 +38,8 @@ namespace quoin
    * on; a trace has its own dip and is turned about its middle. Spacings are
    * measured across the mean dip.
    *
-   * Throws InputError: a file of traces that cannot be read.
+   * Throws InputError: a file of traces that cannot be read, or far too many
+   * traces.
    */
   JointTraces make_joint_traces(const RockParameters &rock,
                                 unsigned int number);

@@ -42,6 +42,13 @@ namespace quoin
     double unmatched_length = 0.;
     dealii::Point<2> unmatched_position; /**< where the first of them is [m] */
 
+    /**
+     * Whether blocks overlap: outer edges cross, by more than those of two
+     * meshes along one curve do, or a block lies within another.
+     */
+    bool overlaps = false;
+    dealii::Point<2> overlap_position; /**< where, first [m] */
+
     dealii::Point<2> lower_left;  /**< of the bounding box [m] */
     dealii::Point<2> upper_right; /**< of the bounding box [m] */
 

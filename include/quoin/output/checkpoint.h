@@ -33,6 +33,12 @@ namespace quoin
   /** Whether <output directory>/checkpoint/latest exists. */
   bool checkpoint_exists(const std::string &output_directory);
 
+  /**
+   * Removes the checkpoint in an output directory, whole or in parts, and
+   * nothing else that may be there.
+   */
+  void remove_checkpoint(const std::string &output_directory);
+
   /** The work behind save_checkpoint(); @p write fills this rank's archive. */
   void
   save_checkpoint_archives(const std::string &output_directory,
@@ -76,8 +82,8 @@ namespace quoin
    * Collective. Reads what save_checkpoint() wrote; bitwise the same.
    *
    * @throws InputError on all ranks if there is no checkpoint, if it is of
-   * another version, number of ranks or other parameters, or if it is
-   * damaged; @p data is unchanged unless the archive itself is unreadable
+   * another version or format, number of ranks or other parameters, or if it
+   * is damaged; @p data is unchanged unless the archive itself is unreadable
    * though its CRC-32 is right
    */
   template <typename T>

@@ -21,8 +21,9 @@ namespace quoin
    * a buffer. A checkpoint notes size(), and a resumed run cuts the table to
    * that size, so that rows written after the checkpoint do not appear twice.
    *
-   * All members throw RunError, which names the file, if it cannot be
-   * written.
+   * Members throw RunError, which names the file, if it cannot be written;
+   * but not add_row(), because only one rank has the table and the others would
+   * wait for it: check(), and flush() and sync(), do so later.
    */
   class CsvTable
   {
@@ -42,8 +43,11 @@ namespace quoin
      */
     void resume(const std::uint64_t n_bytes);
 
-    /** Adds a row, one value for each column. */
+    /** Adds a row, one value for each column. See check(). */
     void add_row(const std::vector<double> &values);
+
+    /** @throws RunError if a row so far could not be written */
+    void check() const;
 
     /** Hands the rows to the system, so that other programs see them. */
     void flush();
@@ -55,8 +59,6 @@ namespace quoin
     std::uint64_t size() const;
 
   private:
-    void check() const;
-
     std::string path;
     std::string header;
     unsigned int n_columns;

@@ -379,3 +379,16 @@ TEST(Parameters, PairsOfSurfaces)
   expect_refused(with("rock:brick", "rock:brick:clay"),
                  { "section 'Mesh'", "rock:brick:clay" });
 }
+
+TEST(Parameters, TablesAndRecordsAreKnown)
+{
+  const Case it(with("set Vertical = 1e6 * t",
+                     "set Vertical = table of time.csv times 1e6 * t\n"
+                     "    set Horizontal = record shock.txt delay 1"));
+  std::ofstream(it.directory / "of time.csv") << "0, 0\n1, 1\n";
+  std::ofstream(it.directory / "shock.txt") << "0, 0\n1, 1\n";
+  const auto files = it.read().time_files;
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0], it.directory / "shock.txt");
+  EXPECT_EQ(files[1], it.directory / "of time.csv");
+}

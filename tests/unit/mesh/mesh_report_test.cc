@@ -112,3 +112,62 @@ TEST(MeshReport, DoesNotMistakeCornersForContacts)
   split_into_blocks(data, {}, mesh);
   EXPECT_EQ(make_mesh_report(mesh).unmatched_length, 0.);
 }
+
+TEST(MeshReport, FindsBlocksThatOverlap)
+{
+  const auto report = [](const double x, const double y, const double side)
+  {
+    MeshData data;
+    add_grid(data, 4, 4, "rock");
+    add_grid(data, 2, 2, "lining", x, y, side);
+    BlockMesh<2> mesh;
+    split_into_blocks(data, SplitOptions(), mesh);
+    return make_mesh_report(mesh);
+  };
+  // Beside it, at a corner, on its side with other nodes; in part; within.
+  EXPECT_FALSE(report(5., 1., 0.3).overlaps);
+  EXPECT_FALSE(report(4., 4., 1.).overlaps);
+  EXPECT_FALSE(report(4., 0.1, 0.3).overlaps);
+  EXPECT_TRUE(report(3.3, 1.2, 1.).overlaps);
+  const MeshReport within = report(1.1, 1.2, 0.3);
+  EXPECT_TRUE(within.overlaps);
+  EXPECT_NEAR(within.overlap_position.distance(dealii::Point<2>(1.4, 1.5)), 0.,
+              0.5);
+  EXPECT_NE(within.to_text().find("blocks overlap"), std::string::npos);
+}
+
+TEST(MeshReport, MeshesOfAnArcThatDoNotMatchAreNoOverlap)
+{
+  // A ring of 9 chords around a disc of 64.
+  MeshData data;
+  const auto add_point = [&](const double radius, const double angle)
+  {
+    data.vertices.emplace_back(radius * std::cos(angle),
+                               radius * std::sin(angle));
+    return static_cast<unsigned int>(data.vertices.size()) - 1;
+  };
+  const auto add_triangle
+      = [&](const unsigned int a, const unsigned int b, const unsigned int c)
+  {
+    data.triangles.push_back({ { a, b, c } });
+    data.triangle_group.push_back(0);
+  };
+  data.group_names = { "rock" };
+  for (unsigned int k = 0; k < 64; ++k)
+  {
+    const unsigned int middle = add_point(0., 0.);
+    const double at = 2. * M_PI * k / 64, next = 2. * M_PI * (k + 1) / 64;
+    add_triangle(middle, add_point(1., at), add_point(1., next));
+  }
+  for (unsigned int k = 0; k < 9; ++k)
+  {
+    const double at = 2. * M_PI * k / 9, next = 2. * M_PI * (k + 1) / 9;
+    const unsigned int a = add_point(1., at), b = add_point(1., next);
+    const unsigned int c = add_point(2., next), d = add_point(2., at);
+    add_triangle(a, d, c);
+    add_triangle(a, c, b);
+  }
+  BlockMesh<2> mesh;
+  split_into_blocks(data, SplitOptions(), mesh);
+  EXPECT_FALSE(make_mesh_report(mesh).overlaps);
+}

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <set>
 
 using namespace quoin;
 
@@ -200,6 +201,44 @@ TEST(Checkpoint, DamagedArchivesAreRefused)
 
   std::ofstream(path, std::ios::binary) << archive;
   expect_mention(refusal(directory), "nothing was thrown");
+}
+
+TEST(Checkpoint, OfAnotherFormatIsRefused)
+{
+  const TemporaryDirectory directory;
+  save_checkpoint(directory.path(), MPI_COMM_SELF, info_at(1),
+                  example_state(10));
+  const std::string latest = directory / "checkpoint/latest";
+  std::string manifest     = contents(latest);
+  const std::size_t at     = manifest.find("format ");
+  ASSERT_NE(at, std::string::npos);
+  manifest.replace(at, manifest.find('\n') - at, "format 1");
+  std::ofstream(latest) << manifest;
+  expect_mention(refusal(directory), "another version of the program");
+}
+
+TEST(Checkpoint, RemovesNothingElse)
+{
+  const TemporaryDirectory directory;
+  remove_checkpoint(directory.path()); // there is none
+  save_checkpoint(directory.path(), MPI_COMM_SELF, info_at(12),
+                  example_state(10));
+  for (const char *name : { "13.tmp", "12-again", "notes", "12b" })
+    std::filesystem::create_directory(directory
+                                      / ("checkpoint/" + std::string(name)));
+  remove_checkpoint(directory.path());
+  EXPECT_FALSE(checkpoint_exists(directory.path()));
+  std::set<std::string> left;
+  for (const auto &entry :
+       std::filesystem::directory_iterator(directory / "checkpoint"))
+    left.insert(entry.path().filename());
+  EXPECT_EQ(left, (std::set<std::string>{ "12b", "notes" }));
+
+  std::filesystem::remove_all(directory / "checkpoint");
+  save_checkpoint(directory.path(), MPI_COMM_SELF, info_at(12),
+                  example_state(10));
+  remove_checkpoint(directory.path());
+  EXPECT_FALSE(std::filesystem::exists(directory / "checkpoint"));
 }
 
 TEST(Checkpoint, UnwritableDirectory)

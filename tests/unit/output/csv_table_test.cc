@@ -6,6 +6,9 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/output/csv_table.h>
 
+#include <sys/resource.h>
+
+#include <csignal>
 #include <cstdlib>
 #include <limits>
 
@@ -98,4 +101,22 @@ TEST(CsvTable, FullDisk)
   const std::string message = message_of<RunError>([&]() { table.start(); });
   EXPECT_NE(message.find("h.csv"), std::string::npos) << message;
   EXPECT_NE(message.find("Free some space"), std::string::npos) << message;
+}
+
+TEST(CsvTable, RowsThatDoNotFitAreFoundLater)
+{
+  // Only one rank has the table: adding a row must not stop it alone.
+  const TemporaryDirectory directory;
+  CsvTable table(directory / "h.csv", columns);
+  table.start();
+  rlimit before;
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{ 1000, before.rlim_max };
+  std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &small);
+  for (unsigned int i = 0; i < 30000; ++i)
+    table.add_row({ 1. / (i + 3.), 2. / (i + 7.) });
+  const std::string message = message_of<RunError>([&]() { table.check(); });
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_NE(message.find("h.csv"), std::string::npos) << message;
 }
