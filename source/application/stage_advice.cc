@@ -67,22 +67,6 @@ namespace quoin
                               std::vector<std::string> &advice)
     {
       const StageParameters &stage = parameters.stages[index];
-      const auto absorbs           = [&](const std::string &name)
-      {
-        const LoadParameters *load = find_load(parameters, name);
-        return load
-               && (load->type == LoadType::viscous_boundary
-                   || load->type == LoadType::free_field);
-      };
-      const bool is_undamped = stage.damping == DampingType::none
-                               || (stage.damping == DampingType::rayleigh
-                                   && stage.mass_coefficient == 0.
-                                   && stage.stiffness_coefficient == 0.);
-      if (stage.end == StageEnd::static_ratio && is_undamped
-          && std::none_of(stage.loads.begin(), stage.loads.end(), absorbs))
-        advice.push_back(of_stage(stage)
-                         + "it is to come to rest, but nothing damps it. Take "
-                           "'Damping = local' or 'adaptive'.");
       if (stage.end == StageEnd::time
           && (stage.damping == DampingType::local
               || stage.damping == DampingType::adaptive)
