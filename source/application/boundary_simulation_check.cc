@@ -82,8 +82,8 @@ namespace quoin
     {
       std::vector<unsigned int> steps(1, n);
       for (unsigned int step = 1; step < n; ++step)
-        if (is_due(step))
-          steps.push_back(step);
+        if (is_due(step)) // the one before is for the velocity
+          steps.insert(steps.end(), { step - 1, step });
       return steps;
     };
     double result = 0.;
