@@ -101,13 +101,6 @@ TEST(InputAdvice, ForcesThatJump)
   EXPECT_EQ(advice(parameters), "");
 }
 
-TEST(InputAdvice, AStageThatNothingBringsToRest)
-{
-  Parameters parameters    = good_parameters();
-  parameters.stages[0].end = StageEnd::static_ratio;
-  expect(parameters, "nothing damps it");
-}
-
 TEST(InputAdvice, LocalDampingOfWavesThatComeIn)
 {
   Parameters parameters                      = good_parameters();

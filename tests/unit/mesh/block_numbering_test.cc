@@ -8,7 +8,6 @@
 
 #include <deal.II/base/utilities.h>
 
-
 using namespace quoin;
 using namespace quoin::test;
 
