@@ -12,6 +12,7 @@
 #include <quoin/base/wall_clock.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace quoin
 {
@@ -70,13 +71,23 @@ namespace quoin
                              const std::vector<unsigned int> &steps)
     {
       constexpr std::size_t n_tried = 3;
-      const auto start              = WallClock::now();
+      double sum                    = 0.;
       for (std::size_t i = 0; i < n_tried; ++i)
-        domain_displacements(
-            record, { points[(2 * i + 1) * points.size() / (2 * n_tried)] },
-            steps);
-      return dealii::Utilities::MPI::max(seconds_since(start), communicator)
-             * share / n_tried * double(points.size());
+      {
+        const Eigen::Vector2d &point
+            = points[(2 * i + 1) * points.size() / (2 * n_tried)];
+        // The best of some: a moment is easily disturbed.
+        double best = std::numeric_limits<double>::infinity();
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          const auto start = WallClock::now();
+          domain_displacements(record, { point }, steps);
+          best = std::min(best, seconds_since(start));
+        }
+        sum += best;
+      }
+      return dealii::Utilities::MPI::max(sum, communicator) * share / n_tried
+             * double(points.size());
     };
     const auto due = [&](const auto &is_due)
     {
