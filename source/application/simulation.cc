@@ -99,16 +99,8 @@ namespace quoin
     mesh_report = make_mesh_report(mesh);
 
     // Whole blocks to ranks: blocks share no nodes, only joints cross ranks.
-    const unsigned int n_ranks
-        = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    if (n_ranks > mesh.n_blocks())
-      throw InputError(
-          parameters.file + ": the model has " + std::to_string(mesh.n_blocks())
-          + (mesh.n_blocks() == 1 ? " block" : " blocks") + " and the run "
-          + std::to_string(n_ranks)
-          + " MPI ranks, to which whole blocks are dealt. Take fewer ranks, or "
-            "split the mesh into more blocks.");
-    auto rank_of_block = partition_blocks(mesh, n_ranks);
+    auto rank_of_block = partition_blocks(
+        mesh, dealii::Utilities::MPI::n_mpi_processes(communicator));
     try
     {
       renumber_blocks(
@@ -177,6 +169,15 @@ namespace quoin
     if (n_rigid > 0)
       log.message(std::to_string(n_rigid) + " of the blocks "
                   + (n_rigid == 1 ? "is rigid" : "are rigid"));
+    const unsigned int n_ranks
+        = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    if (n_ranks > mesh.n_blocks())
+      log.warning("the model has " + std::to_string(mesh.n_blocks())
+                  + (mesh.n_blocks() == 1 ? " block" : " blocks")
+                  + " and the run " + std::to_string(n_ranks)
+                  + " MPI ranks, to which whole blocks are dealt: some have "
+                    "none. Fewer ranks would be as fast, but for boundary "
+                    "elements, which all share.");
     if (mesh_report.unmatched_length > 0.)
       log.warning("outer edges lie on each other over "
                   + number_text(mesh_report.unmatched_length)
