@@ -64,10 +64,6 @@ CASES = {
         os.path.join(common.MASONRY, "tue_walls", "j4d.prm"),
         ["Solver=implicit", "Output/Checkpoint interval=0.05",
          "Output/Field interval=5e-3", "Stages/push/Duration=0.02"], 2, 1),
-    # killed within the only stage
-    "one implicit stage": (
-        os.path.join(common.VERIFICATION, "salencon", "case.prm"),
-        ["Solver=implicit", "Output/Checkpoint interval=0.01"], 1, 1),
     # contacts searched, handed over and taken up in between
     "sled": (common.SLED, ["Output/Checkpoint interval=0.02",
                            "Output/Field interval=2e-3"], 1, 4),

@@ -489,6 +489,25 @@ def last_allowed_step(quoin, folder):
         expect(status, printed, wanted, says)
 
 
+def implicit_checkpoints(quoin, folder):
+    """Checkpoints are written within a stage of few steps, too."""
+    latest = os.path.join(folder, "output", "checkpoint", "latest")
+    process = subprocess.Popen(
+        [quoin, prepare(folder)] + settings({"set": [
+            "Solver=implicit", "Output/Checkpoint interval=1e-9",
+            "Implicit/First step=1e-2", "Implicit/Largest step=1e-2"]}),
+        env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while process.poll() is None and not os.path.exists(latest):
+        time.sleep(0.005)
+    with open(latest) as stream:
+        step = int(re.search(r"^step (\d+)", stream.read(), re.M)[1])
+    process.kill()
+    process.wait()
+    if not step < 100:
+        raise Failure("the first checkpoint is that of step %d, where the "
+                      "stage ends" % step)
+
+
 def implicit_limit_load(quoin, folder):
     """A load that no equilibrium can bear: where it stopped is kept, and from
     the checkpoint it gets no farther."""
@@ -797,7 +816,8 @@ FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing, no_argume
              no_number_at_the_end, runaway, reported_block, deleted_block,
              other_ranks, failure_of_one_rank, more_ranks_than_blocks,
              other_parameters, nothing_to_resume, failing_block_leaves,
-             safety_changes_nothing, last_allowed_step, implicit_limit_load,
+             safety_changes_nothing, last_allowed_step, implicit_checkpoints,
+             implicit_limit_load,
              two_runs_at_once, odd_names, file_of_another_system,
              far_from_the_origin, blocks_that_overlap, gmsh_comes_to_its_end,
              output_is_a_file, old_results, changed_inputs,
