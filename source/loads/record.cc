@@ -102,8 +102,10 @@ namespace quoin
            ++k)
       {
         // Regular expressions take stack for each character of a line that
-        // may be anything.
-        line = upper(line.substr(0, 200));
+        // may be anything; cut off, its last number would be another.
+        if (line.size() > 200)
+          continue;
+        line = upper(line);
         header += line + "\n";
         try
         {
