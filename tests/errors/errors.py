@@ -651,6 +651,26 @@ def blocks_that_overlap(quoin, folder):
     return printed
 
 
+def gmsh_comes_to_its_end(quoin, folder):
+    """A command that ends gmsh, with it the program; a file that crashes it."""
+    prm = prepare(folder)
+    with open(os.path.join(folder, "base.geo"), "a") as stream:
+        stream.write("\nExit;\n")
+    words = ["base.geo", "gmsh", "Exit", "mend it"]
+    status, printed = run([quoin, prm])
+    expect(status, printed, 1, words)
+    if shutil.which("mpirun"):
+        status, printed = run(["mpirun", "--oversubscribe", "-np", "2", quoin,
+                               prm])
+        expect(status, printed, 1, words)
+    # gmsh 4.8 overflows its stack on this; others may refuse it
+    with open(os.path.join(folder, "base.geo"), "w") as stream:
+        stream.write("a = " + "(" * 200000 + "1" + ")" * 200000 + ";\n")
+    status, printed = run([quoin, prm])
+    expect(status, printed, 1, ["base.geo", "gmsh"])
+    return printed
+
+
 def output_is_a_file(quoin, folder):
     """An output directory that is a file."""
     prm = prepare(folder)
@@ -779,9 +799,9 @@ FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing, no_argume
              other_parameters, nothing_to_resume, failing_block_leaves,
              safety_changes_nothing, last_allowed_step, implicit_limit_load,
              two_runs_at_once, odd_names, file_of_another_system,
-             far_from_the_origin, blocks_that_overlap, output_is_a_file,
-             old_results, changed_inputs, damaged_checkpoints,
-             full_disk_on_two_ranks]
+             far_from_the_origin, blocks_that_overlap, gmsh_comes_to_its_end,
+             output_is_a_file, old_results, changed_inputs,
+             damaged_checkpoints, full_disk_on_two_ranks]
 
 
 def main():

@@ -245,3 +245,16 @@ TEST(SyntheticRecord, SpectrumIsThatOfKanaiTajimiAndCloughPenzien)
     EXPECT_LE(power[k], 1.1 * power[at_ground]) << frequencies[k];
   }
 }
+
+TEST(Record, HeadersBeyondAllNumbersAreRefused)
+{
+  const std::string values = "\n 1 2 3 4 5\n";
+  for (const std::string &line :
+       { std::string("NPTS= 5, DT= 1E999 SEC"),
+         // Regular expressions would take a stack of this depth.
+         "NPTS= 5, DT= " + std::string(1000000, '1'),
+         std::string(1000000, ' ') })
+    EXPECT_NE(complaint("a.AT2", line + values).find("no header"),
+              std::string::npos)
+        << complaint("a.AT2", line + values);
+}
