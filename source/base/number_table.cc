@@ -53,6 +53,9 @@ namespace quoin
     std::string line;
     for (unsigned int number = 1; std::getline(stream, line); ++number)
     {
+      // Some editors put a mark in front that is no text.
+      if (number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0)
+        line.erase(0, 3);
       line = line.substr(0, line.find('#'));
       std::replace(line.begin(), line.end(), ',', ' ');
       std::istringstream stream_of_words(line);

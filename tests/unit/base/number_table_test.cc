@@ -38,6 +38,14 @@ TEST(NumberTable, HeadingsCommentsAndSeparators)
   EXPECT_EQ(rows[1].values, (std::vector<double>{ 2., 3. }));
 }
 
+TEST(NumberTable, AByteOrderMarkIsNoText)
+{
+  const auto rows = read("\xEF\xBB\xBF"
+                         "1, 2\n3, 4\n");
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].values, (std::vector<double>{ 1., 2. }));
+}
+
 TEST(NumberTable, ARowWithATypingErrorIsNoHeading)
 {
   expect_refused("0;0\n1 2\n", "line 1 of the table");
