@@ -62,6 +62,8 @@ namespace quoin
                                const std::vector<double> &time_steps)
   {
     PlannedOutput result;
+    const auto count
+        = [](const double n) { return std::uint64_t(std::min(n, 1e18)); };
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
     {
       const StageParameters &stage = parameters.stages[i];
@@ -73,12 +75,12 @@ namespace quoin
       if (stage.end != StageEnd::time)
         continue;
       if (parameters.field_interval > 0.)
-        result.moments += std::uint64_t(
-            stage.duration / parameters.field_interval * (1. + 1e-9));
+        result.moments
+            += count(stage.duration / parameters.field_interval * (1. + 1e-9));
       if (i < time_steps.size())
-        result.rows += std::uint64_t(
-            stage.duration
-            / std::max(parameters.history_interval, time_steps[i]));
+        result.rows
+            += count(stage.duration
+                     / std::max(parameters.history_interval, time_steps[i]));
     }
     return result;
   }

@@ -207,7 +207,7 @@ namespace quoin
         advice.push_back("'Field interval = "
                          + number_text(parameters.field_interval)
                          + "' in section 'Output' writes fields "
-                         + std::to_string(std::uint64_t(n))
+                         + number_text(std::floor(n))
                          + " times. Some hundred make a film: take "
                          + number_text(duration / 200.) + " s.");
     }

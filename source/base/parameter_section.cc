@@ -68,6 +68,9 @@ namespace quoin
     const double value = number(name);
     if (!(value > 0.))
       fail(name, "must be positive: give a number above zero.");
+    // Nothing that is measured; its products would be no numbers.
+    if (value < 1e-60 || value > 1e60)
+      fail(name, "is beyond all measure: check its power of ten.");
     return value;
   }
 

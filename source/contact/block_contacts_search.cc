@@ -366,8 +366,22 @@ namespace quoin
 
   void BlockContacts::inherit_shifts(ContactState &contacts) const
   {
-    // A new pair beside one whose overlap allows for the slip of the matched
-    // joint that it was allows for it too, or their lengths would not add up.
+    // Of each edge, those of its pairs whose overlap allows for the slip of the
+    // matched joint that they were.
+    std::vector<unsigned int> parents, begin{ 0 };
+    for (unsigned int e = 0; e + 1 < edge_pairs_begin.size(); ++e)
+    {
+      for (unsigned int j = edge_pairs_begin[e]; j < edge_pairs_begin[e + 1];
+           ++j)
+        if (const ContactPair &pair = contacts.pairs[edge_pairs[j]];
+            pair.active && pair.shift != 0.)
+          parents.push_back(edge_pairs[j]);
+      begin.push_back(parents.size());
+    }
+    if (parents.empty())
+      return;
+    // A new pair beside one of them allows for it too, or their lengths would
+    // not add up.
     for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
     {
       ContactPair &pair = contacts.pairs[i];
@@ -377,15 +391,13 @@ namespace quoin
       {
         const unsigned int shared = pair_edges[i][side];
         const ContactEdge &edge = edges[edge_numbers[pair_edges[i][1 - side]]];
-        for (unsigned int j = edge_pairs_begin[shared];
-             j < edge_pairs_begin[shared + 1]; ++j)
+        for (unsigned int j = begin[shared]; j < begin[shared + 1]; ++j)
         {
-          const unsigned int q      = edge_pairs[j];
+          const unsigned int q      = parents[j];
           const ContactPair &parent = contacts.pairs[q];
           const unsigned int other
               = edge_numbers[pair_edges[q][pair_edges[q][0] == shared ? 1 : 0]];
-          if (parent.active && parent.shift != 0.
-              && (other == edge.next || other == edge.previous))
+          if (other == edge.next || other == edge.previous)
           {
             pair.shift       = parent.shift;
             pair.shift_start = parent.shift_start;

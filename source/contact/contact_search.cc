@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/exceptions.h>
 #include <quoin/contact/contact_search.h>
 
 #include <boost/geometry/geometries/box.hpp>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 namespace quoin
 {
@@ -189,6 +191,26 @@ namespace quoin
     return result;
   }
 
+  namespace
+  {
+    /** Of some 220 bytes each. */
+    constexpr std::size_t most_pairs = 20000000;
+
+    [[noreturn]] void refuse_pairs(const EdgeEnds &edge, const std::size_t n,
+                                   const double skin)
+    {
+      std::ostringstream message;
+      message << "more than " << most_pairs
+              << " pairs of edges are nearer than " << skin
+              << " m to each other, too many to be watched. The edge "
+              << "from (" << edge.x[0] << ", " << edge.y[0] << ") to ("
+              << edge.x[1] << ", " << edge.y[1] << ") m is near " << n
+              << " more. Let fewer blocks meet at a point, or take "
+              << "'Displacements = small' in section 'Contact'.";
+      throw RunError(message.str());
+    }
+  } // namespace
+
   std::vector<std::array<unsigned int, 2>>
   near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
              const double skin)
@@ -202,7 +224,8 @@ namespace quoin
     std::vector<std::array<unsigned int, 2>> pairs;
     for (unsigned int i = 0; i < ends.size(); ++i)
     {
-      const auto &[a, b] = edges[ends[i].edge].nodes;
+      const auto &[a, b]      = edges[ends[i].edge].nodes;
+      const std::size_t first = pairs.size();
       for (auto found = tree.qbegin(bgi::intersects(box_of(ends[i], skin)));
            found != tree.qend(); ++found)
       {
@@ -215,6 +238,8 @@ namespace quoin
             && distance(ends[i], ends[j]) <= skin)
           pairs.push_back({ { i, j } });
       }
+      if (pairs.size() > most_pairs)
+        refuse_pairs(ends[i], pairs.size() - first, skin);
     }
     std::sort(pairs.begin(), pairs.end());
     return pairs;

@@ -4,8 +4,10 @@
 // Whether the state of a Solver is still sound.
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
 #include <quoin/dynamics/solver.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -38,6 +40,7 @@ namespace quoin
         bad == -1U ? bad : model.exchange().global(bad), communicator);
     if (first == -1U)
       return;
+    check_loads(state, state.load_time);
     const auto &p = model.mesh().vertices[first];
     std::ostringstream message;
     message << "the motion is no longer finite in block "
@@ -49,6 +52,26 @@ namespace quoin
             << "of critical time step' or end the stage earlier. The last "
             << "checkpoint is kept.";
     throw RunError(message.str());
+  }
+
+  void Solver::check_loads(const State &state, const double load_time) const
+  {
+    const TimePoint time{ load_time, state.stage_start + load_time };
+    const auto check = [&](const auto &values, const std::string &name)
+    {
+      if (!std::all_of(values.begin(), values.end(),
+                       [](const double value) { return std::isfinite(value); }))
+        throw RunError("the load '" + name
+                       + "' is no finite number at the time "
+                       + number_text(time.stage) + " s of stage '" + stage.name
+                       + "', T = " + number_text(time.total)
+                       + " s. Correct its function of time in section 'Loads/"
+                       + name + "', or end the stage earlier.");
+    };
+    for (const NodalLoad *load : loads_on)
+      check(load->amplitude(time), load->name());
+    for (const NodeConstraint *constraint : constraints_on)
+      check(constraint->values(time), constraint->name());
   }
 
   void Solver::check_cells(const State &state) const

@@ -432,6 +432,8 @@ namespace quoin
   void ImplicitSolver::fail(const State &state, const double tried,
                             const bool jumped) const
   {
+    check_loads(state, state.load_time);
+    check_loads(state, state.load_time + tried * stage_duration);
     const std::string where = worst_place();
     std::ostringstream message;
     message << "no equilibrium was found beyond "

@@ -9,6 +9,9 @@
 #include <deal.II/base/function_parser.h>
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <memory>
 #include <sstream>
 
@@ -61,6 +64,12 @@ namespace quoin
     }
     const auto expression = [parser](const TimePoint &time)
     { return parser->value(dealii::Point<2>(time.stage, time.total)); };
+    const double moments[] = { 0., 0.37, 41., 5e3 };
+    if (std::none_of(std::begin(moments), std::end(moments),
+                     [&](const double t) {
+                       return std::isfinite(expression({ t, t }));
+                     }))
+      throw InputError("is no finite number at any time.");
     if (is_named)
       evaluate = [named = evaluate, expression](const TimePoint &time)
       { return named(time) * expression(time); };

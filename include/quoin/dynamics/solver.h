@@ -79,6 +79,9 @@ namespace quoin
 
     /** Throws a RunError if the state is no longer finite; collective. */
     void check_finite(const State &state) const;
+    /** The same, and names the load, if one that acts is not finite at
+        @p load_time [s] of the stage. */
+    void check_loads(const State &state, double load_time) const;
     /** The same if a cell has turned inside out; collective. */
     void check_cells(const State &state) const;
 

@@ -50,8 +50,9 @@ namespace
       std::uint64_t size;
       std::memcpy(&size, text.data() + data_begin + offset, sizeof(size));
       std::vector<T> values(size / sizeof(T));
-      std::memcpy(values.data(),
-                  text.data() + data_begin + offset + sizeof(size), size);
+      if (size > 0)
+        std::memcpy(values.data(),
+                    text.data() + data_begin + offset + sizeof(size), size);
       return values;
     }
 
