@@ -96,7 +96,7 @@ def wrong_links(path, text, documents):
         elif anchor and (other not in documents
                          or anchor not in documents[other]):
             yield match.start(), "no heading '%s'" % target
-        number = re.match(r"sections? (\d+)$", match.group(1))
+        number = re.match(r"sections?\s+(\d+)$", match.group(1))
         if number and not anchor.startswith(number.group(1) + "-"):
             yield match.start(), "'%s' leads to '%s'" % (match.group(1),
                                                          target)
