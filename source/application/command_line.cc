@@ -36,8 +36,8 @@ namespace quoin
     /** Exit status, or -1 to go on. */
     int parse(Arguments &arguments, int argc, char **argv)
     {
-      CLI::App app("quoin: blocks on joints by distinct elements, and "
-                   "boundary elements");
+      CLI::App app("quoin: blocks on joints, by distinct elements or in "
+                   "equilibrium, and boundary elements");
       app.add_option("CASE.prm", arguments.file, "The parameter file");
       app.add_option("--set", arguments.overrides,
                      "\"Section/Name=value\": overrides the parameter file; "

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/open_log.h>
+#include <quoin/output/vtu_series.h>
 
 #include <filesystem>
 #include <fstream>
@@ -59,10 +60,9 @@ namespace quoin
       return;
     remove_checkpoint(output);
     for (const char *name :
-         { "summary.json", "safety.csv", "convergence.csv", "far_field.csv",
-           "blocks.pvd", "joints.pvd", "contacts.pvd", "boundary.pvd",
-           "field.pvd", "mechanism/blocks.pvd", "mechanism/joints.pvd",
-           "mechanism/contacts.pvd" })
+         { "summary.json", "safety.csv", "convergence.csv", "far_field.csv" })
       fs::remove(output + "/" + name, error);
+    remove_series(output);
+    remove_series(output + "/mechanism");
   }
 } // namespace quoin

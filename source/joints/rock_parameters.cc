@@ -122,7 +122,7 @@ namespace quoin
                       "0: 25 times 'Normal stiffness' [Pa/m]");
     prm.declare_entry("Joint roughness", "0", Double(),
                       "Of 'Barton-Bandis': roughness coefficient JRC, 0 "
-                      "(smooth) to 20 [-]");
+                      "(smooth) to 20, at most 30 [-]");
     prm.declare_entry("Joint wall strength", "0", Double(),
                       "Of 'Barton-Bandis': compressive strength JCS of the "
                       "rock beside the joint [Pa]");

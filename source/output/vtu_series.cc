@@ -7,6 +7,8 @@
 #include <quoin/output/vtu_series.h>
 
 #include <cstdio>
+#include <filesystem>
+#include <regex>
 #include <utility>
 
 namespace quoin
@@ -60,5 +62,24 @@ namespace quoin
     std::snprintf(number, sizeof(number), "%04u", index);
     return "fields/" + name + "_" + number + "_" + std::to_string(part)
            + ".vtu";
+  }
+
+  void remove_series(const std::string &output_directory)
+  {
+    namespace fs = std::filesystem;
+    std::error_code error, ignored;
+    for (const char *name :
+         { "blocks", "joints", "contacts", "boundary", "field" })
+      fs::remove(output_directory + "/" + name + ".pvd", ignored);
+    const std::regex piece("(blocks|joints|contacts|boundary|field)"
+                           "_[0-9]{4,}_[0-9]+\\.vtu");
+    std::vector<fs::path> pieces;
+    for (fs::directory_iterator entry(output_directory + "/fields", error);
+         !error && entry != fs::directory_iterator(); entry.increment(error))
+      if (std::regex_match(entry->path().filename().string(), piece)
+          && fs::is_regular_file(entry->symlink_status(ignored)))
+        pieces.push_back(entry->path());
+    for (const fs::path &path : pieces)
+      fs::remove(path, ignored);
   }
 } // namespace quoin

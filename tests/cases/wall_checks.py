@@ -41,8 +41,8 @@ def joint_faces(output):
 
 def quasi_static(output, histories):
     """What every slow run must show. The energy of matched joints is off by
-    traction times slip times the angle by which they turn (theory.md, 5), some
-    1e-3 where joints slip by millimetres."""
+    traction times slip times the angle by which they turn (theory.md, "Energy
+    balance"), some 1e-3 where joints slip by millimetres."""
     table = checks.energies(output)
     return {
         "kinetic energy share": (

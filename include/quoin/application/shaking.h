@@ -14,7 +14,7 @@ namespace quoin
 {
   /**
    * Edges of an S wave below which we warn: eight to ten are right, and with
-   * five it runs seven per cent too slowly; theory.md, section 7.
+   * five it runs seven per cent too slowly; theory.md, "Critical time step".
    */
   constexpr double fewest_edges = 5.;
 

@@ -60,6 +60,13 @@ namespace quoin
     PvdWriter list;
   };
 
+  /**
+   * Removes what series of an earlier run have left in @p output_directory:
+   * their lists, and their pieces in fields/, however many there were. Files
+   * of other names stay. What cannot be removed stays, too.
+   */
+  void remove_series(const std::string &output_directory);
+
   /** Two or more components for each entry, one after the other. */
   template <typename T, std::size_t n>
   std::vector<T> flat(const std::vector<std::array<T, n>> &entries)
