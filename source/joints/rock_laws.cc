@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/joints/rock_parameters.h>
+#include <quoin/joints/rock_laws.h>
 
 #include <deal.II/base/numbers.h>
 
