@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/boundary_geometry.h>
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 
 #include <algorithm>
@@ -15,6 +16,8 @@ namespace quoin
 {
   namespace
   {
+    using constants::pi;
+
     using Eigen::Vector2d;
     using Points = std::vector<Vector2d>;
 
@@ -176,10 +179,10 @@ namespace quoin
                 ? parameters.n_elements
                 : checked(
                     parameters,
-                    std::max(3., std::ceil(2. * M_PI * parameters.radius
+                    std::max(3., std::ceil(2. * pi * parameters.radius
                                            / element_length * (1. - 1e-9))),
                     element_length);
-      const double part = M_PI / n;
+      const double part = pi / n;
       double radius     = parameters.radius;
       if (parameters.polygon == CirclePolygon::equal_area)
         radius *= std::sqrt(2. * part / std::sin(2. * part));
@@ -189,7 +192,7 @@ namespace quoin
       curve.closed = true;
       for (unsigned int k = 0; k < n; ++k)
       {
-        const double angle = parameters.angles[0] + 2. * M_PI * k / n;
+        const double angle = parameters.angles[0] + 2. * pi * k / n;
         curve.points.push_back(
             Vector2d(parameters.centre[0], parameters.centre[1])
             + radius * Vector2d(std::cos(angle), std::sin(angle)));
@@ -341,7 +344,7 @@ namespace quoin
                            const BoundaryCurveParameters &parameters,
                            double element_length)
     {
-      const double corner      = std::cos(20. * M_PI / 180.);
+      const double corner      = std::cos(20. * pi / 180.);
       const std::size_t n      = curve.points.size();
       const std::size_t n_edge = curve.n_edges();
       double total             = 0.;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/layout/polygon.h>
 
 #include <algorithm>
@@ -154,7 +155,7 @@ namespace quoin
     Polygon polygon;
     for (unsigned int i = 0; i < n; ++i)
     {
-      const double angle = 2. * M_PI * i / n;
+      const double angle = 2. * constants::pi * i / n;
       polygon.emplace_back(centre[0] + radius * std::cos(angle),
                            centre[1] + radius * std::sin(angle));
     }

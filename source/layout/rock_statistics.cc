@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/number_text.h>
 #include <quoin/layout/rock_layout.h>
 
@@ -76,7 +77,7 @@ namespace quoin
     /** Distances between neighbouring crossings with lines across @p dip. */
     std::vector<double> scan(const std::vector<Piece> &pieces, const double dip)
     {
-      const double angle = dip * M_PI / 180.;
+      const double angle = dip * constants::pi / 180.;
       Vector along, across;
       along[0]  = std::cos(angle);
       along[1]  = std::sin(angle);
@@ -187,7 +188,7 @@ namespace quoin
     double dip_of(const Piece &piece, const double mean)
     {
       const Vector way = piece[1] - piece[0];
-      double dip       = std::atan2(way[1], way[0]) * 180. / M_PI;
+      double dip       = std::atan2(way[1], way[0]) * 180. / constants::pi;
       while (dip > mean + 90.)
         dip -= 180.;
       while (dip < mean - 90.)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/cut_kernels.h>
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/graded_rule.h>
@@ -356,7 +357,7 @@ namespace quoin
 
     Matrix2d A;
     A << b + a_cos, a_sin, a_sin, b - a_cos;
-    A /= 4. * M_PI * medium.density;
+    A /= 4. * constants::pi * medium.density;
     const auto B = [&](const Vector2d &n) -> Matrix2d
     {
       const Vector2d y(yx, yy), z(zx, zy);
@@ -366,7 +367,7 @@ namespace quoin
           sum_xy2 * n.x() + sum_y3 * n.y();
       return (cubic + y.dot(n) * Matrix2d::Identity() + y * n.transpose()
               + n * z.transpose())
-             / (4. * M_PI);
+             / (4. * constants::pi);
     };
     return { F.length * A, F.length * B(F.normal).transpose(), E.length * A,
              -E.length * B(E.normal).transpose() };

@@ -3,6 +3,7 @@
 
 #include <quoin/tdbem/passivity.h>
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 
 #include <Eigen/Eigenvalues>
@@ -142,7 +143,7 @@ namespace quoin
     if (!(radius > 0. && radius < 1.) || n_frequencies == 0)
       throw InputError("Passivity scan: the radius must be between 0 and 1 "
                        "and the number of frequencies positive.");
-    constexpr double pi  = 3.14159265358979323846;
+    using constants::pi;
     const Eigen::Index n = Eigen::Index(boundary.n_unknowns());
     Eigen::VectorXd inverse_root(n);
     for (Eigen::Index k = 0; k < n; ++k)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/tangential_stress.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ namespace quoin
     const auto is_corner = [&](const unsigned e, const unsigned f)
     {
       return elements[e].tangent().dot(elements[f].tangent())
-             < std::cos(30.001 * std::acos(-1.) / 180.);
+             < std::cos(30.001 * constants::pi / 180.);
     };
 
     std::vector<Vector2d> places(n);
