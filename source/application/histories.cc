@@ -3,11 +3,11 @@
 
 #include <quoin/application/field_output.h>
 #include <quoin/application/histories.h>
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/dynamics/triangle.h>
 #include <quoin/output/block_output.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -123,15 +123,11 @@ namespace quoin
                          [&](const auto &constraint)
                          { return constraint->name() == wanted.load; });
       if (found == constraints.end())
-      {
-        std::string known;
-        for (const auto &constraint : constraints)
-          known += (known.empty() ? "" : ", ") + constraint->name();
         throw InputError(section + "'Load = " + wanted.load
                          + "' is no prescribed motion, platen or "
                            "viscous boundary. These are: "
-                         + known + ".");
-      }
+                         + known_names(constraints, &NodeConstraint::name)
+                         + ".");
       probe.platen = dynamic_cast<const Platen *>(found->get());
       if (wanted.quantity != HistoryQuantity::reaction && !probe.platen)
         throw InputError(section + "'Load = " + wanted.load
@@ -194,7 +190,7 @@ namespace quoin
     case HistoryQuantity::velocity:
       return state.velocity[probe.entity].v[wanted.component];
     case HistoryQuantity::rotation:
-      return rotation(probe.entity, state) * 180. / dealii::numbers::PI;
+      return rotation(probe.entity, state) * 180. / constants::pi;
     case HistoryQuantity::stress:
     {
       if (probe.entity >= model.n_deformable_cells())
@@ -301,7 +297,7 @@ namespace quoin
       {
         const unsigned int d = probe.parameters.component;
         row[1 + i] = state.platens[probe.platen->index()].displacement[d]
-                     * (d == 2 ? 180. / dealii::numbers::PI : 1.);
+                     * (d == 2 ? 180. / constants::pi : 1.);
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <quoin/application/mesh_parameters.h>
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/dynamics/construction.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/layout/rock_parameters.h>
@@ -572,14 +573,6 @@ namespace quoin
       check_boundary_histories(top, parameters);
     }
 
-    std::string join(const std::set<std::string> &names)
-    {
-      std::string text;
-      for (const auto &name : names)
-        text += (text.empty() ? "" : ", ") + name;
-      return text.empty() ? "none" : text;
-    }
-
     void check_loads(const Parameters &parameters)
     {
       std::set<std::string> names, used;
@@ -591,8 +584,8 @@ namespace quoin
           if (names.count(load) == 0)
             throw InputError(parameters.file + ", section 'Stages/" + stage.name
                              + "': 'Loads' names '" + load
-                             + "', which is no load. Loads are: " + join(names)
-                             + ".");
+                             + "', which is no load. Loads are: "
+                             + known_names(names) + ".");
           used.insert(load);
           if (std::count(stage.loads.begin(), stage.loads.end(), load) > 1)
             throw InputError(parameters.file + ", section 'Stages/" + stage.name

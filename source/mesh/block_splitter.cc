@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 
@@ -154,14 +155,11 @@ namespace quoin
       if (!wanted.empty() && place != names.end())
         return place - names.begin();
 
-      std::string existing;
-      for (const std::string &n : names)
-        if (!n.empty())
-          existing += (existing.empty() ? "'" : ", '") + n + "'";
+      const auto quoted
+          = [](const std::string &n) { return n.empty() ? n : "'" + n + "'"; };
       fail("there is no physical " + kind + " '" + wanted + "', which Mesh/"
-           + parameter + " names. "
-           + (existing.empty() ? "The mesh has no physical " + kind + "s."
-                               : "The mesh has " + existing + "."));
+           + parameter + " names. The mesh has " + known_names(names, quoted)
+           + ".");
     }
 
     void Splitter::resolve_names()
