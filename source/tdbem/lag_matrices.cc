@@ -6,6 +6,7 @@
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/graded_rule.h>
 #include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/segment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,15 +24,6 @@ namespace quoin
     constexpr double far_distance = 1.5;
     /** Between elements; nearer ones are nearly singular at all times. */
     constexpr double near_distance = 1.6;
-
-    double distance_to_segment(const Vector2d &point, const Vector2d &a,
-                               const Vector2d &b)
-    {
-      const Vector2d edge = b - a;
-      const double s
-          = std::clamp(edge.dot(point - a) / edge.squaredNorm(), 0., 1.);
-      return (point - a - s * edge).norm();
-    }
 
     bool same(const Vector2d &a, const Vector2d &b, const double length)
     {
