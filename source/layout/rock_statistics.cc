@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/disjoint_sets.h>
 #include <quoin/base/number_text.h>
 #include <quoin/layout/rock_layout.h>
 
@@ -137,15 +138,7 @@ namespace quoin
         at[edges[e].from].push_back(e);
         at[edges[e].to].push_back(e);
       }
-      std::vector<unsigned int> run(edges.size());
-      for (unsigned int e = 0; e < run.size(); ++e)
-        run[e] = e;
-      const auto root = [&](unsigned int e)
-      {
-        while (run[e] != e)
-          e = run[e] = run[run[e]];
-        return e;
-      };
+      DisjointSets runs(edges.size());
       const auto way_from = [&](const unsigned int e, const unsigned int v)
       {
         const unsigned int w = edges[e].from == v ? edges[e].to : edges[e].from;
@@ -173,12 +166,12 @@ namespace quoin
           if (taken[i] || best == star.size())
             continue;
           taken[i] = taken[best] = true;
-          run[root(star[i])]     = root(star[best]);
+          runs.unite(star[i], star[best]);
         }
       }
       std::map<unsigned int, double> length;
       for (unsigned int e = 0; e < edges.size(); ++e)
-        length[root(e)] += network.length(edges[e]);
+        length[runs.find(e)] += network.length(edges[e]);
       std::vector<double> result;
       for (const auto &[first, sum] : length)
         result.push_back(sum);
