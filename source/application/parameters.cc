@@ -5,6 +5,7 @@
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
+#include <quoin/base/named_sections.h>
 #include <quoin/dynamics/construction.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/layout/rock_parameters.h>
@@ -317,17 +318,6 @@ namespace quoin
       for (const std::string &option : overrides)
         parse(prm, file, "--set \"" + option + "\"", override_text(option),
               skip_undefined);
-    }
-
-    template <typename T>
-    std::vector<T> read_named(const ParameterSection &top,
-                              const std::string &section_name)
-    {
-      const ParameterSection section(top, section_name);
-      std::vector<T> result;
-      for (const std::string &name : section.list("Names"))
-        result.push_back(T::read(ParameterSection(section, name), name));
-      return result;
     }
 
     /** Whether something takes the motion away that an explicit stage has. */
