@@ -58,13 +58,13 @@ namespace quoin
       JointOutput joint_output;
       JointOutput contact_output;
       BoundaryOutput boundary_output;
-      RootTable far_field_table;
-      double wall_time          = 0.;  /**< of the time loop [s] */
-      double largest_residual   = 0.;  /**< of the energy balance */
-      double largest_throughput = 0.;  /**< boundary elements' too [J] */
-      double fields_time        = -1.; /**< of the last VTU files [s] */
-      bool stage_begun          = false;
-      RootTable convergence_table;
+      RootTable far_field_table   = {};
+      double wall_time            = 0.;  /**< of the time loop [s] */
+      double largest_residual     = 0.;  /**< of the energy balance */
+      double largest_throughput   = 0.;  /**< boundary elements' too [J] */
+      double fields_time          = -1.; /**< of the last VTU files [s] */
+      bool stage_begun            = false;
+      RootTable convergence_table = {};
       std::uint64_t iterations = 0, cuts = 0;  /**< of the implicit solver */
       std::vector<FactorSearch> searches = {}; /**< of each stage; or empty */
 
