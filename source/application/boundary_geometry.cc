@@ -2,19 +2,26 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/boundary_geometry.h>
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
+#include <quoin/tdbem/segment.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 namespace quoin
 {
   namespace
   {
+    using constants::pi;
+
     using Eigen::Vector2d;
     using Points = std::vector<Vector2d>;
 
@@ -176,10 +183,10 @@ namespace quoin
                 ? parameters.n_elements
                 : checked(
                     parameters,
-                    std::max(3., std::ceil(2. * M_PI * parameters.radius
+                    std::max(3., std::ceil(2. * pi * parameters.radius
                                            / element_length * (1. - 1e-9))),
                     element_length);
-      const double part = M_PI / n;
+      const double part = pi / n;
       double radius     = parameters.radius;
       if (parameters.polygon == CirclePolygon::equal_area)
         radius *= std::sqrt(2. * part / std::sin(2. * part));
@@ -189,7 +196,7 @@ namespace quoin
       curve.closed = true;
       for (unsigned int k = 0; k < n; ++k)
       {
-        const double angle = parameters.angles[0] + 2. * M_PI * k / n;
+        const double angle = parameters.angles[0] + 2. * pi * k / n;
         curve.points.push_back(
             Vector2d(parameters.centre[0], parameters.centre[1])
             + radius * Vector2d(std::cos(angle), std::sin(angle)));
@@ -214,11 +221,17 @@ namespace quoin
       return curve;
     }
 
-    /** Joins the edges of named curves of a mesh end to end. */
-    Curve chain(const BoundaryCurveParameters &parameters, const MeshData &mesh)
+    using MeshEdge = std::array<unsigned int, 2>;
+
+    /**
+     * The edges of named curves of a mesh, those of the first curve first.
+     * Vertices at one place become one: blocks that touch without sharing
+     * vertices are passed without a gap.
+     */
+    std::vector<MeshEdge>
+    edges_of_curves(const BoundaryCurveParameters &parameters,
+                    const MeshData &mesh)
     {
-      using Edge = std::array<unsigned int, 2>;
-      // Blocks that touch without sharing vertices are passed without a gap.
       double size = 0.;
       for (const auto &vertex : mesh.vertices)
         size = std::max({ size, std::abs(vertex[0]), std::abs(vertex[1]) });
@@ -237,7 +250,7 @@ namespace quoin
         vertex_at[{ { i, k } }] = v;
         return v;
       };
-      std::vector<Edge> edges; // those of the first curve are the first ones
+      std::vector<MeshEdge> edges;
       for (const std::string &name : parameters.curves)
       {
         const auto found
@@ -249,17 +262,50 @@ namespace quoin
             edges.push_back(
                 { { one_at(mesh.lines[l][0]), one_at(mesh.lines[l][1]) } });
         if (edges.size() == before)
-        {
-          std::string known;
-          for (std::size_t n = 1; n < mesh.line_names.size(); ++n)
-            known += (known.empty() ? "" : ", ") + mesh.line_names[n];
           fail(parameters.name, "'Curves' names '" + name
                                     + "', which is no physical curve of the "
                                       "mesh. These are: "
-                                    + (known.empty() ? "none" : known) + ".");
-        }
+                                    + known_names(mesh.line_names) + ".");
       }
+      return edges;
+    }
 
+    /** Vertices in the order of a walk along @p edges from @p first; and
+        whether it passes the first edge forward. */
+    std::pair<std::vector<unsigned int>, bool>
+    walk(const std::vector<MeshEdge> &edges,
+         const std::map<unsigned int, std::vector<std::size_t>> &edges_of,
+         const unsigned int first, const std::string &boundary)
+    {
+      std::vector<bool> used(edges.size(), false);
+      std::vector<unsigned int> order = { first };
+      bool forward                    = true;
+      while (true)
+      {
+        std::size_t next = edges.size();
+        // A loop begins with its first edge.
+        for (const std::size_t e : edges_of.at(order.back()))
+          if (!used[e] && (next == edges.size() || e < next))
+            next = e;
+        if (next == edges.size())
+          break;
+        used[next] = true;
+        if (next == 0)
+          forward = edges[0][0] == order.back();
+        order.push_back(edges[next][0] == order.back() ? edges[next][1]
+                                                       : edges[next][0]);
+      }
+      if (std::find(used.begin(), used.end(), false) != used.end())
+        fail(boundary, "'Curves': they do not hang together. Make one "
+                       "boundary of each closed curve.");
+      return { order, forward };
+    }
+
+    /** Joins the edges of named curves of a mesh end to end, in the direction
+        of the first edge of the first curve. */
+    Curve chain(const BoundaryCurveParameters &parameters, const MeshData &mesh)
+    {
+      const auto edges = edges_of_curves(parameters, mesh);
       std::map<unsigned int, std::vector<std::size_t>> edges_of;
       for (std::size_t e = 0; e < edges.size(); ++e)
         for (const unsigned int v : edges[e])
@@ -281,28 +327,9 @@ namespace quoin
                                   + text(position(ends[2]))
                                   + ". Make one boundary of each piece.");
 
-      std::vector<bool> used(edges.size(), false);
-      std::vector<unsigned int> order
-          = { ends.empty() ? edges[0][0] : ends.front() };
-      bool forward = true; // as the first edge of the first curve
-      while (true)
-      {
-        std::size_t next = edges.size();
-        // A loop begins with its first edge.
-        for (const std::size_t e : edges_of[order.back()])
-          if (!used[e] && (next == edges.size() || e < next))
-            next = e;
-        if (next == edges.size())
-          break;
-        used[next] = true;
-        if (next == 0)
-          forward = edges[0][0] == order.back();
-        order.push_back(edges[next][0] == order.back() ? edges[next][1]
-                                                       : edges[next][0]);
-      }
-      if (std::find(used.begin(), used.end(), false) != used.end())
-        fail(parameters.name, "'Curves': they do not hang together. Make one "
-                              "boundary of each closed curve.");
+      auto [order, forward]
+          = walk(edges, edges_of, ends.empty() ? edges[0][0] : ends.front(),
+                 parameters.name);
       Curve curve;
       curve.closed = ends.empty();
       if (curve.closed)
@@ -341,7 +368,7 @@ namespace quoin
                            const BoundaryCurveParameters &parameters,
                            double element_length)
     {
-      const double corner      = std::cos(20. * M_PI / 180.);
+      const double corner      = std::cos(20. * pi / 180.);
       const std::size_t n      = curve.points.size();
       const std::size_t n_edge = curve.n_edges();
       double total             = 0.;
@@ -451,14 +478,10 @@ namespace quoin
                          + ". Use left or right of that direction.");
         if (parameters.n_elements == 0 && length == 0.)
           break;
-        curve
-            = parameters.shape == BoundaryShape::interface ? with_whole_edges(
-                  curve, parameters, length)
-                                                           : cut(
-                                                               without_straight_points(
-                                                                   curve),
-                                                               parameters,
-                                                               length);
+        if (parameters.shape == BoundaryShape::interface)
+          curve = with_whole_edges(curve, parameters, length);
+        else
+          curve = cut(without_straight_points(curve), parameters, length);
         break;
       }
       }
@@ -475,15 +498,6 @@ namespace quoin
     double cross(const Vector2d &a, const Vector2d &b)
     {
       return a.x() * b.y() - a.y() * b.x();
-    }
-
-    double distance_to_segment(const Vector2d &point, const Vector2d &a,
-                               const Vector2d &b)
-    {
-      const Vector2d edge = b - a;
-      const double s
-          = std::clamp(edge.dot(point - a) / edge.squaredNorm(), 0., 1.);
-      return (point - a - s * edge).norm();
     }
 
     void check_elements(const BoundaryGeometry &geometry,
@@ -531,31 +545,34 @@ namespace quoin
     }
   } // namespace
 
-  /** What closed curves enclose must be on the domain's side of others. */
-  static void check_sides(const std::vector<Curve> &curves,
-                          const BoundaryGeometry &geometry,
-                          const BoundaryElementParameters &parameters)
+  namespace
   {
-    for (std::size_t k = 0; k < curves.size(); ++k)
+    /** What closed curves enclose must be on the domain's side of others. */
+    void check_sides(const std::vector<Curve> &curves,
+                     const BoundaryGeometry &geometry,
+                     const BoundaryElementParameters &parameters)
     {
-      if (!curves[k].closed)
-        continue;
-      Boundary alone;
-      alone.add_curve(curves[k].points, true);
-      for (std::size_t e = 0; e < geometry.owner.size(); ++e)
-        if (geometry.owner[e] != k
-            && !nearest_element(alone, geometry.boundary.elements[e].middle())
-                    .inside_domain)
-        {
-          const auto &name  = parameters.boundaries[k].name;
-          const auto &other = parameters.boundaries[geometry.owner[e]].name;
-          fail(name, "'Domain': the boundary '" + other
-                         + "' is not on the side of '" + name
-                         + "' where the domain is. Change 'Domain' of one of "
-                           "them, or move it.");
-        }
+      for (std::size_t k = 0; k < curves.size(); ++k)
+      {
+        if (!curves[k].closed)
+          continue;
+        Boundary alone;
+        alone.add_curve(curves[k].points, true);
+        for (std::size_t e = 0; e < geometry.owner.size(); ++e)
+          if (geometry.owner[e] != k
+              && !nearest_element(alone, geometry.boundary.elements[e].middle())
+                      .inside_domain)
+          {
+            const auto &name  = parameters.boundaries[k].name;
+            const auto &other = parameters.boundaries[geometry.owner[e]].name;
+            fail(name, "'Domain': the boundary '" + other
+                           + "' is not on the side of '" + name
+                           + "' where the domain is. Change 'Domain' of one of "
+                             "them, or move it.");
+          }
+      }
     }
-  }
+  } // namespace
 
   bool segments_meet(const Vector2d &a, const Vector2d &b, const Vector2d &c,
                      const Vector2d &d)

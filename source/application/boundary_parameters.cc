@@ -2,10 +2,9 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/boundary_parameters.h>
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <cmath>
 #include <sstream>
@@ -19,7 +18,7 @@ namespace quoin
     using dealii::Patterns::Integer;
     using dealii::Patterns::Selection;
 
-    constexpr double degree = dealii::numbers::PI / 180.;
+    using constants::degree;
 
     SpaceTimeFunction function(const ParameterSection &section,
                                const std::string &name, const std::string &text)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/application/boundary_report.h>
 #include <quoin/application/boundary_simulation.h>
 #include <quoin/application/model_summary.h>
 #include <quoin/application/open_log.h>
@@ -9,6 +10,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/tdbem/plain_vector.h>
 #include <quoin/tdbem/static_solver.h>
 
 #include <algorithm>
@@ -30,11 +32,6 @@ namespace quoin
     constexpr double stable_shear_ratio_of_many = 0.85;
     constexpr std::size_t few_elements          = 64;
     constexpr std::uint64_t steady_steps        = 500;
-
-    VectorXd to_eigen(const std::vector<double> &values)
-    {
-      return VectorXd::Map(values.data(), Eigen::Index(values.size()));
-    }
 
     /** Runs @p task and puts the file's name before its complaints. */
     template <typename Task>
@@ -65,8 +62,9 @@ namespace quoin
                                                    : -1.),
       record{ 0,  {},   {},
               {}, {},   {},
-              {}, 0,    BoundaryOutput(output, MPI_COMM_SELF),
-              0., false }
+              {}, {},   BoundaryOutput(output, MPI_COMM_SELF),
+              0., false },
+      checkpoint_clock(parameters.checkpoint_interval, communicator)
   {
   }
 
@@ -84,7 +82,7 @@ namespace quoin
       log.message("the run had finished: nothing is left to do");
       return;
     }
-    last_checkpoint = WallClock::now();
+    checkpoint_clock.restart();
     write_summary();
     if (settings.is_static)
       write_static();
@@ -145,11 +143,7 @@ namespace quoin
 
   void BoundarySimulation::choose_time_step()
   {
-    const double wanted = settings.time_step > 0.
-                              ? settings.time_step
-                              : settings.step_ratio
-                                    * geometry.boundary.lengths().minCoeff()
-                                    / medium.c1;
+    const double wanted = wanted_time_step(settings, geometry.boundary, medium);
     // The run ends at a step, not near one.
     const double steps
         = count_steps(settings.duration, wanted, 1e9,
@@ -216,13 +210,9 @@ namespace quoin
     if (settings.is_static)
       return;
     advise();
-    const double low  = medium.c1 * dt / lengths.maxCoeff();
-    const double high = medium.c1 * dt / lengths.minCoeff();
-    log.message("time step " + number_text(dt) + " s, c1 dt / L "
-                + (high - low < 1e-6 * high ? number_text(high)
-                                            : "from " + number_text(low)
-                                                  + " to " + number_text(high))
-                + ", " + std::to_string(n_steps) + " steps");
+    log.message("time step " + number_text(dt) + " s, "
+                + step_ratio_text(geometry.boundary, medium, dt) + ", "
+                + std::to_string(n_steps) + " steps");
     for (const std::string &text : waves->reports())
       log.message(text);
     if (needs_record())
@@ -238,24 +228,12 @@ namespace quoin
     kernel = make_lag_kernel(geometry.boundary, medium, formulation);
     history
         = make_history(*kernel, geometry.boundary, formulation, communicator);
-    report_passivity();
+    passivity
+        = passivity_of(*kernel, *history, geometry.boundary, medium,
+                       formulation, dt, settings.n_frequencies, communicator);
+    if (passivity)
+      log.message(passivity->advice());
     report_stability();
-  }
-
-  void BoundarySimulation::report_passivity()
-  {
-    if (settings.n_frequencies == 0)
-      return;
-    // As wide as the scan needs to miss little: what rings at a frequency is
-    // seen from the next one.
-    const double radius = 1. - 0.5 / double(settings.n_frequencies);
-    const ZTransform transform
-        = make_transform(*kernel, *history, geometry.boundary, medium,
-                         formulation_options(), communicator);
-    passivity = std::make_unique<PassivityReport>(
-        scan_passivity(transform, geometry.boundary, medium, dt,
-                       settings.n_frequencies, radius));
-    log.message(passivity->advice());
   }
 
   void BoundarySimulation::report_stability()

@@ -161,7 +161,7 @@ namespace quoin
                           {
                             if (!is_first_rank)
                               return;
-                            history_table->start();
+                            record.history_table.start();
                             for (std::size_t r = 0; r < columns.size(); ++r)
                             {
                               const auto begin
@@ -170,9 +170,9 @@ namespace quoin
                               const VectorXd now = u.col(columns[r][0]);
                               histories->set_interior(
                                   row, now, (now - u.col(columns[r][1])) / dt);
-                              history_table->add_row(row);
+                              record.history_table.add_row(row);
                             }
-                            history_table->flush();
+                            record.history_table.flush();
                           });
     record.rows = {};
   }

@@ -11,6 +11,7 @@
 #include <quoin/output/checkpoint.h>
 #include <quoin/output/collective.h>
 #include <quoin/output/json_file.h>
+#include <quoin/tdbem/plain_vector.h>
 
 #include <nlohmann/json.hpp>
 
@@ -21,14 +22,6 @@ namespace quoin
   namespace
   {
     using Eigen::VectorXd;
-
-    /** Steps between looks at the clock for a checkpoint. */
-    constexpr std::uint64_t clock_interval = 16;
-
-    std::vector<double> to_vector(const VectorXd &values)
-    {
-      return { values.data(), values.data() + values.size() };
-    }
 
     /** Largest memory that this process has had [B]. */
     double peak_memory()
@@ -41,8 +34,9 @@ namespace quoin
 
   void BoundarySimulation::open_outputs()
   {
-    history_table = std::make_unique<CsvTable>(output + "/histories.csv",
-                                               histories->column_names());
+    if (is_first_rank)
+      record.history_table.make(output + "/histories.csv",
+                                histories->column_names());
     open_log(run_identity, output, options.resume, communicator, lock, log,
              record);
     all_or_none<RunError>(communicator,
@@ -51,12 +45,11 @@ namespace quoin
                             if (!is_first_rank)
                               return;
                             if (options.resume)
-                              history_table->resume(record.histories_bytes);
+                              record.history_table.resume();
                             else
-                              history_table->start();
-                            AtomicFile used(output + "/used_parameters.prm");
-                            used.stream() << parameters.effective;
-                            used.commit();
+                              record.history_table.start();
+                            write_text(output + "/used_parameters.prm",
+                                       parameters.effective);
                             record.boundary_output.start();
                           });
   }
@@ -74,10 +67,8 @@ namespace quoin
     all_or_none<RunError>(communicator,
                           [&]()
                           {
-                            if (!is_first_rank)
-                              return;
-                            history_table->add_row(row);
-                            history_table->flush();
+                            record.history_table.add_row(row);
+                            record.history_table.flush();
                           });
     write_boundary(settings.duration, state);
     if (!sampled_points.empty())
@@ -94,8 +85,8 @@ namespace quoin
     const std::vector<double> row = histories->row(time, state);
     if (!histories->interior_points().empty())
       record.rows.insert(record.rows.end(), row.begin(), row.end());
-    else if (is_first_rank)
-      history_table->add_row(row);
+    else
+      record.history_table.add_row(row);
   }
 
   void BoundarySimulation::write_boundary(const double time,
@@ -107,22 +98,17 @@ namespace quoin
                             if (is_first_rank)
                               record.boundary_output.write(
                                   time, boundary_fields(geometry, state));
-                            history_table->flush();
+                            record.history_table.flush();
                           });
   }
 
   void BoundarySimulation::checkpoint_if_due()
   {
-    if (record.step % clock_interval != 0)
+    if (record.step % CheckpointClock::steps_between_looks != 0)
       return;
-    all_or_none<RunError>(communicator, [&]() { history_table->check(); });
-    if (parameters.checkpoint_interval == 0.)
-      return;
-    // The first rank's clock counts for all.
-    const bool due = dealii::Utilities::MPI::broadcast(
-        communicator,
-        seconds_since(last_checkpoint) > parameters.checkpoint_interval);
-    if (due)
+    all_or_none<RunError>(communicator,
+                          [&]() { record.history_table.check(); });
+    if (checkpoint_clock.is_due())
       save_checkpoint();
   }
 
@@ -134,22 +120,11 @@ namespace quoin
       record.u       = to_vector(march->u());
       record.p       = to_vector(march->p());
     }
-    all_or_none<RunError>(communicator,
-                          [&]()
-                          {
-                            if (is_first_rank)
-                            {
-                              history_table->sync();
-                              record.histories_bytes = history_table->size();
-                            }
-                          });
-    CheckpointInfo info;
-    info.step       = record.step;
-    info.time       = record.step * dt;
-    info.version    = QUOIN_VERSION;
-    info.parameters = run_identity;
-    quoin::save_checkpoint(output, communicator, info, record);
-    last_checkpoint = WallClock::now();
+    all_or_none<RunError>(communicator, [&]() { record.history_table.sync(); });
+    quoin::save_checkpoint(
+        output, communicator,
+        { record.step, record.step * dt, QUOIN_VERSION, run_identity }, record);
+    checkpoint_clock.restart();
   }
 
   void BoundarySimulation::write_summary()

@@ -3,11 +3,11 @@
 
 #include <quoin/application/field_output.h>
 #include <quoin/application/histories.h>
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/dynamics/triangle.h>
 #include <quoin/output/block_output.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +21,69 @@ namespace quoin
     /** Squared distance by which nodes are put after others at their place
         [m^2]. */
     constexpr double just_behind = 1e-18;
+
+    /** What of this rank is nearest to a point. */
+    struct Nearest
+    {
+      dealii::Point<2> point;
+      unsigned int entity    = 0; /**< node, cell or joint point */
+      double distance_square = std::numeric_limits<double>::max();
+
+      void consider(const dealii::Point<2> &p, const unsigned int candidate,
+                    const double farther = 0.)
+      {
+        const double distance = p.distance_square(point) + farther;
+        if (distance < distance_square)
+        {
+          distance_square = distance;
+          entity          = candidate;
+        }
+      }
+    };
+
+    void consider_nodes(const Model &model,
+                        const std::vector<bool> &absent_in_the_end,
+                        Nearest &nearest)
+    {
+      const BlockMesh<2> &mesh = model.mesh();
+      for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      {
+        const unsigned int v     = model.exchange().global(i);
+        const unsigned int block = mesh.block_of_vertex(v);
+        const bool absent
+            = absent_in_the_end[mesh.cell_group[mesh.block_first_cell[block]]];
+        nearest.consider(mesh.vertices[v], i, absent ? just_behind : 0.);
+      }
+    }
+
+    void consider_cells(const Model &model, Nearest &nearest)
+    {
+      const BlockMesh<2> &mesh = model.mesh();
+      for (unsigned int c = 0; c < model.n_cells(); ++c)
+      {
+        const auto &cell = mesh.cells[model.first_cell() + c];
+        nearest.consider(
+            dealii::Point<2>((mesh.vertices[cell[0]] + mesh.vertices[cell[1]]
+                              + mesh.vertices[cell[2]])
+                             / 3.),
+            c);
+      }
+    }
+
+    /** Of joints on @p curve; on any, if it is empty. */
+    void consider_joint_points(const Model &model, const std::string &curve,
+                               Nearest &nearest)
+    {
+      const BlockMesh<2> &mesh = model.mesh();
+      for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+      {
+        const auto &face = mesh.joint_faces[model.joints().segment(i).face];
+        if (!curve.empty() && mesh.line_names[face.name] != curve)
+          continue;
+        for (unsigned int k = 0; k < 2; ++k)
+          nearest.consider(mesh.vertices[face.lower[k]], 2 * i + k);
+      }
+    }
   } // namespace
 
   Histories::Histories(const std::vector<HistoryParameters> &parameters,
@@ -60,85 +123,25 @@ namespace quoin
   void Histories::locate(Probe &probe) const
   {
     const HistoryParameters &wanted = probe.parameters;
-    const std::string section = "section 'Histories/" + wanted.name + "': ";
-    const dealii::Point<2> point(wanted.point[0], wanted.point[1]);
-    double best = std::numeric_limits<double>::max();
-    const auto consider
-        = [&](const dealii::Point<2> &p, const unsigned int entity,
-              const double farther = 0.)
-    {
-      const double distance = p.distance_square(point) + farther;
-      if (distance < best)
-      {
-        best         = distance;
-        probe.entity = entity;
-      }
-    };
-    const auto &mesh = model.mesh();
-
+    Nearest nearest{ { wanted.point[0], wanted.point[1] } };
     switch (wanted.quantity)
     {
     case HistoryQuantity::displacement:
     case HistoryQuantity::velocity:
-      for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
-      {
-        const unsigned int v     = model.exchange().global(i);
-        const unsigned int block = mesh.block_of_vertex(v);
-        const bool absent
-            = absent_in_the_end[mesh.cell_group[mesh.block_first_cell[block]]];
-        consider(mesh.vertices[v], i, absent ? just_behind : 0.);
-      }
+      consider_nodes(model, absent_in_the_end, nearest);
       break;
     case HistoryQuantity::stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
-      for (unsigned int c = 0; c < model.n_cells(); ++c)
-      {
-        const auto &cell = mesh.cells[model.first_cell() + c];
-        consider(
-            dealii::Point<2>((mesh.vertices[cell[0]] + mesh.vertices[cell[1]]
-                              + mesh.vertices[cell[2]])
-                             / 3.),
-            c);
-      }
+      consider_cells(model, nearest);
       break;
     case HistoryQuantity::joint:
-      for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
-      {
-        const auto &segment = model.joints().segment(i);
-        const auto &face    = mesh.joint_faces[segment.face];
-        if (!wanted.curve.empty() && mesh.line_names[face.name] != wanted.curve)
-          continue;
-        for (unsigned int k = 0; k < 2; ++k)
-          consider(mesh.vertices[face.lower[k]], 2 * i + k);
-      }
+      consider_joint_points(model, wanted.curve, nearest);
       break;
     case HistoryQuantity::reaction:
     case HistoryQuantity::platen_displacement:
     case HistoryQuantity::platen_force:
-    {
-      const auto &constraints = solver.constraints();
-      const auto found
-          = std::find_if(constraints.begin(), constraints.end(),
-                         [&](const auto &constraint)
-                         { return constraint->name() == wanted.load; });
-      if (found == constraints.end())
-      {
-        std::string known;
-        for (const auto &constraint : constraints)
-          known += (known.empty() ? "" : ", ") + constraint->name();
-        throw InputError(section + "'Load = " + wanted.load
-                         + "' is no prescribed motion, platen or "
-                           "viscous boundary. These are: "
-                         + known + ".");
-      }
-      probe.platen = dynamic_cast<const Platen *>(found->get());
-      if (wanted.quantity != HistoryQuantity::reaction && !probe.platen)
-        throw InputError(section + "'Load = " + wanted.load
-                         + "' is no platen. Use 'reaction' for other "
-                           "loads.");
-      return;
-    }
+      return find_load(probe);
     case HistoryQuantity::unbalanced_ratio: // of the whole model
     case HistoryQuantity::kinetic_share:
     case HistoryQuantity::contacts:
@@ -151,10 +154,39 @@ namespace quoin
     case HistoryQuantity::boundary_force:
       return;
     }
+    probe.entity = nearest.entity;
+    find_owner(probe, nearest.distance_square);
+  }
 
+  void Histories::find_load(Probe &probe) const
+  {
+    const HistoryParameters &wanted = probe.parameters;
+    const std::string section = "section 'Histories/" + wanted.name + "': ";
+    const auto &constraints   = solver.constraints();
+    const auto found = std::find_if(constraints.begin(), constraints.end(),
+                                    [&](const auto &constraint) {
+                                      return constraint->name() == wanted.load;
+                                    });
+    if (found == constraints.end())
+      throw InputError(section + "'Load = " + wanted.load
+                       + "' is no prescribed motion, platen or "
+                         "viscous boundary. These are: "
+                       + known_names(constraints, &NodeConstraint::name) + ".");
+    probe.platen = dynamic_cast<const Platen *>(found->get());
+    if (wanted.quantity != HistoryQuantity::reaction && !probe.platen)
+      throw InputError(section + "'Load = " + wanted.load
+                       + "' is no platen. Use 'reaction' for other loads.");
+  }
+
+  void Histories::find_owner(Probe &probe, const double distance_square) const
+  {
+    const HistoryParameters &wanted = probe.parameters;
+    const std::string section = "section 'Histories/" + wanted.name + "': ";
+    const BlockMesh<2> &mesh  = model.mesh();
     // The nearest of all ranks, the first of them if there is a tie.
-    const double nearest = dealii::Utilities::MPI::min(best, communicator);
-    double longest       = 0.;
+    const double nearest
+        = dealii::Utilities::MPI::min(distance_square, communicator);
+    double longest = 0.;
     for (const auto &cell : mesh.cells)
       for (unsigned int k = 0; k < 3; ++k)
         longest = std::max(longest, mesh.vertices[cell[k]].distance_square(
@@ -162,8 +194,8 @@ namespace quoin
     if (nearest > 4. * longest && nearest != std::numeric_limits<double>::max())
     {
       std::ostringstream message;
-      message << section << "'Point = " << point[0] << ", " << point[1]
-              << "' is " << std::sqrt(nearest)
+      message << section << "'Point = " << wanted.point[0] << ", "
+              << wanted.point[1] << "' is " << std::sqrt(nearest)
               << " m from the nearest node, cell or joint of the model, more "
                  "than two of its longest edges. Give a point of the model in "
                  "metres.";
@@ -177,9 +209,10 @@ namespace quoin
                        + " in the model. Correct 'Curve' or 'Quantity'.");
     const unsigned int rank
         = dealii::Utilities::MPI::this_mpi_process(communicator);
-    probe.here = rank
-                 == dealii::Utilities::MPI::min(
-                     best == nearest ? rank : 1U << 30, communicator);
+    probe.here
+        = rank
+          == dealii::Utilities::MPI::min(
+              distance_square == nearest ? rank : 1U << 30, communicator);
   }
 
   double Histories::point_value(const Probe &probe, const State &state) const
@@ -194,7 +227,7 @@ namespace quoin
     case HistoryQuantity::velocity:
       return state.velocity[probe.entity].v[wanted.component];
     case HistoryQuantity::rotation:
-      return rotation(probe.entity, state) * 180. / dealii::numbers::PI;
+      return rotation(probe.entity, state) * 180. / constants::pi;
     case HistoryQuantity::stress:
     {
       if (probe.entity >= model.n_deformable_cells())
@@ -301,7 +334,7 @@ namespace quoin
       {
         const unsigned int d = probe.parameters.component;
         row[1 + i] = state.platens[probe.platen->index()].displacement[d]
-                     * (d == 2 ? 180. / dealii::numbers::PI : 1.);
+                     * (d == 2 ? 180. / constants::pi : 1.);
       }
     }
   }

@@ -4,7 +4,7 @@
 #include <quoin/application/mesh_parameters.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/layout/rock_layout.h>
-#include <quoin/mesh/wall_layout.h>
+#include <quoin/layout/wall_layout.h>
 
 #include <filesystem>
 
@@ -54,7 +54,7 @@ namespace quoin
     void lay(const WallParameters &wall, Parameters &parameters)
     {
       const WallLayout layout     = lay_wall(wall);
-      const WallGeometry geometry = wall_geometry(wall, layout);
+      const GmshGeometry geometry = wall_geometry(wall, layout);
       parameters.generated = { "wall", geometry.text, wall_report(layout), "" };
       parameters.split.joints_along = geometry.joint_curves;
     }
@@ -62,7 +62,7 @@ namespace quoin
     void lay(const RockParameters &rock, Parameters &parameters)
     {
       const RockLayout layout     = lay_rock(rock);
-      const RockGeometry geometry = rock_geometry(rock, layout);
+      const GmshGeometry geometry = rock_geometry(rock, layout);
       parameters.generated = { "rock", geometry.text, rock_report(rock, layout),
                                rock_statistics(rock, layout) };
       parameters.split.joints_along = geometry.joint_curves;

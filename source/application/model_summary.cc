@@ -2,11 +2,12 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/model_summary.h>
+#include <quoin/base/constants.h>
 #include <quoin/base/number_text.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/nodal_load.h>
 
-#include <deal.II/base/numbers.h>
+#include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace quoin
 {
   namespace
   {
-    constexpr double degrees = 180. / dealii::numbers::PI;
+    constexpr double degrees = 180. / constants::pi;
 
     std::string range_text(const double low, const double high,
                            const std::string &unit)
@@ -73,10 +74,7 @@ namespace quoin
 
     std::string joined(const std::vector<std::string> &words)
     {
-      std::string text;
-      for (const std::string &word : words)
-        text += (text.empty() ? "" : ", ") + word;
-      return text;
+      return boost::algorithm::join(words, ", ");
     }
 
     /** "name 5 unit", or "name unlimited". */

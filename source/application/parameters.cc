@@ -4,6 +4,8 @@
 #include <quoin/application/mesh_parameters.h>
 #include <quoin/application/parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
+#include <quoin/base/named_sections.h>
 #include <quoin/dynamics/construction.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/layout/rock_parameters.h>
@@ -318,17 +320,6 @@ namespace quoin
               skip_undefined);
     }
 
-    template <typename T>
-    std::vector<T> read_named(const ParameterSection &top,
-                              const std::string &section_name)
-    {
-      const ParameterSection section(top, section_name);
-      std::vector<T> result;
-      for (const std::string &name : section.list("Names"))
-        result.push_back(T::read(ParameterSection(section, name), name));
-      return result;
-    }
-
     /** Whether something takes the motion away that an explicit stage has. */
     bool comes_to_rest(const StageParameters &stage,
                        const std::vector<LoadParameters> &loads)
@@ -572,14 +563,6 @@ namespace quoin
       check_boundary_histories(top, parameters);
     }
 
-    std::string join(const std::set<std::string> &names)
-    {
-      std::string text;
-      for (const auto &name : names)
-        text += (text.empty() ? "" : ", ") + name;
-      return text.empty() ? "none" : text;
-    }
-
     void check_loads(const Parameters &parameters)
     {
       std::set<std::string> names, used;
@@ -591,8 +574,8 @@ namespace quoin
           if (names.count(load) == 0)
             throw InputError(parameters.file + ", section 'Stages/" + stage.name
                              + "': 'Loads' names '" + load
-                             + "', which is no load. Loads are: " + join(names)
-                             + ".");
+                             + "', which is no load. Loads are: "
+                             + known_names(names) + ".");
           used.insert(load);
           if (std::count(stage.loads.begin(), stage.loads.end(), load) > 1)
             throw InputError(parameters.file + ", section 'Stages/" + stage.name

@@ -2,8 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/signal_frequency.h>
-
-#include <deal.II/base/numbers.h>
+#include <quoin/base/constants.h>
 
 #include <fftw3.h>
 
@@ -62,7 +61,7 @@ namespace quoin
       left = std::max(left, std::abs(samples[i]));
       const double to_go
           = std::min(1., (1. - double(i) / double(n)) / fading_share);
-      samples[i] *= 0.5 - 0.5 * std::cos(dealii::numbers::PI * to_go);
+      samples[i] *= 0.5 - 0.5 * std::cos(constants::pi * to_go);
     }
     if (!(left > rounding * largest))
       return 0.;

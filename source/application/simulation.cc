@@ -48,13 +48,14 @@ namespace quoin
       field_control(parameters.field_interval > 0. ? parameters.field_interval
                                                    : -1.),
       record{ {},
-              0,
-              0,
+              {},
+              {},
               BlockOutput(parameters.output_directory, communicator),
               JointOutput(parameters.output_directory, communicator),
               JointOutput(parameters.output_directory, communicator,
                           "contacts"),
-              BoundaryOutput(parameters.output_directory, MPI_COMM_SELF) }
+              BoundaryOutput(parameters.output_directory, MPI_COMM_SELF) },
+      checkpoint_clock(parameters.checkpoint_interval, communicator)
   {
   }
 
@@ -70,7 +71,7 @@ namespace quoin
       log.message("the run had finished: nothing is left to do");
       return;
     }
-    last_checkpoint = WallClock::now();
+    checkpoint_clock.restart();
     if (options.resume)
       resume();
     for (unsigned int i = record.state.stage; i < parameters.stages.size(); ++i)
@@ -158,52 +159,7 @@ namespace quoin
   void Simulation::report_model()
   {
     log.message(parameters.title.empty() ? parameters.file : parameters.title);
-    // What touches without matching is in contact if displacements are large.
-    if (parameters.model.contact.large_displacements)
-      mesh_report.unmatched_length = 0.;
-    if (!parameters.generated.report.empty())
-      log.message(parameters.generated.report);
-    log.message(mesh_report.to_text());
-    const auto &rigid          = model->is_rigid();
-    const unsigned int n_rigid = std::count(rigid.begin(), rigid.end(), true);
-    if (n_rigid > 0)
-      log.message(std::to_string(n_rigid) + " of the blocks "
-                  + (n_rigid == 1 ? "is rigid" : "are rigid"));
-    const unsigned int n_ranks
-        = dealii::Utilities::MPI::n_mpi_processes(communicator);
-    if (n_ranks > mesh.n_blocks())
-      log.warning("the model has " + std::to_string(mesh.n_blocks())
-                  + (mesh.n_blocks() == 1 ? " block" : " blocks")
-                  + " and the run " + std::to_string(n_ranks)
-                  + " MPI ranks, to which whole blocks are dealt: some have "
-                    "none. Fewer ranks would be as fast, but for boundary "
-                    "elements, which all share.");
-    if (mesh_report.unmatched_length > 0.)
-      log.warning("outer edges lie on each other over "
-                  + number_text(mesh_report.unmatched_length)
-                  + " m without matching nodes, the first near ("
-                  + number_text(mesh_report.unmatched_position[0]) + ", "
-                  + number_text(mesh_report.unmatched_position[1])
-                  + ") m: no joint is made there. Mesh both sides alike.");
-
-    // A double has 16 digits.
-    double farthest = 0.;
-    for (unsigned int d = 0; d < 2; ++d)
-      farthest = std::max({ farthest, std::abs(mesh_report.lower_left[d]),
-                            std::abs(mesh_report.upper_right[d]) });
-    if (mesh_report.shortest_edge < 1e-8 * farthest)
-      log.warning("coordinates of up to " + number_text(farthest)
-                  + " m leave few digits to edges of "
-                  + number_text(mesh_report.shortest_edge)
-                  + " m. Move the model nearer to the origin.");
-    if (mesh_report.overlaps)
-      log.warning("blocks overlap near ("
-                  + number_text(mesh_report.overlap_position[0]) + ", "
-                  + number_text(mesh_report.overlap_position[1])
-                  + ") m, where both then have their mass and stiffness. Take "
-                    "the surface out that is there twice, or cut it out of "
-                    "the other.");
-
+    report_mesh();
     if (const StaticFarField *far = solver->static_far_field())
       log.message("static boundary elements: their forces' matrix was "
                   "symmetric to "
@@ -255,6 +211,55 @@ namespace quoin
         state.time += double(steps_of_stage) * explicit_solver->get_time_step();
     }
     construction->restart();
+  }
+
+  void Simulation::report_mesh()
+  {
+    // What touches without matching is in contact if displacements are large.
+    if (parameters.model.contact.large_displacements)
+      mesh_report.unmatched_length = 0.;
+    if (!parameters.generated.report.empty())
+      log.message(parameters.generated.report);
+    log.message(mesh_report.to_text());
+    const auto &rigid          = model->is_rigid();
+    const unsigned int n_rigid = std::count(rigid.begin(), rigid.end(), true);
+    if (n_rigid > 0)
+      log.message(std::to_string(n_rigid) + " of the blocks "
+                  + (n_rigid == 1 ? "is rigid" : "are rigid"));
+    const unsigned int n_ranks
+        = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    if (n_ranks > mesh.n_blocks())
+      log.warning("the model has " + std::to_string(mesh.n_blocks())
+                  + (mesh.n_blocks() == 1 ? " block" : " blocks")
+                  + " and the run " + std::to_string(n_ranks)
+                  + " MPI ranks, to which whole blocks are dealt: some have "
+                    "none. Fewer ranks would be as fast, but for boundary "
+                    "elements, which all share.");
+    if (mesh_report.unmatched_length > 0.)
+      log.warning("outer edges lie on each other over "
+                  + number_text(mesh_report.unmatched_length)
+                  + " m without matching nodes, the first near ("
+                  + number_text(mesh_report.unmatched_position[0]) + ", "
+                  + number_text(mesh_report.unmatched_position[1])
+                  + ") m: no joint is made there. Mesh both sides alike.");
+
+    // A double has 16 digits.
+    double farthest = 0.;
+    for (unsigned int d = 0; d < 2; ++d)
+      farthest = std::max({ farthest, std::abs(mesh_report.lower_left[d]),
+                            std::abs(mesh_report.upper_right[d]) });
+    if (mesh_report.shortest_edge < 1e-8 * farthest)
+      log.warning("coordinates of up to " + number_text(farthest)
+                  + " m leave few digits to edges of "
+                  + number_text(mesh_report.shortest_edge)
+                  + " m. Move the model nearer to the origin.");
+    if (mesh_report.overlaps)
+      log.warning("blocks overlap near ("
+                  + number_text(mesh_report.overlap_position[0]) + ", "
+                  + number_text(mesh_report.overlap_position[1])
+                  + ") m, where both then have their mass and stiffness. Take "
+                    "the surface out that is there twice, or cut it out of "
+                    "the other.");
   }
 
   void Simulation::report_initial_joints()
@@ -436,8 +441,7 @@ namespace quoin
       solver->check_finite(state);
       const auto row = histories->after_step(state);
       write_energies(row.front());
-      if (is_first_rank)
-        history_table->add_row(row);
+      record.history_table.add_row(row);
       write_far_field_row();
     }
     if (balance || over)

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/application/boundary_report.h>
 #include <quoin/application/field_output.h>
 #include <quoin/application/simulation.h>
 #include <quoin/application/step_count.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/output/collective.h>
-#include <quoin/tdbem/passivity.h>
 
 #include <algorithm>
 #include <cmath>
@@ -47,11 +47,8 @@ namespace quoin
     const bool first = step == 0.;
     if (first)
     {
-      step = settings.time_step > 0.
-                 ? settings.time_step
-                 : settings.step_ratio
-                       * far.domain().boundary.lengths().minCoeff()
-                       / far.domain().medium.c1;
+      step = wanted_time_step(settings, far.domain().boundary,
+                              far.domain().medium);
       if (stage.end == StageEnd::time)
         step = stage.duration / steps(stage.duration, step);
     }
@@ -106,10 +103,6 @@ namespace quoin
     const FarField &far    = *solver->far_field();
     const Boundary &domain = far.domain().boundary;
     const auto lengths     = domain.lengths();
-    const double low
-        = far.domain().medium.c1 * far.time_step() / lengths.maxCoeff();
-    const double high
-        = far.domain().medium.c1 * far.time_step() / lengths.minCoeff();
     log.message(
         "boundary elements: " + std::to_string(domain.n_elements()) + ", "
         + std::to_string(far.domain().interface.size())
@@ -119,20 +112,14 @@ namespace quoin
         + " Hz have eight of them");
     log.message(
         "boundary elements: time step " + number_text(far.time_step()) + " s, "
-        + std::to_string(far.n_substeps()) + " block steps, c1 dt / L "
-        + (high - low < 1e-6 * high
-               ? number_text(high)
-               : "from " + number_text(low) + " to " + number_text(high)));
-    if (parameters.boundary.n_frequencies == 0)
-      return;
-    const unsigned int n       = parameters.boundary.n_frequencies;
-    const ZTransform transform = make_transform(
-        far.lag_kernel(), far.boundary_history(), domain, far.domain().medium,
-        far.domain().formulation, communicator);
-    passivity = std::make_unique<PassivityReport>(
-        scan_passivity(transform, domain, far.domain().medium, far.time_step(),
-                       n, 1. - 0.5 / double(n)));
-    log.message(passivity->advice());
+        + std::to_string(far.n_substeps()) + " block steps, "
+        + step_ratio_text(domain, far.domain().medium, far.time_step()));
+    passivity = passivity_of(far.lag_kernel(), far.boundary_history(), domain,
+                             far.domain().medium, far.domain().formulation,
+                             far.time_step(), parameters.boundary.n_frequencies,
+                             communicator);
+    if (passivity)
+      log.message(passivity->advice());
   }
 
   void Simulation::write_far_field_row()
@@ -153,9 +140,7 @@ namespace quoin
                        "impedance is not passive. Change 'Step ratio' or "
                        "'Formulation' in section 'Boundary elements' until the "
                        "passivity scan finds nothing, or damp the blocks.");
-    if (!is_first_rank)
-      return;
-    far_field_table->add_row(
+    record.far_field_table.add_row(
         { record.state.time, double(record.state.far_field.n_steps),
           ledger.radiated, ledger.substeps, ledger.incident, ledger.given,
           ledger.mismatch });

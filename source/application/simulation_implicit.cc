@@ -119,18 +119,15 @@ namespace quoin
     histories->before_step(record.state);
     const auto row = histories->after_step(record.state);
     write_energies(row.front());
-    if (is_first_rank)
-      history_table->add_row(row);
+    record.history_table.add_row(row);
   }
 
   void Simulation::write_iterations()
   {
     for (const IterationReport &report : implicit_solver->take_reports())
-      if (is_first_rank)
-        convergence_table->add_row(
-            { double(report.step), double(report.attempt),
-              double(report.iteration), report.load_time,
-              report.unbalanced_ratio, report.line_search,
-              report.linear_iterations });
+      record.convergence_table.add_row(
+          { double(report.step), double(report.attempt),
+            double(report.iteration), report.load_time, report.unbalanced_ratio,
+            report.line_search, report.linear_iterations });
   }
 } // namespace quoin

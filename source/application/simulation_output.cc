@@ -3,8 +3,8 @@
 
 #include <quoin/application/bandwidth.h>
 #include <quoin/application/field_output.h>
-#include <quoin/application/simulation.h>
 #include <quoin/application/open_log.h>
+#include <quoin/application/simulation.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
@@ -17,75 +17,61 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace quoin
 {
-  namespace
+  void Simulation::make_tables()
   {
-    /** Explicit steps between looks at the clock for a checkpoint: these are
-        collective, and the more of them the less they cost. */
-    constexpr std::uint64_t clock_interval = 16;
-  } // namespace
-
-  void Simulation::open_outputs()
-  {
-    history_table = std::make_unique<CsvTable>(output + "/histories.csv",
-                                               histories->column_names());
-    energy_table  = std::make_unique<CsvTable>(
+    if (!is_first_rank)
+      return;
+    record.history_table.make(output + "/histories.csv",
+                              histories->column_names());
+    record.energy_table.make(
         output + "/energies.csv",
-        std::vector<std::string>{
-             "time [s]", "kinetic [J]", "strain [J]", "joint [J]",
-             "friction [J]", "fracture [J]", "crushing [J]", "plastic [J]",
-             "damping [J]", "viscous [J]", "contact [J]", "radiated [J]",
-             "far field [J]", "external [J]", "residual [J]" });
+        { "time [s]", "kinetic [J]", "strain [J]", "joint [J]", "friction [J]",
+          "fracture [J]", "crushing [J]", "plastic [J]", "damping [J]",
+          "viscous [J]", "contact [J]", "radiated [J]", "far field [J]",
+          "external [J]", "residual [J]" });
     if (solver->far_field())
-      far_field_table = std::make_unique<CsvTable>(
-          output + "/far_field.csv",
-          std::vector<std::string>{ "time [s]", "steps [-]", "radiated [J]",
+      record.far_field_table.make(output + "/far_field.csv",
+                                  { "time [s]", "steps [-]", "radiated [J]",
                                     "substeps [J]", "incident [J]", "given [J]",
                                     "mismatch [-]" });
     if (implicit_solver)
-      convergence_table = std::make_unique<CsvTable>(
-          output + "/convergence.csv",
-          std::vector<std::string>{ "step [-]", "attempt [-]", "iteration [-]",
-                                    "load time [s]", "unbalanced ratio [-]",
-                                    "line search [-]",
-                                    "linear iterations [-]" });
+      record.convergence_table.make(output + "/convergence.csv",
+                                    { "step [-]", "attempt [-]",
+                                      "iteration [-]", "load time [s]",
+                                      "unbalanced ratio [-]", "line search [-]",
+                                      "linear iterations [-]" });
+  }
+
+  void Simulation::open_outputs()
+  {
+    make_tables();
     open_log(run_identity, output, options.resume, communicator, lock, log,
              record);
 
-    all_or_none<RunError>(
-        communicator,
-        [&]()
-        {
-          if (!is_first_rank)
-            return;
-          if (options.resume)
-          {
-            history_table->resume(record.histories_bytes);
-            energy_table->resume(record.energies_bytes);
-            if (far_field_table)
-              far_field_table->resume(record.far_field_bytes);
-            if (convergence_table)
-              convergence_table->resume(record.convergence_bytes);
-          }
-          else
-          {
-            history_table->start();
-            energy_table->start();
-            if (convergence_table)
-              convergence_table->start();
-            if (far_field_table)
-              far_field_table->start();
-          }
-          // After a resumption: cut back to what the checkpoint had.
-          if (far_field_table)
-            record.boundary_output.start();
-          write_text("used_parameters.prm", parameters.effective);
-          if (!options.resume)
-            write_generated_geometry();
-        });
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (!is_first_rank)
+                              return;
+                            for (RootTable *table : record.tables())
+                              if (options.resume)
+                                table->resume();
+                              else
+                                table->start();
+                            // After a resumption: cut back to what the
+                            // checkpoint had.
+                            if (solver->far_field())
+                              record.boundary_output.start();
+                            write_text(output + "/used_parameters.prm",
+                                       parameters.effective);
+                            if (!options.resume)
+                              write_generated_geometry();
+                          });
     record.block_output.start();
     record.joint_output.start();
     if (solver->contacts())
@@ -97,19 +83,11 @@ namespace quoin
     const GeneratedGeometry &made = parameters.generated;
     if (made.geometry.empty())
       return;
-    write_text(made.name + ".geo", made.geometry);
+    write_text(output + "/" + made.name + ".geo", made.geometry);
     if (!made.statistics.empty())
-      write_text(made.name + "_statistics.csv", made.statistics);
+      write_text(output + "/" + made.name + "_statistics.csv", made.statistics);
     write_gmsh_mesh(output + "/" + made.name + ".geo",
                     output + "/" + made.name + ".msh", parameters.triangles);
-  }
-
-  void Simulation::write_text(const std::string &name,
-                              const std::string &text) const
-  {
-    AtomicFile file(output + "/" + name);
-    file.stream() << text;
-    file.commit();
   }
 
   void Simulation::write_energies(const double time)
@@ -118,13 +96,12 @@ namespace quoin
     const EnergyAccounts &accounts = energies.accounts;
     record.largest_residual
         = std::max(record.largest_residual, std::abs(energies.residual()));
-    if (is_first_rank)
-      energy_table->add_row(
-          { time, energies.kinetic, energies.strain, energies.joint,
-            accounts.friction, accounts.fracture, accounts.crushing,
-            accounts.plastic, accounts.damping, accounts.viscous,
-            accounts.contact, accounts.radiated, energies.far_field,
-            accounts.external, energies.residual() });
+    record.energy_table.add_row(
+        { time, energies.kinetic, energies.strain, energies.joint,
+          accounts.friction, accounts.fracture, accounts.crushing,
+          accounts.plastic, accounts.damping, accounts.viscous,
+          accounts.contact, accounts.radiated, energies.far_field,
+          accounts.external, energies.residual() });
   }
 
   void Simulation::write_fields()
@@ -146,15 +123,8 @@ namespace quoin
     all_or_none<RunError>(communicator,
                           [&]()
                           {
-                            if (is_first_rank)
-                            {
-                              history_table->flush();
-                              energy_table->flush();
-                              if (far_field_table)
-                                far_field_table->flush();
-                              if (convergence_table)
-                                convergence_table->flush();
-                            }
+                            for (RootTable *table : record.tables())
+                              table->flush();
                           });
   }
 
@@ -163,24 +133,18 @@ namespace quoin
     all_or_none<RunError>(communicator,
                           [&]()
                           {
-                            for (const auto *table :
-                                 { &history_table, &energy_table,
-                                   &far_field_table, &convergence_table })
-                              if (*table)
-                                (*table)->check();
+                            for (const RootTable *table : record.tables())
+                              table->check();
                           });
   }
 
   void Simulation::checkpoint_if_due()
   {
-    if (parameters.checkpoint_interval == 0.
-        || (explicit_solver && record.state.stage_step % clock_interval != 0))
-      return;
-    // The first rank's clock counts for all.
-    const bool due = dealii::Utilities::MPI::broadcast(
-        communicator,
-        seconds_since(last_checkpoint) > parameters.checkpoint_interval);
-    if (due)
+    const bool looks
+        = !explicit_solver
+          || record.state.stage_step % CheckpointClock::steps_between_looks
+                 == 0;
+    if (looks && checkpoint_clock.is_due())
       save_checkpoint();
   }
 
@@ -192,43 +156,20 @@ namespace quoin
     all_or_none<RunError>(communicator,
                           [&]()
                           {
-                            if (is_first_rank)
-                            {
-                              history_table->sync();
-                              energy_table->sync();
-                              if (far_field_table)
-                              {
-                                far_field_table->sync();
-                                record.far_field_bytes
-                                    = far_field_table->size();
-                              }
-                              if (convergence_table)
-                              {
-                                convergence_table->sync();
-                                record.convergence_bytes
-                                    = convergence_table->size();
-                              }
-                              record.histories_bytes = history_table->size();
-                              record.energies_bytes  = energy_table->size();
-                            }
+                            for (RootTable *table : record.tables())
+                              table->sync();
                           });
-    CheckpointInfo info;
-    info.step       = record.state.step;
-    info.time       = record.state.time;
-    info.version    = QUOIN_VERSION;
-    info.parameters = run_identity;
-    quoin::save_checkpoint(output, communicator, info, record);
+    quoin::save_checkpoint(
+        output, communicator,
+        { record.state.step, record.state.time, QUOIN_VERSION, run_identity },
+        record);
     record.state.far_field.history.clear();
     record.state.implicit.before_jump.clear();
-    last_checkpoint = WallClock::now();
+    checkpoint_clock.restart();
   }
 
   void Simulation::write_summary(const bool finished)
   {
-    const double updates
-        = seconds_done > 0.
-              ? double(mesh.n_cells()) * double(steps_done) / seconds_done
-              : 0.;
     nlohmann::json summary
         = { { "title", parameters.title },
             { "version", QUOIN_VERSION },
@@ -256,7 +197,10 @@ namespace quoin
       summary["time step [s]"]          = explicit_solver->get_time_step();
       summary["critical time step [s]"] = explicit_solver->critical_time_step();
       summary["added mass share"]       = explicit_solver->added_mass_share();
-      summary["element updates per second"] = updates;
+      summary["element updates per second"]
+          = seconds_done > 0.
+                ? double(mesh.n_cells()) * double(steps_done) / seconds_done
+                : 0.;
     }
     if (implicit_solver)
     {
@@ -264,16 +208,7 @@ namespace quoin
       summary["iterations"] = record.iterations;
       summary["cut steps"]  = record.cuts;
     }
-    for (unsigned int i = 0; i < record.searches.size(); ++i)
-      if (parameters.stages[i].safety
-          && std::isfinite(record.searches[i].lowest_failing()))
-      {
-        const FactorSearch &search = record.searches[i];
-        auto &found = summary["factor of safety"][parameters.stages[i].name];
-        found["stable at"]  = search.highest_stable();
-        found["failing at"] = search.lowest_failing();
-        found["trials"]     = search.trials().size();
-      }
+    summarise_searches(summary);
     summary["solver"] = implicit_solver ? "implicit" : "explicit";
     if (parameters.model.contact.has_box)
     {
@@ -283,24 +218,8 @@ namespace quoin
       summary["blocks outside the box"]
           = std::count(marks.begin(), marks.end(), block_mark::left_box);
     }
-    if (const BlockContacts *contacts = solver->contacts())
-    {
-      const double sums[3]
-          = { contacts->n_touching(record.state.contacts),
-              double(contacts->n_updates()), contacts->search_seconds() };
-      std::array<double, 3> all;
-      MPI_Allreduce(sums, all.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
-      summary["contacts"] = all[0];
-      summary["contact updates per second"]
-          = seconds_done > 0. ? all[1] / seconds_done : 0.;
-      summary["contact searches"] = record.state.contacts.n_searches;
-      // Ranks search together: the mean of their times counts.
-      summary["contact search share"]
-          = seconds_done > 0.
-                ? all[2] / dealii::Utilities::MPI::n_mpi_processes(communicator)
-                      / seconds_done
-                : 0.;
-    }
+    if (solver->contacts())
+      summarise_contacts(summary);
     if (finished && parameters.measure_bandwidth)
     {
       const double measured
@@ -316,16 +235,56 @@ namespace quoin
                             if (is_first_rank)
                               write_json(output + "/summary.json", summary);
                           });
-    if (!finished)
-      return;
-    log.message("finished: " + std::to_string(record.state.step) + " steps in "
-                + duration_text(record.wall_time) + ", "
-                + (implicit_solver
-                       ? std::to_string(record.iterations) + " iterations"
-                       : number_text(updates / 1e6)
-                             + " million element updates a second")
-                + ", energy residual " + number_text(energy_residual())
-                + " of what went through");
+    if (finished)
+      report_end(summary);
+  }
+
+  void Simulation::summarise_searches(nlohmann::json &summary) const
+  {
+    for (unsigned int i = 0; i < record.searches.size(); ++i)
+      if (parameters.stages[i].safety
+          && std::isfinite(record.searches[i].lowest_failing()))
+      {
+        const FactorSearch &search = record.searches[i];
+        auto &found = summary["factor of safety"][parameters.stages[i].name];
+        found["stable at"]  = search.highest_stable();
+        found["failing at"] = search.lowest_failing();
+        found["trials"]     = search.trials().size();
+      }
+  }
+
+  void Simulation::summarise_contacts(nlohmann::json &summary) const
+  {
+    const BlockContacts *contacts = solver->contacts();
+    const double sums[3]
+        = { contacts->n_touching(record.state.contacts),
+            double(contacts->n_updates()), contacts->search_seconds() };
+    std::array<double, 3> all;
+    MPI_Allreduce(sums, all.data(), 3, MPI_DOUBLE, MPI_SUM, communicator);
+    summary["contacts"] = all[0];
+    summary["contact updates per second"]
+        = seconds_done > 0. ? all[1] / seconds_done : 0.;
+    summary["contact searches"] = record.state.contacts.n_searches;
+    // Ranks search together: the mean of their times counts.
+    summary["contact search share"]
+        = seconds_done > 0.
+              ? all[2] / dealii::Utilities::MPI::n_mpi_processes(communicator)
+                    / seconds_done
+              : 0.;
+  }
+
+  void Simulation::report_end(const nlohmann::json &summary)
+  {
+    log.message(
+        "finished: " + std::to_string(record.state.step) + " steps in "
+        + duration_text(record.wall_time) + ", "
+        + (implicit_solver
+               ? std::to_string(record.iterations) + " iterations"
+               : number_text(summary["element updates per second"].get<double>()
+                             / 1e6)
+                     + " million element updates a second")
+        + ", energy residual " + number_text(energy_residual())
+        + " of what went through");
     if (solver->contacts())
       log.message(
           "contacts: "

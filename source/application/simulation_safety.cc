@@ -8,6 +8,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
+#include <quoin/output/atomic_file.h>
 #include <quoin/output/collective.h>
 
 #include <algorithm>
@@ -80,7 +81,8 @@ namespace quoin
                             [&]()
                             {
                               if (is_first_rank)
-                                write_text("safety.csv", safety_table(search));
+                                write_text(output + "/safety.csv",
+                                           safety_table(search));
                             });
       save_checkpoint();
     }

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/application/space_time_function.h>
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/time_function.h>
 
@@ -42,7 +43,7 @@ namespace quoin
     const auto parser = std::make_shared<dealii::FunctionParser<3>>(1);
     try
     {
-      parser->initialize("x,y,t", text, { { "pi", 3.14159265358979323846 } });
+      parser->initialize("x,y,t", text, { { "pi", constants::pi } });
       parser->value(dealii::Point<3>(0., 0., 0.));
     }
     catch (const dealii::ExceptionBase &error)

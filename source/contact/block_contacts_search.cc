@@ -6,6 +6,7 @@
 // forces.
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/base/wall_clock.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/contact_search.h>
@@ -82,12 +83,10 @@ namespace quoin
       const auto found = std::find(materials.begin(), materials.end(), name);
       if (found != materials.end())
         return found - materials.begin();
-      std::string known;
-      for (const auto &material : materials)
-        known += (known.empty() ? "" : ", ") + material;
-      throw InputError(
-          "section 'Joints/" + set.name + "': 'New contacts between' names '"
-          + name + "', which is no material. Materials are: " + known + ".");
+      throw InputError("section 'Joints/" + set.name
+                       + "': 'New contacts between' names '" + name
+                       + "', which is no material. Materials are: "
+                       + known_names(materials) + ".");
     };
     set_of_materials.assign(n * n, none);
     unsigned int of_all = none;

@@ -7,7 +7,7 @@
 #include <quoin/base/state.h>
 #include <quoin/joints/composite_law.h>
 #include <quoin/joints/coulomb_law.h>
-#include <quoin/joints/rock_parameters.h>
+#include <quoin/joints/rock_laws.h>
 
 #include <array>
 #include <type_traits>

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/contact/matched_joints.h>
 
 #include <algorithm>
@@ -29,14 +30,10 @@ namespace quoin
           const auto line
               = std::find(mesh.line_names.begin(), mesh.line_names.end(), name);
           if (line == mesh.line_names.end())
-          {
-            std::string known;
-            for (const auto &n : mesh.line_names)
-              known += n.empty() ? "" : " '" + n + "'";
             throw InputError("section 'Joints/" + sets[s].name
                              + "': the mesh has no physical curve '" + curve
-                             + "'. It has:" + known + ". Correct 'Curves'.");
-          }
+                             + "'. It has: " + known_names(mesh.line_names)
+                             + ". Correct 'Curves'.");
           auto &set = set_of_line[line - mesh.line_names.begin()];
           if (set != no_set)
             throw InputError("section 'Joints/" + sets[s].name + "': curve '"

@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/coupling/far_field.h>
+#include <quoin/tdbem/plain_vector.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -15,16 +16,6 @@ namespace quoin
   {
     using Eigen::MatrixXd;
     using Eigen::VectorXd;
-
-    VectorXd to_eigen(const std::vector<double> &values)
-    {
-      return VectorXd::Map(values.data(), Eigen::Index(values.size()));
-    }
-
-    std::vector<double> to_vector(const VectorXd &values)
-    {
-      return { values.data(), values.data() + values.size() };
-    }
 
     /**
      * Without what is below rounding beside the largest of its row: the newest

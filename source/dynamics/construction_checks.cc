@@ -4,6 +4,7 @@
 // What Construction asks of the stages.
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/dynamics/construction.h>
 
 #include <algorithm>
@@ -21,15 +22,6 @@ namespace quoin
       return std::find_if(items.begin(), items.end(),
                           [&](const T &item) { return item.name == name; })
              - items.begin();
-    }
-
-    template <typename T>
-    std::string names(const std::vector<T> &items)
-    {
-      std::string text;
-      for (const T &item : items)
-        text += (text.empty() ? "" : ", ") + item.name;
-      return text.empty() ? "none" : text;
     }
 
     /** Laws of one kind remember the same of a joint. */
@@ -151,7 +143,8 @@ namespace quoin
         = step.where + ": 'Materials' has " + group + ":" + material;
     if (m == materials.size())
       throw InputError(where + ", but '" + material
-                       + "' is no material. There are: " + names(materials)
+                       + "' is no material. There are: "
+                       + known_names(materials, &MaterialParameters::name)
                        + ". Name one of these.");
     const auto groups = model.find_groups({ group }, where);
     const unsigned int g
@@ -180,9 +173,10 @@ namespace quoin
         = step.where + ": 'Joint properties' has " + set + ":" + other;
     for (const std::string &name : { set, other })
       if (position(at_start.joints, name) == at_start.joints.size())
-        throw InputError(where + ", but '" + name
-                         + "' is no joint set. There are: "
-                         + names(at_start.joints) + ". Name one of these.");
+        throw InputError(
+            where + ", but '" + name + "' is no joint set. There are: "
+            + known_names(at_start.joints, &JointSetParameters::name)
+            + ". Name one of these.");
     JointSetParameters &now
         = step.properties.joints[position(at_start.joints, set)];
     // The other set's own law, whatever that set follows by now.

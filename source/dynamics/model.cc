@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/triangle.h>
 
@@ -56,14 +57,10 @@ namespace quoin
         const auto found = std::find(block_mesh.group_names.begin(),
                                      block_mesh.group_names.end(), group);
         if (found == block_mesh.group_names.end())
-        {
-          std::string known;
-          for (const auto &name : block_mesh.group_names)
-            known += (known.empty() ? "" : ", ") + name;
           throw InputError("section 'Materials/" + material.name
                            + "': the mesh has no physical surface '" + group
-                           + "'. It has: " + known + ". Correct 'Groups'.");
-        }
+                           + "'. It has: " + known_names(block_mesh.group_names)
+                           + ". Correct 'Groups'.");
         unsigned int &owner
             = now.material_of_group[found - block_mesh.group_names.begin()];
         if (owner != none)
@@ -298,21 +295,18 @@ namespace quoin
   {
     if (load.far_material.empty())
       return group_impedance;
-    std::string known;
     for (const MaterialParameters &material : now.materials)
-      if (material.rigid)
-        continue;
-      else if (material.name == load.far_material)
+      if (!material.rigid && material.name == load.far_material)
         return std::vector<Impedance>(
             group_impedance.size(),
             impedance_of(material.elastic, parameters.plane));
-      else
-        known += (known.empty() ? "" : ", ") + material.name;
+    const auto elastic = [](const MaterialParameters &material)
+    { return material.rigid ? std::string() : material.name; };
     throw InputError("section 'Loads/" + load.name
                      + "': 'Far field material = " + load.far_material
                      + "' is no linear elastic material of section "
                        "'Materials'. There are: "
-                     + (known.empty() ? "none" : known) + ".");
+                     + known_names(now.materials, elastic) + ".");
   }
 
   double Model::slowest_shear_wave() const

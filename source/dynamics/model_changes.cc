@@ -4,6 +4,7 @@
 // How a Model changes between stages.
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/dynamics/model.h>
 
 #include <algorithm>
@@ -19,13 +20,9 @@ namespace quoin
       const auto found = std::find(block_mesh.group_names.begin(),
                                    block_mesh.group_names.end(), name);
       if (found == block_mesh.group_names.end())
-      {
-        std::string known;
-        for (const auto &group : block_mesh.group_names)
-          known += (known.empty() ? "" : ", ") + group;
         throw InputError(where + ": the mesh has no physical surface '" + name
-                         + "'. It has: " + known + ". Name one of these.");
-      }
+                         + "'. It has: " + known_names(block_mesh.group_names)
+                         + ". Name one of these.");
       result[found - block_mesh.group_names.begin()] = true;
     }
     return result;

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/dynamics/free_bodies.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/free_field_boundary.h>
@@ -113,14 +114,9 @@ namespace quoin
     for (const std::string &name : stage.loads)
       if (std::find(known_loads.begin(), known_loads.end(), name)
           == known_loads.end())
-      {
-        std::string known;
-        for (const auto &load : known_loads)
-          known += (known.empty() ? "" : ", ") + load;
         throw InputError("section 'Stages/" + stage.name + "': 'Loads' names '"
-                         + name + "', which is no load. Loads are: " + known
-                         + ".");
-      }
+                         + name + "', which is no load. Loads are: "
+                         + known_names(known_loads) + ".");
 
     for (const auto &constraint : all_constraints)
       if (names_load(stage, constraint->name())

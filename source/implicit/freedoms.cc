@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/implicit/freedoms.h>
 #include <quoin/loads/prescribed_motion.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
@@ -15,8 +14,6 @@ namespace quoin
 {
   namespace
   {
-    constexpr double radians_per_degree = dealii::numbers::PI / 180.;
-
     bool is_driven(const LoadComponent &component)
     {
       return component.quantity == LoadQuantity::velocity
@@ -259,7 +256,7 @@ namespace quoin
         change[d]
             = given_change(body.platen->parts()[d], configuration.load_time,
                            load_time, stage_start)
-              * (d == 2 ? radians_per_degree : 1.);
+              * (d == 2 ? constants::degree : 1.);
       for (const unsigned int node : body.nodes)
       {
         const double *arm = node_list[node].arm;
@@ -301,7 +298,7 @@ namespace quoin
             += body_list[b].given[d]
                    ? given_change(body_list[b].platen->parts()[d], before,
                                   load_time, stage_start)
-                         * (d == 2 ? radians_per_degree : 1.)
+                         * (d == 2 ? constants::degree : 1.)
                    : changes[b][d];
     place(configuration);
     model.exchange().update_ghosts(configuration.nodes.data());

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/unread_parameters.h>
 #include <quoin/joints/composite_parameters.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 
@@ -13,11 +12,6 @@ namespace quoin
 {
   namespace
   {
-    double tangent_of_degrees(const double angle)
-    {
-      return std::tan(angle * dealii::numbers::PI / 180.);
-    }
-
     /** A positive number, or infinity for the word 'none'. */
     double positive_or_none(const ParameterSection &section,
                             const std::string &name)

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/unread_parameters.h>
 #include <quoin/joints/composite_parameters.h>
 #include <quoin/joints/joint_parameters.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 
@@ -15,11 +14,6 @@ namespace quoin
   {
     using dealii::Patterns::Anything;
     using dealii::Patterns::Double;
-
-    double tangent_of_degrees(const double angle)
-    {
-      return std::tan(angle * dealii::numbers::PI / 180.);
-    }
 
     /** What JointSetParameters::law is of a rock joint. */
     CoulombLaw stand_in(const RockLaw &rock)

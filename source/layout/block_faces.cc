@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/disjoint_sets.h>
 #include <quoin/layout/block_faces.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 
 namespace quoin
@@ -18,21 +18,12 @@ namespace quoin
     /** Parts of the network that hang together. */
     std::vector<unsigned int> find_parts(const JointNetwork &network)
     {
-      std::vector<unsigned int> part(network.n_vertices());
-      std::iota(part.begin(), part.end(), 0);
-      const auto root = [&](unsigned int v)
-      {
-        while (part[v] != v)
-          v = part[v] = part[part[v]];
-        return v;
-      };
+      DisjointSets parts(network.n_vertices());
       for (const auto &edge : network.edges())
-      {
-        const unsigned int a = root(edge.from), b = root(edge.to);
-        part[std::max(a, b)] = std::min(a, b);
-      }
+        parts.unite(edge.from, edge.to);
+      std::vector<unsigned int> part(network.n_vertices());
       for (unsigned int v = 0; v < part.size(); ++v)
-        part[v] = root(v);
+        part[v] = parts.find(v);
       return part;
     }
   } // namespace

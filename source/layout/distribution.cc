@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/layout/distribution.h>
 
 #include <deal.II/base/utilities.h>
@@ -9,8 +10,8 @@
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/math/tools/roots.hpp>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <vector>
@@ -19,7 +20,7 @@ namespace quoin
 {
   namespace
   {
-    constexpr double degree = M_PI / 180.;
+    using constants::degree;
     /** Beyond it a von Mises distribution is a normal one, to 1e-4. */
     constexpr double concentrated = 1e4;
 
@@ -44,7 +45,7 @@ namespace quoin
       const double r   = (1. + rho * rho) / (2. * rho);
       for (;;)
       {
-        const double z = std::cos(M_PI * random.uniform());
+        const double z = std::cos(constants::pi * random.uniform());
         const double f = (1. + r * z) / (r + z);
         const double c = kappa * (r - f);
         const double u = random.uniform();

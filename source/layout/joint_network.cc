@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/layout/joint_network.h>
 
 #include <boost/geometry/geometries/box.hpp>
@@ -37,11 +38,6 @@ namespace quoin
      */
     constexpr double near_edge = 0.6;
 
-    double cross(const Vector &a, const Vector &b)
-    {
-      return a[0] * b[1] - a[1] * b[0];
-    }
-
     Box box_of(const Point &a, const Point &b, const double margin)
     {
       return {
@@ -57,12 +53,6 @@ namespace quoin
       const Vector edge = b - a;
       return { (p - a) * edge / edge.norm_square(),
                std::abs(cross(edge, p - a)) / edge.norm() };
-    }
-
-    double distance_to(const Point &p, const Point &a, const Point &b)
-    {
-      const double where = std::clamp(foot(p, a, b).first, 0., 1.);
-      return p.distance(a + where * (b - a));
     }
 
     template <typename Edges, typename At>
@@ -186,9 +176,11 @@ namespace quoin
       const Point b0 = point(b.from), b1 = point(b.to);
       // An end so near to the other edge is what they will share.
       const bool both_borders = a.border != none && b.border != none;
-      const double near_end   = std::min(
-            std::min(distance_to(b0, a0, a1), distance_to(b1, a0, a1)),
-            std::min(distance_to(a0, b0, b1), distance_to(a1, b0, b1)));
+      const double near_end
+          = std::min(std::min(distance_to_segment(b0, a0, a1),
+                              distance_to_segment(b1, a0, a1)),
+                     std::min(distance_to_segment(a0, b0, b1),
+                              distance_to_segment(a1, b0, b1)));
       if (near_end <= (both_borders ? touching : near_edge) * tolerance)
         continue;
       if (both_borders)

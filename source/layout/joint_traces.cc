@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_table.h>
 #include <quoin/layout/joint_traces.h>
@@ -40,7 +41,7 @@ namespace quoin
 
     Vector direction(const double dip)
     {
-      const double angle = dip * M_PI / 180.;
+      const double angle = dip * constants::pi / 180.;
       Vector result;
       result[0] = std::cos(angle);
       result[1] = std::sin(angle);
@@ -104,7 +105,7 @@ namespace quoin
       double turned_reach() const
       {
         const double turn
-            = std::min(90., 3. * joints.dip.deviation) * M_PI / 180.;
+            = std::min(90., 3. * joints.dip.deviation) * constants::pi / 180.;
         const double half
             = joints.is_persistent
                   ? 2. * radius

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/layout/polygon.h>
 
 #include <algorithm>
@@ -16,10 +18,7 @@ namespace quoin
     // About the first corner, which keeps digits far from the origin.
     double twice = 0.;
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-    {
-      const auto a = polygon[i] - polygon[0], b = polygon[i + 1] - polygon[0];
-      twice += a[0] * b[1] - a[1] * b[0];
-    }
+      twice += cross(polygon[i] - polygon[0], polygon[i + 1] - polygon[0]);
     return 0.5 * twice;
   }
 
@@ -49,13 +48,9 @@ namespace quoin
   {
     double nearest = std::numeric_limits<double>::max();
     for (std::size_t i = 0; i < polygon.size(); ++i)
-    {
-      const Point &a = polygon[i];
-      const auto way = polygon[(i + 1) % polygon.size()] - a;
-      const double t = std::clamp(
-          (point - a) * way / std::max(way.norm_square(), 1e-300), 0., 1.);
-      nearest = std::min(nearest, point.distance(a + t * way));
-    }
+      nearest = std::min(
+          nearest, distance_to_segment(point, polygon[i],
+                                       polygon[(i + 1) % polygon.size()]));
     return nearest;
   }
 
@@ -74,21 +69,15 @@ namespace quoin
 
   namespace
   {
-    /** Twice the area of the triangle, positive if it is counter-clockwise. */
-    double side(const Point &a, const Point &b, const Point &p)
-    {
-      return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-    }
-
     bool is_on(const Point &a, const Point &b, const Point &p)
     {
-      return side(a, b, p) == 0. && (p - a) * (p - b) <= 0.;
+      return twice_area(a, b, p) == 0. && (p - a) * (p - b) <= 0.;
     }
 
     bool meet(const Point &a, const Point &b, const Point &c, const Point &d)
     {
-      return (side(a, b, c) * side(a, b, d) < 0.
-              && side(c, d, a) * side(c, d, b) < 0.)
+      return (twice_area(a, b, c) * twice_area(a, b, d) < 0.
+              && twice_area(c, d, a) * twice_area(c, d, b) < 0.)
              || is_on(a, b, c) || is_on(a, b, d) || is_on(c, d, a)
              || is_on(c, d, b);
     }
@@ -154,7 +143,7 @@ namespace quoin
     Polygon polygon;
     for (unsigned int i = 0; i < n; ++i)
     {
-      const double angle = 2. * M_PI * i / n;
+      const double angle = 2. * constants::pi * i / n;
       polygon.emplace_back(centre[0] + radius * std::cos(angle),
                            centre[1] + radius * std::sin(angle));
     }

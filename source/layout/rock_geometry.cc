@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/plane_geometry.h>
 #include <quoin/layout/rock_layout.h>
 
 #include <algorithm>
@@ -13,20 +14,8 @@ namespace quoin
   namespace
   {
     using Point                 = dealii::Point<2>;
-    using Numbers               = std::vector<int>;
+    using Numbers               = GmshNumbers;
     constexpr unsigned int none = -1;
-
-    /** {1, 2, 3}, some in each line. */
-    std::string braces(const Numbers &numbers)
-    {
-      std::string text = "{";
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-        text += (i == 0        ? ""
-                 : i % 12 == 0 ? ",\n  "
-                               : ", ")
-                + std::to_string(numbers[i]);
-      return text + "}";
-    }
 
     class Writer
     {
@@ -36,19 +25,14 @@ namespace quoin
       {
       }
 
-      RockGeometry write()
+      GmshGeometry write()
       {
         write_head();
         write_points_and_lines();
         write_surfaces();
         write_cracks();
         write_sizes();
-        for (const auto &[name, numbers] : surfaces)
-          text << "Physical Surface(\"" << name << "\") = " << braces(numbers)
-               << ";\n";
-        for (const auto &[name, numbers] : curves)
-          text << "Physical Curve(\"" << name << "\") = " << braces(numbers)
-               << ";\n";
+        text << physical_names(surfaces, curves);
         return { text.str(), joint_curves };
       }
 
@@ -115,10 +99,8 @@ namespace quoin
       std::string name;
       for (std::size_t i = 0; i < rock.outline.size(); ++i)
       {
-        const Point &a = rock.outline[i];
-        const auto way = rock.outline[(i + 1) % rock.outline.size()] - a;
-        const double t = std::clamp((p - a) * way / way.norm_square(), 0., 1.);
-        const double distance = p.distance(a + t * way);
+        const double distance = distance_to_segment(
+            p, rock.outline[i], rock.outline[(i + 1) % rock.outline.size()]);
         if (distance < nearest)
         {
           nearest = distance;
@@ -261,7 +243,7 @@ namespace quoin
     }
   } // namespace
 
-  RockGeometry rock_geometry(const RockParameters &rock,
+  GmshGeometry rock_geometry(const RockParameters &rock,
                              const RockLayout &layout)
   {
     return Writer(rock, layout).write();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/named_sections.h>
 #include <quoin/layout/rock_parameters.h>
 
 #include <algorithm>
@@ -313,17 +314,6 @@ namespace quoin
       return sides;
     }
 
-    template <typename T>
-    std::vector<T> read_all(const ParameterSection &top,
-                            const std::string &name)
-    {
-      const ParameterSection section(top, name);
-      std::vector<T> result;
-      for (const std::string &one : section.list("Names"))
-        result.push_back(T::read(ParameterSection(section, one), one));
-      return result;
-    }
-
     /** Joints name regions that exist, and have names of their own. */
     void check_names(const ParameterSection &top, const RockParameters &rock)
     {
@@ -427,8 +417,8 @@ namespace quoin
           { { "cut", cut }, { "extend", extend }, { "keep", keep } });
       read_sizes(section, rock);
     }
-    rock.regions = read_all<RockRegion>(top, "Rock regions");
-    rock.joints  = read_all<RockJoints>(top, "Rock joints");
+    rock.regions = read_named<RockRegion>(top, "Rock regions");
+    rock.joints  = read_named<RockJoints>(top, "Rock joints");
     check_names(top, rock);
     check_regions(top, rock);
     return rock;

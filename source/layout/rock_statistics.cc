@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
+#include <quoin/base/disjoint_sets.h>
 #include <quoin/base/number_text.h>
 #include <quoin/layout/rock_layout.h>
 
@@ -76,7 +78,7 @@ namespace quoin
     /** Distances between neighbouring crossings with lines across @p dip. */
     std::vector<double> scan(const std::vector<Piece> &pieces, const double dip)
     {
-      const double angle = dip * M_PI / 180.;
+      const double angle = dip * constants::pi / 180.;
       Vector along, across;
       along[0]  = std::cos(angle);
       along[1]  = std::sin(angle);
@@ -136,15 +138,7 @@ namespace quoin
         at[edges[e].from].push_back(e);
         at[edges[e].to].push_back(e);
       }
-      std::vector<unsigned int> run(edges.size());
-      for (unsigned int e = 0; e < run.size(); ++e)
-        run[e] = e;
-      const auto root = [&](unsigned int e)
-      {
-        while (run[e] != e)
-          e = run[e] = run[run[e]];
-        return e;
-      };
+      DisjointSets runs(edges.size());
       const auto way_from = [&](const unsigned int e, const unsigned int v)
       {
         const unsigned int w = edges[e].from == v ? edges[e].to : edges[e].from;
@@ -172,12 +166,12 @@ namespace quoin
           if (taken[i] || best == star.size())
             continue;
           taken[i] = taken[best] = true;
-          run[root(star[i])]     = root(star[best]);
+          runs.unite(star[i], star[best]);
         }
       }
       std::map<unsigned int, double> length;
       for (unsigned int e = 0; e < edges.size(); ++e)
-        length[root(e)] += network.length(edges[e]);
+        length[runs.find(e)] += network.length(edges[e]);
       std::vector<double> result;
       for (const auto &[first, sum] : length)
         result.push_back(sum);
@@ -187,7 +181,7 @@ namespace quoin
     double dip_of(const Piece &piece, const double mean)
     {
       const Vector way = piece[1] - piece[0];
-      double dip       = std::atan2(way[1], way[0]) * 180. / M_PI;
+      double dip       = std::atan2(way[1], way[0]) * 180. / constants::pi;
       while (dip > mean + 90.)
         dip -= 180.;
       while (dip < mean - 90.)

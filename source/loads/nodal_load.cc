@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/loads/nodal_load.h>
 
 #include <algorithm>
@@ -11,15 +12,6 @@ namespace quoin
 {
   namespace
   {
-    std::string known_names(const std::vector<std::string> &names)
-    {
-      std::string text;
-      for (const auto &name : names)
-        if (!name.empty())
-          text += (text.empty() ? "" : ", ") + name;
-      return text.empty() ? "none" : text;
-    }
-
     unsigned int position(const std::vector<std::string> &names,
                           const std::string &name, const std::string &load,
                           const std::string &parameter, const std::string &kind)

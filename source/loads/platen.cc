@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/platen.h>
 #include <quoin/loads/prescribed_motion.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,8 +13,6 @@ namespace quoin
 {
   namespace
   {
-    constexpr double radians_per_degree = dealii::numbers::PI / 180.;
-
     std::vector<unsigned int>
     nodes_of_groups(const BlockMesh<2> &mesh, const NodeExchange &exchange,
                     const std::vector<unsigned int> &groups)
@@ -157,7 +154,7 @@ namespace quoin
     last_unbalanced = 0.;
     for (unsigned int d = 0; d < 3; ++d)
     {
-      const double unit   = d == 2 ? radians_per_degree : 1.;
+      const double unit   = d == 2 ? constants::degree : 1.;
       const double before = platen.velocity[d];
       velocity_before[d]  = before;
       damping[d]          = 0.;

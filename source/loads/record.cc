@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/record.h>
 
@@ -19,8 +20,8 @@ namespace quoin
 {
   namespace
   {
-    constexpr double pi      = 3.14159265358979323846;
-    constexpr double gravity = 9.80665; // standard [m/s^2]
+    using constants::gravity;
+    using constants::pi;
 
     std::string upper(std::string text)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/signal.h>
 
@@ -14,7 +15,7 @@ namespace quoin
 {
   namespace
   {
-    constexpr double pi = 3.14159265358979323846;
+    using constants::pi;
 
     /** The integral of a function, tabulated. */
     std::function<double(double)>

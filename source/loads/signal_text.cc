@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/record.h>
 #include <quoin/loads/signal_text.h>
@@ -17,7 +18,7 @@ namespace quoin
   {
     using Words = std::vector<std::string>;
 
-    constexpr double degree = 3.14159265358979323846 / 180.;
+    using constants::degree;
 
     Words split(const std::string &text)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/synthetic_record.h>
 
@@ -11,8 +12,8 @@ namespace quoin
 {
   namespace
   {
-    constexpr double pi      = 3.14159265358979323846;
-    constexpr double gravity = 9.80665; // standard [m/s^2]
+    using constants::gravity;
+    using constants::pi;
 
     /** Normal deviates, mean 0 and variance 1. */
     class NormalDeviates

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/signal_text.h>
 #include <quoin/loads/time_function.h>
@@ -53,7 +54,7 @@ namespace quoin
     const auto parser = std::make_shared<dealii::FunctionParser<2>>(1);
     try
     {
-      parser->initialize("t,T", text, { { "pi", 3.14159265358979323846 } });
+      parser->initialize("t,T", text, { { "pi", constants::pi } });
       parser->value(dealii::Point<2>(0., 0.));
     }
     catch (const dealii::ExceptionBase &error)

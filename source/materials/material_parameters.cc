@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/materials/material_parameters.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +13,7 @@ namespace quoin
   {
     MohrCoulombStrength read_strength(const ParameterSection &section)
     {
-      constexpr double degree = dealii::numbers::PI / 180.;
+      using constants::degree;
       MohrCoulombStrength strength;
       const double phi        = section.within("Friction angle", 0., 80.);
       strength.friction_angle = phi * degree;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/disjoint_sets.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 
@@ -19,45 +21,6 @@ namespace quoin
   namespace
   {
     constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
-
-    /** Disjoint sets; the representative of a set is its smallest member. */
-    class UnionFind
-    {
-    public:
-      explicit UnionFind(const unsigned int n) : parent(n)
-      {
-        std::iota(parent.begin(), parent.end(), 0);
-      }
-
-      unsigned int find(unsigned int i)
-      {
-        while (parent[i] != i)
-          i = parent[i] = parent[parent[i]];
-        return i;
-      }
-
-      void unite(const unsigned int i, const unsigned int j)
-      {
-        const unsigned int a = find(i), b = find(j);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-
-      /** The number of each set in the order of its first member. */
-      std::pair<std::vector<unsigned int>, unsigned int> numbers()
-      {
-        std::vector<unsigned int> result(parent.size());
-        unsigned int n = 0;
-        for (unsigned int i = 0; i < parent.size(); ++i)
-        {
-          const unsigned int root = find(i);
-          result[i]               = (root == i ? n++ : result[root]);
-        }
-        return { result, n };
-      }
-
-    private:
-      std::vector<unsigned int> parent;
-    };
 
     /**
      * Cuts one mesh. Half-edge 3 c + k of cell c runs from its corner k to the
@@ -154,14 +117,11 @@ namespace quoin
       if (!wanted.empty() && place != names.end())
         return place - names.begin();
 
-      std::string existing;
-      for (const std::string &n : names)
-        if (!n.empty())
-          existing += (existing.empty() ? "'" : ", '") + n + "'";
+      const auto quoted
+          = [](const std::string &n) { return n.empty() ? n : "'" + n + "'"; };
       fail("there is no physical " + kind + " '" + wanted + "', which Mesh/"
-           + parameter + " names. "
-           + (existing.empty() ? "The mesh has no physical " + kind + "s."
-                               : "The mesh has " + existing + "."));
+           + parameter + " names. The mesh has " + known_names(names, quoted)
+           + ".");
     }
 
     void Splitter::resolve_names()
@@ -284,8 +244,8 @@ namespace quoin
 
     void Splitter::unite_corners()
     {
-      UnionFind corners(n_half_edges);
-      UnionFind cells(data.triangles.size());
+      DisjointSets corners(n_half_edges);
+      DisjointSets cells(data.triangles.size());
       for (unsigned int h = 0; h < n_half_edges; ++h)
       {
         const unsigned int g = neighbour[h];

@@ -1,22 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/plane_geometry.h>
 #include <quoin/mesh/crossed_triangles.h>
 
 #include <cmath>
 
 namespace quoin
 {
-  namespace
-  {
-    /** Twice the signed area. */
-    double twice_area(const dealii::Point<2> &a, const dealii::Point<2> &b,
-                      const dealii::Point<2> &c)
-    {
-      return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-    }
-  } // namespace
-
   void add_crossed_triangles(const Quadrangles &quadrangles, MeshData &mesh)
   {
     for (std::size_t q = 0; q < quadrangles.nodes.size(); ++q)

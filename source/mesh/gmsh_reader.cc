@@ -22,6 +22,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -152,6 +153,44 @@ namespace quoin
       }
       gmsh::model::mesh::generate(2);
     }
+
+    /** Where tags are in their list. */
+    class TagIndex
+    {
+    public:
+      explicit TagIndex(const std::vector<std::size_t> &tags)
+        : tags(tags), order(tags.size())
+      {
+        std::iota(order.begin(), order.end(), std::size_t(0));
+        if (!std::is_sorted(tags.begin(), tags.end()))
+          std::sort(order.begin(), order.end(),
+                    [&](const std::size_t a, const std::size_t b)
+                    { return tags[a] < tags[b]; });
+        // Tags may have gaps of any size, but hardly ever do.
+        contiguous
+            = !tags.empty()
+              && tags[order.back()] - tags[order.front()] + 1 == tags.size();
+      }
+
+      /** Their number if there is no such tag. */
+      std::size_t find(const std::size_t tag) const
+      {
+        if (contiguous && tag >= tags[order.front()]
+            && tag <= tags[order.back()])
+          return order[tag - tags[order.front()]];
+        const auto place
+            = std::lower_bound(order.begin(), order.end(), tag,
+                               [&](const std::size_t a, const std::size_t value)
+                               { return tags[a] < value; });
+        return place == order.end() || tags[*place] != tag ? tags.size()
+                                                           : *place;
+      }
+
+    private:
+      const std::vector<std::size_t> &tags;
+      std::vector<std::size_t> order;
+      bool contiguous;
+    };
 
     /** Starts every message with the file, or what it was made from. */
     class Reader
@@ -406,32 +445,7 @@ namespace quoin
       std::vector<std::size_t> tags;
       std::vector<double> coordinates, parameters;
       gmsh::model::mesh::getNodes(tags, coordinates, parameters);
-
-      // Tags may have gaps of any size, but hardly ever do.
-      std::vector<std::size_t> order(tags.size());
-      for (std::size_t i = 0; i < order.size(); ++i)
-        order[i] = i;
-      if (!std::is_sorted(tags.begin(), tags.end()))
-        std::sort(order.begin(), order.end(),
-                  [&](const std::size_t a, const std::size_t b)
-                  { return tags[a] < tags[b]; });
-      const bool contiguous
-          = !tags.empty()
-            && tags[order.back()] - tags[order.front()] + 1 == tags.size();
-      const auto node_of_tag = [&](const std::size_t tag)
-      {
-        if (contiguous && tag >= tags[order.front()]
-            && tag <= tags[order.back()])
-          return order[tag - tags[order.front()]];
-        const auto place
-            = std::lower_bound(order.begin(), order.end(), tag,
-                               [&](const std::size_t a, const std::size_t value)
-                               { return tags[a] < value; });
-        if (place == order.end() || tags[*place] != tag)
-          fail("an element refers to node " + std::to_string(tag)
-               + ", which the file does not define. Save it again from gmsh.");
-        return *place;
-      };
+      const TagIndex nodes(tags);
 
       // 1. Tags of elements to node numbers, and mark those in use.
       std::vector<unsigned int> vertex(tags.size(), 0);
@@ -440,8 +454,13 @@ namespace quoin
         for (auto &element : element_tags)
           for (std::size_t &tag : element)
           {
-            tag         = node_of_tag(tag);
-            vertex[tag] = 1;
+            const std::size_t node = nodes.find(tag);
+            if (node == tags.size())
+              fail("an element refers to node " + std::to_string(tag)
+                   + ", which the file does not define. Save it again from "
+                     "gmsh.");
+            tag          = node;
+            vertex[node] = 1;
           }
       };
       mark(triangle_tags);

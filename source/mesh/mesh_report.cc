@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/mesh/mesh_report.h>
-
-#include <deal.II/base/numbers.h>
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
@@ -45,8 +44,8 @@ namespace quoin
         report.shortest_edge *= 2.;
         report.longest_edge *= 2.;
       }
-      report.smallest_angle = std::acos(std::min(1., largest_cosine)) * 180.
-                              / dealii::numbers::PI;
+      report.smallest_angle
+          = std::acos(std::min(1., largest_cosine)) * 180. / constants::pi;
 
       report.lower_left = report.upper_right = mesh.vertices[0];
       for (const auto &p : mesh.vertices)

@@ -239,4 +239,11 @@ namespace quoin
       throw RunError(write_failure(path, errno));
     committed = true;
   }
+
+  void write_text(const std::string &path, const std::string &text)
+  {
+    AtomicFile file(path);
+    file.stream() << text;
+    file.commit();
+  }
 } // namespace quoin

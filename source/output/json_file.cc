@@ -11,10 +11,8 @@ namespace quoin
   void write_json(const std::string &path, const nlohmann::json &object)
   {
     // File names need not be valid UTF-8; they are no reason to stop here.
-    const std::string text
-        = object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
-    AtomicFile file(path);
-    file.stream() << text << "\n";
-    file.commit();
+    write_text(path, object.dump(2, ' ', false,
+                                 nlohmann::json::error_handler_t::replace)
+                         + "\n");
   }
 } // namespace quoin

@@ -3,6 +3,7 @@
 
 #include <quoin/tdbem/analytic_signal.h>
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 
 #include <fftw3.h>
@@ -17,6 +18,8 @@ namespace quoin
 {
   namespace
   {
+    using constants::pi;
+
     using Complex = std::complex<double>;
 
     /** Points of the interpolating polynomials. */
@@ -39,8 +42,8 @@ namespace quoin
     {
       if (j == 0 && d == 0.)
         return 1.;
-      const double wave = (j % 2 == 0 ? 1. : -1.) * std::exp(-M_PI * d);
-      return (wave - 1.) / (Complex(0., M_PI) * Complex(double(j), d));
+      const double wave = (j % 2 == 0 ? 1. : -1.) * std::exp(-pi * d);
+      return (wave - 1.) / (Complex(0., pi) * Complex(double(j), d));
     }
 
     /** In place, without a factor. */
@@ -89,7 +92,7 @@ namespace quoin
     for (long k = 0; k <= 2 * n_steps; ++k)
     {
       const double fade
-          = k <= n_steps ? 1. : 0.5 * (1. + std::cos(M_PI * (k - n_steps) / n));
+          = k <= n_steps ? 1. : 0.5 * (1. + std::cos(pi * (k - n_steps) / n));
       samples[k] = fade * this->f(range.begin + k * range.step);
     }
     std::size_t size = 1;
@@ -143,7 +146,7 @@ namespace quoin
   Complex AnalyticSignal::sum(const Complex &z) const
   {
     // The wave of the kernel is that of the first sample with a sign.
-    const Complex wave = std::exp(Complex(0., M_PI) * z);
+    const Complex wave = std::exp(Complex(0., pi) * z);
     Complex total      = 0.;
     for (std::size_t k = 0; k < samples.size(); ++k)
     {
@@ -151,7 +154,7 @@ namespace quoin
       const double sign      = k % 2 == 0 ? 1. : -1.;
       total += std::abs(distance) < 1e-9 ? samples[k]
                                          : samples[k] * (sign * wave - 1.)
-                                               / (Complex(0., M_PI) * distance);
+                                               / (Complex(0., pi) * distance);
     }
     return total;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/bessel_k.h>
 
 #include <array>
@@ -12,7 +13,7 @@ namespace quoin
   {
     using Complex = std::complex<double>;
 
-    constexpr double pi          = 3.14159265358979323846;
+    using constants::pi;
     constexpr double euler_gamma = 0.57721566490153286061;
 
     BesselK power_series(const Complex z)

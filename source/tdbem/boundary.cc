@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/boundary.h>
 
 #include <algorithm>
@@ -64,7 +65,7 @@ namespace quoin
     std::vector<Eigen::Vector2d> points(n);
     for (unsigned k = 0; k < n; ++k)
     {
-      const double angle = (exterior ? -2. : 2.) * M_PI * k / n;
+      const double angle = (exterior ? -2. : 2.) * constants::pi * k / n;
       points[k]
           = centre + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     }

@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/tdbem/clustered_history.h>
 #include <quoin/tdbem/gauss_legendre.h>
+#include <quoin/tdbem/segment.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -27,10 +28,7 @@ namespace quoin
 
     double distance(const BoundaryElement &element, const Eigen::Vector2d &x)
     {
-      const Eigen::Vector2d edge = element.b - element.a;
-      const double s
-          = std::clamp(edge.dot(x - element.a) / edge.squaredNorm(), 0., 1.);
-      return (x - element.a - s * edge).norm();
+      return distance_to_segment(x, element.a, element.b);
     }
 
     /** Nearest and furthest points of two clusters [m]. */

@@ -3,6 +3,7 @@
 
 #include <quoin/tdbem/convolution_quadrature.h>
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/tdbem/cut_kernels.h>
 
@@ -26,7 +27,7 @@ namespace quoin
       const std::function<void(std::complex<double>, Eigen::VectorXcd &)>
           &values)
   {
-    constexpr double pi       = 3.14159265358979323846;
+    using constants::pi;
     constexpr double aliasing = 1e-10;
     const unsigned points     = 2 * n;
     const double radius       = std::pow(aliasing, 1. / points);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/cut_kernels.h>
 #include <quoin/tdbem/gauss_legendre.h>
 
@@ -77,8 +78,8 @@ namespace quoin
         = y2 * (S.i1 - 2. * S.i2) - ratio2 * y1 * (P.i1 - 2. * P.i2);
 
     // The tractions over r^2, which cancels with that of y2 and y1.
-    const double u = weight / (2. * M_PI * modulus);
-    const double p = r > 0. ? weight / (2. * M_PI * r * r) : 0.;
+    const double u = weight / (2. * constants::pi * modulus);
+    const double p = r > 0. ? weight / (2. * constants::pi * r * r) : 0.;
     return { u * psi, -u * chi, p * (psi1 - chi),
              p * (-2. * chi + (1. / ratio2 - 2.) * (psi1 - chi1 - chi)),
              p * (4. * chi - 2. * chi1) };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/element_integrals.h>
 
 #include <algorithm>
@@ -77,7 +78,7 @@ namespace quoin
     const EndTerms e1 = end_terms(medium, time, d, s1);
     const EndTerms e2 = end_terms(medium, time, d, s2);
 
-    const double factor = 1. / (4. * M_PI);
+    const double factor = 1. / (4. * constants::pi);
     const double a      = factor / medium.density;
     const double A_tn   = a * (e2.A_tn - e1.A_tn);
 

@@ -3,6 +3,7 @@
 
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/interior_points.h>
+#include <quoin/tdbem/segment.h>
 #include <quoin/tdbem/static_kernels.h>
 
 #include <algorithm>
@@ -14,14 +15,6 @@ namespace quoin
   {
     using Eigen::Matrix2d;
     using Eigen::Vector2d;
-
-    double distance_to(const BoundaryElement &element, const Vector2d &point)
-    {
-      const Vector2d edge = element.b - element.a;
-      const double s      = std::clamp(
-               edge.dot(point - element.a) / edge.squaredNorm(), 0., 1.);
-      return (point - element.a - s * edge).norm();
-    }
 
     /**
      * The kernels of a point and an element for all lags, each component one
@@ -42,7 +35,8 @@ namespace quoin
         const double dt = record.time_step;
         // Lag n sees waves until (n + 1) dt. The margin is for rounding: the
         // integrals themselves are zero before the arrival.
-        const double arrival = distance_to(element, point) / (medium.c1 * dt);
+        const double arrival = distance_to_segment(point, element.a, element.b)
+                               / (medium.c1 * dt);
         first = arrival < n_lags ? unsigned(arrival * (1. - 1e-12)) : n_lags;
 
         const Vector2d t = element.tangent(), n = element.normal();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/cut_kernels.h>
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/graded_rule.h>
 #include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/segment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,15 +24,6 @@ namespace quoin
     constexpr double far_distance = 1.5;
     /** Between elements; nearer ones are nearly singular at all times. */
     constexpr double near_distance = 1.6;
-
-    double distance_to_segment(const Vector2d &point, const Vector2d &a,
-                               const Vector2d &b)
-    {
-      const Vector2d edge = b - a;
-      const double s
-          = std::clamp(edge.dot(point - a) / edge.squaredNorm(), 0., 1.);
-      return (point - a - s * edge).norm();
-    }
 
     bool same(const Vector2d &a, const Vector2d &b, const double length)
     {
@@ -356,7 +349,7 @@ namespace quoin
 
     Matrix2d A;
     A << b + a_cos, a_sin, a_sin, b - a_cos;
-    A /= 4. * M_PI * medium.density;
+    A /= 4. * constants::pi * medium.density;
     const auto B = [&](const Vector2d &n) -> Matrix2d
     {
       const Vector2d y(yx, yy), z(zx, zy);
@@ -366,7 +359,7 @@ namespace quoin
           sum_xy2 * n.x() + sum_y3 * n.y();
       return (cubic + y.dot(n) * Matrix2d::Identity() + y * n.transpose()
               + n * z.transpose())
-             / (4. * M_PI);
+             / (4. * constants::pi);
     };
     return { F.length * A, F.length * B(F.normal).transpose(), E.length * A,
              -E.length * B(E.normal).transpose() };

@@ -3,6 +3,7 @@
 
 #include <quoin/tdbem/laplace_kernels.h>
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/tdbem/bessel_k.h>
 
@@ -10,7 +11,7 @@ namespace quoin
 {
   namespace
   {
-    constexpr double pi = 3.14159265358979323846;
+    using constants::pi;
   }
 
   LaplaceKernels::LaplaceKernels(const ElasticMedium &medium,

@@ -5,6 +5,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/tdbem/gauss_legendre.h>
+#include <quoin/tdbem/segment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,12 +42,8 @@ namespace quoin
 
     double distance(const Point &x, const Segment &segment)
     {
-      const Point edge = segment.b - segment.a;
-      if (segment.is_point())
-        return (x - segment.a).norm();
-      const double t = std::min(
-          1., std::max(0., (x - segment.a).dot(edge) / edge.squaredNorm()));
-      return (x - segment.a - t * edge).norm();
+      return segment.is_point() ? (x - segment.a).norm()
+                                : distance_to_segment(x, segment.a, segment.b);
     }
 
     /** Of segments that do not cross. */

@@ -3,6 +3,7 @@
 
 #include <quoin/tdbem/line_source.h>
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 
 #include <algorithm>
@@ -10,6 +11,8 @@
 
 namespace quoin
 {
+  using constants::pi;
+
   LineSource::LineSource(const ElasticMedium &medium,
                          const Eigen::Vector2d &position,
                          const std::function<double(double)> &moment,
@@ -56,7 +59,7 @@ namespace quoin
         break;
       sum += knot.change * std::sqrt((age - travel) * (age + travel));
     }
-    return sum / (2. * M_PI * medium.density * medium.c1 * medium.c1 * r * r)
+    return sum / (2. * pi * medium.density * medium.c1 * medium.c1 * r * r)
            * from;
   }
 
@@ -85,7 +88,7 @@ namespace quoin
                  * (age1 * s1 - age0 * s0 - travel * travel * arc);
     }
     const double factor
-        = 1. / (2. * M_PI * medium.density * medium.c1 * medium.c1 * (t1 - t0));
+        = 1. / (2. * pi * medium.density * medium.c1 * medium.c1 * (t1 - t0));
     const double hoop       = factor * of_root / (r * r);
     const double volume     = -factor * of_inverse / (medium.c1 * medium.c1);
     const double radial     = volume - hoop;

@@ -3,6 +3,7 @@
 
 #include <quoin/tdbem/passivity.h>
 
+#include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 
 #include <Eigen/Eigenvalues>
@@ -134,6 +135,92 @@ namespace quoin
     return text.str();
   }
 
+  namespace
+  {
+    struct Sample
+    {
+      double angle, eigenvalue;
+    };
+
+    /** The discrete impedance on a circle about zero. */
+    class Impedance
+    {
+    public:
+      Impedance(const ZTransform &transform, const Boundary &boundary,
+                const ElasticMedium &medium, const double time_step,
+                const double radius)
+        : transform(transform), time_step(time_step), radius(radius),
+          unit(medium.density * medium.c2), inverse_root(boundary.n_unknowns())
+      {
+        for (Eigen::Index k = 0; k < inverse_root.size(); ++k)
+          inverse_root(k)
+              = 1. / std::sqrt(boundary.elements[std::size_t(k / 2)].length());
+      }
+
+      /** The smallest eigenvalue of its Hermitian part [rho c2]. */
+      Sample look_at(const double angle)
+      {
+        const std::complex<double> w = std::polar(radius, angle);
+        transform(w, G, H);
+        // L G^-1 H L^-1 = (G L^-1)^-1 (H L^-1) with L the lengths' roots.
+        G *= inverse_root.asDiagonal();
+        H *= inverse_root.asDiagonal();
+        const Eigen::Index n              = inverse_root.size();
+        const std::complex<double> factor = 0.5 * time_step / (1. - w);
+        const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(G);
+        Eigen::VectorXcd image(n), forward(n), backward(n);
+        const auto hermitian_part = [&](Eigen::VectorXcd &x)
+        {
+          image.noalias() = H * x;
+          forward         = lu.solve(image);
+          // lu.adjoint() would copy the factors.
+          lu.matrixLU().triangularView<Eigen::Upper>().adjoint().solveInPlace(
+              x);
+          lu.matrixLU()
+              .triangularView<Eigen::UnitLower>()
+              .adjoint()
+              .solveInPlace(x);
+          backward    = lu.permutationP().transpose() * x;
+          x.noalias() = std::conj(factor) * (H.adjoint() * backward);
+          x += factor * forward;
+        };
+        return { angle, smallest_eigenvalue(hermitian_part, n, unit) / unit };
+      }
+
+    private:
+      const ZTransform &transform;
+      const double time_step, radius, unit;
+      Eigen::VectorXd inverse_root;
+      Eigen::MatrixXcd G, H;
+    };
+
+    /** Halves up to @p n_more intervals, those with the lowest values first,
+        down to @p resolution. */
+    void refine(std::vector<Sample> &samples, const unsigned n_more,
+                const double resolution, Impedance &impedance)
+    {
+      const auto value = [&](const std::size_t interval)
+      {
+        return std::min(samples[interval].eigenvalue,
+                        samples[interval + 1].eigenvalue);
+      };
+      for (unsigned k = 0; k < n_more; ++k)
+      {
+        std::size_t lowest = samples.size();
+        for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+          if (samples[i + 1].angle - samples[i].angle > resolution
+              && (lowest == samples.size() || value(i) < value(lowest)))
+            lowest = i;
+        if (lowest == samples.size())
+          break;
+        samples.insert(
+            samples.begin() + std::ptrdiff_t(lowest) + 1,
+            impedance.look_at(
+                0.5 * (samples[lowest].angle + samples[lowest + 1].angle)));
+      }
+    }
+  } // namespace
+
   PassivityReport
   scan_passivity(const ZTransform &transform, const Boundary &boundary,
                  const ElasticMedium &medium, const double time_step,
@@ -142,72 +229,16 @@ namespace quoin
     if (!(radius > 0. && radius < 1.) || n_frequencies == 0)
       throw InputError("Passivity scan: the radius must be between 0 and 1 "
                        "and the number of frequencies positive.");
-    constexpr double pi  = 3.14159265358979323846;
-    const Eigen::Index n = Eigen::Index(boundary.n_unknowns());
-    Eigen::VectorXd inverse_root(n);
-    for (Eigen::Index k = 0; k < n; ++k)
-      inverse_root(k)
-          = 1. / std::sqrt(boundary.elements[std::size_t(k / 2)].length());
-
-    const double unit = medium.density * medium.c2;
-
-    struct Sample
-    {
-      double angle, eigenvalue;
-    };
-    Eigen::MatrixXcd G, H;
-    const auto look_at = [&](const double angle)
-    {
-      const std::complex<double> w = std::polar(radius, angle);
-      transform(w, G, H);
-      // L G^-1 H L^-1 = (G L^-1)^-1 (H L^-1) with L the lengths' roots.
-      G *= inverse_root.asDiagonal();
-      H *= inverse_root.asDiagonal();
-      const std::complex<double> factor = 0.5 * time_step / (1. - w);
-      const Eigen::PartialPivLU<Eigen::MatrixXcd> lu(G);
-      Eigen::VectorXcd image(n), forward(n), backward(n);
-      const auto hermitian_part = [&](Eigen::VectorXcd &x)
-      {
-        image.noalias() = H * x;
-        forward         = lu.solve(image);
-        // lu.adjoint() would copy the factors.
-        lu.matrixLU().triangularView<Eigen::Upper>().adjoint().solveInPlace(x);
-        lu.matrixLU().triangularView<Eigen::UnitLower>().adjoint().solveInPlace(
-            x);
-        backward    = lu.permutationP().transpose() * x;
-        x.noalias() = std::conj(factor) * (H.adjoint() * backward);
-        x += factor * forward;
-      };
-      return Sample{ angle,
-                     smallest_eigenvalue(hermitian_part, n, unit) / unit };
-    };
+    using constants::pi;
+    Impedance impedance(transform, boundary, medium, time_step, radius);
 
     // In the middles of equal intervals: at zero itself Z is singular for
     // radius = 1 and purely static.
     std::vector<Sample> samples;
     for (unsigned k = 0; k < n_frequencies; ++k)
-      samples.push_back(look_at(pi * (k + 0.5) / n_frequencies));
-
+      samples.push_back(impedance.look_at(pi * (k + 0.5) / n_frequencies));
     // Then where it is lowest, down to the width of the bands.
-    const double resolution = 0.5 * (1. - radius);
-    for (unsigned k = 0; k < n_frequencies / 2; ++k)
-    {
-      std::size_t lowest = samples.size();
-      const auto value   = [&](const std::size_t interval)
-      {
-        return std::min(samples[interval].eigenvalue,
-                        samples[interval + 1].eigenvalue);
-      };
-      for (std::size_t i = 0; i + 1 < samples.size(); ++i)
-        if (samples[i + 1].angle - samples[i].angle > resolution
-            && (lowest == samples.size() || value(i) < value(lowest)))
-          lowest = i;
-      if (lowest == samples.size())
-        break;
-      samples.insert(
-          samples.begin() + std::ptrdiff_t(lowest) + 1,
-          look_at(0.5 * (samples[lowest].angle + samples[lowest + 1].angle)));
-    }
+    refine(samples, n_frequencies / 2, 0.5 * (1. - radius), impedance);
 
     const auto worst       = std::min_element(samples.begin(), samples.end(),
                                               [](const Sample &a, const Sample &b) {

@@ -3,6 +3,7 @@
 
 #include <quoin/tdbem/static_kernels.h>
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/gauss_legendre.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace quoin
   {
     using Complex = std::complex<double>;
 
-    constexpr double pi = 3.14159265358979323846;
+    using constants::pi;
 
     Complex to_complex(const Eigen::Vector2d &v)
     {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/tangential_stress.h>
 
 #include <algorithm>
@@ -26,6 +27,113 @@ namespace quoin
       const double b = s[2] - s[0];
       return { { -1. / a - 1. / b, b / (a * (b - a)), -a / (b * (b - a)) } };
     }
+
+    /** Which elements come before and after each of them. */
+    class Neighbours
+    {
+    public:
+      explicit Neighbours(const std::vector<BoundaryElement> &elements)
+        : before(elements.size(), none), after(elements.size(), none),
+          elements(elements)
+      {
+        for (unsigned e = 0; e < elements.size(); ++e)
+          for (unsigned f = 0; f < elements.size(); ++f)
+            if ((elements[e].b - elements[f].a).norm()
+                < 1e-9 * (elements[e].length() + elements[f].length()))
+            {
+              after[e]  = f;
+              before[f] = e;
+            }
+      }
+
+      bool is_corner(const unsigned e, const unsigned f) const
+      {
+        return elements[e].tangent().dot(elements[f].tangent())
+               < std::cos(30.001 * constants::pi / 180.);
+      }
+
+      std::vector<unsigned> before, after; /**< or none */
+
+    private:
+      const std::vector<BoundaryElement> &elements;
+    };
+
+    /** Where the middle of element @p e is on the curve that the elements
+        stand for. */
+    Vector2d place_on_curve(const std::vector<BoundaryElement> &elements,
+                            const Neighbours &neighbours, const unsigned e)
+    {
+      double turn = 0., n_turns = 0.;
+      const auto add_turn = [&](const unsigned first, const unsigned second)
+      {
+        if (first == none || second == none
+            || neighbours.is_corner(first, second))
+          return;
+        // Positive to the left, where the curve bulges along the normal.
+        turn += -std::asin(std::clamp(
+            elements[second].tangent().dot(elements[first].normal()), -1., 1.));
+        n_turns += 1.;
+      };
+      add_turn(neighbours.before[e], e);
+      add_turn(e, neighbours.after[e]);
+      Vector2d place = elements[e].middle();
+      if (n_turns > 0.)
+        place += elements[e].length() * turn / n_turns / 12.
+                 * elements[e].normal();
+      return place;
+    }
+
+    /** Up to three elements, the first one that of the derivative, and where
+        their middles are along the elements. */
+    struct Chosen
+    {
+      std::array<unsigned, 3> elements;
+      std::array<double, 3> s{};
+      unsigned n = 1;
+
+      void add(const unsigned element, const double place)
+      {
+        elements[n] = element;
+        s[n++]      = place;
+      }
+    };
+
+    /** Of both sides, or two of one side: not across a corner if that can be
+        helped. */
+    Chosen choose(const std::vector<BoundaryElement> &elements,
+                  const Neighbours &neighbours, const unsigned e)
+    {
+      const unsigned left = neighbours.before[e], right = neighbours.after[e];
+      const bool has_left  = left != none && !neighbours.is_corner(left, e);
+      const bool has_right = right != none && !neighbours.is_corner(e, right);
+      Chosen chosen{ { { e, e, e } } };
+      const auto half
+          = [&](const unsigned f) { return 0.5 * elements[f].length(); };
+      const auto two_on_a_side
+          = [&](const std::vector<unsigned> &next, const double sign)
+      {
+        const unsigned f = next[e];
+        double place     = sign * (half(e) + half(f));
+        chosen.add(f, place);
+        const unsigned g = next[f];
+        const bool turn  = g != none
+                          && (sign > 0. ? neighbours.is_corner(f, g)
+                                        : neighbours.is_corner(g, f));
+        if (g != none && g != e && !turn)
+          chosen.add(g, place + sign * (half(f) + half(g)));
+      };
+      if (has_left == has_right && left != none && right != none
+          && left != right)
+      {
+        chosen.add(left, -half(left) - half(e));
+        chosen.add(right, half(e) + half(right));
+      }
+      else if (has_right || (right != none && !has_left))
+        two_on_a_side(neighbours.after, 1.);
+      else if (left != none)
+        two_on_a_side(neighbours.before, -1.);
+      return chosen;
+    }
   } // namespace
 
   TangentialStress::TangentialStress(const Boundary &boundary,
@@ -36,90 +144,22 @@ namespace quoin
     of_strain   = 4. * mu * (lambda + mu) / (lambda + 2. * mu);
 
     const auto &elements = boundary.elements;
-    const unsigned n     = unsigned(elements.size());
-    std::vector<unsigned> before(n, none), after(n, none);
-    for (unsigned e = 0; e < n; ++e)
-      for (unsigned f = 0; f < n; ++f)
-        if ((elements[e].b - elements[f].a).norm()
-            < 1e-9 * (elements[e].length() + elements[f].length()))
-        {
-          after[e]  = f;
-          before[f] = e;
-        }
-    const auto is_corner = [&](const unsigned e, const unsigned f)
-    {
-      return elements[e].tangent().dot(elements[f].tangent())
-             < std::cos(30.001 * std::acos(-1.) / 180.);
-    };
+    const Neighbours neighbours(elements);
+    std::vector<Vector2d> places;
+    for (unsigned e = 0; e < elements.size(); ++e)
+      places.push_back(place_on_curve(elements, neighbours, e));
 
-    std::vector<Vector2d> places(n);
-    for (unsigned e = 0; e < n; ++e)
+    for (unsigned e = 0; e < elements.size(); ++e)
     {
-      double turn = 0., n_turns = 0.;
-      const auto add_turn = [&](const unsigned first, const unsigned second)
-      {
-        if (first == none || second == none || is_corner(first, second))
-          return;
-        // Positive to the left, where the curve bulges along the normal.
-        turn += -std::asin(std::clamp(
-            elements[second].tangent().dot(elements[first].normal()), -1., 1.));
-        n_turns += 1.;
-      };
-      add_turn(before[e], e);
-      add_turn(e, after[e]);
-      places[e] = elements[e].middle();
-      if (n_turns > 0.)
-        places[e] += elements[e].length() * turn / n_turns / 12.
-                     * elements[e].normal();
-    }
-
-    for (unsigned e = 0; e < n; ++e)
-    {
-      const unsigned left = before[e], right = after[e];
-      const bool has_left  = left != none && !is_corner(left, e);
-      const bool has_right = right != none && !is_corner(e, right);
-      // Middles in order of use, with their place along the elements.
-      std::array<unsigned, 3> chosen{ { e, e, e } };
-      std::array<double, 3> s{};
-      unsigned n_chosen = 1;
-      const auto choose = [&](const unsigned f, const double place)
-      {
-        chosen[n_chosen] = f;
-        s[n_chosen++]    = place;
-      };
-      const auto half
-          = [&](const unsigned f) { return 0.5 * elements[f].length(); };
-      const auto two_on_a_side
-          = [&](const std::vector<unsigned> &next, const double sign)
-      {
-        const unsigned f = next[e];
-        double place     = sign * (half(e) + half(f));
-        choose(f, place);
-        const unsigned g = next[f];
-        const bool turn
-            = g != none && (sign > 0. ? is_corner(f, g) : is_corner(g, f));
-        if (g != none && g != e && !turn)
-          choose(g, place + sign * (half(f) + half(g)));
-      };
-      if (has_left == has_right && left != none && right != none
-          && left != right)
-      {
-        choose(left, -half(left) - half(e));
-        choose(right, half(e) + half(right));
-      }
-      else if (has_right || (right != none && !has_left))
-        two_on_a_side(after, 1.);
-      else if (left != none)
-        two_on_a_side(before, -1.);
-
-      const auto slopes = derivatives(s, n_chosen);
-      Vector2d x_prime  = Vector2d::Zero();
-      for (unsigned k = 0; k < n_chosen; ++k)
-        x_prime += slopes[k] * places[chosen[k]];
-      Stencil stencil{ chosen, {} };
+      const Chosen chosen = choose(elements, neighbours, e);
+      const auto slopes   = derivatives(chosen.s, chosen.n);
+      Vector2d x_prime    = Vector2d::Zero();
+      for (unsigned k = 0; k < chosen.n; ++k)
+        x_prime += slopes[k] * places[chosen.elements[k]];
+      Stencil stencil{ chosen.elements, {} };
       for (unsigned k = 0; k < 3; ++k)
         stencil.weights[k]
-            = n_chosen > 1
+            = chosen.n > 1
                   ? Vector2d(slopes[k] / x_prime.squaredNorm() * x_prime)
                   : Vector2d(Vector2d::Zero());
       stencils.push_back(stencil);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
 #include <quoin/tdbem/time_kernels.h>
 
 #include <cmath>
@@ -9,6 +10,8 @@
 
 namespace quoin
 {
+  using constants::pi;
+
   TimeKernels time_kernels(const ElasticMedium &medium, const double time,
                            const Eigen::Vector2d &distance,
                            const Eigen::Vector2d &normal)
@@ -23,11 +26,11 @@ namespace quoin
     const Eigen::Matrix2d identity = Eigen::Matrix2d::Identity();
     const Eigen::Matrix2d square   = e * e.transpose();
     return { (2. * terms.a * square + (terms.b - terms.a) * identity)
-                 / (4. * M_PI * medium.density),
+                 / (4. * pi * medium.density),
              (terms.x * en * square
               + terms.y * (en * identity + e * normal.transpose())
               + terms.z * normal * e.transpose())
-                 / (4. * M_PI) };
+                 / (4. * pi) };
   }
 
   Eigen::Matrix2d static_traction_kernel(const ElasticMedium &medium,
@@ -38,7 +41,7 @@ namespace quoin
     const double r          = distance.norm();
     const Eigen::Vector2d e = distance / r;
     const double k          = 1. - 2. * nu;
-    return -1. / (4. * M_PI * (1. - nu) * r)
+    return -1. / (4. * pi * (1. - nu) * r)
            * (e.dot(normal)
                   * (k * Eigen::Matrix2d::Identity() + 2. * e * e.transpose())
               + k * (e * normal.transpose() - normal * e.transpose()));

@@ -6,16 +6,17 @@
 
 #include <quoin/application/boundary_geometry.h>
 #include <quoin/application/boundary_histories.h>
+#include <quoin/application/checkpoint_clock.h>
 #include <quoin/application/given_values.h>
 #include <quoin/application/incident_waves.h>
 #include <quoin/application/parameters.h>
 #include <quoin/application/run_options.h>
 #include <quoin/base/time_control.h>
 #include <quoin/output/boundary_output.h>
-#include <quoin/output/csv_table.h>
 #include <quoin/output/log.h>
 #include <quoin/output/output_lock.h>
 #include <quoin/output/progress.h>
+#include <quoin/output/root_table.h>
 #include <quoin/tdbem/boundary_march.h>
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/interior_points.h>
@@ -23,8 +24,6 @@
 #include <quoin/tdbem/static_solver.h>
 #include <quoin/tdbem/tangential_stress.h>
 
-#include <chrono>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -59,7 +58,7 @@ namespace quoin
       std::vector<double> all_p;   /**< other, if the domain is asked for */
       std::vector<double> rows;    /**< of histories.csv that still lack */
                                    /**< what happens in the domain */
-      std::uint64_t histories_bytes = 0;
+      RootTable history_table;
       BoundaryOutput boundary_output;
       double wall_time = 0.; /**< of the time loop [s] */
       bool finished    = false;
@@ -67,8 +66,8 @@ namespace quoin
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &step &history &u &p &all_u &all_p &rows &histories_bytes
-            &boundary_output &wall_time &finished;
+        archive &step &history &u &p &all_u &all_p &rows &history_table
+            .n_bytes &boundary_output &wall_time &finished;
       }
     };
 
@@ -85,7 +84,6 @@ namespace quoin
     /** What points in the domain take, by one of them [s]. */
     double seconds_of_points() const;
     void make_operators();
-    void report_passivity();
     void report_stability();
     /** Also a half-plane, whose surface is discretised to a distance. */
     bool is_bounded() const;
@@ -145,7 +143,6 @@ namespace quoin
     std::unique_ptr<LagKernel> kernel;
     std::unique_ptr<BoundaryHistory> history;
     std::unique_ptr<BoundaryMarch> march;
-    std::unique_ptr<CsvTable> history_table;
     SampledFieldOutput field_output;
     TimeControl history_control, field_control;
     Record record;
@@ -157,7 +154,7 @@ namespace quoin
     Eigen::VectorXd last_displacement; /**< total [m] */
     std::uint64_t steps_done = 0;      /**< by this process */
     double seconds_done      = 0.;
-    std::chrono::steady_clock::time_point last_checkpoint;
+    CheckpointClock checkpoint_clock;
   };
 } // namespace quoin
 

@@ -5,6 +5,7 @@
 #define quoin_application_simulation_h
 
 #include <quoin/application/boundary_geometry.h>
+#include <quoin/application/checkpoint_clock.h>
 #include <quoin/application/histories.h>
 #include <quoin/application/incident_waves.h>
 #include <quoin/application/parameters.h>
@@ -18,14 +19,16 @@
 #include <quoin/mesh/mesh_report.h>
 #include <quoin/output/block_output.h>
 #include <quoin/output/boundary_output.h>
-#include <quoin/output/csv_table.h>
 #include <quoin/output/joint_output.h>
 #include <quoin/output/log.h>
 #include <quoin/output/output_lock.h>
 #include <quoin/output/progress.h>
+#include <quoin/output/root_table.h>
 #include <quoin/tdbem/passivity.h>
 
-#include <chrono>
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
 #include <memory>
 #include <string>
 
@@ -50,29 +53,37 @@ namespace quoin
     struct Record
     {
       State state;
-      std::uint64_t histories_bytes = 0;
-      std::uint64_t energies_bytes  = 0;
+      RootTable history_table, energy_table;
       BlockOutput block_output;
       JointOutput joint_output;
       JointOutput contact_output;
       BoundaryOutput boundary_output;
-      std::uint64_t far_field_bytes   = 0;
-      double wall_time                = 0.;  /**< of the time loop [s] */
-      double largest_residual         = 0.;  /**< of the energy balance */
-      double largest_throughput       = 0.;  /**< boundary elements' too [J] */
-      double fields_time              = -1.; /**< of the last VTU files [s] */
-      bool stage_begun                = false;
-      std::uint64_t convergence_bytes = 0;
+      RootTable far_field_table   = {};
+      double wall_time            = 0.;  /**< of the time loop [s] */
+      double largest_residual     = 0.;  /**< of the energy balance */
+      double largest_throughput   = 0.;  /**< boundary elements' too [J] */
+      double fields_time          = -1.; /**< of the last VTU files [s] */
+      bool stage_begun            = false;
+      RootTable convergence_table = {};
       std::uint64_t iterations = 0, cuts = 0;  /**< of the implicit solver */
       std::vector<FactorSearch> searches = {}; /**< of each stage; or empty */
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &state &histories_bytes &energies_bytes &block_output
-            &joint_output &contact_output &boundary_output &far_field_bytes
-                &wall_time &largest_residual &largest_throughput &fields_time
-                    &stage_begun &convergence_bytes &iterations &cuts &searches;
+        archive &state &history_table.n_bytes &energy_table
+            .n_bytes &block_output &joint_output &contact_output
+                &boundary_output &far_field_table
+            .n_bytes &wall_time &largest_residual &largest_throughput
+                &fields_time &stage_begun &convergence_table
+            .n_bytes &iterations &cuts &searches;
+      }
+
+      /** Those that are not made have no rows. */
+      std::array<RootTable *, 4> tables()
+      {
+        return { &history_table, &energy_table, &far_field_table,
+                 &convergence_table };
       }
     };
 
@@ -80,6 +91,8 @@ namespace quoin
     void make_solver(const MeshData &as_read);
     void set_initial_motion();
     void report_model();
+    /** Sizes, and warnings of what is likely a mistake in the mesh. */
+    void report_mesh();
     void report_initial_joints();
     /** Materials, joints and loads. */
     void report_parts();
@@ -102,6 +115,8 @@ namespace quoin
     /** They go on with the state of a checkpoint. */
     void resume();
     void open_outputs();
+    /** Tables of the first rank. */
+    void make_tables();
     void run_stage(unsigned int index);
     /** The last one before it that leaves the model changed, or null. */
     const StageParameters *previous_stage(unsigned int index) const;
@@ -148,8 +163,6 @@ namespace quoin
     bool has_settled(const StageParameters &stage, bool balance) const;
     /** .geo, .msh and statistics of blocks that were generated. */
     void write_generated_geometry() const;
-    /** A file of the output folder. */
-    void write_text(const std::string &name, const std::string &text) const;
     /** The row of @p time [s], that of the histories beside it. */
     void write_energies(double time);
     void write_fields();
@@ -158,6 +171,10 @@ namespace quoin
     /** Stops all ranks if the first one could not write a table. */
     void check_tables();
     void write_summary(bool finished);
+    /** Parts of the summary. */
+    void summarise_searches(nlohmann::json &summary) const;
+    void summarise_contacts(nlohmann::json &summary) const;
+    void report_end(const nlohmann::json &summary);
     ProgressFigures progress_figures(const StageParameters &stage) const;
     double energy_residual() const;
 
@@ -181,8 +198,6 @@ namespace quoin
     ExplicitSolver *explicit_solver = nullptr; /**< it, or null */
     ImplicitSolver *implicit_solver = nullptr; /**< it, or null */
     std::unique_ptr<Histories> histories;
-    std::unique_ptr<CsvTable> history_table, energy_table, far_field_table,
-        convergence_table;
     std::unique_ptr<PassivityReport> passivity;
     TimeControl history_control, field_control;
     Record record;
@@ -190,7 +205,7 @@ namespace quoin
     std::uint64_t steps_of_stage = 0; /**< for stages that end by time */
     std::uint64_t steps_done     = 0; /**< by this process */
     double seconds_done          = 0.;
-    std::chrono::steady_clock::time_point last_checkpoint;
+    CheckpointClock checkpoint_clock;
   };
 } // namespace quoin
 

@@ -4,6 +4,7 @@
 #ifndef quoin_joints_barton_bandis_law_h
 #define quoin_joints_barton_bandis_law_h
 
+#include <quoin/base/constants.h>
 #include <quoin/joints/rock_point.h>
 
 namespace quoin
@@ -94,7 +95,7 @@ namespace quoin
     double divisor        = 1.; /**< of the shear strength [-] */
 
     /** phi_r + i of the peak is not above this [rad]. */
-    static constexpr double largest_angle = 70. * 3.14159265358979323846 / 180.;
+    static constexpr double largest_angle = 70. * constants::pi / 180.;
 
     /** Brings @p point to @p opening and @p slip [m], overwriting it. */
     JointDissipation update(RockPoint &point, const double opening,

@@ -5,6 +5,7 @@
 #define quoin_layout_rock_layout_h
 
 #include <quoin/layout/block_faces.h>
+#include <quoin/layout/gmsh_geometry.h>
 #include <quoin/layout/joint_traces.h>
 
 #include <memory>
@@ -85,14 +86,8 @@ namespace quoin
   std::string rock_statistics(const RockParameters &rock,
                               const RockLayout &layout);
 
-  /** A gmsh geometry of the blocks and which of its curves are joints. */
-  struct RockGeometry
-  {
-    std::string text; /**< of a .geo file */
-    std::vector<std::string> joint_curves;
-  };
-
-  RockGeometry rock_geometry(const RockParameters &rock,
+  /** The layout as a gmsh geometry that makes the mesh of the rock. */
+  GmshGeometry rock_geometry(const RockParameters &rock,
                              const RockLayout &layout);
 } // namespace quoin
 

@@ -32,11 +32,11 @@ namespace quoin
 
   /**
    * Distribute whole blocks to @p n_parts parts of about equal numbers of cells
-   * with few joint faces between parts; returns the part of each block. With at
-   * least as many parts as blocks, block i goes to part i and the other parts
-   * are empty. METIS divides the graph of blocks and joints; if that leaves a
-   * part more than a tenth above what dealing out the blocks by size alone
-   * gives (few blocks of very different size), the latter is taken.
+   * with few pairs of blocks joined across parts; returns the part of each
+   * block. With at least as many parts as blocks, block i goes to part i and
+   * the other parts are empty. METIS divides the graph of blocks and joints; if
+   * that leaves a part more than a tenth above what dealing out the blocks by
+   * size alone gives (few blocks of very different size), the latter is taken.
    */
   std::vector<unsigned int> partition_blocks(const BlockMesh<2> &mesh,
                                              const unsigned int n_parts);

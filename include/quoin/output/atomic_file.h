@@ -107,6 +107,9 @@ namespace quoin
     std::ostream out;
     bool committed = false;
   };
+
+  /** Writes an AtomicFile. @throws RunError */
+  void write_text(const std::string &path, const std::string &text);
 } // namespace quoin
 
 #endif

@@ -424,7 +424,7 @@ TEST(RockGeometry, gmsh_makes_the_blocks_of_the_layout)
                            "exponential 9", "exponential 2"),
                     joint_set("b", "normal 100, 5", "uniform 4, 0.5") };
     const RockLayout layout     = lay_rock(rock);
-    const RockGeometry geometry = rock_geometry(rock, layout);
+    const GmshGeometry geometry = rock_geometry(rock, layout);
     SplitOptions options;
     options.joints_along = geometry.joint_curves;
     BlockMesh<2> mesh;

@@ -5,6 +5,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/output/csv_table.h>
+#include <quoin/output/root_table.h>
 
 #include <sys/resource.h>
 
@@ -119,4 +120,36 @@ TEST(CsvTable, RowsThatDoNotFitAreFoundLater)
   const std::string message = message_of<RunError>([&]() { table.check(); });
   setrlimit(RLIMIT_FSIZE, &before);
   EXPECT_NE(message.find("h.csv"), std::string::npos) << message;
+}
+
+TEST(RootTable, GoesOnFromItsLastSync)
+{
+  const TemporaryDirectory directory;
+  RootTable before;
+  before.make(directory / "h.csv", columns);
+  before.start();
+  before.add_row({ 0., 1. });
+  before.sync();
+  before.add_row({ 1., 2. });
+  before.flush();
+
+  RootTable after;
+  after.make(directory / "h.csv", columns);
+  after.n_bytes = before.n_bytes;
+  after.resume();
+  after.add_row({ 1., 7. });
+  after.flush();
+  EXPECT_EQ(contents(directory / "h.csv"), "time [s],ux [m]\n0,1\n1,7\n");
+}
+
+TEST(RootTable, DoesNothingWhereItWasNotMade)
+{
+  RootTable table;
+  table.start();
+  table.add_row({ 0. });
+  table.check();
+  table.flush();
+  table.sync();
+  EXPECT_EQ(table.n_bytes, 0U);
+  table.resume();
 }

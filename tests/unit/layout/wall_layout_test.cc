@@ -2,9 +2,9 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/layout/wall_layout.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
-#include <quoin/mesh/wall_layout.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/mesh/wall_parameters.h>
+#include <quoin/layout/wall_parameters.h>
 
 #include <cmath>
 

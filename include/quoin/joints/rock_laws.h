@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_joints_rock_parameters_h
-#define quoin_joints_rock_parameters_h
+#ifndef quoin_joints_rock_laws_h
+#define quoin_joints_rock_laws_h
 
 #include <quoin/base/parameter_section.h>
 #include <quoin/joints/barton_bandis_law.h>

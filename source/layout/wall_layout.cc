@@ -3,11 +3,10 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
-#include <quoin/mesh/wall_layout.h>
+#include <quoin/layout/wall_layout.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <random>
 
 namespace quoin

@@ -3,7 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
-#include <quoin/mesh/wall_layout.h>
+#include <quoin/layout/wall_layout.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace quoin
 {
   namespace
   {
-    using Numbers = std::vector<unsigned int>;
+    using Numbers = GmshNumbers;
 
     /** What gmsh is to mesh: a unit, its half, or a cell between columns. */
     struct Piece
@@ -52,27 +52,6 @@ namespace quoin
       return is_platen(below) || is_platen(above) ? "platen_joint" : "bed";
     }
 
-    /** {1, 2, 3}, in lines of at most 80 characters. */
-    std::string braces(const Numbers &numbers)
-    {
-      std::string text = "{", line(40, ' '); // room for what stands before
-      for (std::size_t i = 0; i < numbers.size(); ++i)
-      {
-        const std::string word
-            = std::to_string(numbers[i]) + (i + 1 < numbers.size() ? "," : "}");
-        if (line.size() + word.size() >= 80)
-        {
-          text += "\n ";
-          line = " ";
-        }
-        if (i > 0)
-          text += " ";
-        text += word;
-        line += " " + word;
-      }
-      return text;
-    }
-
     std::string length_text(const double length)
     {
       std::ostringstream text;
@@ -89,7 +68,7 @@ namespace quoin
       {
       }
 
-      WallGeometry write()
+      GmshGeometry write()
       {
         make_pieces();
         make_points();
@@ -99,13 +78,8 @@ namespace quoin
         write_uprights();
         write_surfaces();
         write_mesh();
-        for (const auto &[name, numbers] : surfaces)
-          text << "Physical Surface(\"" << name << "\") = " << braces(numbers)
-               << ";\n";
-        for (const auto &[name, numbers] : curves)
-          text << "Physical Curve(\"" << name << "\") = " << braces(numbers)
-               << ";\n";
-        WallGeometry geometry{ text.str(), {} };
+        text << physical_names(surfaces, curves);
+        GmshGeometry geometry{ text.str(), {} };
         for (const std::string name :
              { "bed", "platen_joint", "head", "crack" })
           if (curves.count(name) > 0)
@@ -360,7 +334,7 @@ namespace quoin
     }
   } // namespace
 
-  WallGeometry wall_geometry(const WallParameters &wall,
+  GmshGeometry wall_geometry(const WallParameters &wall,
                              const WallLayout &layout)
   {
     return Writer(wall, layout).write();

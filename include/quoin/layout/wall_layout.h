@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_mesh_wall_layout_h
-#define quoin_mesh_wall_layout_h
+#ifndef quoin_layout_wall_layout_h
+#define quoin_layout_wall_layout_h
 
-#include <quoin/mesh/wall_parameters.h>
+#include <quoin/layout/gmsh_geometry.h>
+#include <quoin/layout/wall_parameters.h>
 
 #include <string>
 #include <vector>
@@ -59,13 +60,6 @@ namespace quoin
   /** How many units, lintels and cracks there are, in a line. */
   std::string wall_report(const WallLayout &layout);
 
-  /** A gmsh geometry and which of its physical curves are joints. */
-  struct WallGeometry
-  {
-    std::string text; /**< of a .geo file */
-    std::vector<std::string> joint_curves;
-  };
-
   /**
    * The layout as a gmsh geometry that makes the mesh of the wall: physical
    * surfaces `unit`, `lintel`, `bottom_platen`, `top_platen`; physical curves
@@ -76,7 +70,7 @@ namespace quoin
    * Throws InputError if a structured mesh would need columns narrower than a
    * fifth of the element size.
    */
-  WallGeometry wall_geometry(const WallParameters &wall,
+  GmshGeometry wall_geometry(const WallParameters &wall,
                              const WallLayout &layout);
 } // namespace quoin
 

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/joints/rock_parameters.h>
-
-#include <deal.II/base/numbers.h>
+#include <quoin/base/constants.h>
+#include <quoin/joints/rock_laws.h>
 
 namespace quoin
 {
   namespace
   {
-    constexpr double degree = dealii::numbers::PI / 180.;
+    using constants::degree;
 
     /** Where 'Largest normal stiffness = 0' puts the end of the hyperbola. */
     constexpr double stiffening = 25.;

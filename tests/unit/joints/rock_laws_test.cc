@@ -51,7 +51,7 @@ namespace
   }
 } // namespace
 
-TEST(RockParameters, BartonBandis)
+TEST(RockLaws, BartonBandis)
 {
   const JointSetParameters set = read(barton_bandis);
   const auto &law              = std::get<BartonBandisLaw>(*set.rock);
@@ -76,7 +76,7 @@ TEST(RockParameters, BartonBandis)
   EXPECT_EQ(other.law.normal_stiffness, 80e9);
 }
 
-TEST(RockParameters, RoughnessAndWallStrengthOfALongJoint)
+TEST(RockLaws, RoughnessAndWallStrengthOfALongJoint)
 {
   const auto set  = read(barton_bandis + "set Laboratory length = 0.1\n");
   const auto &law = std::get<BartonBandisLaw>(*set.rock);
@@ -86,7 +86,7 @@ TEST(RockParameters, RoughnessAndWallStrengthOfALongJoint)
   EXPECT_NEAR(law.peak_slip, 2. / 500. * std::pow(roughness / 2., 0.33), 1e-12);
 }
 
-TEST(RockParameters, ContinuouslyYielding)
+TEST(RockLaws, ContinuouslyYielding)
 {
   const JointSetParameters set = read(yielding);
   const auto &law              = std::get<ContinuouslyYieldingLaw>(*set.rock);
@@ -100,7 +100,7 @@ TEST(RockParameters, ContinuouslyYielding)
   EXPECT_NEAR(set.law.shear_stiffness, 8e9 * std::pow(100., 0.4), 1.);
 }
 
-TEST(RockParameters, RefusesWhatMakesNoSense)
+TEST(RockLaws, RefusesWhatMakesNoSense)
 {
   for (const std::string &law : { barton_bandis, yielding })
   {

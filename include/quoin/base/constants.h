@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_base_constants_h
+#define quoin_base_constants_h
+
+#include <cmath>
+
+namespace quoin
+{
+  /** In a namespace of their own: tests and cases have locals of these names.
+   */
+  namespace constants
+  {
+    constexpr double pi      = 3.14159265358979323846;
+    constexpr double degree  = pi / 180.; /**< [rad] */
+    constexpr double gravity = 9.80665;   /**< standard [m/s^2] */
+  }                                       // namespace constants
+
+  /** tan of @p angle in degrees, as friction and dilation are given. */
+  inline double tangent_of_degrees(const double angle)
+  {
+    return std::tan(angle * constants::pi / 180.);
+  }
+} // namespace quoin
+
+#endif

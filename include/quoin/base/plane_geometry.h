@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_base_plane_geometry_h
+#define quoin_base_plane_geometry_h
+
+#include <deal.II/base/point.h>
+
+#include <algorithm>
+
+namespace quoin
+{
+  /** Positive if @p b is to the left of @p a. */
+  inline double cross(const dealii::Tensor<1, 2> &a,
+                      const dealii::Tensor<1, 2> &b)
+  {
+    return a[0] * b[1] - a[1] * b[0];
+  }
+
+  /**
+   * Twice the area of the triangle [m^2], positive if it is counter-clockwise,
+   * that is, if @p p is on the left of the line from @p a to @p b.
+   */
+  inline double twice_area(const dealii::Point<2> &a, const dealii::Point<2> &b,
+                           const dealii::Point<2> &p)
+  {
+    return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
+  }
+
+  /** Of @p p from the segment, which may be a point [m]. */
+  inline double distance_to_segment(const dealii::Point<2> &p,
+                                    const dealii::Point<2> &a,
+                                    const dealii::Point<2> &b)
+  {
+    const dealii::Tensor<1, 2> way = b - a;
+    const double t                 = std::clamp(
+                        (p - a) * way / std::max(way.norm_square(), 1e-300), 0., 1.);
+    return p.distance(a + t * way);
+  }
+} // namespace quoin
+
+#endif
