@@ -37,17 +37,10 @@ namespace quoin
       return {};
     }
 
-    CompositeDissipation update(const CompositeLaw &law, CompositePoint &point,
-                                const double opening, const double slip, bool,
-                                JointTangent &tangent)
-    {
-      return law.update(point, opening, slip, tangent);
-    }
-
     template <typename Law>
-    std::enable_if_t<is_rock_law<Law>, JointDissipation>
-    update(const Law &law, RockPoint &point, const double opening,
-           const double slip, bool, JointTangent &tangent)
+    auto update(const Law &law, typename Law::Point &point,
+                const double opening, const double slip, bool,
+                JointTangent &tangent)
     {
       return law.update(point, opening, slip, tangent);
     }
@@ -188,15 +181,15 @@ namespace quoin
                                const JointHistory &history) const
   {
     const Segment &segment = segments[p / 2];
-    const CoulombLaw &law  = laws[segment.set];
-    if (composites[segment.set] || rocks[segment.set]
-        || history.state[p] != JointState::intact || history.handed_over[p / 2]
-        || !std::isfinite(law.peak.tension))
+    const auto *brittle    = std::get_if<CoulombLaw>(&laws[segment.set]);
+    if (!brittle || history.state[p] != JointState::intact
+        || history.handed_over[p / 2] || !std::isfinite(brittle->peak.tension))
       return 0.;
-    const double sigma = history.normal_traction[p];
-    const double tau   = std::abs(history.shear_traction[p]);
-    const double shear = tau + sigma * law.peak.friction - law.peak.cohesion;
-    const double size  = std::max(std::abs(sigma), tau);
-    return size > 0. ? std::max(sigma - law.peak.tension, shear) / size : 0.;
+    const JointStrength &peak = brittle->peak;
+    const double sigma        = history.normal_traction[p];
+    const double tau          = std::abs(history.shear_traction[p]);
+    const double shear        = tau + sigma * peak.friction - peak.cohesion;
+    const double size         = std::max(std::abs(sigma), tau);
+    return size > 0. ? std::max(sigma - peak.tension, shear) / size : 0.;
   }
 } // namespace quoin

@@ -191,8 +191,8 @@ namespace quoin
     {
       const auto &segment = model.joints().segment(i);
       largest             = std::max(
-                      largest,
-                      segment.area[0] * model.joints().law(segment.set).normal_stiffness);
+                      largest, segment.area[0]
+                                   * stiffness_bound(model.joints().law(segment.set))[0]);
     }
     return dealii::Utilities::MPI::max(largest, communicator);
   }
