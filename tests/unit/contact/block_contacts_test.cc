@@ -404,7 +404,7 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
       while (scene.state.contacts.n_searches < 2)
       {
         scene.find_forces();
-        // As many as were not looked at for being matched.
+        // Until it is handed over the joint is no contact.
         if (scene.state.contacts.n_searches == 1)
         {
           EXPECT_TRUE(scene.state.contacts.handed_over[0] == 0);
@@ -413,8 +413,7 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
         scene.move(upper, 1e-4, 0.);
         ASSERT_LT(shear, 0.05);
       }
-      // The last look came at the end: put back the last motion, and find
-      // the forces with joints and with contacts at one place.
+      // The forces of joints and those of contacts at one place.
       ASSERT_TRUE(scene.state.contacts.handed_over[0]);
       scene.find_forces(false);
       const auto general = scene.total(upper);
