@@ -144,9 +144,10 @@ namespace quoin
         }
         const Neighbours beside
             = neighbours(set, parameters.model.materials, model);
-        const double kn = set.law.normal_stiffness;
+        const double kn = stiffness_bound(set.law)[0];
         // Of rock joints it is a bound that few of them come near.
-        if (!parameters.is_implicit && !set.rock && beside.stiffest_cell > 0.
+        if (!parameters.is_implicit && !stiffens(set.law)
+            && beside.stiffest_cell > 0.
             && kn > stiff_joint * beside.stiffest_cell)
           advice.push_back(
               begin + "the normal stiffness " + number_text(kn) + " Pa/m is "

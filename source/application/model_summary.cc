@@ -102,7 +102,7 @@ namespace quoin
       return joined(words);
     }
 
-    std::string coulomb_text(const CoulombLaw &law)
+    std::string law_text(const CoulombLaw &law)
     {
       if (!std::isfinite(law.peak.tension))
         return "elastic";
@@ -112,7 +112,7 @@ namespace quoin
              + (residual.empty() ? "" : " (once failed " + residual + ")");
     }
 
-    std::string composite_text(const CompositeLaw &law)
+    std::string law_text(const CompositeLaw &law)
     {
       return "composite, " + named("tensile strength", law.tension, "Pa") + ", "
              + named("cohesion", law.cohesion, "Pa") + ", "
@@ -121,25 +121,22 @@ namespace quoin
              + ", " + named("compressive strength", law.compression, "Pa");
     }
 
-    struct RockText
+    std::string law_text(const BartonBandisLaw &law)
     {
-      std::string operator()(const BartonBandisLaw &law) const
-      {
-        return "Barton-Bandis, "
-               + named("residual friction angle", law.residual_angle * degrees,
-                       "degrees")
-               + ", JRC " + number_text(law.roughness * degrees) + ", "
-               + named("JCS", law.wall_strength, "Pa");
-      }
-      std::string operator()(const ContinuouslyYieldingLaw &law) const
-      {
-        return "continuously yielding, "
-               + named("friction angle from", law.initial_angle * degrees,
-                       "degrees")
-               + " "
-               + named("down to", law.residual_angle * degrees, "degrees");
-      }
-    };
+      return "Barton-Bandis, "
+             + named("residual friction angle", law.residual_angle * degrees,
+                     "degrees")
+             + ", JRC " + number_text(law.roughness * degrees) + ", "
+             + named("JCS", law.wall_strength, "Pa");
+    }
+
+    std::string law_text(const ContinuouslyYieldingLaw &law)
+    {
+      return "continuously yielding, "
+             + named("friction angle from", law.initial_angle * degrees,
+                     "degrees")
+             + " " + named("down to", law.residual_angle * degrees, "degrees");
+    }
 
     /** Names and units of the components of a load. */
     std::vector<std::array<std::string, 2>>
@@ -310,14 +307,14 @@ namespace quoin
           length += found->second;
       }
       const bool takes_new = set.all_new_contacts || !set.new_contacts.empty();
-      lines.push_back("joints " + set.name + ": " + number_text(length) + " m"
-                      + (takes_new ? " and new contacts" : "") + "; "
-                      + (set.rock        ? std::visit(RockText(), *set.rock)
-                         : set.composite ? composite_text(*set.composite)
-                                         : coulomb_text(set.law))
-                      + ", " + (set.rock ? "up to " : "") + "kn "
-                      + number_text(set.law.normal_stiffness) + " Pa/m, ks "
-                      + number_text(set.law.shear_stiffness) + " Pa/m");
+      const auto stiffness = stiffness_bound(set.law);
+      lines.push_back(
+          "joints " + set.name + ": " + number_text(length) + " m"
+          + (takes_new ? " and new contacts" : "") + "; "
+          + std::visit([](const auto &law) { return law_text(law); }, set.law)
+          + ", " + (stiffens(set.law) ? "up to " : "") + "kn "
+          + number_text(stiffness[0]) + " Pa/m, ks " + number_text(stiffness[1])
+          + " Pa/m");
     }
     return lines;
   }

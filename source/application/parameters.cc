@@ -683,7 +683,8 @@ namespace quoin
       parameters.model.large_displacements
           = parameters.model.contact.large_displacements;
       for (const JointSetParameters &set : parameters.model.joints)
-        if (set.composite && parameters.model.large_displacements)
+        if (std::holds_alternative<CompositeLaw>(set.law)
+            && parameters.model.large_displacements)
           ParameterSection(ParameterSection(top, "Joints"), set.name)
               .fail("Law", "is for small displacements: contacts that go on "
                            "elsewhere have no bond that could soften. Take "

@@ -167,8 +167,9 @@ namespace quoin
 
     for (const JointSetParameters &set : parameters.model.joints)
     {
+      const auto *composite = std::get_if<CompositeLaw>(&set.law);
       const std::string warning
-          = set.composite ? snap_back_warning(*set.composite) : "";
+          = composite ? snap_back_warning(*composite) : "";
       if (!warning.empty())
         log.warning("section 'Joints/" + set.name + "': " + warning);
     }

@@ -99,7 +99,7 @@ namespace quoin
     ModelProperties weak = strong;
     if (safety.reduces_joints)
       for (JointSetParameters &set : weak.joints)
-        set = reduced(set, factor);
+        set.law = reduced(set.law, factor);
     if (safety.reduces_blocks)
       for (MaterialParameters &material : weak.materials)
         material = reduced(material, factor);

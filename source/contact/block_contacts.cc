@@ -219,7 +219,7 @@ namespace quoin
         with_law(pair.set,
                  [&, opening](const auto &law)
                  {
-                   step      = advance(law, point, opening, slip_now);
+                   step      = advance_contact(law, point, opening, slip_now);
                    stiffness = stiffness_of(law, point.normal_traction);
                  });
         const double mean_area = 0.5 * (g.area[k] + point.area) * pair_share[i];
@@ -340,7 +340,7 @@ namespace quoin
     ContactPair &pair    = contacts.pairs[i];
     const double opening = std::min(g.opening[0], g.opening[1]);
     pair.was_open        = pair.was_open || opening >= 0.;
-    if (opening <= -pair_depth[i] || (opening >= 0. && !can_dilate))
+    if (opening <= -pair_depth[i] || (opening >= 0. && !dilates))
       return false;
     unsigned int set = pair.set;
     ContactPoint inherited;
@@ -460,7 +460,8 @@ namespace quoin
                  [&](const auto &law)
                  {
                    energy += pair_share[i] * point.area
-                             * quoin::stored_energy(law, point, openings[i][k]);
+                             * energy_of(law, read_point(law, point),
+                                         openings[i][k]);
                  });
       }
     }
@@ -508,14 +509,5 @@ namespace quoin
                              const unsigned int pair) const
   {
     return exchange.owns(edges[contacts.pairs[pair].lower].nodes[0]);
-  }
-
-  double BlockContacts::largest_stiffness() const
-  {
-    double largest = 0.;
-    for (const CoulombLaw &law : laws)
-      largest
-          = std::max({ largest, law.normal_stiffness, law.shear_stiffness });
-    return largest;
   }
 } // namespace quoin

@@ -37,6 +37,22 @@ namespace quoin
       return *middle;
     }
 
+    ContactLaw contact_law(const JointSetParameters &set)
+    {
+      return std::visit(
+          [&](const auto &law) -> ContactLaw
+          {
+            using Point = typename std::decay_t<decltype(law)>::Point;
+            if constexpr (std::is_same_v<Point, CompositePoint>)
+              throw InputError("section 'Joints/" + set.name
+                               + "': general contacts have no bond that could "
+                                 "soften. Take 'Law = Coulomb'.");
+            else
+              return law;
+          },
+          set.law);
+    }
+
     std::array<unsigned int, 2> key(const ContactPair &pair)
     {
       return { std::min(pair.lower, pair.upper),
@@ -64,13 +80,11 @@ namespace quoin
   void BlockContacts::set_laws(const std::vector<JointSetParameters> &sets)
   {
     laws.clear();
-    rocks.clear();
-    can_dilate = false;
+    dilates = false;
     for (const JointSetParameters &set : sets)
     {
-      laws.push_back(set.law);
-      rocks.push_back(set.rock);
-      can_dilate = can_dilate || set.rock || set.law.dilation != 0.;
+      laws.push_back(contact_law(set));
+      dilates = dilates || can_dilate(set.law);
     }
   }
 

@@ -5,9 +5,7 @@
 #define quoin_source_contact_joint_points_h
 
 #include <quoin/base/state.h>
-#include <quoin/joints/composite_law.h>
-#include <quoin/joints/coulomb_law.h>
-#include <quoin/joints/rock_laws.h>
+#include <quoin/joints/joint_law.h>
 
 #include <array>
 #include <type_traits>
@@ -17,42 +15,32 @@
 
 namespace quoin
 {
-  inline JointPoint read_point(const CoulombLaw &, const JointHistory &history,
-                               const unsigned int p)
-  {
-    return { history.normal_traction[p], history.shear_traction[p],
-             history.plastic_slip[p], history.plastic_opening[p],
-             history.state[p] };
-  }
-
-  inline CompositePoint read_point(const CompositeLaw &,
-                                   const JointHistory &history,
-                                   const unsigned int p)
-  {
-    return { history.normal_traction[p],
-             history.shear_traction[p],
-             history.plastic_slip[p],
-             history.plastic_opening[p],
-             history.bond[p],
-             history.crushing[p],
-             history.crack_opening[p],
-             history.state[p] };
-  }
-
   template <typename Law>
-  constexpr bool is_rock_law
-      = std::is_same_v<
-            Law,
-            BartonBandisLaw> || std::is_same_v<Law, ContinuouslyYieldingLaw>;
-
-  template <typename Law>
-  std::enable_if_t<is_rock_law<Law>, RockPoint>
-  read_point(const Law &, const JointHistory &history, const unsigned int p)
+  typename Law::Point read_point(const Law &, const JointHistory &history,
+                                 const unsigned int p)
   {
-    return { history.normal_traction[p], history.shear_traction[p],
-             history.plastic_slip[p],    history.plastic_opening[p],
-             history.worn_slip[p],       history.dilated[p],
-             history.reload[p],          history.state[p] };
+    using Point = typename Law::Point;
+    if constexpr (std::is_same_v<Point, JointPoint>)
+      return { history.normal_traction[p], history.shear_traction[p],
+               history.plastic_slip[p], history.plastic_opening[p],
+               history.state[p] };
+    else if constexpr (std::is_same_v<Point, CompositePoint>)
+      return { history.normal_traction[p],
+               history.shear_traction[p],
+               history.plastic_slip[p],
+               history.plastic_opening[p],
+               history.bond[p],
+               history.crushing[p],
+               history.crack_opening[p],
+               history.state[p] };
+    else
+    {
+      static_assert(std::is_same_v<Point, RockPoint>);
+      return { history.normal_traction[p], history.shear_traction[p],
+               history.plastic_slip[p],    history.plastic_opening[p],
+               history.worn_slip[p],       history.dilated[p],
+               history.reload[p],          history.state[p] };
+    }
   }
 
   /** What only a failing update changes. */
@@ -112,9 +100,9 @@ namespace quoin
    * dissipated, by the area @p weight.
    */
   template <typename Law>
-  auto advance(const Law &law, const double opening, const double slip,
-               const double weight, JointHistory &history, const unsigned int p,
-               EnergyAccounts &energy)
+  auto advance_joint(const Law &law, const double opening, const double slip,
+                     const double weight, JointHistory &history,
+                     const unsigned int p, EnergyAccounts &energy)
   {
     auto point = read_point(law, history, p);
     if constexpr (is_rock_law<Law>)
@@ -154,7 +142,7 @@ namespace quoin
   template <typename Law, typename Point>
   double energy_of(const Law &law, const Point &point, const double opening)
   {
-    if constexpr (std::is_same_v<Law, CoulombLaw>)
+    if constexpr (std::is_same_v<Point, JointPoint>)
       return law.stored_energy(point, opening);
     else
       return law.stored_energy(point);

@@ -109,8 +109,8 @@ namespace quoin
   bool MatchedJoints::can_fail() const
   {
     return std::any_of(laws.begin(), laws.end(),
-                       [](const CoulombLaw &law)
-                       { return std::isfinite(law.peak.tension); });
+                       [](const JointLaw &law)
+                       { return quoin::can_fail(law); });
   }
 
   template <typename Law>
@@ -147,8 +147,8 @@ namespace quoin
         if (history.handed_over[begin + j / 2])
           continue;
         const auto point
-            = advance(law, opening, slip, segment.area[k] * segment.share,
-                      history, p, energy);
+            = advance_joint(law, opening, slip, segment.area[k] * segment.share,
+                            history, p, energy);
 
         const double sigma = segment.area[k] * point.normal_traction;
         const double tau   = segment.area[k] * point.shear_traction;
@@ -249,16 +249,17 @@ namespace quoin
   {
     for (const Segment &segment : segments)
     {
-      const Frame local     = frame(segment, nodes);
-      const CoulombLaw &law = laws[segment.set];
+      const Frame local = frame(segment, nodes);
+      const auto [normal_stiffness, shear_stiffness]
+          = stiffness_bound(laws[segment.set]);
       const double *n = local.normal, *s = local.tangent;
       for (unsigned int k = 0; k < 2; ++k)
       {
         const unsigned int a = segment.lower[k], b = segment.upper[k];
         if (a == b) // the tip of a crack
           continue;
-        const double kn = segment.area[k] * law.normal_stiffness;
-        const double ks = segment.area[k] * law.shear_stiffness;
+        const double kn = segment.area[k] * normal_stiffness;
+        const double ks = segment.area[k] * shear_stiffness;
         const std::array<double, 3> spring
             = { { kn * n[0] * n[0] + ks * s[0] * s[0],
                   kn * n[1] * n[1] + ks * s[1] * s[1],

@@ -15,6 +15,30 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** keep_tractions() of point @p p, whose opening and slip are @p gap. */
+    template <typename Law>
+    void keep_traction(const Law &law, const std::array<double, 2> &gap,
+                       JointHistory &history, const unsigned int p)
+    {
+      const JointState state = history.state[p];
+      // What is open keeps what its opening counts from; a joint that softens
+      // may be open and bear tension.
+      if (state == JointState::open
+          && !std::is_same_v<typename Law::Point, CompositePoint>)
+        return;
+      const auto before = read_point(law, history, p);
+      initialise_point(law, before.normal_traction, before.shear_traction,
+                       history, p);
+      if constexpr (is_rock_law<Law>) // as worn as it was
+        history.worn_slip[p] = before.worn_slip;
+      history.state[p] = state;
+      history.plastic_opening[p] += gap[0];
+      history.plastic_slip[p] += gap[1];
+    }
+  } // namespace
+
   void MatchedJoints::initialise(const std::vector<FaceStress> &face_stress,
                                  const State &state,
                                  JointHistory &history) const
@@ -39,35 +63,15 @@ namespace quoin
   double MatchedJoints::n_beyond_strength(const JointHistory &history,
                                           const MPI_Comm communicator) const
   {
-    // Tractions at the limit are not beyond it.
-    constexpr double margin = 1e-9;
-    double n                = 0.;
+    double n = 0.;
     for (unsigned int i = 0; i < segments.size(); ++i)
-      for (unsigned int p = 2 * i; p < 2 * i + 2; ++p)
-      {
-        const unsigned int set = segments[i].set;
-        const double sigma     = history.normal_traction[p];
-        const double tau       = history.shear_traction[p];
-        const double size      = std::abs(sigma) + std::abs(tau);
-        bool is_beyond;
-        if (rocks[set])
-        {
-          // Their strength depends on their history.
-          is_beyond
-              = !std::visit([&](const auto &law)
-                            { return law.holds(read_point(law, history, p)); },
-                            *rocks[set]);
-        }
-        else
-        {
-          const JointStrength &peak = laws[set].peak;
-          is_beyond                 = sigma > peak.tension + margin * size
-                      || std::abs(tau) + sigma * peak.friction
-                             > peak.cohesion + margin * size;
-        }
-        if (is_beyond)
-          n += segments[i].share;
-      }
+      with_law(segments[i].set,
+               [&](const auto &law)
+               {
+                 for (const unsigned int p : { 2 * i, 2 * i + 1 })
+                   if (!law.holds(read_point(law, history, p)))
+                     n += segments[i].share;
+               });
     return dealii::Utilities::MPI::sum(n, communicator);
   }
 
@@ -125,17 +129,19 @@ namespace quoin
   void MatchedJoints::set_laws(const std::vector<JointSetParameters> &sets)
   {
     laws.clear();
-    composites.clear();
-    rocks.clear();
+    softens = wears = false;
     for (const auto &set : sets)
     {
       laws.push_back(set.law);
-      composites.push_back(set.composite);
-      rocks.push_back(set.rock);
+      std::visit(
+          [&](const auto &law)
+          {
+            using Point = typename std::decay_t<decltype(law)>::Point;
+            softens     = softens || std::is_same_v<Point, CompositePoint>;
+            wears       = wears || std::is_same_v<Point, RockPoint>;
+          },
+          set.law);
     }
-    const auto is_given = [](const auto &law) { return law.has_value(); };
-    softens = std::any_of(composites.begin(), composites.end(), is_given);
-    wears   = std::any_of(rocks.begin(), rocks.end(), is_given);
   }
 
   void MatchedJoints::keep_tractions(const NodeRecord *nodes,
@@ -145,29 +151,13 @@ namespace quoin
     {
       if (history.handed_over[i])
         continue;
-      const unsigned int set = segments[i].set;
-      const bool is_coulomb  = !composites[set] && !rocks[set];
-      const auto gap         = gaps(nodes, i);
-      for (unsigned int k = 0; k < 2; ++k)
-      {
-        const unsigned int p   = 2 * i + k;
-        const JointState state = history.state[p];
-        // What is open keeps what its opening counts from.
-        if (state == JointState::open && (is_coulomb || rocks[set]))
-          continue;
-        const double worn = rocks[set] ? history.worn_slip[p] : 0.;
-        with_law(set,
-                 [&](const auto &law)
-                 {
-                   initialise_point(law, history.normal_traction[p],
-                                    history.shear_traction[p], history, p);
-                 });
-        if (rocks[set]) // as worn as it was
-          history.worn_slip[p] = worn;
-        history.state[p] = state;
-        history.plastic_opening[p] += gap[k][0];
-        history.plastic_slip[p] += gap[k][1];
-      }
+      const auto gap = gaps(nodes, i);
+      with_law(segments[i].set,
+               [&](const auto &law)
+               {
+                 for (unsigned int k = 0; k < 2; ++k)
+                   keep_traction(law, gap[k], history, 2 * i + k);
+               });
     }
   }
 } // namespace quoin

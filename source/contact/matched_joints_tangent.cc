@@ -37,17 +37,10 @@ namespace quoin
       return {};
     }
 
-    CompositeDissipation update(const CompositeLaw &law, CompositePoint &point,
-                                const double opening, const double slip, bool,
-                                JointTangent &tangent)
-    {
-      return law.update(point, opening, slip, tangent);
-    }
-
     template <typename Law>
-    std::enable_if_t<is_rock_law<Law>, JointDissipation>
-    update(const Law &law, RockPoint &point, const double opening,
-           const double slip, bool, JointTangent &tangent)
+    auto update(const Law &law, typename Law::Point &point,
+                const double opening, const double slip, bool,
+                JointTangent &tangent)
     {
       return law.update(point, opening, slip, tangent);
     }
@@ -70,11 +63,76 @@ namespace quoin
      * How an increment counts that adds to @p total: as more of it, so that
      * slip on the way back does not, or by its size where there is none yet.
      */
-    double direction(const double total, const double increment)
+    double sign_of_growth(const double total, const double increment)
     {
       return total != 0.       ? std::copysign(1., total)
              : increment != 0. ? std::copysign(1., increment)
                                : 0.;
+    }
+
+    /** A point brought to its gap, and the derivatives there. */
+    struct Response
+    {
+      JointTangent tangent;
+      std::array<double, 2> stiffness;      /**< kn, ks of the moment [Pa/m] */
+      double slip_by_pressure;              /**< see there [m/Pa] */
+      double plastic_opening, plastic_slip; /**< what was added [m] */
+      double opens, slips;                  /**< sign_of_growth() of these */
+    };
+
+    /** Brings point @p p to @p opening and @p slip [m]. */
+    template <typename Law>
+    Response respond(const Law &law, const double opening, const double slip,
+                     const bool may_break, const double weight,
+                     JointHistory &history, const unsigned int p,
+                     EnergyAccounts &energy)
+    {
+      auto point                 = read_point(law, history, p);
+      const double total_opening = point.plastic_opening;
+      const double total_slip    = point.plastic_slip;
+      Response result;
+      book(update(law, point, opening, slip, may_break, result.tangent), weight,
+           energy);
+      write_flow(point, history, p);
+      write_tractions(point, history, p);
+      result.stiffness = stiffness_of(law, point.normal_traction);
+      result.slip_by_pressure
+          = slip_by_pressure(law, point.normal_traction, point.shear_traction);
+      result.plastic_opening = point.plastic_opening - total_opening;
+      result.plastic_slip    = point.plastic_slip - total_slip;
+      // An open Coulomb joint keeps the plastic opening that it had.
+      result.opens
+          = result.plastic_opening == 0.
+                ? 0.
+                : sign_of_growth(total_opening, result.plastic_opening);
+      result.slips = sign_of_growth(total_slip, result.plastic_slip);
+      return result;
+    }
+
+    /**
+     * How the frame of four nodes turns with their displacements [1/m]:
+     * d phi = (E x dE) / |E|^2, E the sum of both edges.
+     */
+    Row turn_of_frame(const NodeRecord *nodes,
+                      const std::array<unsigned int, 4> &corners)
+    {
+      double edge[2] = { 0., 0. };
+      for (unsigned int d = 0; d < 2; ++d)
+        for (const unsigned int side : { 0U, 2U })
+        {
+          const NodeRecord &a = nodes[corners[side]];
+          const NodeRecord &b = nodes[corners[side + 1]];
+          edge[d] += (b.X[d] - a.X[d]) + (b.u[d] - a.u[d]);
+        }
+      const double square = edge[0] * edge[0] + edge[1] * edge[1];
+      Row turn;
+      for (unsigned int node = 0; node < 4; ++node)
+      {
+        const double direction = node % 2 == 1 ? 1. : -1.;
+        turn[2 * node]         = -direction * edge[1] / square;
+        turn[2 * node + 1]     = direction * edge[0] / square;
+      }
+      return turn;
     }
   } // namespace
 
@@ -95,67 +153,35 @@ namespace quoin
     if (history.handed_over[i])
       return;
 
-    // The frame turns by d phi = (E x dE) / |E|^2, E the sum of both edges.
-    double edge[2] = { 0., 0. };
-    for (unsigned int d = 0; d < 2; ++d)
-      for (const unsigned int side : { 0U, 2U })
-      {
-        const NodeRecord &a = nodes[result.nodes[side]];
-        const NodeRecord &b = nodes[result.nodes[side + 1]];
-        edge[d] += (b.X[d] - a.X[d]) + (b.u[d] - a.u[d]);
-      }
-    const double square = edge[0] * edge[0] + edge[1] * edge[1];
-    Row turn;
-    for (unsigned int node = 0; node < 4; ++node)
-    {
-      const double direction = node % 2 == 1 ? 1. : -1.;
-      turn[2 * node]         = -direction * edge[1] / square;
-      turn[2 * node + 1]     = direction * edge[0] / square;
-    }
-
+    const Row turn = turn_of_frame(nodes, result.nodes);
     for (unsigned int k = 0; k < 2; ++k)
     {
-      const auto [opening, slip] = gap(segment, local, nodes, k);
-      const unsigned int p       = 2 * i + k;
-      JointTangent tangent;
-      const double total_opening = history.plastic_opening[p];
-      const double total_slip    = history.plastic_slip[p];
-      double plastic_opening = 0., plastic_slip = 0.; // increments
-      std::array<double, 2> stiffness;
-      double coupling    = 0.;
-      const auto advance = [&, opening = opening, slip = slip](const auto &law)
-      {
-        auto point = read_point(law, history, p);
-        book(update(law, point, opening, slip, broken[p], tangent),
-             segment.area[k] * segment.share, energy);
-        write_flow(point, history, p);
-        write_tractions(point, history, p);
-        plastic_opening = point.plastic_opening - total_opening;
-        plastic_slip    = point.plastic_slip - total_slip;
-        stiffness       = stiffness_of(law, point.normal_traction);
-        coupling        = slip_by_pressure(law, point.normal_traction,
-                                           point.shear_traction);
-      };
-      with_law(segment.set, advance);
+      const auto local_gap = gap(segment, local, nodes, k);
+      const double opening = local_gap[0], slip = local_gap[1];
+      const double area    = segment.area[k];
+      const unsigned int p = 2 * i + k;
+      Response point;
+      with_law(segment.set,
+               [&](const auto &law)
+               {
+                 point = respond(law, opening, slip, broken[p],
+                                 area * segment.share, history, p, energy);
+               });
+      result.inelastic += area
+                          * (point.opens * point.plastic_opening
+                             + point.slips * point.plastic_slip);
 
-      const double sigma = history.normal_traction[p];
-      const double tau   = history.shear_traction[p];
-      // An open Coulomb joint keeps the plastic opening that it had.
-      const double opens = plastic_opening == 0.
-                               ? 0.
-                               : direction(total_opening, plastic_opening);
-      const double slips = direction(total_slip, plastic_slip);
-      result.inelastic
-          += segment.area[k] * (opens * plastic_opening + slips * plastic_slip);
-      double traction[2];
-      for (unsigned int d = 0; d < 2; ++d)
-        traction[d] = sigma * local.normal[d] + tau * local.tangent[d];
+      const double sigma       = history.normal_traction[p];
+      const double tau         = history.shear_traction[p];
       const unsigned int lower = 2 * k, upper = 4 + 2 * k;
       for (unsigned int d = 0; d < 2; ++d)
       {
-        result.force[lower + d] += segment.area[k] * traction[d];
-        result.force[upper + d] -= segment.area[k] * traction[d];
+        const double traction
+            = sigma * local.normal[d] + tau * local.tangent[d];
+        result.force[lower + d] += area * traction;
+        result.force[upper + d] -= area * traction;
       }
+      const JointTangent &tangent = point.tangent;
       for (unsigned int j = 0; j < 8; ++j)
       {
         const unsigned int d = j % 2;
@@ -169,17 +195,18 @@ namespace quoin
         for (unsigned int e = 0; e < 2; ++e)
         {
           const double change
-              = segment.area[k]
+              = area
                 * ((d_sigma + tau * turn[j]) * local.normal[e]
                    + (d_tau - sigma * turn[j]) * local.tangent[e]);
           result.stiffness[lower + e][j] -= change;
           result.stiffness[upper + e][j] += change;
         }
         result.inelastic_gradient[j]
-            += segment.area[k]
-               * (opens * (d_opening - d_sigma / stiffness[0])
-                  + slips
-                        * (d_slip - d_tau / stiffness[1] - coupling * d_sigma));
+            += area
+               * (point.opens * (d_opening - d_sigma / point.stiffness[0])
+                  + point.slips
+                        * (d_slip - d_tau / point.stiffness[1]
+                           - point.slip_by_pressure * d_sigma));
       }
     }
   }
@@ -188,15 +215,15 @@ namespace quoin
                                const JointHistory &history) const
   {
     const Segment &segment = segments[p / 2];
-    const CoulombLaw &law  = laws[segment.set];
-    if (composites[segment.set] || rocks[segment.set]
-        || history.state[p] != JointState::intact || history.handed_over[p / 2]
-        || !std::isfinite(law.peak.tension))
+    const auto *brittle    = std::get_if<CoulombLaw>(&laws[segment.set]);
+    if (!brittle || history.state[p] != JointState::intact
+        || history.handed_over[p / 2] || !std::isfinite(brittle->peak.tension))
       return 0.;
-    const double sigma = history.normal_traction[p];
-    const double tau   = std::abs(history.shear_traction[p]);
-    const double shear = tau + sigma * law.peak.friction - law.peak.cohesion;
-    const double size  = std::max(std::abs(sigma), tau);
-    return size > 0. ? std::max(sigma - law.peak.tension, shear) / size : 0.;
+    const JointStrength &peak = brittle->peak;
+    const double sigma        = history.normal_traction[p];
+    const double tau          = std::abs(history.shear_traction[p]);
+    const double shear        = tau + sigma * peak.friction - peak.cohesion;
+    const double size         = std::max(std::abs(sigma), tau);
+    return size > 0. ? std::max(sigma - peak.tension, shear) / size : 0.;
   }
 } // namespace quoin

@@ -25,11 +25,20 @@ namespace quoin
     }
 
     /** Laws of one kind remember the same of a joint. */
-    std::string kind_of_law(const JointSetParameters &set)
+    std::string kind_of_law(const JointLaw &law)
     {
-      return set.composite ? "a composite law"
-             : set.rock    ? "a law of rock joints"
-                           : "a Coulomb, elastic or no-tension law";
+      return std::visit(
+          [](const auto &own)
+          {
+            using Point = typename std::decay_t<decltype(own)>::Point;
+            if constexpr (std::is_same_v<Point, CompositePoint>)
+              return "a composite law";
+            else if constexpr (std::is_same_v<Point, RockPoint>)
+              return "a law of rock joints";
+            else
+              return "a Coulomb, elastic or no-tension law";
+          },
+          law);
     }
   } // namespace
 
@@ -182,13 +191,11 @@ namespace quoin
     // The other set's own law, whatever that set follows by now.
     const JointSetParameters &wanted
         = at_start.joints[position(at_start.joints, other)];
-    if (kind_of_law(now) != kind_of_law(wanted))
-      throw InputError(where + ", but '" + set + "' has " + kind_of_law(now)
-                       + " and '" + other + "' " + kind_of_law(wanted)
+    if (kind_of_law(now.law) != kind_of_law(wanted.law))
+      throw InputError(where + ", but '" + set + "' has " + kind_of_law(now.law)
+                       + " and '" + other + "' " + kind_of_law(wanted.law)
                        + ": a joint cannot change the kind of its law. Give "
                          "both sets laws of one kind.");
-    now.law       = wanted.law;
-    now.composite = wanted.composite;
-    now.rock      = wanted.rock;
+    now.law = wanted.law;
   }
 } // namespace quoin

@@ -222,5 +222,4 @@ namespace quoin
     state = saved;
     collect_constrained_nodes(state);
   }
-
 } // namespace quoin

@@ -268,8 +268,8 @@ namespace quoin
     // A spring k between nodes a and b has no more energy than 2 k at each.
     double stiffness = 0.;
     for (const JointSetParameters &set : now.joints)
-      stiffness = std::max(
-          { stiffness, set.law.normal_stiffness, set.law.shear_stiffness });
+      for (const double largest : stiffness_bound(set.law))
+        stiffness = std::max(stiffness, largest);
     const auto add_edge = [&](const std::array<unsigned int, 2> &edge)
     {
       const double tributary = 0.5

@@ -191,8 +191,8 @@ namespace quoin
     {
       const auto &segment = model.joints().segment(i);
       largest             = std::max(
-                      largest,
-                      segment.area[0] * model.joints().law(segment.set).normal_stiffness);
+                      largest, segment.area[0]
+                                   * stiffness_bound(model.joints().law(segment.set))[0]);
     }
     return dealii::Utilities::MPI::max(largest, communicator);
   }
@@ -273,13 +273,23 @@ namespace quoin
     }
     if (!with_derivatives)
       return;
+    std::vector<Index> columns;
+    for (const auto unknown : far_unknowns)
+      if (unknown != Freedoms::nothing)
+        columns.push_back(unknown);
+    std::vector<double> row;
     for (unsigned int k = 0; k < nodes.size(); ++k)
       for (unsigned int d = 0; d < 2; ++d)
-        if (freedoms.is_free(nodes[k], d))
-          for (unsigned int j = 0; j < far_unknowns.size(); ++j)
-            if (far_unknowns[j] != Freedoms::nothing)
-              matrix.add(freedoms.nodes()[nodes[k]].unknown[d], far_unknowns[j],
-                         far_stiffness(2 * k + d, j));
+      {
+        if (!freedoms.is_free(nodes[k], d))
+          continue;
+        row.clear();
+        for (unsigned int j = 0; j < far_unknowns.size(); ++j)
+          if (far_unknowns[j] != Freedoms::nothing)
+            row.push_back(far_stiffness(2 * k + d, j));
+        matrix.add(freedoms.nodes()[nodes[k]].unknown[d], columns.size(),
+                   columns.data(), row.data(), false, false);
+      }
   }
 
   void Equilibrium::add_drag(const State &committed,

@@ -5,6 +5,7 @@
 #include <quoin/base/unread_parameters.h>
 #include <quoin/joints/composite_parameters.h>
 #include <quoin/joints/joint_parameters.h>
+#include <quoin/joints/rock_laws.h>
 
 #include <algorithm>
 
@@ -14,22 +15,6 @@ namespace quoin
   {
     using dealii::Patterns::Anything;
     using dealii::Patterns::Double;
-
-    /** What JointSetParameters::law is of a rock joint. */
-    CoulombLaw stand_in(const RockLaw &rock)
-    {
-      CoulombLaw result;
-      std::visit(
-          [&](const auto &law)
-          {
-            result.normal_stiffness = law.closure.largest_stiffness();
-            result.shear_stiffness  = law.largest_shear_stiffness();
-            result.peak             = { 0., std::tan(law.residual_angle), 0. };
-          },
-          rock);
-      result.residual = result.peak;
-      return result;
-    }
 
     /**
      * Refuses strengths that the law does not have. What is another law's alone
@@ -52,10 +37,88 @@ namespace quoin
                         { "Coulomb", "no tension" } } });
     }
 
-    JointStrength divided(const JointStrength &strength, const double factor)
+    /** The angle [degrees] of a joint that has failed. */
+    double residual_angle(const ParameterSection &section, const double peak)
     {
-      return { strength.cohesion / factor, strength.friction / factor,
-               strength.tension / factor };
+      const std::string name = "Residual friction angle";
+      if (section.text(name) == "same")
+        return peak;
+      const double angle = section.numbers<1>(name).front();
+      if (!(angle >= 0. && angle <= 89.))
+        section.fail(name, "must lie between 0 and 89 degrees, or be 'same'.");
+      return angle;
+    }
+
+    CoulombLaw read_elastic_law(const ParameterSection &section)
+    {
+      CoulombLaw law;
+      law.normal_stiffness = section.positive("Normal stiffness");
+      law.shear_stiffness  = section.positive("Shear stiffness");
+      return law;
+    }
+
+    /** The laws 'Coulomb' and 'no tension'. */
+    CoulombLaw read_coulomb_law(const ParameterSection &section)
+    {
+      CoulombLaw law          = read_elastic_law(section);
+      const bool is_brittle   = section.text("Law") == "Coulomb";
+      const double peak_angle = section.within("Friction angle", 0., 89.);
+      law.peak.cohesion       = section.nonnegative("Cohesion");
+      law.peak.friction       = tangent_of_degrees(peak_angle);
+      law.peak.tension        = section.nonnegative("Tensile strength");
+      law.critical_shear_displacement
+          = section.nonnegative("Critical shear displacement");
+
+      const double failed_angle
+          = is_brittle ? residual_angle(section, peak_angle) : peak_angle;
+      law.residual          = law.peak;
+      law.residual.friction = tangent_of_degrees(failed_angle);
+      // A joint dilates once it has failed: beyond the residual friction that
+      // would create energy.
+      law.dilation = tangent_of_degrees(section.within(
+          "Dilation angle", 0., std::min(peak_angle, failed_angle)));
+      if (!is_brittle)
+      {
+        if (law.peak.tension > 0.)
+          section.fail("Tensile strength",
+                       "must be 0 for the law 'no tension'; use the law "
+                       "'Coulomb' for a joint that holds tension.");
+        return law;
+      }
+      law.residual.cohesion = section.nonnegative("Residual cohesion");
+      law.residual.tension  = section.nonnegative("Residual tensile strength");
+      if (law.residual.cohesion > law.peak.cohesion)
+        section.fail("Residual cohesion", "must not exceed 'Cohesion'.");
+      if (law.residual.tension > law.peak.tension)
+        section.fail("Residual tensile strength",
+                     "must not exceed 'Tensile strength'.");
+      return law;
+    }
+
+    JointLaw read_law(const ParameterSection &section)
+    {
+      const std::string kind = section.text("Law");
+      if (kind == "elastic")
+        return read_elastic_law(section);
+      refuse_unread_parameters(section);
+      if (kind == "composite")
+        return read_composite_law(section);
+      if (kind == "Barton-Bandis" || kind == "continuously yielding")
+        return read_rock_law(section);
+      return read_coulomb_law(section);
+    }
+
+    /** New contacts are born failed: some laws make no sense of that. */
+    void refuse_law_of_new_contacts(const ParameterSection &section)
+    {
+      const std::string kind = section.text("Law");
+      if (kind == "elastic")
+        section.fail("Law", "cannot be 'elastic' for new contacts, which "
+                            "would then hold together for good. Use "
+                            "'Coulomb'.");
+      if (kind == "composite")
+        section.fail("Law", "cannot be 'composite' for new contacts, which "
+                            "hold nothing together. Use 'Coulomb'.");
     }
   } // namespace
 
@@ -129,100 +192,9 @@ namespace quoin
     if (set.curves == std::vector<std::string>{ "none" })
       set.curves.clear();
 
-    CoulombLaw &law        = set.law;
-    law.normal_stiffness   = section.positive("Normal stiffness");
-    law.shear_stiffness    = section.positive("Shear stiffness");
-    const std::string kind = section.text("Law");
-    if (kind == "elastic")
-    {
-      if (is_new)
-        section.fail("Law", "cannot be 'elastic' for new contacts, which "
-                            "would then hold together for good. Use "
-                            "'Coulomb'.");
-      return set;
-    }
-
-    refuse_unread_parameters(section);
-    if (kind == "Barton-Bandis" || kind == "continuously yielding")
-    {
-      set.rock = read_rock_law(section);
-      set.law  = stand_in(*set.rock);
-      return set;
-    }
-
-    if (kind == "composite")
-    {
-      if (is_new)
-        section.fail("Law", "cannot be 'composite' for new contacts, which "
-                            "hold nothing together. Use 'Coulomb'.");
-      set.composite               = read_composite_law(section);
-      const CompositeLaw &masonry = *set.composite;
-      law.peak     = { masonry.cohesion, masonry.friction, masonry.tension };
-      law.residual = { 0., masonry.residual_friction, 0. };
-      return set;
-    }
-
-    const double peak_angle = section.within("Friction angle", 0., 89.);
-    law.peak.cohesion       = section.nonnegative("Cohesion");
-    law.peak.friction       = tangent_of_degrees(peak_angle);
-    law.peak.tension        = section.nonnegative("Tensile strength");
-    law.critical_shear_displacement
-        = section.nonnegative("Critical shear displacement");
-
-    law.residual = law.peak;
-    // A joint dilates once it has failed: beyond the residual friction that
-    // would create energy.
-    double highest_dilation = peak_angle;
-    if (kind == "Coulomb" && section.text("Residual friction angle") != "same")
-    {
-      const double angle
-          = section.numbers<1>("Residual friction angle").front();
-      if (!(angle >= 0. && angle <= 89.))
-        section.fail("Residual friction angle",
-                     "must lie between 0 and 89 degrees, or be 'same'.");
-      law.residual.friction = tangent_of_degrees(angle);
-      highest_dilation      = std::min(peak_angle, angle);
-    }
-    law.dilation = tangent_of_degrees(
-        section.within("Dilation angle", 0., highest_dilation));
-    if (kind == "no tension")
-    {
-      if (law.peak.tension > 0.)
-        section.fail("Tensile strength",
-                     "must be 0 for the law 'no tension'; use the law "
-                     "'Coulomb' for a joint that holds tension.");
-      return set;
-    }
-    law.residual.cohesion = section.nonnegative("Residual cohesion");
-    law.residual.tension  = section.nonnegative("Residual tensile strength");
-    if (law.residual.cohesion > law.peak.cohesion)
-      section.fail("Residual cohesion", "must not exceed 'Cohesion'.");
-    if (law.residual.tension > law.peak.tension)
-      section.fail("Residual tensile strength",
-                   "must not exceed 'Tensile strength'.");
+    if (is_new)
+      refuse_law_of_new_contacts(section);
+    set.law = read_law(section);
     return set;
-  }
-
-  JointSetParameters reduced(const JointSetParameters &set, const double factor)
-  {
-    JointSetParameters weak = set;
-    weak.law.peak           = divided(set.law.peak, factor);
-    weak.law.residual       = divided(set.law.residual, factor);
-    weak.law.dilation
-        = std::min(set.law.dilation, std::min(weak.law.peak.friction,
-                                              weak.law.residual.friction));
-    if (weak.composite)
-    {
-      CompositeLaw &law = *weak.composite;
-      law.tension /= factor;
-      law.cohesion /= factor;
-      law.friction /= factor;
-      law.residual_friction /= factor;
-      law.dilation = std::min(law.dilation,
-                              std::min(law.friction, law.residual_friction));
-    }
-    if (weak.rock)
-      std::visit([&](auto &law) { law = reduced(law, factor); }, *weak.rock);
-    return weak;
   }
 } // namespace quoin

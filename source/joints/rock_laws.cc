@@ -158,27 +158,11 @@ namespace quoin
                       "are constant; the time step allows for this one [Pa]");
   }
 
-  RockLaw read_rock_law(const ParameterSection &section)
+  JointLaw read_rock_law(const ParameterSection &section)
   {
     refuse_bond(section);
     if (section.text("Law") == "Barton-Bandis")
       return read_barton_bandis(section);
     return read_continuously_yielding(section);
-  }
-
-  BartonBandisLaw reduced(const BartonBandisLaw &law, const double factor)
-  {
-    BartonBandisLaw weak = law;
-    weak.divisor *= factor;
-    return weak;
-  }
-
-  ContinuouslyYieldingLaw reduced(const ContinuouslyYieldingLaw &law,
-                                  const double factor)
-  {
-    ContinuouslyYieldingLaw weak = law;
-    weak.initial_angle  = std::atan(std::tan(law.initial_angle) / factor);
-    weak.residual_angle = std::atan(std::tan(law.residual_angle) / factor);
-    return weak;
   }
 } // namespace quoin

@@ -117,6 +117,67 @@ namespace quoin
                       { "Horizontal surface stress", "0", in_situ },
                       { "Out-of-plane ratio", "same", in_situ } });
     }
+
+    LoadType read_type(const ParameterSection &section)
+    {
+      return section.choice<LoadType>(
+          "Type", { { "prescribed motion", LoadType::prescribed_motion },
+                    { "traction", LoadType::traction },
+                    { "viscous boundary", LoadType::viscous_boundary },
+                    { "free-field boundary", LoadType::free_field },
+                    { "platen", LoadType::platen },
+                    { "gravity", LoadType::gravity },
+                    { "initial stress", LoadType::initial_stress },
+                    { "in-situ stress", LoadType::initial_stress },
+                    { "boundary elements", LoadType::boundary_elements } });
+    }
+
+    void read_platen(const ParameterSection &section, LoadParameters &load)
+    {
+      load.groups = section.list("Group");
+      load.components[0]
+          = platen_component(section, "Horizontal", platen_words);
+      load.components[1] = platen_component(section, "Vertical", platen_words);
+      load.components[2]
+          = platen_component(section, "Rotation", rotation_words);
+      if (load.groups.empty() == load.boundaries.empty())
+        section.fail("Group", "and 'Boundary': a platen takes one of the two.");
+    }
+
+    void read_initial_stress(const ParameterSection &section,
+                             LoadParameters &load)
+    {
+      load.groups = section.list("Groups");
+      if (section.text("Type") == "in-situ stress")
+      {
+        load.in_situ = InSituStress::read(section);
+        return;
+      }
+      load.stress          = section.numbers<3>("Stress");
+      load.stress_gradient = section.numbers<3>("Stress gradient");
+      if (section.text("Stress zz") != "elastic")
+        load.stress_zz = section.numbers<2>("Stress zz");
+    }
+
+    /** Refuses what does nothing or acts nowhere. */
+    void refuse_idle(const ParameterSection &section,
+                     const LoadParameters &load)
+    {
+      if ((load.type == LoadType::prescribed_motion
+           || load.type == LoadType::traction || load.type == LoadType::gravity)
+          && std::all_of(load.components.begin(), load.components.end(),
+                         [](const LoadComponent &component)
+                         { return component.quantity == LoadQuantity::free; }))
+        section.fail("Vertical", "and 'Horizontal' are free, and nothing else "
+                                 "is given: the load would do nothing. Give "
+                                 "one.");
+      if ((load.type == LoadType::prescribed_motion
+           || load.type == LoadType::traction
+           || load.type == LoadType::viscous_boundary
+           || load.type == LoadType::free_field)
+          && load.boundaries.empty())
+        section.fail("Boundary", "must name a physical curve of the mesh.");
+    }
   } // namespace
 
   std::array<double, 3>
@@ -228,17 +289,8 @@ namespace quoin
                                       const std::string &name)
   {
     LoadParameters load;
-    load.name = name;
-    load.type = section.choice<LoadType>(
-        "Type", { { "prescribed motion", LoadType::prescribed_motion },
-                  { "traction", LoadType::traction },
-                  { "viscous boundary", LoadType::viscous_boundary },
-                  { "free-field boundary", LoadType::free_field },
-                  { "platen", LoadType::platen },
-                  { "gravity", LoadType::gravity },
-                  { "initial stress", LoadType::initial_stress },
-                  { "in-situ stress", LoadType::initial_stress },
-                  { "boundary elements", LoadType::boundary_elements } });
+    load.name       = name;
+    load.type       = read_type(section);
     load.boundaries = section.list("Boundary");
     refuse_unread_parameters(section);
 
@@ -273,43 +325,15 @@ namespace quoin
         section.fail("Base", "must name the load on the base of the model.");
       break;
     case LoadType::platen:
-      load.groups = section.list("Group");
-      load.components[0]
-          = platen_component(section, "Horizontal", platen_words);
-      load.components[1] = platen_component(section, "Vertical", platen_words);
-      load.components[2]
-          = platen_component(section, "Rotation", rotation_words);
-      if (load.groups.empty() == load.boundaries.empty())
-        section.fail("Group", "and 'Boundary': a platen takes one of the two.");
+      read_platen(section, load);
       break;
     case LoadType::initial_stress:
-      load.groups = section.list("Groups");
-      if (section.text("Type") == "in-situ stress")
-      {
-        load.in_situ = InSituStress::read(section);
-        break;
-      }
-      load.stress          = section.numbers<3>("Stress");
-      load.stress_gradient = section.numbers<3>("Stress gradient");
-      if (section.text("Stress zz") != "elastic")
-        load.stress_zz = section.numbers<2>("Stress zz");
+      read_initial_stress(section, load);
       break;
     case LoadType::boundary_elements:
       break;
     }
-    if ((load.type == LoadType::prescribed_motion
-         || load.type == LoadType::traction || load.type == LoadType::gravity)
-        && std::all_of(load.components.begin(), load.components.end(),
-                       [](const LoadComponent &component)
-                       { return component.quantity == LoadQuantity::free; }))
-      section.fail("Vertical", "and 'Horizontal' are free, and nothing else is "
-                               "given: the load would do nothing. Give one.");
-    if ((load.type == LoadType::prescribed_motion
-         || load.type == LoadType::traction
-         || load.type == LoadType::viscous_boundary
-         || load.type == LoadType::free_field)
-        && load.boundaries.empty())
-      section.fail("Boundary", "must name a physical curve of the mesh.");
+    refuse_idle(section, load);
     return load;
   }
 } // namespace quoin

@@ -13,7 +13,6 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -32,6 +31,10 @@ namespace quoin
     std::vector<bool> is_rigid; /**< for each block; empty: none is */
     double thickness = 1.;      /**< [m] */
   };
+
+  /** The law of a general contact, which has no bond that could soften. */
+  using ContactLaw
+      = std::variant<CoulombLaw, BartonBandisLaw, ContinuouslyYieldingLaw>;
 
   /**
    * Contacts between the boundaries of blocks that move and rotate without
@@ -69,7 +72,8 @@ namespace quoin
   public:
     /**
      * Keeps references to @p mesh and @p exchange. Throws an InputError about
-     * materials that no set for new contacts covers.
+     * materials that no set for new contacts covers, and about composite
+     * laws.
      */
     BlockContacts(const BlockMesh<2> &mesh, const NodeExchange &exchange,
                   const ContactModel &model);
@@ -144,9 +148,6 @@ namespace quoin
     /** Whether this rank writes the pair. */
     bool is_own(const ContactState &contacts, unsigned int pair) const;
 
-    /** Largest stiffness of any set [Pa/m]. */
-    double largest_stiffness() const;
-
   private:
     /** An edge that takes part, where it is now. */
     struct Edge
@@ -173,10 +174,7 @@ namespace quoin
     template <typename Use>
     void with_law(const unsigned int set, const Use &use) const
     {
-      if (rocks[set])
-        std::visit(use, *rocks[set]);
-      else
-        use(laws[set]);
+      std::visit(use, laws[set]);
     }
     void find_set_of_materials(const ContactModel &model);
     void check(State &state, const MatchedJoints &joints, double dt);
@@ -242,9 +240,8 @@ namespace quoin
     const ContactParameters parameters;
     const double thickness;
     double skin;
-    std::vector<CoulombLaw> laws;
-    std::vector<std::optional<RockLaw>> rocks; /**< of each set */
-    bool can_dilate = false;
+    std::vector<ContactLaw> laws; /**< of each set */
+    bool dilates = false;         /**< a set does */
     std::vector<std::string> materials;
     std::vector<unsigned int> material_of_group;
     std::vector<unsigned int> set_of_materials; /**< square table */

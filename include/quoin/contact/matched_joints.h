@@ -11,7 +11,6 @@
 
 #include <array>
 #include <functional>
-#include <optional>
 #include <variant>
 #include <vector>
 
@@ -198,9 +197,7 @@ namespace quoin
     std::array<std::array<double, 2>, 2> gaps(const NodeRecord *nodes,
                                               unsigned int i) const;
 
-    /** Of a composite law its stiffnesses and strengths, of a rock joint its
-        largest stiffnesses and residual strength. */
-    const CoulombLaw &law(const unsigned int set) const
+    const JointLaw &law(const unsigned int set) const
     {
       return laws[set];
     }
@@ -231,12 +228,7 @@ namespace quoin
     template <typename Use>
     void with_law(const unsigned int set, const Use &use) const
     {
-      if (composites[set])
-        use(*composites[set]);
-      else if (rocks[set])
-        std::visit(use, *rocks[set]);
-      else
-        use(laws[set]);
+      std::visit(use, laws[set]);
     }
 
     /** add_forces() of a set. */
@@ -246,9 +238,7 @@ namespace quoin
                         EnergyAccounts &energy, NodeVector *force) const;
 
     std::vector<Segment> segments; /**< sorted by set */
-    std::vector<CoulombLaw> laws;
-    std::vector<std::optional<CompositeLaw>> composites; /**< of each set */
-    std::vector<std::optional<RockLaw>> rocks;           /**< likewise */
+    std::vector<JointLaw> laws;    /**< of each set */
     bool softens = false, wears = false;
     std::vector<unsigned int> set_begin; /**< first segment of each set */
   };

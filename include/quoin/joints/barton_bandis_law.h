@@ -86,6 +86,8 @@ namespace quoin
    */
   struct BartonBandisLaw
   {
+    using Point = RockPoint;
+
     HyperbolicClosure closure;
     double stiffness      = 0.; /**< ks [Pa/m] */
     double residual_angle = 0.; /**< phi_r [rad] */

@@ -5,6 +5,7 @@
 #define quoin_joints_composite_law_h
 
 #include <quoin/base/state.h>
+#include <quoin/joints/coulomb_law.h>
 #include <quoin/joints/joint_tangent.h>
 
 #include <cmath>
@@ -76,6 +77,8 @@ namespace quoin
    */
   struct CompositeLaw
   {
+    using Point = CompositePoint;
+
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
     double normal_stiffness = 0.; /**< kn [Pa/m] */
@@ -138,6 +141,13 @@ namespace quoin
                  / normal_stiffness
              + 0.5 * point.shear_traction * point.shear_traction
                    / shear_stiffness;
+    }
+
+    /** Whether @p point bears its tractions, if it is intact; the cap apart. */
+    bool holds(const CompositePoint &point) const
+    {
+      return JointStrength{ cohesion, friction, tension }.bears(
+          point.normal_traction, point.shear_traction);
     }
 
     /**

@@ -105,6 +105,8 @@ namespace quoin
    */
   struct ContinuouslyYieldingLaw
   {
+    using Point = RockPoint;
+
     PowerClosure closure;
     PowerStiffness stiffness;   /**< ks */
     double initial_angle  = 0.; /**< phi_m0 [rad] */

@@ -22,16 +22,24 @@ namespace quoin
     double cohesion = std::numeric_limits<double>::infinity();
     double friction = 0.;
     double tension  = std::numeric_limits<double>::infinity();
+
+    /** Whether it bears these tractions [Pa]; at the limit it does. */
+    bool bears(const double normal, const double shear) const
+    {
+      const double margin = 1e-9 * (std::abs(normal) + std::abs(shear));
+      return !(normal > tension + margin
+               || std::abs(shear) + normal * friction > cohesion + margin);
+    }
   };
 
   /** One joint point: what the law reads and overwrites. */
   struct JointPoint
   {
-    double normal_traction; /**< sigma [Pa], tension positive */
-    double shear_traction;  /**< tau [Pa] */
-    double plastic_slip;    /**< [m] */
-    double plastic_opening; /**< [m] */
-    JointState state;
+    double normal_traction = 0.; /**< sigma [Pa], tension positive */
+    double shear_traction  = 0.; /**< tau [Pa] */
+    double plastic_slip    = 0.; /**< [m] */
+    double plastic_opening = 0.; /**< [m] */
+    JointState state       = JointState::intact;
   };
 
   /** Energy per area that an update dissipated [J/m^2]. */
@@ -61,6 +69,8 @@ namespace quoin
    */
   struct CoulombLaw
   {
+    using Point = JointPoint;
+
     double normal_stiffness = 0.; /**< kn [Pa/m] */
     double shear_stiffness  = 0.; /**< ks [Pa/m] */
     JointStrength peak;
@@ -104,6 +114,12 @@ namespace quoin
       return normal
              + 0.5 * point.shear_traction * point.shear_traction
                    / shear_stiffness;
+    }
+
+    /** Whether @p point bears its tractions, if it is intact. */
+    bool holds(const JointPoint &point) const
+    {
+      return peak.bears(point.normal_traction, point.shear_traction);
     }
 
   private:

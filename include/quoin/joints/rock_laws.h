@@ -5,16 +5,10 @@
 #define quoin_joints_rock_laws_h
 
 #include <quoin/base/parameter_section.h>
-#include <quoin/joints/barton_bandis_law.h>
-#include <quoin/joints/continuously_yielding_law.h>
-
-#include <variant>
+#include <quoin/joints/joint_law.h>
 
 namespace quoin
 {
-  /** A law of rock joints. */
-  using RockLaw = std::variant<BartonBandisLaw, ContinuouslyYieldingLaw>;
-
   /**
    * Declares what rock joints ask for beyond the entries of
    * JointSetParameters::declare(), which must be there too.
@@ -22,12 +16,7 @@ namespace quoin
   void declare_rock_laws(dealii::ParameterHandler &prm);
 
   /** The law that 'Law' names. Refuses what makes no sense by an InputError. */
-  RockLaw read_rock_law(const ParameterSection &section);
-
-  /** The law with its shear strength divided by @p factor. */
-  BartonBandisLaw reduced(const BartonBandisLaw &law, double factor);
-  ContinuouslyYieldingLaw reduced(const ContinuouslyYieldingLaw &law,
-                                  double factor);
+  JointLaw read_rock_law(const ParameterSection &section);
 } // namespace quoin
 
 #endif

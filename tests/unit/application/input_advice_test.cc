@@ -115,7 +115,7 @@ TEST(InputAdvice, JointsAndMaterials)
 {
   Parameters parameters = good_parameters();
   // E/h is 1e10 Pa/m, E/L 1e10 / sqrt(13).
-  CoulombLaw &law      = parameters.model.joints[0].law;
+  CoulombLaw &law      = coulomb_law(parameters.model.joints[0]);
   law.normal_stiffness = 1.1e12;
   expect(parameters, "times E/h");
   law.normal_stiffness = 2e6;
@@ -206,7 +206,9 @@ TEST(CostEstimate, FieldsAreAsLargeAsTheyAreWritten)
     if (yields)
     {
       parameters.materials[0].strength = MohrCoulombStrength();
-      parameters.joints[0].composite   = CompositeLaw();
+      CompositeLaw law;
+      law.normal_stiffness = law.shear_stiffness = 1e10;
+      parameters.joints[0].law                   = law;
     }
     BlockMesh<2> mesh;
     make_stack(mesh, 60, 40);

@@ -112,15 +112,28 @@ namespace
     unsigned int n_smooth = 0, n_kinks = 0;
   };
 
+  /** The larger of kn and ks [Pa/m], of rock joints under 10 MPa. */
+  double elastic_stiffness(const JointLaw &law)
+  {
+    return std::visit(
+        [](const auto &own)
+        {
+          if constexpr (is_rock_law<std::decay_t<decltype(own)>>)
+            return std::max(own.closure.stiffness(1e7),
+                            own.shear_stiffness(1e7));
+          else
+            return std::max(own.normal_stiffness, own.shear_stiffness);
+        },
+        law);
+  }
+
   /** Derivatives at the configuration against central differences. */
   void add_errors(const Joint &joint, const double h, Errors &errors)
   {
     const auto result = joint.linearise(joint.nodes);
     // By the elastic stiffness, as a branch may have none.
-    const auto &law    = joint.joints.law(0);
-    const double scale = joint.joints.segment(0).area[0]
-                         * std::max(law.normal_stiffness, law.shear_stiffness);
-    const double area = joint.joints.segment(0).area[0];
+    const double area  = joint.joints.segment(0).area[0];
+    const double scale = area * elastic_stiffness(joint.joints.law(0));
     for (unsigned int j = 0; j < 8; ++j)
     {
       const Ends slopes = differences(joint, j, h);
@@ -177,30 +190,19 @@ namespace
 
   JointSetParameters coulomb(const double dilation)
   {
-    JointSetParameters set              = elastic_joint(8e9, 3e9);
-    set.law.peak                        = { 2e5, 0.6, 1e5 };
-    set.law.residual                    = { 2e4, 0.5, 1e4 };
-    set.law.dilation                    = dilation;
-    set.law.critical_shear_displacement = 1e-3;
+    JointSetParameters set          = elastic_joint(8e9, 3e9);
+    CoulombLaw &law                 = coulomb_law(set);
+    law.peak                        = { 2e5, 0.6, 1e5 };
+    law.residual                    = { 2e4, 0.5, 1e4 };
+    law.dilation                    = dilation;
+    law.critical_shear_displacement = 1e-3;
     return set;
   }
 
-  JointSetParameters composite(const CompositeLaw &law)
+  JointSetParameters joint_of(const JointLaw &law)
   {
-    JointSetParameters set
-        = elastic_joint(law.normal_stiffness, law.shear_stiffness);
-    set.law.peak  = { law.cohesion, law.friction, law.tension };
-    set.composite = law;
-    return set;
-  }
-
-  template <typename Law>
-  JointSetParameters rock(const Law &law)
-  {
-    JointSetParameters set
-        = elastic_joint(law.closure.stiffness(1e7), law.shear_stiffness(1e7));
-    set.law.peak = set.law.residual = { 0., 0.5, 0. };
-    set.rock                        = law;
+    JointSetParameters set = elastic_joint(0., 0.);
+    set.law                = law;
     return set;
   }
 } // namespace
@@ -252,7 +254,7 @@ TEST(JointTangent, CompositeJointsInAllBranches)
     double bond = 1., crushing = 0.;
     for (unsigned int seed = 1; seed <= 20; ++seed)
     {
-      Joint joint(composite(law));
+      Joint joint(joint_of(law));
       const double size = seed % 2 == 0 ? 2e-5 : 1.2e-4;
       walk(joint, seed, 20, size, size, 1e-12 + 1e-6 * size, errors, visits);
       bond     = std::min(bond, joint.history.bond[0]);
@@ -272,7 +274,7 @@ TEST(JointTangent, CompositeJointsInAllBranches)
 TEST(JointTangent, RockJointsInAllBranches)
 {
   for (const JointSetParameters &set :
-       { rock(rock_test::rough()), rock(rock_test::yielding()) })
+       { joint_of(rock_test::rough()), joint_of(rock_test::yielding()) })
   {
     Errors errors;
     Visits visits;
@@ -300,8 +302,8 @@ TEST(JointTangent, ForcesAreThoseOfTheExplicitSolver)
   closing.cracks_close = true;
   for (const JointSetParameters &set :
        { elastic_joint(8e9, 3e9), coulomb(0.2),
-         composite(composite_test::wall()), composite(closing),
-         rock(rock_test::rough()), rock(rock_test::yielding()) })
+         joint_of(composite_test::wall()), joint_of(closing),
+         joint_of(rock_test::rough()), joint_of(rock_test::yielding()) })
   {
     Joint joint(set);
     // From here on a brittle joint has broken, and the laws are the same.

@@ -222,21 +222,21 @@ TEST(Construction, RockJointsFollowLawsOfRockJointsOnly)
   change.joint_properties   = { { "joint", "weak" } };
   JointSetParameters &joint = parameters.joints[0],
                      &weak  = parameters.joints[1];
-  joint.rock                = rock_test::rough();
-  weak.rock                 = rock_test::yielding();
+  joint.law                 = rock_test::rough();
+  weak.law                  = rock_test::yielding();
   {
     TestRun run(mesh, parameters, {});
     Construction construction(run.model, { change });
     construction.begin_stage(0, run.solver, run.state);
-    const RockLaw &now = *run.model.properties().joints[0].rock;
+    const JointLaw &now = run.model.properties().joints[0].law;
     ASSERT_TRUE(std::holds_alternative<ContinuouslyYieldingLaw>(now));
     EXPECT_EQ(std::get<ContinuouslyYieldingLaw>(now).roughness,
               rock_test::yielding().roughness);
   }
   for (const bool from_rock : { false, true })
   {
-    (from_rock ? weak : joint).rock.reset();
-    (from_rock ? joint : weak).rock = rock_test::rough();
+    (from_rock ? weak : joint).law = elastic_joint(5e9, 2e9).law;
+    (from_rock ? joint : weak).law = rock_test::rough();
     TestRun run(mesh, parameters, {});
     EXPECT_THROW(Construction(run.model, { change }), InputError);
   }

@@ -31,9 +31,8 @@ namespace
     JointSetParameters set = elastic_joint(1e9, 1e9);
     set.name               = "touch";
     set.curves.clear();
-    set.all_new_contacts = true;
-    set.law.peak         = { 0., 0.5, 0. };
-    set.law.residual     = set.law.peak;
+    set.all_new_contacts  = true;
+    coulomb_law(set).peak = coulomb_law(set).residual = { 0., 0.5, 0. };
     return set;
   }
 

@@ -56,12 +56,20 @@ namespace quoin::test
                                           const double shear_stiffness,
                                           const std::string &curve = "joint")
   {
+    CoulombLaw law;
+    law.normal_stiffness = normal_stiffness;
+    law.shear_stiffness  = shear_stiffness;
     JointSetParameters result;
-    result.name                 = curve;
-    result.curves               = { curve };
-    result.law.normal_stiffness = normal_stiffness;
-    result.law.shear_stiffness  = shear_stiffness;
+    result.name   = curve;
+    result.curves = { curve };
+    result.law    = law;
     return result;
+  }
+
+  /** The law of a set that has one of Coulomb. */
+  inline CoulombLaw &coulomb_law(JointSetParameters &set)
+  {
+    return std::get<CoulombLaw>(set.law);
   }
 
   inline ModelParameters two_blocks(const double normal_stiffness = 2e10,

@@ -103,9 +103,9 @@ namespace
     explicit Sliding(const bool jumps)
     {
       make_stack(mesh, 2, 1);
-      ModelParameters parameters        = two_blocks();
-      parameters.joints[0].law.peak     = { 0., 0.5, 0. };
-      parameters.joints[0].law.residual = { 0., 0.5, 0. };
+      ModelParameters parameters = two_blocks();
+      CoulombLaw &law            = coulomb_law(parameters.joints[0]);
+      law.peak = law.residual = { 0., 0.5, 0. };
       ImplicitParameters numbers;
       numbers.jumps      = jumps;
       const auto at_rest = component(velocity, "0");

@@ -55,8 +55,7 @@ namespace
     law.cohesion                               = 2e6;
     law.shear_energy                           = 400.;
     JointSetParameters joint = elastic_joint(stiffness, stiffness, curve);
-    joint.law.peak           = { law.cohesion, 0., law.tension };
-    joint.composite          = law;
+    joint.law                = law;
     return joint;
   }
 

@@ -52,16 +52,17 @@ TEST(JointParameters, Coulomb)
                           "set Residual tensile strength = 2e3\n");
   EXPECT_EQ(set.name, "bed");
   EXPECT_EQ(set.curves, (std::vector<std::string>{ "bed", "head" }));
-  EXPECT_EQ(set.law.normal_stiffness, 82e9);
-  EXPECT_EQ(set.law.shear_stiffness, 36e9);
-  EXPECT_EQ(set.law.peak.cohesion, 0.375e6);
-  EXPECT_DOUBLE_EQ(set.law.peak.friction, 1.);
-  EXPECT_EQ(set.law.peak.tension, 0.25e6);
-  EXPECT_DOUBLE_EQ(set.law.dilation, 1. / std::sqrt(3.));
-  EXPECT_EQ(set.law.critical_shear_displacement, 2e-3);
-  EXPECT_EQ(set.law.residual.cohesion, 1e3);
-  EXPECT_DOUBLE_EQ(set.law.residual.friction, std::sqrt(3.));
-  EXPECT_EQ(set.law.residual.tension, 2e3);
+  const auto &law = std::get<CoulombLaw>(set.law);
+  EXPECT_EQ(law.normal_stiffness, 82e9);
+  EXPECT_EQ(law.shear_stiffness, 36e9);
+  EXPECT_EQ(law.peak.cohesion, 0.375e6);
+  EXPECT_DOUBLE_EQ(law.peak.friction, 1.);
+  EXPECT_EQ(law.peak.tension, 0.25e6);
+  EXPECT_DOUBLE_EQ(law.dilation, 1. / std::sqrt(3.));
+  EXPECT_EQ(law.critical_shear_displacement, 2e-3);
+  EXPECT_EQ(law.residual.cohesion, 1e3);
+  EXPECT_DOUBLE_EQ(law.residual.friction, std::sqrt(3.));
+  EXPECT_EQ(law.residual.tension, 2e3);
 }
 
 TEST(JointParameters, OwnNameSameFrictionAndNoResidualByDefault)
@@ -71,17 +72,18 @@ TEST(JointParameters, OwnNameSameFrictionAndNoResidualByDefault)
                           "set Friction angle = 45\n"
                           "set Tensile strength = 1e5\n");
   EXPECT_EQ(set.curves, (std::vector<std::string>{ "bed" }));
-  EXPECT_EQ(set.law.residual.cohesion, 0.);
-  EXPECT_EQ(set.law.residual.tension, 0.);
-  EXPECT_EQ(set.law.residual.friction, set.law.peak.friction);
-  EXPECT_EQ(set.law.dilation, 0.);
+  const auto &law = std::get<CoulombLaw>(set.law);
+  EXPECT_EQ(law.residual.cohesion, 0.);
+  EXPECT_EQ(law.residual.tension, 0.);
+  EXPECT_EQ(law.residual.friction, law.peak.friction);
+  EXPECT_EQ(law.dilation, 0.);
 }
 
 TEST(JointParameters, Elastic)
 {
   const auto set = read(stiffnesses + "set Law = elastic\n");
-  JointPoint point{ 0., 0., 0., 0., JointState::intact };
-  set.law.update(point, 1., 1.);
+  JointPoint point;
+  std::get<CoulombLaw>(set.law).update(point, 1., 1.);
   EXPECT_EQ(point.state, JointState::intact);
   EXPECT_EQ(point.normal_traction, 82e9);
   EXPECT_EQ(point.shear_traction, 36e9);
@@ -89,14 +91,15 @@ TEST(JointParameters, Elastic)
 
 TEST(JointParameters, NoTension)
 {
-  const auto set = read(stiffnesses
-                        + "set Law = no tension\n"
-                          "set Cohesion = 1e6\n"
-                          "set Friction angle = 45\n");
-  EXPECT_EQ(set.law.peak.tension, 0.);
-  EXPECT_EQ(set.law.residual.tension, 0.);
-  EXPECT_EQ(set.law.residual.cohesion, 1e6);
-  EXPECT_EQ(set.law.residual.friction, set.law.peak.friction);
+  const auto set  = read(stiffnesses
+                         + "set Law = no tension\n"
+                            "set Cohesion = 1e6\n"
+                            "set Friction angle = 45\n");
+  const auto &law = std::get<CoulombLaw>(set.law);
+  EXPECT_EQ(law.peak.tension, 0.);
+  EXPECT_EQ(law.residual.tension, 0.);
+  EXPECT_EQ(law.residual.cohesion, 1e6);
+  EXPECT_EQ(law.residual.friction, law.peak.friction);
 }
 
 TEST(JointParameters, RefusesWhatMakesNoSense)
