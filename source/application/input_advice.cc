@@ -19,6 +19,9 @@ namespace quoin
     constexpr double locking_poisson = 0.45;
     /** Normal stiffness of joints by E/h of the cells beside. */
     constexpr double stiff_joint = 100.;
+    /** The same by E/L of blocks: of their displacement, of which a joint
+        closes by the inverse, double precision keeps six more digits. */
+    constexpr double rigid_joint = 1e10;
     /** The same by E/L of the blocks beside. */
     constexpr double soft_joint = 1e-3;
     /** More moments of fields than one can look at. */
@@ -157,6 +160,14 @@ namespace quoin
               + number_text(std::sqrt(kn / beside.stiffest_cell))
               + " times. Unless it was measured take some ten times E/h, "
               + number_text(10. * beside.stiffest_cell) + " Pa/m.");
+        if (parameters.is_implicit && kn > rigid_joint * beside.softest_block)
+          advice.push_back(
+              begin + "the normal stiffness " + number_text(kn) + " Pa/m is "
+              + number_text(kn / beside.softest_block)
+              + " times E/L of the softest block beside them: what closes "
+                "them is lost in the rounding of its displacements, and no "
+                "equilibrium may be found. Take "
+              + number_text(1e4 * beside.softest_block) + " Pa/m or less.");
         if (kn < soft_joint * beside.softest_block
             && std::isfinite(beside.softest_block))
           advice.push_back(

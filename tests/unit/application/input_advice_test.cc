@@ -120,7 +120,11 @@ TEST(InputAdvice, JointsAndMaterials)
   expect(parameters, "times E/h");
   law.normal_stiffness = 2e6;
   expect(parameters, "thousandth");
-  law.normal_stiffness = 2e10;
+  law.normal_stiffness   = 3e19;
+  parameters.is_implicit = true;
+  expect(parameters, "rounding");
+  parameters.is_implicit = false;
+  law.normal_stiffness   = 2e10;
   // A curve on the outside has no joint.
   parameters.model.joints.push_back(elastic_joint(1e10, 1e10, "sides"));
   expect(parameters, "act on nothing");
