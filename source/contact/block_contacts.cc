@@ -4,7 +4,6 @@
 // The contact operator: what happens in every step. What happens between
 // searches is in block_contacts_search.cc.
 
-#include <quoin/base/exceptions.h>
 #include <quoin/contact/block_contacts.h>
 
 #include <algorithm>
@@ -172,19 +171,100 @@ namespace quoin
     }
   }
 
+  void BlockContacts::gather_velocities(const NodeVector *velocity)
+  {
+    reach->update_ghosts(velocity, ghost_velocity.data());
+    NodeVector *to = compact_velocity.data();
+    for (const unsigned int i : compact_owned)
+      *to++ = velocity[i];
+    std::copy(ghost_velocity.begin(), ghost_velocity.end(), to);
+  }
+
+  void BlockContacts::scatter(AlignedArray<NodeVector> &from,
+                              NodeVector *to) const
+  {
+    for (unsigned int j = 0; j < compact_owned.size(); ++j)
+      for (unsigned int d = 0; d < 2; ++d)
+        to[compact_owned[j]].v[d] += from[j].v[d];
+    std::fill(from.begin(), from.end(), NodeVector{ { 0., 0. } });
+  }
+
+  inline void
+  BlockContacts::add_point_forces(const unsigned int i, const unsigned int k,
+                                  const Geometry &g, ContactState &contacts,
+                                  const Viscous *viscous, Losses &losses)
+  {
+    ContactPair &pair    = contacts.pairs[i];
+    ContactPoint &point  = pair.points[k];
+    const Edge &a        = local_edges[pair_edges[i][0]];
+    const Edge &b        = local_edges[pair_edges[i][1]];
+    const double *normal = g.normal[k];
+    if (g.opening[k] < -pair_depth[i] && g.overlap > -g.opening[k])
+      note_depth(i, -g.opening[k]);
+    double opening     = g.opening[k];
+    const double depth = point.plastic_opening - opening;
+    if (depth > g.overlap)
+      opening += g.sideways * (depth - g.overlap * g.overlap / depth);
+    const double slip_now = slip(point, a, b, normal);
+
+    ContactStep step;
+    std::array<double, 2> stiffness;
+    with_law(pair.set,
+             [&, opening](const auto &law)
+             {
+               step      = advance_contact(law, point, opening, slip_now);
+               stiffness = stiffness_of(law, point.normal_traction);
+             });
+    const double mean_area = 0.5 * (g.area[k] + point.area) * pair_share[i];
+    losses.friction += mean_area * step.lost.friction;
+    losses.fracture += mean_area * step.lost.fracture;
+    if (step.flows)
+    {
+      // Anchors behind would turn rotation into slip.
+      point.anchor_lower = g.lower[k];
+      point.anchor_upper = g.upper[k];
+      point.slip_offset += slip_now - slip(point, a, b, normal);
+    }
+    // What the trapezoidal work of a spring with changing area leaves over
+    // from the change of its energy.
+    losses.contact += pair_share[i] * (point.area - g.area[k]) * step.carried;
+    point.area     = g.area[k];
+    openings[i][k] = opening;
+
+    const double sigma = g.area[k] * point.normal_traction;
+    const double tau   = g.area[k] * point.shear_traction;
+    const double f[2]  = { sigma * normal[0] + tau * normal[1],
+                           sigma * normal[1] - tau * normal[0] };
+    spread(a, b, g.lower[k], g.upper[k], f, compact_force.data());
+    if (viscous && point.state != JointState::open
+        && point.state != JointState::slipping)
+      add_viscous_forces(a, b, g, k, viscous->beta, stiffness);
+  }
+
+  void BlockContacts::add_viscous_forces(const Edge &a, const Edge &b,
+                                         const Geometry &g,
+                                         const unsigned int k,
+                                         const double beta,
+                                         const std::array<double, 2> &stiffness)
+  {
+    const double *normal = g.normal[k];
+    double rate[2];
+    relative_velocity(a, b, g.lower[k], g.upper[k], rate);
+    const double wn = beta * g.area[k] * stiffness[0];
+    const double ws = beta * g.area[k] * stiffness[1];
+    const double vn = wn * (rate[0] * normal[0] + rate[1] * normal[1]);
+    const double vs = ws * (rate[0] * normal[1] - rate[1] * normal[0]);
+    const double f[2]
+        = { vn * normal[0] + vs * normal[1], vn * normal[1] - vs * normal[0] };
+    spread(a, b, g.lower[k], g.upper[k], f, compact_viscous.data());
+  }
+
   void BlockContacts::add_forces(ContactState &contacts, EnergyAccounts &energy,
                                  NodeVector *force, const Viscous *viscous)
   {
     if (viscous)
-    {
-      reach->update_ghosts(viscous->velocity, ghost_velocity.data());
-      NodeVector *to = compact_velocity.data();
-      for (const unsigned int i : compact_owned)
-        *to++ = viscous->velocity[i];
-      std::copy(ghost_velocity.begin(), ghost_velocity.end(), to);
-    }
-
-    double friction = 0., fracture = 0., lost = 0.;
+      gather_velocities(viscous->velocity);
+    Losses losses;
     updates += contacts.pairs.size();
     begin_contacts(contacts);
     for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
@@ -192,83 +272,21 @@ namespace quoin
       ContactPair &pair = contacts.pairs[i];
       if (!pair.active)
         continue;
-      const Edge &a = local_edges[pair_edges[i][0]];
-      const Edge &b = local_edges[pair_edges[i][1]];
       Geometry g;
-      if (!geometry(pair, a, b, g))
+      if (!geometry(pair, local_edges[pair_edges[i][0]],
+                    local_edges[pair_edges[i][1]], g))
       {
-        lost += pair_share[i] * release(pair);
+        losses.contact += pair_share[i] * release(pair);
         pair.was_open = 0;
         continue;
       }
-
       for (unsigned int k = 0; k < 2; ++k)
-      {
-        ContactPoint &point  = pair.points[k];
-        const double *normal = g.normal[k];
-        if (g.opening[k] < -pair_depth[i] && g.overlap > -g.opening[k])
-          note_depth(i, -g.opening[k]);
-        double opening     = g.opening[k];
-        const double depth = point.plastic_opening - opening;
-        if (depth > g.overlap)
-          opening += g.sideways * (depth - g.overlap * g.overlap / depth);
-        const double slip_now = slip(point, a, b, normal);
-
-        ContactStep step;
-        std::array<double, 2> stiffness;
-        with_law(pair.set,
-                 [&, opening](const auto &law)
-                 {
-                   step      = advance_contact(law, point, opening, slip_now);
-                   stiffness = stiffness_of(law, point.normal_traction);
-                 });
-        const double mean_area = 0.5 * (g.area[k] + point.area) * pair_share[i];
-        friction += mean_area * step.lost.friction;
-        fracture += mean_area * step.lost.fracture;
-        if (step.flows)
-        {
-          // Anchors behind would turn rotation into slip.
-          point.anchor_lower = g.lower[k];
-          point.anchor_upper = g.upper[k];
-          point.slip_offset += slip_now - slip(point, a, b, normal);
-        }
-        // What the trapezoidal work of a spring with changing area leaves
-        // over from the change of its energy.
-        lost += pair_share[i] * (point.area - g.area[k]) * step.carried;
-        point.area     = g.area[k];
-        openings[i][k] = opening;
-
-        const double sigma = g.area[k] * point.normal_traction;
-        const double tau   = g.area[k] * point.shear_traction;
-        const double f[2]  = { sigma * normal[0] + tau * normal[1],
-                               sigma * normal[1] - tau * normal[0] };
-        spread(a, b, g.lower[k], g.upper[k], f, compact_force.data());
-        if (viscous && point.state != JointState::open
-            && point.state != JointState::slipping)
-        {
-          double rate[2];
-          relative_velocity(a, b, g.lower[k], g.upper[k], rate);
-          const double wn    = viscous->beta * g.area[k] * stiffness[0];
-          const double ws    = viscous->beta * g.area[k] * stiffness[1];
-          const double vn    = wn * (rate[0] * normal[0] + rate[1] * normal[1]);
-          const double vs    = ws * (rate[0] * normal[1] - rate[1] * normal[0]);
-          const double fv[2] = { vn * normal[0] + vs * normal[1],
-                                 vn * normal[1] - vs * normal[0] };
-          spread(a, b, g.lower[k], g.upper[k], fv, compact_viscous.data());
-        }
-      }
+        add_point_forces(i, k, g, contacts, viscous, losses);
     }
-    energy.friction += friction;
-    energy.fracture += fracture;
-    energy.contact += lost;
+    energy.friction += losses.friction;
+    energy.fracture += losses.fracture;
+    energy.contact += losses.contact;
 
-    const auto scatter = [&](AlignedArray<NodeVector> &from, NodeVector *to)
-    {
-      for (unsigned int j = 0; j < compact_owned.size(); ++j)
-        for (unsigned int d = 0; d < 2; ++d)
-          to[compact_owned[j]].v[d] += from[j].v[d];
-      std::fill(from.begin(), from.end(), NodeVector{ { 0., 0. } });
-    };
     scatter(compact_force, force);
     if (viscous)
       scatter(compact_viscous, viscous->force);

@@ -450,7 +450,21 @@ namespace quoin
 
   void BlockContacts::bind(const ContactState &contacts)
   {
-    const unsigned int n_pairs = contacts.pairs.size();
+    bind_edges(contacts);
+    bind_nodes();
+    bind_pairs(contacts);
+    deepest_ratio = 0.;
+    bound_search  = contacts.n_searches;
+  }
+
+  unsigned int BlockContacts::local_edge(const unsigned int edge) const
+  {
+    return std::lower_bound(edge_numbers.begin(), edge_numbers.end(), edge)
+           - edge_numbers.begin();
+  }
+
+  void BlockContacts::bind_edges(const ContactState &contacts)
+  {
     edge_numbers.clear();
     for (const ContactPair &pair : contacts.pairs)
       for (const unsigned int e : { pair.lower, pair.upper })
@@ -460,13 +474,31 @@ namespace quoin
     std::sort(edge_numbers.begin(), edge_numbers.end());
     edge_numbers.erase(std::unique(edge_numbers.begin(), edge_numbers.end()),
                        edge_numbers.end());
-    const auto local = [&](const unsigned int edge) -> unsigned int
-    {
-      return std::lower_bound(edge_numbers.begin(), edge_numbers.end(), edge)
-             - edge_numbers.begin();
-    };
 
-    // Nodes: owned ones first, then ghosts, both ascending.
+    local_edges.assign(edge_numbers.size(), Edge());
+    reference_lengths.clear();
+    for (unsigned int e = 0; e < edge_numbers.size(); ++e)
+    {
+      const ContactEdge &edge = edges[edge_numbers[e]];
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        local_edges[e].corner[k] = edge.corner[k];
+        // The neighbours of mere neighbours are not needed.
+        const unsigned int next = k == 0 ? edge.previous : edge.next;
+        local_edges[e].neighbours[k]
+            = next != none
+                      && std::binary_search(edge_numbers.begin(),
+                                            edge_numbers.end(), next)
+                  ? local_edge(next)
+                  : e;
+      }
+      reference_lengths.push_back(edge.length);
+    }
+  }
+
+  void BlockContacts::bind_nodes()
+  {
+    // Owned nodes first, then ghosts, both ascending.
     std::vector<unsigned int> owned, ghosts;
     for (const unsigned int e : edge_numbers)
       for (const unsigned int v : edges[e].nodes)
@@ -484,40 +516,33 @@ namespace quoin
                        - owned.begin()
                  : owned.size() + reach->local(v) - reach->n_owned();
     };
+    for (unsigned int e = 0; e < edge_numbers.size(); ++e)
+      for (unsigned int k = 0; k < 2; ++k)
+        local_edges[e].nodes[k] = compact(edges[edge_numbers[e]].nodes[k]);
+
     compact_owned.clear();
     for (const unsigned int v : owned)
       compact_owned.push_back(exchange.local(v));
     ghost_nodes.resize(ghosts.size());
     ghost_velocity.resize(ghosts.size());
+    const unsigned int n_nodes = owned.size() + ghosts.size();
+    position.resize(n_nodes);
+    compact_velocity.resize(n_nodes);
+    compact_force.assign(n_nodes, NodeVector{ { 0., 0. } });
+    compact_viscous.assign(n_nodes, NodeVector{ { 0., 0. } });
+  }
 
-    local_edges.assign(edge_numbers.size(), Edge());
-    reference_lengths.clear();
-    for (unsigned int e = 0; e < edge_numbers.size(); ++e)
-    {
-      const ContactEdge &edge = edges[edge_numbers[e]];
-      for (unsigned int k = 0; k < 2; ++k)
-      {
-        local_edges[e].nodes[k]  = compact(edge.nodes[k]);
-        local_edges[e].corner[k] = edge.corner[k];
-        // The neighbours of mere neighbours are not needed.
-        const unsigned int next = k == 0 ? edge.previous : edge.next;
-        local_edges[e].neighbours[k]
-            = next != none
-                      && std::binary_search(edge_numbers.begin(),
-                                            edge_numbers.end(), next)
-                  ? local(next)
-                  : e;
-      }
-      reference_lengths.push_back(edge.length);
-    }
-
+  void BlockContacts::bind_pairs(const ContactState &contacts)
+  {
+    const unsigned int n_pairs = contacts.pairs.size();
     pair_edges.clear();
     pair_share.clear();
     pair_depth.clear();
     edge_pairs_begin.assign(edge_numbers.size() + 1, 0);
     for (const ContactPair &pair : contacts.pairs)
     {
-      pair_edges.push_back({ { local(pair.lower), local(pair.upper) } });
+      pair_edges.push_back(
+          { { local_edge(pair.lower), local_edge(pair.upper) } });
       pair_share.push_back(share(pair));
       pair_depth.push_back(
           parameters.deepest
@@ -533,15 +558,7 @@ namespace quoin
     for (unsigned int i = 0; i < n_pairs; ++i)
       for (const unsigned int e : pair_edges[i])
         edge_pairs[place[e]++] = i;
-
-    const unsigned int n_nodes = owned.size() + ghosts.size();
-    position.resize(n_nodes);
-    compact_velocity.resize(n_nodes);
-    compact_force.assign(n_nodes, NodeVector{ { 0., 0. } });
-    compact_viscous.assign(n_nodes, NodeVector{ { 0., 0. } });
     openings.assign(n_pairs, {});
-    deepest_ratio = 0.;
-    bound_search  = contacts.n_searches;
   }
 
   void BlockContacts::note_depth(const unsigned int pair, const double depth)

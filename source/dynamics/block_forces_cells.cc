@@ -32,13 +32,23 @@ namespace quoin
     if (!is_plastic())
       return history;
     history.resize(data.cells.size());
-    for (std::size_t k = 0; k < data.cells.size(); ++k)
-      if (cell_law(k))
-      {
-        const auto s = initial_stress(k);
-        std::copy(s.begin(), s.end(), history.cells[k].stress);
-      }
+    for (unsigned int k = 0; k < data.cells.size(); ++k)
+      forget_history(k, history);
     return history;
+  }
+
+  void BlockForces::forget_history(const unsigned int cell,
+                                   PlasticHistory &history) const
+  {
+    if (!is_plastic())
+      return;
+    history.cells[cell]    = PlasticCell();
+    history.shear[cell]    = 0.;
+    history.yielding[cell] = 0;
+    if (!cell_law(cell))
+      return;
+    const auto s = initial_stress(cell);
+    std::copy(s.begin(), s.end(), history.cells[cell].stress);
   }
 
   double BlockForces::update_cell(const std::size_t cell,

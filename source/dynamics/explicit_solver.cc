@@ -40,11 +40,8 @@ namespace quoin
     viscous_force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
   }
 
-  void ExplicitSolver::step(State &state, const Requests &wanted)
+  StepContext ExplicitSolver::step_context(const State &state) const
   {
-    Requests requests = wanted;
-    if (stage.slows_loads() && requests.balance)
-      requests.energies = true;
     const double in_stage = state.load_time;
     const double advance  = state.load_rate * time_step;
     StepContext context;
@@ -62,6 +59,15 @@ namespace quoin
     context.mass_damping  = stage.damping == DampingType::adaptive
                                 ? state.adaptive_damping
                                 : stage.mass_coefficient;
+    return context;
+  }
+
+  void ExplicitSolver::step(State &state, const Requests &wanted)
+  {
+    Requests requests = wanted;
+    if (stage.slows_loads() && requests.balance)
+      requests.energies = true;
+    const StepContext context = step_context(state);
 
     state.energy += state.pending;
     state.pending = EnergyAccounts();
@@ -96,25 +102,12 @@ namespace quoin
       state.pending.external
           += 0.5 * context.dt
              * load->power(context.begin, state.velocity.data());
-
     state.pending.external
-        += 0.5 * context.dt * release.power(in_stage, state.velocity.data());
+        += 0.5 * context.dt
+           * release.power(state.load_time, state.velocity.data());
 
     if (requests.energies)
-    {
-      // 1/2 m v- v+, or the same half work on from v- if the step changed.
-      const double part = context.dt_before / context.dt_velocity;
-      double kinetic    = model.rigid_blocks().kinetic_energy(
-             rigid_stage, rigid_before, state.rigid_blocks, part);
-      for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          const double before = velocity_before[i].v[d];
-          kinetic += 0.5 * mass[i] * before
-                     * (before + part * (state.velocity[i].v[d] - before));
-        }
-      find_energies(state, strain, joint, kinetic);
-    }
+      find_energies(state, strain, joint, kinetic_energy(state, context));
     if (step_changes)
       account_for_new_step(state, context);
     if (requests.balance)
@@ -125,23 +118,45 @@ namespace quoin
     }
 
     model.exchange().update_ghosts(state.nodes.data());
+    advance_time(state, context, requests);
+  }
+
+  double ExplicitSolver::kinetic_energy(const State &state,
+                                        const StepContext &context) const
+  {
+    // 1/2 m v- v+, or the same half work on from v- if the step changed.
+    const double part = context.dt_before / context.dt_velocity;
+    double kinetic    = model.rigid_blocks().kinetic_energy(
+           rigid_stage, rigid_before, state.rigid_blocks, part);
+    for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double before = velocity_before[i].v[d];
+        kinetic += 0.5 * mass[i] * before
+                   * (before + part * (state.velocity[i].v[d] - before));
+      }
+    return kinetic;
+  }
+
+  void ExplicitSolver::advance_time(State &state, const StepContext &context,
+                                    const Requests &requests) const
+  {
     ++state.step;
     ++state.stage_step;
     state.time               = state.stage_start + state.stage_step * time_step;
     state.previous_time_step = time_step;
     if (!stage.slows_loads())
-      state.load_time = state.time - state.stage_start;
-    else
     {
-      state.load_time += advance;
-      if (requests.balance && energies().throughput() > 0.)
-        state.load_rate_growth = loading_rate::growth(
-            energies().kinetic
-                / (stage.kinetic_limit * energies().throughput()),
-            balance_interval);
-      state.load_rate
-          = loading_rate::next(state.load_rate, state.load_rate_growth);
+      state.load_time = state.time - state.stage_start;
+      return;
     }
+    state.load_time = context.end.stage;
+    if (requests.balance && energies().throughput() > 0.)
+      state.load_rate_growth = loading_rate::growth(
+          energies().kinetic / (stage.kinetic_limit * energies().throughput()),
+          balance_interval);
+    state.load_rate
+        = loading_rate::next(state.load_rate, state.load_rate_growth);
   }
 
   void ExplicitSolver::account_for_new_step(State &state,
@@ -396,5 +411,4 @@ namespace quoin
       sums[1] += constraint->unbalanced();
     state.unbalanced_ratio = sums[0] > 0. ? sums[1] / sums[0] : 0.;
   }
-
 } // namespace quoin

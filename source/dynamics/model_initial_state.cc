@@ -94,15 +94,9 @@ namespace quoin
   void Model::forget_yielding(const unsigned int block,
                               PlasticHistory &history) const
   {
-    const PlasticHistory start = block_forces.initial_history();
     for (unsigned int c = block_mesh.block_first_cell[block];
-         c < block_mesh.block_first_cell[block + 1]
-         && block_forces.is_plastic();
-         ++c)
-    {
-      const unsigned int own = c - first_cell();
-      set_plastic_point(plastic_point(start, own), own, history);
-    }
+         c < block_mesh.block_first_cell[block + 1]; ++c)
+      block_forces.forget_history(c - first_cell(), history);
   }
 
   State Model::initial_state() const

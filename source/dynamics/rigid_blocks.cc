@@ -167,6 +167,55 @@ namespace quoin
     return std::max(0., dealii::eigenvalues(sum)[0]);
   }
 
+  RigidBlocks::Resultants RigidBlocks::take_forces(const Block &block,
+                                                   const double rotation,
+                                                   NodeVector *force,
+                                                   NodeVector *viscous) const
+  {
+    const double c = std::cos(rotation), s = std::sin(rotation);
+    Resultants sum;
+    const auto take
+        = [](double(&to)[3], const double x, const double y, NodeVector &node)
+    {
+      to[0] += node.v[0];
+      to[1] += node.v[1];
+      to[2] += x * node.v[1] - y * node.v[0];
+      node = NodeVector{ { 0., 0. } };
+    };
+    const Arm *arm = arms_of(block);
+    for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+    {
+      const double x = c * arm->x - s * arm->y;
+      const double y = s * arm->x + c * arm->y;
+      take(sum.force, x, y, force[i]);
+      take(sum.viscous, x, y, viscous[i]);
+    }
+    return sum;
+  }
+
+  void RigidBlocks::place_nodes(const Block &block,
+                                const RigidBlockState &rigid,
+                                const double rotation_before,
+                                State &state) const
+  {
+    const Turn turn(rotation_before, rigid.rotation);
+    const double half = 0.5 * rigid.velocity[2];
+    const Arm *arm    = arms_of(block);
+    for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+    {
+      const double x = arm->x, y = arm->y;
+      double *u = state.nodes[i].u;
+      u[0]      = rigid.displacement[0] - turn.versine * x - turn.s1 * y;
+      u[1]      = rigid.displacement[1] + turn.s1 * x - turn.versine * y;
+      // With the mean of the arms before and after.
+      double *v = state.velocity[i].v;
+      v[0]      = rigid.velocity[0]
+             - half * ((turn.s0 + turn.s1) * x + (turn.c0 + turn.c1) * y);
+      v[1] = rigid.velocity[1]
+             + half * ((turn.c0 + turn.c1) * x - (turn.s0 + turn.s1) * y);
+    }
+  }
+
   RigidBlockWork RigidBlocks::advance(const StepContext &step,
                                       const RigidBlockStage &stage,
                                       NodeVector *force, NodeVector *viscous,
@@ -180,37 +229,19 @@ namespace quoin
     for (unsigned int b = 0; b < blocks.size(); ++b)
     {
       const Block &block = blocks[b];
-      const Arm *arm     = arms_of(block);
       if (stage.held[b])
       {
         for (unsigned int i = block.begin; i < block.end; ++i)
           force[i] = viscous[i] = NodeVector{ { 0., 0. } };
         continue;
       }
-
       RigidBlockState &rigid = state.rigid_blocks[b];
-      const double c0 = std::cos(rigid.rotation), s0 = std::sin(rigid.rotation);
-      double f[3]{}, fv[3]{};
-      const auto add
-          = [](double(&to)[3], const double x, const double y, NodeVector &node)
-      {
-        to[0] += node.v[0];
-        to[1] += node.v[1];
-        to[2] += x * node.v[1] - y * node.v[0];
-        node = NodeVector{ { 0., 0. } };
-      };
-      for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
-      {
-        const double x = c0 * arm->x - s0 * arm->y;
-        const double y = s0 * arm->x + c0 * arm->y;
-        add(f, x, y, force[i]);
-        add(fv, x, y, viscous[i]);
-      }
+      const double rotation  = rigid.rotation;
+      const auto [f, fv]     = take_forces(block, rotation, force, viscous);
 
       // As advance_nodes_damped() for a node's two freedoms.
-      const auto mass       = inertia(stage, b);
-      const double rotation = rigid.rotation;
-      DampingWork &damping  = work.damping;
+      const auto mass      = inertia(stage, b);
+      DampingWork &damping = work.damping;
       for (unsigned int d = 0; d < 3; ++d)
       {
         const double m    = mass[d];
@@ -234,23 +265,7 @@ namespace quoin
       }
       work.unbalanced += std::hypot(f[0], f[1])
                          + std::abs(f[2]) * std::sqrt(mass[0] / mass[2]);
-
-      const Turn turn(rotation, rigid.rotation);
-      const double half = 0.5 * rigid.velocity[2];
-      arm               = arms_of(block);
-      for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
-      {
-        const double x = arm->x, y = arm->y;
-        double *u = state.nodes[i].u;
-        u[0]      = rigid.displacement[0] - turn.versine * x - turn.s1 * y;
-        u[1]      = rigid.displacement[1] + turn.s1 * x - turn.versine * y;
-        // With the mean of the arms before and after.
-        double *v = state.velocity[i].v;
-        v[0]      = rigid.velocity[0]
-               - half * ((turn.s0 + turn.s1) * x + (turn.c0 + turn.c1) * y);
-        v[1] = rigid.velocity[1]
-               + half * ((turn.c0 + turn.c1) * x - (turn.s0 + turn.s1) * y);
-      }
+      place_nodes(block, rigid, rotation, state);
     }
     return work;
   }

@@ -131,71 +131,83 @@ namespace quoin
     inertia[1] = inertia[0];
   }
 
-  void Platen::correct(const StepContext &step,
-                       const std::vector<CapturedNode> &captured, State &state)
+  std::array<double, 3>
+  Platen::resultant(const std::vector<CapturedNode> &captured,
+                    const PlatenState &platen) const
   {
-    PlatenState &platen      = state.platens[platen_index];
     const double *const arms = platen.arms.data();
-
     std::array<double, 3> force{};
-    const double c0 = std::cos(platen.displacement[2]),
-                 s0 = std::sin(platen.displacement[2]);
+    const double c = std::cos(platen.displacement[2]),
+                 s = std::sin(platen.displacement[2]);
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
       const double *f = captured[captured_positions[i]].force.v;
-      const double rx = c0 * arms[2 * i] - s0 * arms[2 * i + 1];
-      const double ry = s0 * arms[2 * i] + c0 * arms[2 * i + 1];
+      const double rx = c * arms[2 * i] - s * arms[2 * i + 1];
+      const double ry = s * arms[2 * i] + c * arms[2 * i + 1];
       force[0] += f[0];
       force[1] += f[1];
       force[2] += rx * f[1] - ry * f[0];
     }
-    nodal_force = sum(force, communicator);
+    return sum(force, communicator);
+  }
 
-    last_unbalanced = 0.;
-    for (unsigned int d = 0; d < 3; ++d)
+  void Platen::advance_freedom(const unsigned int d, const StepContext &step,
+                               PlatenState &platen)
+  {
+    const double unit   = d == 2 ? constants::degree : 1.;
+    const double before = platen.velocity[d];
+    velocity_before[d]  = before;
+    damping[d]          = 0.;
+    if (components[d].quantity == LoadQuantity::velocity)
+      platen.velocity[d]
+          = unit * step.load_rate * components[d].value(step.middle);
+    else if (components[d].quantity == LoadQuantity::displacement)
+      platen.velocity[d]
+          = (platen.stage_start[d] + unit * components[d].value(step.end)
+             - platen.displacement[d])
+            / step.dt;
+    else
     {
-      const double unit   = d == 2 ? constants::degree : 1.;
-      const double before = platen.velocity[d];
-      velocity_before[d]  = before;
-      damping[d]          = 0.;
-      if (components[d].quantity == LoadQuantity::velocity)
-        platen.velocity[d]
-            = unit * step.load_rate * components[d].value(step.middle);
-      else if (components[d].quantity == LoadQuantity::displacement)
-        platen.velocity[d]
-            = (platen.stage_start[d] + unit * components[d].value(step.end)
-               - platen.displacement[d])
-              / step.dt;
-      else
-      {
-        drive[d]           = components[d].value(step.begin);
-        const double total = nodal_force[d] + drive[d];
-        const double a     = 0.5 * step.dt_velocity * step.mass_damping;
-        const double gain  = step.dt_velocity / (1. + a) / inertia[d];
-        const double free  = (1. - a) / (1. + a) * before + gain * total;
-        // Local damping as of a node (node_update.h).
-        const double sum   = before + free;
-        const double local = -std::copysign(
-            std::min(step.local_damping * gain * std::abs(total),
-                     0.5 * std::abs(sum)),
-            sum);
-        platen.velocity[d] = free + local;
-        damping[d]         = local / gain
-                     - step.mass_damping * inertia[d] * 0.5
-                           * (before + platen.velocity[d]);
-        // A moment counts as the force on the arm of gyration.
-        last_unbalanced += std::abs(total)
-                           / (d < 2 ? 1. : std::sqrt(inertia[2] / inertia[0]));
-      }
-      if (driven(d))
-        drive[d] = inertia[d] * (platen.velocity[d] - before) / step.dt_velocity
-                   - nodal_force[d];
-      platen.displacement[d] += step.dt * platen.velocity[d];
+      drive[d]           = components[d].value(step.begin);
+      const double total = nodal_force[d] + drive[d];
+      const double a     = 0.5 * step.dt_velocity * step.mass_damping;
+      const double gain  = step.dt_velocity / (1. + a) / inertia[d];
+      const double free  = (1. - a) / (1. + a) * before + gain * total;
+      // Local damping as of a node (node_update.h).
+      const double sum = before + free;
+      const double local
+          = -std::copysign(std::min(step.local_damping * gain * std::abs(total),
+                                    0.5 * std::abs(sum)),
+                           sum);
+      platen.velocity[d] = free + local;
+      damping[d]         = local / gain
+                   - step.mass_damping * inertia[d] * 0.5
+                         * (before + platen.velocity[d]);
+      // A moment counts as the force on the arm of gyration.
+      last_unbalanced += std::abs(total)
+                         / (d < 2 ? 1. : std::sqrt(inertia[2] / inertia[0]));
     }
+    if (driven(d))
+      drive[d] = inertia[d] * (platen.velocity[d] - before) / step.dt_velocity
+                 - nodal_force[d];
+    platen.displacement[d] += step.dt * platen.velocity[d];
+  }
+
+  void Platen::correct(const StepContext &step,
+                       const std::vector<CapturedNode> &captured, State &state)
+  {
+    PlatenState &platen = state.platens[platen_index];
+    nodal_force         = resultant(captured, platen);
+    const double c0     = std::cos(platen.displacement[2]),
+                 s0     = std::sin(platen.displacement[2]);
+    last_unbalanced     = 0.;
+    for (unsigned int d = 0; d < 3; ++d)
+      advance_freedom(d, step, platen);
     last_resultant = drive;
 
-    const double c = std::cos(platen.displacement[2]),
-                 s = std::sin(platen.displacement[2]);
+    const double *const arms = platen.arms.data();
+    const double c           = std::cos(platen.displacement[2]),
+                 s           = std::sin(platen.displacement[2]);
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
       const CapturedNode &before = captured[captured_positions[i]];

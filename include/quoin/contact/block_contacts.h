@@ -188,7 +188,13 @@ namespace quoin
     /** Counts slip from where the edges touch now. */
     void reanchor(ContactState &contacts) const;
     float share(const ContactPair &pair) const;
+    /** Prepares for the pairs at hand. */
     void bind(const ContactState &contacts);
+    void bind_edges(const ContactState &contacts);
+    void bind_nodes();
+    void bind_pairs(const ContactState &contacts);
+    /** Of an edge, into local_edges. */
+    unsigned int local_edge(unsigned int edge) const;
     void gather(const State &state);
 
     /** False if the edges do not overlap. */
@@ -208,6 +214,21 @@ namespace quoin
                        const double *normal);
     static void spread(const Edge &a, const Edge &b, double lower, double upper,
                        const double *f, NodeVector *force);
+    /** What a step loses [J]. */
+    struct Losses
+    {
+      double friction = 0., fracture = 0.;
+      double contact = 0.; /**< with areas and contacts that go */
+    };
+    void gather_velocities(const NodeVector *velocity);
+    void add_point_forces(unsigned int pair, unsigned int k, const Geometry &g,
+                          ContactState &contacts, const Viscous *viscous,
+                          Losses &losses);
+    void add_viscous_forces(const Edge &a, const Edge &b, const Geometry &g,
+                            unsigned int k, double beta,
+                            const std::array<double, 2> &stiffness);
+    /** Adds to owned nodes what is in @p from, and empties that. */
+    void scatter(AlignedArray<NodeVector> &from, NodeVector *to) const;
     void relative_velocity(const Edge &a, const Edge &b, double lower,
                            double upper, double *rate) const;
     /** Makes pairs active that touch by now. */

@@ -144,6 +144,9 @@ namespace quoin
     /** Histories of cells without strain; empty if none of them yields. */
     PlasticHistory initial_history() const;
 
+    /** Makes @p cell what it is in initial_history(), if any cell yields. */
+    void forget_history(unsigned int cell, PlasticHistory &history) const;
+
     /**
      * Adds the internal forces of a tile's cells. Brings @p history to the
      * positions and returns what that dissipated [J].

@@ -146,12 +146,18 @@ namespace quoin
      * had as done from outside.
      */
     void remove_blocks(const std::vector<BlockOutside> &found, State &state);
+    StepContext step_context(const State &state) const;
     void apply_forces(State &state, const StepContext &context);
     void advance_blocks(State &state, const StepContext &context,
                         const Requests &requests);
     void capture(CapturedNode &node, const State &state) const;
     void move_constrained_nodes(State &state, const StepContext &context);
+    /** At the time of the step [J], from velocities before and after it. */
+    double kinetic_energy(const State &state, const StepContext &context) const;
     void account_for_new_step(State &state, const StepContext &context) const;
+    /** Time, steps and the loads' clock of the next step. */
+    void advance_time(State &state, const StepContext &context,
+                      const Requests &requests) const;
     void adapt_damping(State &state, const DampingWork &work) const;
     void find_ratio(State &state, const StepContext &context, double applied,
                     double unbalanced);

@@ -51,8 +51,9 @@ namespace quoin
     }
 
   private:
-    double first, limit, largest;
-    double end_closure, end_traction; /**< where the straight part begins */
+    double first, limit, largest; /**< kni [Pa/m], Vm [m], [Pa/m] */
+    /** Where the straight part begins [m], [Pa]. */
+    double end_closure, end_traction;
   };
 
   /** Where @cite BartonBandisBakhtar1985 have the roughness by slip. */

@@ -123,7 +123,18 @@ namespace quoin
     }
 
   private:
-    /** Derivative of update_failing(), at the point as it was before. */
+    /** What drives a failed joint to slip beyond its trial tractions. */
+    struct Slip
+    {
+      double direction; /**< of tau, 1 or -1 */
+      double psi;       /**< dw by |dp|, negative on the way back */
+      double excess;    /**< of |tau| above the strength [Pa] */
+      double stiffness; /**< by which |dp| lowers it [Pa/m] */
+    };
+    /** At trial tractions [Pa] and the @p slip [m]. */
+    Slip trial_slip(double sigma, double tau, double slip) const;
+
+    /** Derivative [Pa/m] of update_failing(), at the point as it was before. */
     JointTangent failing_tangent(const JointPoint &point, double opening,
                                  double slip) const;
 
@@ -164,6 +175,24 @@ namespace quoin
                : update_failing(point, opening, slip);
   }
 
+  inline CoulombLaw::Slip CoulombLaw::trial_slip(const double sigma,
+                                                 const double tau,
+                                                 const double slip) const
+  {
+    Slip result;
+    result.direction = tau < 0. ? -1. : 1.;
+    result.psi       = std::abs(slip) < critical_shear_displacement
+                           ? (result.direction * slip >= 0. ? dilation : -dilation)
+                           : 0.;
+    result.excess
+        = std::abs(tau) - residual.cohesion + sigma * residual.friction;
+    const double stiffness
+        = shear_stiffness + normal_stiffness * result.psi * residual.friction;
+    result.stiffness
+        = stiffness > 0.1 * shear_stiffness ? stiffness : shear_stiffness;
+    return result;
+  }
+
   inline JointDissipation CoulombLaw::update_failing(JointPoint &point,
                                                      const double opening,
                                                      const double slip) const
@@ -198,14 +227,9 @@ namespace quoin
     }
 
     // Slip: implicit in sigma, because dilation presses the joint together.
-    const double direction = tau_trial < 0. ? -1. : 1.;
-    const double psi       = std::abs(slip) < critical_shear_displacement
-                                 ? (direction * slip >= 0. ? dilation : -dilation)
-                                 : 0.;
-    const double excess    = std::abs(tau_trial) - residual.cohesion
-                          + sigma_trial * residual.friction;
-    const double stiffness = ks + kn * psi * residual.friction;
-    double dp = std::max(0., excess) / (stiffness > 0.1 * ks ? stiffness : ks);
+    const auto [direction, psi, excess, stiffness]
+        = trial_slip(sigma_trial, tau_trial, slip);
+    double dp = std::max(0., excess) / stiffness;
     // Friction cannot turn the shear traction round.
     dp = std::min(dp, std::abs(tau_trial) / ks);
 
@@ -247,17 +271,10 @@ namespace quoin
     if (sigma_trial > residual.tension)
       return {}; // open: the residual tension, no shear
 
-    const double direction = tau_trial < 0. ? -1. : 1.;
-    const double psi       = std::abs(slip) < critical_shear_displacement
-                                 ? (direction * slip >= 0. ? dilation : -dilation)
-                                 : 0.;
-    const double excess    = std::abs(tau_trial) - residual.cohesion
-                          + sigma_trial * residual.friction;
+    const auto [direction, psi, excess, stiffness]
+        = trial_slip(sigma_trial, tau_trial, slip);
     if (excess <= 0.) // the residual strength is above the peak's
       return { kn, 0., 0., ks };
-    double stiffness = ks + kn * psi * residual.friction;
-    if (!(stiffness > 0.1 * ks))
-      stiffness = ks;
 
     // Of the plastic slip dp by opening and slip; all of it at the bound.
     const bool is_bounded = excess / stiffness > std::abs(tau_trial) / ks;

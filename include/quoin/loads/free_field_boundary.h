@@ -94,8 +94,8 @@ namespace quoin
     /** A layer between two nodes of the column. */
     struct Layer
     {
-      double height; /**< [m] */
-      double density;
+      double height;  /**< [m] */
+      double density; /**< [kg/m^3] */
       PlaneStiffness stiffness;
     };
 

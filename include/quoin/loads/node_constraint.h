@@ -22,15 +22,15 @@ namespace quoin
    */
   struct CapturedNode
   {
-    unsigned int node;
-    double mass;
-    NodeVector force;
-    NodeVector velocity;
-    NodeVector displacement;
-    NodeVector viscous; /**< stiffness-proportional part of the force */
+    unsigned int node;       /**< local */
+    double mass;             /**< [kg] */
+    NodeVector force;        /**< [N] */
+    NodeVector velocity;     /**< [m/s] */
+    NodeVector displacement; /**< [m] */
+    NodeVector viscous; /**< stiffness-proportional part of the force [N] */
     /**
      * Part of the force at the first step of a stage: of tractions and gravity
-     * that did not act in the stage before, if there was one.
+     * that did not act in the stage before, if there was one [N].
      */
     NodeVector begun;
     /** What moves each component: the last to act on it; null: nothing. */

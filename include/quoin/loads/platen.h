@@ -76,6 +76,13 @@ namespace quoin
              || components[freedom].quantity == LoadQuantity::displacement;
     }
 
+    /** Force and moment [N, N m] of the nodes, of all ranks. */
+    std::array<double, 3> resultant(const std::vector<CapturedNode> &captured,
+                                    const PlatenState &platen) const;
+    /** One component of the platen's motion, of force, drive and damping. */
+    void advance_freedom(unsigned int d, const StepContext &step,
+                         PlatenState &platen);
+
     std::array<LoadComponent, 3> components;
     unsigned int platen_index;
     MPI_Comm communicator;
@@ -83,7 +90,7 @@ namespace quoin
     double rigid_inertia = 0., rigid_spin = 0.;
     std::array<double, 3> inertia{}; /**< mass, mass, moment */
 
-    /** Of the last step: force on the platen from its drive and its nodes,
+    /** Of the last step: force on the platen from its nodes and its drive,
         damping force, velocity before. */
     std::array<double, 3> nodal_force{}, drive{}, damping{}, velocity_before{};
     double last_unbalanced = 0.;

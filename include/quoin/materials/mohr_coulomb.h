@@ -201,7 +201,7 @@ namespace quoin
       return n_phi;
     }
 
-    /** State after a step that is elastic. */
+    /** State, bits of namespace yielding, after a step that is elastic. */
     static std::uint8_t past(const std::uint8_t state)
     {
       return (state | (state << 2))
@@ -282,6 +282,7 @@ namespace quoin
     double plane_stress_thinning(Region region, double major,
                                  double minor) const;
 
+    /** Bits of namespace yielding of a return to @p region. */
     std::uint8_t yields_now(Region region) const;
 
     PlaneAssumption assumption;
