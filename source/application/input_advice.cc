@@ -219,7 +219,7 @@ namespace quoin
         advice.push_back("'Field interval = "
                          + number_text(parameters.field_interval)
                          + "' in section 'Output' writes fields "
-                         + number_text(std::floor(n))
+                         + std::to_string(std::uint64_t(std::min(n, 1e18)))
                          + " times. Some hundred make a film: take "
                          + number_text(duration / 200.) + " s.");
     }
