@@ -31,6 +31,7 @@ An entry of mutations.json:
 import argparse
 import collections
 import concurrent.futures
+import fnmatch
 import json
 import os
 import re
@@ -38,6 +39,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -115,7 +117,7 @@ def faulty(fault, text):
 # ---- the list ---------------------------------------------------------------
 
 def suites():
-    """{suite: (module, its tests)} of the unit tests."""
+    """{suite: {test: its module}} of the unit tests."""
     known = {}
     root = os.path.join(ROOT, "tests", "unit")
     for folder, _, names in os.walk(root):
@@ -125,7 +127,7 @@ def suites():
                 for suite, test in re.findall(
                         r"^ *(?:TYPED_)?TEST(?:_[PF])?\(\s*(\w+),\s*(\w+)\)",
                         read(os.path.join(folder, name)), re.M):
-                    known.setdefault(suite, (module, set()))[1].add(test)
+                    known.setdefault(suite, {})[test] = module
     return known
 
 
@@ -142,10 +144,11 @@ def module_of(what, known):
     for part in what.split(":"):
         pieces = part.split("/")  # */Suite.test of a suite with parameters
         suite, _, test = pieces["." not in pieces[0]].partition(".")
-        if suite not in known or not (
-                "*" in test or test in known[suite][1]):
+        found = {module for name, module in known.get(suite, {}).items()
+                 if fnmatch.fnmatchcase(name, test)}
+        if not found:
             raise Failure("there is no unit test '%s'" % part)
-        modules.add(known[suite][0])
+        modules |= found
     if len(modules) > 1:
         raise Failure("'%s' names tests of several modules" % what)
     return modules.pop()
@@ -183,7 +186,8 @@ def group_of(test, known, cases):
 
 def wanted_groups(known, cases):
     """All groups of tests; each must have a fault."""
-    groups = {"unit/" + module for module, _ in known.values()}
+    groups = {"unit/" + module for tests in known.values()
+              for module in tests.values()}
     groups |= {"cases: " + (case.get("check") or "closed form")
                for case in cases.values() if case.get("label") != "long"}
     for kind in ("cases", "scripts"):
@@ -313,13 +317,14 @@ class Worker:
     def __init__(self, place, build):
         self.place, self.build = place, build
         self.tree = os.path.join(place, "tree")
-        shutil.rmtree(place, ignore_errors=True)
         os.makedirs(self.tree)
         for folder in FOLDERS:
+            # not what runs leave in the folders of their parameter files
+            ignored = ["__pycache__"] + (["output", "output_*"] if folder
+                                         == "parameter_files" else [])
             shutil.copytree(os.path.join(ROOT, folder),
                             os.path.join(self.tree, folder),
-                            ignore=shutil.ignore_patterns(
-                                "output", "output_*", "__pycache__"))
+                            ignore=shutil.ignore_patterns(*ignored))
 
     def places(self, tree, program_folder):
         return dict({name: os.path.join(program_folder, name if program_folder
@@ -396,7 +401,14 @@ def run_all(faults, groups, options):
         raise Failure("'%s' is no build folder" % options.build)
     programs = {KINDS[split(fault["test"])[0]][0] for fault in faults} - {None}
     build = Build(options.build, programs)
-    folder = os.path.join(build.folder, "mutations")
+    with tempfile.TemporaryDirectory(prefix="mutations_",
+                                     dir=build.folder) as folder:
+        results = try_all(faults, groups, options, build, folder)
+    report(faults, groups, results)
+
+
+def try_all(faults, groups, options, build, folder):
+    """{name of a fault: (what became of it, last words)}."""
     idle = [Worker(os.path.join(folder, str(i)), build)
             for i in range(options.jobs)]
     lock, seconds, results = threading.Lock(), {}, {}
@@ -408,7 +420,7 @@ def run_all(faults, groups, options):
         try:
             if not options.quick and fault["test"] not in seconds:
                 seconds[fault["test"]] = worker.without_fault(fault["test"])
-            limit = max(60., 10. * seconds.get(fault["test"], 60.))
+            limit = max(120., 10. * seconds.get(fault["test"], 30.))
             passed, said = worker.with_fault(fault, limit)
             result = ("SURVIVED" if passed else "caught", said)
         except Failure as failure:
@@ -423,8 +435,11 @@ def run_all(faults, groups, options):
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         for future in [pool.submit(attempt, fault) for fault in faults]:
             future.result()
-    shutil.rmtree(folder, ignore_errors=True)
+    return results
 
+
+def report(faults, groups, results):
+    """Prints the table; a Failure if anything was not caught."""
     counts = collections.defaultdict(collections.Counter)
     for fault in faults:
         counts[groups[fault["name"]]][results[fault["name"]][0]] += 1
