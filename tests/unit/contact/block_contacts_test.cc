@@ -466,8 +466,10 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
 TEST(BlockContacts, HandedOverJointsGoOnFromTheirHistory)
 {
   JointSetParameters plain = elastic_joint(kn, ks);
-  plain.law.peak           = { 1e4, 0.5, 0. };
-  plain.law.residual       = { 0., 0.5, 0. };
+  CoulombLaw &law          = coulomb_law(plain);
+  law.peak                 = { 1e4, 0.5, 0. };
+  law.residual             = { 0., 0.5, 0. };
+  law.dilation             = 0.01;
   Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); },
               { plain, touching() });
   const unsigned int upper = scene.block_at(0., 2.);
