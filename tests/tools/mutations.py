@@ -234,8 +234,9 @@ class Build:
 
     def __init__(self, folder, targets):
         self.folder = os.path.abspath(folder)
-        self.call(["ninja", "-C", self.folder]
-                  + sorted(TARGETS[name] for name in targets))
+        if targets:
+            self.call(["ninja", "-C", self.folder]
+                      + sorted(TARGETS[name] for name in targets))
         with open(os.path.join(self.folder, "compile_commands.json")) as stream:
             self.compile = {entry["file"]: shlex.split(entry["command"])
                             for entry in json.load(stream)}
