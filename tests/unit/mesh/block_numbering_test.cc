@@ -137,10 +137,10 @@ TEST(BlockNumbering, PartitionsWithFewBlocks)
 
 TEST(MeshData, SurvivesSerialization)
 {
-  MeshData data     = tiles(2);
-  data.source       = "wall.geo";
-  data.quadratic    = true;
-  data.n_reoriented = 3;
+  MeshData data       = tiles(2);
+  data.source         = "wall.geo";
+  data.quadratic      = true;
+  data.n_reoriented   = 3;
   const MeshData copy = dealii::Utilities::unpack<MeshData>(
       dealii::Utilities::pack(data, false), false);
   EXPECT_EQ(copy.vertices, data.vertices);
