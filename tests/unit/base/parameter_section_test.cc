@@ -99,6 +99,9 @@ TEST(ParameterSection, ErrorsNameFileSectionParameterAndValue)
   EXPECT_EQ(error([&] { inner.within("Number", 0., 1.); })
                 .find(where + "'Number = -2.5' must lie between 0 and 1"),
             0U);
+  EXPECT_EQ(error([&] { inner.within("Number", -5., -3.); })
+                .find(where + "'Number = -2.5' must lie between -5 and -3"),
+            0U);
   EXPECT_EQ(error([&] { inner.numbers<2>("Three"); })
                 .find(where + "'Three = 1, -2e3, 0.5' must be 2 numbers"),
             0U);

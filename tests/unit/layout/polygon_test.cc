@@ -83,6 +83,10 @@ TEST(Polygon, arch_has_the_area_of_its_parts)
               18. + 4.5 * pi, 1e-3);
   EXPECT_NEAR(signed_area(arch_polygon(Point(1, 2), 6., 0., 3., 400)), 4.5 * pi,
               1e-3);
+  // A flat arch: a segment of a circle of radius 5 m.
+  const Polygon flat = arch_polygon(Point(1, 2), 6., 3., 1., 400);
+  EXPECT_NEAR(signed_area(flat), 18. + 25. * std::acos(0.8) - 12., 1e-3);
+  EXPECT_NEAR(bounding_box(flat)[3], 2. + 3. + 1., 1e-12);
   EXPECT_NEAR(signed_area(arch_polygon(Point(0, 0), 4., 2., 0., 10)), 8.,
               1e-12);
   EXPECT_NEAR(signed_area(circle_polygon(Point(3, 4), 2., 6)),

@@ -82,6 +82,22 @@ TEST(Record, ReadsHeadersOfThePeerDatabase)
   EXPECT_DOUBLE_EQ(cm[0].second, 1.);
 }
 
+// Headers that do not say 'UNITS OF'; without any word by the kind of file.
+TEST(Record, UnitsInOtherWords)
+{
+  const auto first = [](const std::string &name, const std::string &header)
+  {
+    return samples_of(name, header + "\nNPTS= 2, DT= .01 SEC\n100 -200\n")[0]
+        .second;
+  };
+  EXPECT_DOUBLE_EQ(first("a.VT2", "VELOCITY (CM/SEC)"), 1.);
+  EXPECT_DOUBLE_EQ(first("a.AT2", "ACCELERATION, CM/S/S"), 1.);
+  EXPECT_DOUBLE_EQ(first("a.VT2", "VELOCITY (M/SEC)"), 100.);
+  EXPECT_DOUBLE_EQ(first("a.AT2", "ACCELERATION (G)"), 100. * g);
+  EXPECT_DOUBLE_EQ(first("a.AT2", "ACCELERATION"), 100. * g);
+  EXPECT_DOUBLE_EQ(first("a.VT2", "VELOCITY"), 1.);
+}
+
 TEST(Record, RefusesBrokenFiles)
 {
   const auto expect = [](const std::string &message, const std::string &part)

@@ -46,8 +46,6 @@ TEST(TimeFunction, ExpressionsOfBothTimes)
   EXPECT_EQ(at("pi", 0.), 3.14159265358979323846);
   EXPECT_DOUBLE_EQ(at("1e6*sin(2*pi*t) + exp(-T)", 0.2, 0.7),
                    1e6 * std::sin(0.4 * std::acos(-1.)) + std::exp(-0.7));
-  EXPECT_EQ(at("if(t < 1, 5, 6)", 0.5), 5.);
-  EXPECT_EQ(at("if(t < 1, 5, 6)", 1.5), 6.);
 }
 
 TEST(TimeFunction, ConditionalExpression)

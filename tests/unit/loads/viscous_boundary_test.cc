@@ -1,11 +1,33 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "boundary_square.h"
+
 #include <quoin/loads/viscous_boundary.h>
 
 #include <gtest/gtest.h>
 
 using namespace quoin;
+using quoin::test::BoundarySquare;
+
+namespace
+{
+  /** Dashpots at the right side, 1 m by 0.5 m: rho c1 = 300, rho c2 = 200. */
+  ViscousBoundary at_the_right(const BoundarySquare &square,
+                               const std::string &normal,
+                               const std::string &shear)
+  {
+    LoadParameters parameters;
+    parameters.name       = "far";
+    parameters.boundaries = { "right" };
+    parameters.components[0]
+        = BoundarySquare::component(LoadQuantity::velocity, normal);
+    parameters.components[1]
+        = BoundarySquare::component(LoadQuantity::velocity, shear);
+    return { parameters,         0,  square.mesh, square.exchange,
+             { { 300., 200. } }, 0.5 };
+  }
+} // namespace
 
 TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
 {
@@ -29,4 +51,43 @@ TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
   EXPECT_DOUBLE_EQ(resultant[0], 6.);
   EXPECT_DOUBLE_EQ(resultant[1], 10.);
   EXPECT_DOUBLE_EQ(resultant[2], (1. * 5. - 2. * 3.) + (4.5 * 5. - 5.5 * 3.));
+}
+
+// Heavy nodes that hardly move: -rho c v per area.
+TEST(ViscousBoundary, ResistsMotionByItsImpedance)
+{
+  BoundarySquare square;
+  square.mass = { 1e9, 1e9, 1e9, 1e9 };
+  square.state.viscous_boundaries.resize(1);
+  ViscousBoundary boundary = at_the_right(square, "0", "0");
+  boundary.begin_stage(square.state, false);
+  for (NodeVector &v : square.state.velocity)
+    v = { { 2., 3. } };
+  square.capture(boundary,
+                 std::vector<NodeVector>(4, NodeVector{ { 0., 0. } }));
+  square.move(boundary);
+  const double area = 0.5;
+  EXPECT_NEAR(boundary.resultant()[0], -300. * 2. * area, 1e-6);
+  EXPECT_NEAR(boundary.resultant()[1], -200. * 3. * area, 1e-6);
+  // about the origin, with the middle of the side at (4, 2.5)
+  EXPECT_NEAR(boundary.resultant()[2],
+              4. * -200. * 3. * area - 2.5 * -300. * 2. * area, 1e-6);
+  EXPECT_NEAR(square.state.energy.viscous,
+              0.5 * square.dt * area * (300. * 4. + 200. * 9.), 1e-9);
+}
+
+// A wave that comes in pushes with twice its traction. Its normal velocity
+// counts into the model, to the left here, the other along the tangent, up.
+TEST(ViscousBoundary, IncidentWavesPushWithTwiceTheirTraction)
+{
+  BoundarySquare square;
+  square.mass = { 1e9, 1e9, 1e9, 1e9 };
+  square.state.viscous_boundaries.resize(1);
+  ViscousBoundary boundary = at_the_right(square, "2", "3");
+  boundary.begin_stage(square.state, false);
+  square.capture(boundary,
+                 std::vector<NodeVector>(4, NodeVector{ { 0., 0. } }));
+  square.move(boundary);
+  EXPECT_NEAR(boundary.resultant()[0], -2. * 300. * 2. * 0.5, 1e-6);
+  EXPECT_NEAR(boundary.resultant()[1], 2. * 200. * 3. * 0.5, 1e-6);
 }

@@ -23,7 +23,8 @@ namespace
 
   const std::vector<LinearElastic> rocks{ { 2500., 10e9, 0.25 },
                                           { 2500., 10e9, 0. },
-                                          { 2500., 10e9, 0.45 } };
+                                          { 2500., 10e9, 0.45 },
+                                          { 2500., 10e9, -0.4 } };
 
   std::vector<MohrCoulombStrength> strengths(const bool associated)
   {
@@ -135,7 +136,7 @@ TEST(MohrCoulombReturn, MillionRandomStrains)
     {
       const MohrCoulomb law(rocks[0], strength, plane);
       const Stress initial{ -1e6, -3e6, 0.2e6, -2e6 };
-      PlasticPoint point, twin;
+      PlasticPoint point;
       Strain e{};
       double slow_loss = 0.;
       for (int i = 0; i < 40000; ++i)
@@ -146,16 +147,13 @@ TEST(MohrCoulombReturn, MillionRandomStrains)
             = jump ? std::pow(10., -2.5 + 2. * any(random)) : 2e-5;
         if (i % 100 == 0)
         {
-          point = twin = PlasticPoint();
-          e            = {};
+          point = PlasticPoint();
+          e     = {};
         }
         for (double &component : e)
           component += size * any(random);
         const Stress before = point.plastic_strain;
         const double lost   = law.update(point, e, initial);
-        ASSERT_EQ(law.update(twin, e, initial), lost);
-        ASSERT_EQ(twin.stress, point.stress);
-        ASSERT_EQ(twin.plastic_strain, point.plastic_strain);
 
         double at_end = 0., largest = 2e6;
         for (int k = 0; k < 4; ++k)

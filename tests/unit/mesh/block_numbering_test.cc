@@ -137,7 +137,10 @@ TEST(BlockNumbering, PartitionsWithFewBlocks)
 
 TEST(MeshData, SurvivesSerialization)
 {
-  const MeshData data = tiles(2);
+  MeshData data       = tiles(2);
+  data.source         = "wall.geo";
+  data.quadratic      = true;
+  data.n_reoriented   = 3;
   const MeshData copy = dealii::Utilities::unpack<MeshData>(
       dealii::Utilities::pack(data, false), false);
   EXPECT_EQ(copy.vertices, data.vertices);
@@ -147,6 +150,8 @@ TEST(MeshData, SurvivesSerialization)
   EXPECT_EQ(copy.line_name, data.line_name);
   EXPECT_EQ(copy.group_names, data.group_names);
   EXPECT_EQ(copy.line_names, data.line_names);
+  EXPECT_EQ(copy.quadratic, data.quadratic);
+  EXPECT_EQ(copy.n_reoriented, data.n_reoriented);
   EXPECT_EQ(copy.source, data.source);
 }
 

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
 
 using namespace quoin;
 
@@ -32,4 +33,34 @@ TEST(Collective, ErrorsStayWhatTheyAre)
   {
     EXPECT_STREQ(error.what(), "why");
   }
+}
+
+// On any number of ranks: what fails on one of them fails on all.
+TEST(Collective, TheFailureOfOneRankIsThatOfAll)
+{
+  int rank, n_ranks;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+  for (int failing = 0; failing < n_ranks; ++failing)
+  {
+    std::string heard;
+    try
+    {
+      all_or_none<RunError>(MPI_COMM_WORLD,
+                            [&]()
+                            {
+                              if (rank == failing)
+                                throw InputError("of rank "
+                                                 + std::to_string(rank));
+                            });
+    }
+    catch (const InputError &error)
+    {
+      heard = error.what();
+    }
+    EXPECT_EQ(heard, "of rank " + std::to_string(failing));
+  }
+  // Of several messages that of the lowest rank is heard.
+  EXPECT_EQ(first_message(MPI_COMM_WORLD, std::to_string(rank)), "0");
+  EXPECT_EQ(first_message(MPI_COMM_WORLD, ""), "");
 }

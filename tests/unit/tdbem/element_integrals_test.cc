@@ -75,7 +75,6 @@ TEST(ElementIntegrals, agree_with_quadrature)
   EXPECT_LT(worst_A, 1e-12);
   EXPECT_LT(worst_B, 1e-12);
   RecordProperty("worst_A", std::to_string(worst_A));
-  std::cout << "A " << worst_A << " B " << worst_B << '\n';
 }
 
 TEST(ElementIntegrals, agree_with_quadrature_close_to_the_element)
@@ -96,7 +95,6 @@ TEST(ElementIntegrals, agree_with_quadrature_close_to_the_element)
   }
   EXPECT_LT(worst_A, 1e-10);
   EXPECT_LT(worst_B, 1e-10);
-  std::cout << "near-singular: A " << worst_A << " B " << worst_B << '\n';
 }
 
 /** On the element: logarithm and principal value. */

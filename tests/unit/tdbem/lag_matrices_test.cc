@@ -169,7 +169,6 @@ TEST(LagMatrices, outer_integrals)
   }
   EXPECT_LT(worst_A, 1e-6);
   EXPECT_LT(worst_B, 1e-6);
-  std::cout << "outer rule: A " << worst_A << " B " << worst_B << '\n';
 }
 
 /** Elements that the P wave does not reach do not know of each other. */

@@ -314,6 +314,5 @@ TEST(MarchLimits, pressure_on_one_side)
     const double last  = std::abs(fine(k) - middle(k));
     EXPECT_LT(last, 0.65 * first);
     EXPECT_LT(last, 0.01 * std::abs(fine(k)));
-    std::cout << last / first << ' ' << last / fine(k) << '\n';
   }
 }

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <map>
 #include <string>
 #include <vector>
@@ -168,8 +167,6 @@ TEST(OuterIntegrals, agree_with_adaptive_quadrature)
     worst[kind].B = std::max(worst[kind].B, error.B);
   }
   ASSERT_EQ(worst.size(), 4u);
-  for (const auto &[kind, error] : worst)
-    std::cout << kind << ": A " << error.A << " B " << error.B << '\n';
   EXPECT_LT(worst["itself"].A, 1e-10);
   EXPECT_EQ(worst["itself"].B, 0.);
   EXPECT_LT(worst["touching"].A, 1e-10);

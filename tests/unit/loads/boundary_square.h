@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_tests_unit_loads_boundary_square_h
+#define quoin_tests_unit_loads_boundary_square_h
+
+#include <quoin/base/node_exchange.h>
+#include <quoin/loads/load_parameters.h>
+#include <quoin/loads/node_constraint.h>
+#include <quoin/mesh/block_mesh.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin::test
+{
+  /**
+   * One block, the rectangle from (1, 2) to (4, 3) m of two cells, its curves
+   * "bottom", "right", "top" and "left", and what a constraint is told of its
+   * nodes in the step from 0 to @p dt.
+   */
+  struct BoundarySquare
+  {
+    static constexpr double dt = 1e-3;
+    BlockMesh<2> mesh;
+    NodeExchange exchange{ 0, 4, 4, {}, MPI_COMM_SELF };
+    std::vector<double> mass = { 2., 1., 2., 1. }; /**< [kg] */
+    std::vector<CapturedNode> captured;
+    State state;
+    StepContext step{};
+
+    BoundarySquare()
+    {
+      mesh.vertices    = { { 1., 2. }, { 4., 2. }, { 4., 3. }, { 1., 3. } };
+      mesh.cells       = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
+      mesh.cell_group  = { 0, 0 };
+      mesh.group_names = { "rock" };
+      mesh.line_names  = { "", "bottom", "right", "top", "left" };
+      for (const unsigned int k : { 0U, 1U, 2U, 3U })
+        mesh.boundary_faces.push_back(
+            { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k + 1 });
+      state.nodes.resize(4);
+      state.velocity.resize(4);
+      for (unsigned int i = 0; i < 4; ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+          state.nodes[i].X[d] = mesh.vertices[i][d];
+      step.dt = step.dt_before = step.dt_velocity = dt;
+      step.load_rate                              = 1.;
+      step.middle                                 = { 0.5 * dt, 0.5 * dt };
+      step.end                                    = { dt, dt };
+    }
+
+    /** What the solver does before it: captures the nodes, as they are. */
+    void capture(NodeConstraint &constraint,
+                 const std::vector<NodeVector> &force)
+    {
+      captured.clear();
+      std::vector<unsigned int> positions;
+      for (const unsigned int node : constraint.nodes())
+      {
+        positions.push_back(captured.size());
+        CapturedNode before{};
+        before.node     = node;
+        before.mass     = mass[node];
+        before.force    = force[node];
+        before.velocity = state.velocity[node];
+        before.displacement
+            = { { state.nodes[node].u[0], state.nodes[node].u[1] } };
+        for (unsigned int d = 0; d < 2; ++d)
+          before.owner[d] = constraint.moves_all() || constraint.holds()[d]
+                                ? &constraint
+                                : nullptr;
+        captured.push_back(before);
+      }
+      constraint.bind(positions);
+    }
+
+    void move(NodeConstraint &constraint)
+    {
+      constraint.correct(step, captured, state);
+      constraint.account(step, captured, state);
+    }
+
+    static LoadComponent component(const LoadQuantity quantity,
+                                   const std::string &text)
+    {
+      return { quantity, TimeFunction(text, "./") };
+    }
+  };
+} // namespace quoin::test
+
+#endif

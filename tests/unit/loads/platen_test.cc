@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "boundary_square.h"
+
+#include <quoin/loads/platen.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace quoin;
+using quoin::test::BoundarySquare;
+
+namespace
+{
+  /** All of the block, with what moves x, y and its rotation. */
+  struct HeldBlock : BoundarySquare
+  {
+    Platen platen;
+
+    HeldBlock(const LoadComponent &x, const LoadComponent &y,
+              const LoadComponent &rotation)
+      : platen(parameters(x, y, rotation), 0, mesh, exchange)
+    {
+      state.platens.resize(1);
+      platen.set_mass(mass);
+      platen.begin_stage(state, false);
+    }
+
+    static LoadParameters parameters(const LoadComponent &x,
+                                     const LoadComponent &y,
+                                     const LoadComponent &rotation)
+    {
+      LoadParameters result;
+      result.name       = "plate";
+      result.groups     = { "rock" };
+      result.components = { { x, y, rotation } };
+      return result;
+    }
+
+    std::array<double, 3> resultant() const
+    {
+      return platen.NodeConstraint::resultant();
+    }
+
+    /** Of the masses, 2, 1, 2 and 1 kg, at the corners [kg m^2]. */
+    static double inertia()
+    {
+      return 6. * (1.5 * 1.5 + 0.5 * 0.5);
+    }
+  };
+
+  const std::vector<NodeVector> no_forces(4, NodeVector{ { 0., 0. } });
+} // namespace
+
+// 12 N on 6 kg, 30 N m about the middle of the block, from its loads and from
+// a couple of forces of its nodes; leap-frog from rest.
+TEST(Platen, ForcesAndMomentsAccelerateItsMass)
+{
+  HeldBlock block(BoundarySquare::component(LoadQuantity::force, "12"), {},
+                  BoundarySquare::component(LoadQuantity::force, "20"));
+  // 5 N up on the right end, down on the left one, arms of 1.5 m
+  std::vector<NodeVector> forces = no_forces;
+  forces[1].v[1]                 = 10. / 3.;
+  forces[3].v[1]                 = -10. / 3.;
+  block.capture(block.platen, forces);
+  block.move(block.platen);
+  const PlatenState &now = block.state.platens[0];
+  EXPECT_NEAR(now.velocity[0], 12. / 6. * block.dt, 1e-15);
+  EXPECT_NEAR(now.velocity[1], 0., 1e-15);
+  EXPECT_NEAR(now.velocity[2], 30. / block.inertia() * block.dt, 1e-15);
+  // The nodes turn about the middle, (2.5, 2.5); within the step their arms
+  // turn by 2e-6.
+  EXPECT_NEAR(block.state.velocity[2].v[0],
+              now.velocity[0] - 0.5 * now.velocity[2], 1e-8);
+  EXPECT_NEAR(block.state.velocity[2].v[1], 1.5 * now.velocity[2], 1e-8);
+  // All the work is that of the loads.
+  EXPECT_NEAR(block.state.pending.external,
+              0.5 * block.dt * (12. * now.velocity[0] + 20. * now.velocity[2]),
+              1e-15);
+  EXPECT_EQ(block.resultant()[0], 12.);
+  EXPECT_EQ(block.resultant()[2], 20.);
+}
+
+// 90 degrees in a step: the corners change places, and the moment is what
+// their inertia needs.
+TEST(Platen, ARotationIsGivenInDegrees)
+{
+  HeldBlock block(
+      {}, {}, BoundarySquare::component(LoadQuantity::displacement, "9e4 * t"));
+  block.capture(block.platen, no_forces);
+  block.move(block.platen);
+  const double corners[4][2]
+      = { { 3., 1. }, { 3., 4. }, { 2., 4. }, { 2., 1. } };
+  for (unsigned int i = 0; i < 4; ++i)
+    for (unsigned int d = 0; d < 2; ++d)
+      EXPECT_NEAR(block.mesh.vertices[i][d] + block.state.nodes[i].u[d],
+                  corners[i][d], 1e-12);
+  EXPECT_NEAR(block.resultant()[2],
+              block.inertia() * (0.5 * M_PI / block.dt) / block.dt, 1e-3);
+}
+
+// It takes over the momentum and the spin of its nodes.
+TEST(Platen, TakesOverTheMotionOfItsNodes)
+{
+  HeldBlock block({}, {}, {});
+  for (unsigned int i = 0; i < 4; ++i)
+  {
+    const double x          = block.mesh.vertices[i][0] - 2.5;
+    const double y          = block.mesh.vertices[i][1] - 2.5;
+    block.state.velocity[i] = { { 4. - 3. * y, -1. + 3. * x } };
+  }
+  block.platen.begin_stage(block.state, false);
+  const PlatenState &now = block.state.platens[0];
+  EXPECT_NEAR(now.velocity[0], 4., 1e-14);
+  EXPECT_NEAR(now.velocity[1], -1., 1e-14);
+  EXPECT_NEAR(now.velocity[2], 3., 1e-14);
+  // Without forces it keeps them.
+  block.capture(block.platen, no_forces);
+  block.move(block.platen);
+  EXPECT_NEAR(now.velocity[2], 3., 1e-14);
+  EXPECT_NEAR(now.displacement[0], 4. * block.dt, 1e-15);
+}
