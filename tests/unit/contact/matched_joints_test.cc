@@ -592,7 +592,7 @@ TEST(MatchedJoints, RefusesCurvesItCannotPlace)
   const auto prepare = [&](const std::vector<JointSetParameters> &sets)
   { MatchedJoints().prepare(stack.mesh, stack.exchange(), sets, thickness); };
   expect_input_error([&] { prepare({ elastic_joint(1., 1., "crack") }); },
-                     { "Joints/crack", "'crack'", "'joint'", "Curves" });
+                     { "Joints/crack", "'crack'", ", joint,", "Curves" });
   auto again = elastic_joint(1., 1.);
   again.name = "again";
   expect_input_error(
