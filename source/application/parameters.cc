@@ -219,6 +219,25 @@ namespace quoin
       return text;
     }
 
+    /** Refuses values with braces: to deal.II lists of values to run with,
+        which it does not compare with what a parameter may be. */
+    void refuse_braces(const std::string &file, const std::string &text)
+    {
+      std::istringstream lines(text);
+      unsigned int number = 0;
+      for (std::string line; std::getline(lines, line);)
+      {
+        ++number;
+        line = dealii::Utilities::trim(line.substr(0, line.find('#')));
+        if (line.find('{') != std::string::npos)
+          throw InputError(file + ", line " + std::to_string(number) + ": '"
+                           + line
+                           + "' has a brace, which no value has. Remove "
+                             "it; runs with several values need as many "
+                             "commands with --set.");
+      }
+    }
+
     /** Refuses a file that includes itself, which would never end. */
     void check_includes(const std::string &file, const std::string &text,
                         std::set<std::filesystem::path> &open)
@@ -241,7 +260,9 @@ namespace quoin
           throw InputError(file + ": it includes '" + name
                            + "', which is being read already: this would never "
                              "end. Remove one of the lines 'include'.");
-        check_includes(name, read_text(name), open);
+        const std::string included = read_text(name);
+        refuse_braces(name, included);
+        check_includes(name, included, open);
         open.erase(path);
       }
     }
@@ -273,6 +294,7 @@ namespace quoin
           back.to = fs::current_path();
           fs::current_path(folder);
         }
+        refuse_braces(source, text);
         check_includes(source, text, open);
         std::istringstream stream(text);
         prm.parse_input(stream, source, "", skip_undefined);
