@@ -233,6 +233,32 @@ TEST(LagMatrices, lags)
   }
 }
 
+/** Of some elements and lags, against whole lags. */
+TEST(LagMatrices, blocks)
+{
+  const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 8, false);
+  const LagMatrices matrices(boundary, medium, 0.5,
+                             options(Projection::galerkin, 0.3));
+  const ElementRange rows{ 1, 4 }, columns{ 2, 7 };
+  for (const unsigned begin : { 0, 1, 3 })
+  {
+    const unsigned end = 5;
+    MatrixXd G, H, some_G, some_H;
+    matrices.blocks(rows, columns, begin, end, some_G, some_H);
+    ASSERT_EQ(some_G.cols(), 10 * (end - begin));
+    for (unsigned n = begin; n < end; ++n)
+    {
+      matrices.lag(n, G, H);
+      EXPECT_LT(
+          norm(some_G.middleCols(10 * (n - begin), 10) - G.block(2, 4, 6, 10)),
+          1e-14);
+      EXPECT_LT(
+          norm(some_H.middleCols(10 * (n - begin), 10) - H.block(2, 4, 6, 10)),
+          1e-13);
+    }
+  }
+}
+
 /** On a regular polygon all elements see the same. */
 TEST(LagMatrices, regular_polygon)
 {
