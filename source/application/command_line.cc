@@ -6,6 +6,7 @@
 #include <quoin/application/parameters.h>
 #include <quoin/application/simulation.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/lone_process.h>
 #include <quoin/output/collective.h>
 
 #include <deal.II/base/mpi.h>
@@ -121,10 +122,7 @@ namespace quoin
     if (parsed >= 0)
       return parsed;
 
-    // Started without mpirun, Open MPI would launch a daemon beside this
-    // process, in case that it spawned others: time, and one more thing to
-    // fail.
-    setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    prepare_lone_process();
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     // A rank is a core: the matrix products must not start threads of theirs.
     openblas_set_num_threads(1);

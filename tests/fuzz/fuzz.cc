@@ -18,6 +18,7 @@
 #include <quoin/application/simulation.h>
 #include <quoin/application/boundary_simulation.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/lone_process.h>
 #include <quoin/loads/record.h>
 #include <quoin/loads/time_function.h>
 #include <quoin/mesh/block_numbering.h>
@@ -321,7 +322,7 @@ namespace
     int argc    = 1;
     char name[] = "fuzz", *arguments[] = { name, nullptr }, **argv = arguments;
     {
-      setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+      prepare_lone_process();
       const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
       for (; begin < end; ++begin)
       {
