@@ -13,10 +13,13 @@ namespace quoin
    * called before MPI_Init(): a daemon beside it, in case that it spawned
    * others, and folders in the folder for temporary files. Lone processes share
    * their names there, so that one which ends may remove them while another
-   * begins, whose MPI_Init() then fails.
+   * begins, whose MPI_Init() then fails. Of no process does Open MPI catch the
+   * signals of a crash: its report asks for memory, which where memory is
+   * damaged never ends.
    */
   inline void prepare_lone_process()
   {
+    setenv("OMPI_MCA_opal_signal", "", 0);
     if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr)
       return; // one of mpirun
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
