@@ -844,7 +844,8 @@ def main():
                lambda folder, function=function: function(quoin, folder))
               for function in FUNCTIONS]
     if options.only:
-        tests = [test for test in tests if options.only in test[0]]
+        only = options.only.replace("_", " ")
+        tests = [test for test in tests if only in test[0]]
     if options.list:
         print("\n".join(name for name, _ in tests))
         return
