@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../output/temporary_directory.h"
+#include "../base/message_of.h"
 
 #include <quoin/application/incident_waves.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/signal.h>
+
+#include <gtest/gtest.h>
 
 using namespace quoin;
 

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../output/temporary_directory.h"
+#include "message_of.h"
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_table.h>

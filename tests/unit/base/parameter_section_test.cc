@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../output/temporary_directory.h"
+#include "message_of.h"
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/parameter_section.h>
+
+#include <gtest/gtest.h>
 
 using namespace quoin;
 

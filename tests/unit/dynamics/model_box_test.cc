@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../base/message_of.h"
 #include "test_models.h"
 
 #include <quoin/application/field_output.h>
@@ -108,23 +109,6 @@ namespace
         return found;
     }
     return {};
-  }
-
-  std::string failure(const std::function<void()> &act)
-  {
-    try
-    {
-      act();
-    }
-    catch (const RunError &error)
-    {
-      return error.what();
-    }
-    catch (const InputError &error)
-    {
-      return error.what();
-    }
-    return "nothing was thrown";
   }
 
   void expect_words(const std::string &text,
@@ -389,7 +373,7 @@ TEST(ModelBox, StopsIfAsked)
   run.begin(stage_with({ "held" }), 0.5);
   throw_upper(run, 0., 20., 0.);
   expect_words(
-      failure([&]() { step_until_outside(run); }),
+      message_of<RunError>([&]() { step_until_outside(run); }),
       { "block 1", "Box = -1, -1, 3, 4", "time", "step", "Outside the box" });
 }
 
@@ -398,7 +382,7 @@ TEST(ModelBox, MustHoldTheModelAtFirst)
   BlockMesh<2> mesh;
   make_parted_stack(mesh, 0.2);
   expect_words(
-      failure(
+      message_of<InputError>(
           [&]() {
             TestRun run(mesh,
                         in_box({ { -1., -1., 3., 1.1 } }, Outside::report), {});
@@ -434,7 +418,7 @@ TEST(ModelBox, CellsInsideOutAreFound)
     run.step(1);
     run.state.nodes[run.node(2., 0.)].u[0] = -1.5;
     run.state.nodes[run.node(2., 0.)].u[1] = 1.5;
-    expect_words(failure([&]() { run.step(1, true); }),
+    expect_words(message_of<RunError>([&]() { run.step(1, true); }),
                  { "block 0", "inside out", "time", "step 1",
                    "Normal stiffness", "refine", "Share of critical" });
   }

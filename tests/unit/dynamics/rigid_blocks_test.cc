@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../base/message_of.h"
 #include "test_models.h"
 
 #include <quoin/base/exceptions.h>
@@ -103,19 +104,6 @@ namespace
     const NodeRecord &a = state.nodes[i], &b = state.nodes[j];
     return std::hypot(a.X[0] + a.u[0] - b.X[0] - b.u[0],
                       a.X[1] + a.u[1] - b.X[1] - b.u[1]);
-  }
-
-  std::string message_of(const std::function<void()> &function)
-  {
-    try
-    {
-      function();
-    }
-    catch (const InputError &error)
-    {
-      return error.what();
-    }
-    return "no error";
   }
 
   double residual_of_steps(TestRun &run, const unsigned int n)
@@ -708,7 +696,7 @@ TEST(RigidBlocks, RefusesWhatWouldDeformThem)
   for (const char *name : { "base", "quiet", "plate" })
   {
     const std::string message
-        = message_of([&]() { run.begin(stage_with({ name })); });
+        = message_of<InputError>([&]() { run.begin(stage_with({ name })); });
     for (const std::string &part :
          { std::string(name), std::string("rigid"), std::string("platen"),
            std::string("Group") })
@@ -725,9 +713,9 @@ TEST(RigidBlocks, RefusesABlockThatIsRigidInPart)
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
   ModelParameters parameters;
-  parameters.materials = { rigid("stone"), material("mortar") };
-  const std::string message
-      = message_of([&]() { find_rigid_blocks(mesh, parameters.materials); });
+  parameters.materials      = { rigid("stone"), material("mortar") };
+  const std::string message = message_of<InputError>(
+      [&]() { find_rigid_blocks(mesh, parameters.materials); });
   for (const char *part : { "stone", "mortar", "Law = rigid" })
     EXPECT_NE(message.find(part), std::string::npos) << message;
   parameters.materials[1] = rigid("mortar");

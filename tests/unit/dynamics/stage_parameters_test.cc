@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../output/temporary_directory.h"
+#include "../base/section_text.h"
 
-#include <quoin/base/exceptions.h>
 #include <quoin/dynamics/stage_parameters.h>
 
 using namespace quoin;
@@ -13,22 +12,13 @@ namespace
   /** A stage called "shear" of which the parameter file says @p text. */
   StageParameters read(const std::string &text)
   {
-    dealii::ParameterHandler prm;
-    prm.enter_subsection("shear");
-    StageParameters::declare(prm);
-    prm.leave_subsection();
-    prm.parse_input_from_string("subsection shear\n" + text + "end\n");
-    const ParameterSection top(prm, "wall.prm");
-    return StageParameters::read(ParameterSection(top, "shear"), "shear");
+    return read_named_section<StageParameters>("shear", text);
   }
 
   void expect_refused(const std::string &text, const std::string &setting,
                       const std::string &why)
   {
-    const std::string message = message_of<InputError>([&] { read(text); });
-    EXPECT_EQ(message.find("wall.prm, section 'shear': '" + setting + "' "), 0U)
-        << message;
-    EXPECT_NE(message.find(why), std::string::npos) << message;
+    expect_section_refused("shear", setting + "' ", why, [&] { read(text); });
   }
 } // namespace
 

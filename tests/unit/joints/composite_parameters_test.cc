@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../output/temporary_directory.h"
+#include "../base/section_text.h"
 
-#include <quoin/base/exceptions.h>
 #include <quoin/joints/composite_parameters.h>
 #include <quoin/joints/joint_parameters.h>
 
@@ -24,24 +23,19 @@ namespace
 
   CompositeLaw read(const std::string &text)
   {
-    dealii::ParameterHandler prm;
-    prm.enter_subsection("bed");
-    JointSetParameters::declare(prm);
-    declare_composite_law(prm);
-    prm.leave_subsection();
-    prm.parse_input_from_string("subsection bed\n" + text + "end\n");
-    const ParameterSection top(prm, "wall.prm");
-    return read_composite_law(ParameterSection(top, "bed"));
+    const auto declare = [](dealii::ParameterHandler &prm)
+    {
+      JointSetParameters::declare(prm);
+      declare_composite_law(prm);
+    };
+    return read_section("bed", text, declare, read_composite_law);
   }
 
   void expect_refused(const std::string &text, const std::string &setting,
                       const std::string &why)
   {
-    const std::string message
-        = message_of<InputError>([&] { read(wall + text); });
-    EXPECT_EQ(message.find("wall.prm, section 'bed': '" + setting + " = "), 0U)
-        << message;
-    EXPECT_NE(message.find(why), std::string::npos) << message;
+    expect_section_refused("bed", setting + " = ", why,
+                           [&] { read(wall + text); });
   }
 } // namespace
 

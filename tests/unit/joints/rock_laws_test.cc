@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../output/temporary_directory.h"
+#include "../base/section_text.h"
 
-#include <quoin/base/exceptions.h>
 #include <quoin/joints/joint_parameters.h>
 
 using namespace quoin;
@@ -32,22 +31,13 @@ namespace
 
   JointSetParameters read(const std::string &text)
   {
-    dealii::ParameterHandler prm;
-    prm.enter_subsection("bed");
-    JointSetParameters::declare(prm);
-    prm.leave_subsection();
-    prm.parse_input_from_string("subsection bed\n" + text + "end\n");
-    const ParameterSection top(prm, "rock.prm");
-    return JointSetParameters::read(ParameterSection(top, "bed"), "bed");
+    return read_named_section<JointSetParameters>("bed", text);
   }
 
   void expect_refused(const std::string &text, const std::string &setting,
                       const std::string &why)
   {
-    const std::string message = message_of<InputError>([&] { read(text); });
-    EXPECT_EQ(message.find("rock.prm, section 'bed': '" + setting + " = "), 0U)
-        << message;
-    EXPECT_NE(message.find(why), std::string::npos) << message;
+    expect_section_refused("bed", setting + " = ", why, [&] { read(text); });
   }
 } // namespace
 

@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/synthetic_record.h>
 
+#include "../base/message_of.h"
 #include "../output/temporary_directory.h"
 
 #include <gtest/gtest.h>

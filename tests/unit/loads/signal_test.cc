@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/signal_text.h>
 
+#include "../base/message_of.h"
 #include "../output/temporary_directory.h"
 
 #include <gtest/gtest.h>

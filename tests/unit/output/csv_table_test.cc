@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../base/message_of.h"
 #include "temporary_directory.h"
 
 #include <quoin/base/exceptions.h>

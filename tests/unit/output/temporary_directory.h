@@ -56,21 +56,6 @@ namespace quoin
     text << in.rdbuf();
     return text.str();
   }
-
-  /** The message of the exception of type @p Error that @p task throws. */
-  template <typename Error, typename Task>
-  std::string message_of(const Task &task)
-  {
-    try
-    {
-      task();
-    }
-    catch (const Error &error)
-    {
-      return error.what();
-    }
-    return "nothing was thrown";
-  }
 } // namespace quoin
 
 #endif
