@@ -189,7 +189,8 @@ namespace quoin
     std::fill(from.begin(), from.end(), NodeVector{ { 0., 0. } });
   }
 
-  inline void
+  // In line: sums stay in registers.
+  inline DEAL_II_ALWAYS_INLINE void
   BlockContacts::add_point_forces(const unsigned int i, const unsigned int k,
                                   const Geometry &g, ContactState &contacts,
                                   const Viscous *viscous, Losses &losses)

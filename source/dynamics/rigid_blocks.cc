@@ -13,25 +13,6 @@
 
 namespace quoin
 {
-  namespace
-  {
-    /** Nodes as they move from one angle to another. */
-    struct Turn
-    {
-      double c0, s0;  /**< of the angle before */
-      double c1, s1;  /**< of the angle after */
-      double versine; /**< 1 - c1 without cancellation */
-
-      Turn(const double before, const double after)
-        : c0(std::cos(before)), s0(std::sin(before)), c1(std::cos(after)),
-          s1(std::sin(after))
-      {
-        const double half = std::sin(0.5 * after);
-        versine           = 2. * half * half;
-      }
-    };
-  } // namespace
-
   std::vector<bool>
   find_rigid_blocks(const BlockMesh<2> &mesh,
                     const std::vector<MaterialParameters> &materials)
@@ -167,12 +148,15 @@ namespace quoin
     return std::max(0., dealii::eigenvalues(sum)[0]);
   }
 
-  RigidBlocks::Resultants RigidBlocks::take_forces(const Block &block,
-                                                   const double rotation,
-                                                   NodeVector *force,
-                                                   NodeVector *viscous) const
+  inline RigidBlocks::Direction::Direction(const double angle)
+    : c(std::cos(angle)), s(std::sin(angle))
   {
-    const double c = std::cos(rotation), s = std::sin(rotation);
+  }
+
+  inline DEAL_II_ALWAYS_INLINE RigidBlocks::Resultants
+  RigidBlocks::take_forces(const Block &block, const Direction &now,
+                           NodeVector *force, NodeVector *viscous) const
+  {
     Resultants sum;
     const auto take
         = [](double(&to)[3], const double x, const double y, NodeVector &node)
@@ -185,34 +169,35 @@ namespace quoin
     const Arm *arm = arms_of(block);
     for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
     {
-      const double x = c * arm->x - s * arm->y;
-      const double y = s * arm->x + c * arm->y;
+      const double x = now.c * arm->x - now.s * arm->y;
+      const double y = now.s * arm->x + now.c * arm->y;
       take(sum.force, x, y, force[i]);
       take(sum.viscous, x, y, viscous[i]);
     }
     return sum;
   }
 
-  void RigidBlocks::place_nodes(const Block &block,
-                                const RigidBlockState &rigid,
-                                const double rotation_before,
-                                State &state) const
+  inline DEAL_II_ALWAYS_INLINE void
+  RigidBlocks::place_nodes(const Block &block, const RigidBlockState &rigid,
+                           const Direction &before, State &state) const
   {
-    const Turn turn(rotation_before, rigid.rotation);
+    const Direction after(rigid.rotation);
+    // 1 - cos without cancellation.
+    const double half_sine = std::sin(0.5 * rigid.rotation);
+    const double versine   = 2. * half_sine * half_sine;
+    const double c = before.c + after.c, s = before.s + after.s;
     const double half = 0.5 * rigid.velocity[2];
     const Arm *arm    = arms_of(block);
     for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
     {
       const double x = arm->x, y = arm->y;
       double *u = state.nodes[i].u;
-      u[0]      = rigid.displacement[0] - turn.versine * x - turn.s1 * y;
-      u[1]      = rigid.displacement[1] + turn.s1 * x - turn.versine * y;
+      u[0]      = rigid.displacement[0] - versine * x - after.s * y;
+      u[1]      = rigid.displacement[1] + after.s * x - versine * y;
       // With the mean of the arms before and after.
       double *v = state.velocity[i].v;
-      v[0]      = rigid.velocity[0]
-             - half * ((turn.s0 + turn.s1) * x + (turn.c0 + turn.c1) * y);
-      v[1] = rigid.velocity[1]
-             + half * ((turn.c0 + turn.c1) * x - (turn.s0 + turn.s1) * y);
+      v[0]      = rigid.velocity[0] - half * (s * x + c * y);
+      v[1]      = rigid.velocity[1] + half * (c * x - s * y);
     }
   }
 
@@ -236,8 +221,8 @@ namespace quoin
         continue;
       }
       RigidBlockState &rigid = state.rigid_blocks[b];
-      const double rotation  = rigid.rotation;
-      const auto [f, fv]     = take_forces(block, rotation, force, viscous);
+      const Direction before(rigid.rotation);
+      const auto [f, fv] = take_forces(block, before, force, viscous);
 
       // As advance_nodes_damped() for a node's two freedoms.
       const auto mass      = inertia(stage, b);
@@ -265,7 +250,7 @@ namespace quoin
       }
       work.unbalanced += std::hypot(f[0], f[1])
                          + std::abs(f[2]) * std::sqrt(mass[0] / mass[2]);
-      place_nodes(block, rigid, rotation, state);
+      place_nodes(block, rigid, before, state);
     }
     return work;
   }
@@ -307,8 +292,8 @@ namespace quoin
             + std::remainder(std::atan2(sine, second - versine) - before,
                              2. * dealii::numbers::PI);
 
-      const Turn turn(before, rigid.rotation);
-      const double c = 0.5 * (turn.c0 + turn.c1), s = 0.5 * (turn.s0 + turn.s1);
+      const Direction first(before), last(rigid.rotation);
+      const double c = 0.5 * (first.c + last.c), s = 0.5 * (first.s + last.s);
       double moment = 0.;
       arm           = arms_of(block);
       for (unsigned int i = block.begin; i < block.end; ++i, ++arm)

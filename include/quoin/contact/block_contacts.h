@@ -174,7 +174,11 @@ namespace quoin
     template <typename Use>
     void with_law(const unsigned int set, const Use &use) const
     {
-      std::visit(use, laws[set]);
+      // The usual law in line: a visit calls through a table.
+      if (const auto *coulomb = std::get_if<CoulombLaw>(&laws[set]))
+        use(*coulomb);
+      else
+        std::visit(use, laws[set]);
     }
     void find_set_of_materials(const ContactModel &model);
     void check(State &state, const MatchedJoints &joints, double dt);

@@ -130,17 +130,23 @@ namespace quoin
       double share; /**< of the block's mass that is lumped to the node */
     };
 
+    /** Cosine and sine of a block's rotation. */
+    struct Direction
+    {
+      double c, s;
+      explicit Direction(double angle);
+    };
     /** Two forces [N] and a moment about the centroid [N m]. */
     struct Resultants
     {
       double force[3]{}, viscous[3]{};
     };
     /** Of the forces on a block's nodes, which it leaves zero. */
-    Resultants take_forces(const Block &block, double rotation,
+    Resultants take_forces(const Block &block, const Direction &now,
                            NodeVector *force, NodeVector *viscous) const;
     /** Moves a block's nodes to where it is now. */
     void place_nodes(const Block &block, const RigidBlockState &rigid,
-                     double rotation_before, State &state) const;
+                     const Direction &before, State &state) const;
 
     const Arm *arms_of(const Block &block) const
     {
