@@ -76,6 +76,28 @@ TEST(InputAdvice, MeshTooCoarseForItsWaves)
   EXPECT_EQ(advice(parameters), "");
 }
 
+TEST(InputAdvice, FrequenciesAreThoseOfVelocities)
+{
+  // Of the velocity of a pulse exp(-(t/w)^2) 99 % of the energy is below
+  // sqrt(11.345) / (2 pi w), as in the tests of SignalFrequency, and of that
+  // pulse as a velocity below sqrt(6.635) / (2 pi w); to a hertz, as in 1 s.
+  const double w        = 0.02;
+  Parameters parameters = good_parameters();
+  parameters.loads[0] = motion("base", "bottom", "exp(-((t-0.5)/0.02)^2)", "0");
+  EXPECT_NEAR(fastest_load(parameters, 0).frequency,
+              std::sqrt(6.635) / (2. * M_PI * w), 1.);
+  parameters.loads[0].components[0].quantity = LoadQuantity::displacement;
+  const Shaking shaking                      = fastest_load(parameters, 0);
+  EXPECT_EQ(shaking.name, "the load base");
+  EXPECT_NEAR(shaking.frequency, std::sqrt(11.345) / (2. * M_PI * w), 1.);
+  // A pulse of gravity is the derivative of a velocity.
+  parameters.loads[0]
+      = gravity("-2 * (t-0.5) / 0.02^2 * exp(-((t-0.5)/0.02)^2)", "");
+  parameters.stages[0].loads = { "gravity" };
+  EXPECT_NEAR(fastest_load(parameters, 0).frequency,
+              std::sqrt(6.635) / (2. * M_PI * w), 1.);
+}
+
 TEST(InputAdvice, ForcesThatJump)
 {
   Parameters parameters = good_parameters();

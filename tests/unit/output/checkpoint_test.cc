@@ -7,7 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/output/atomic_file.h>
 #include <quoin/output/checkpoint.h>
-#include <quoin/output/pvd_writer.h>
+#include <quoin/output/vtu_series.h>
 
 #include <sys/resource.h>
 
@@ -317,16 +317,37 @@ TEST(Checkpoint, FullDiskLeavesTheOlderOneValid)
 
 TEST(Checkpoint, ASeriesGoesOn)
 {
-  const TemporaryDirectory directory;
-  PvdWriter before(directory / "blocks.pvd");
-  before.add(0.5, "fields/blocks_0000_0.vtu", 0);
-  save_checkpoint(directory.path(), MPI_COMM_SELF, info_at(1), before);
+  class Series : public VtuSeries
+  {
+  public:
+    explicit Series(const TemporaryDirectory &directory)
+      : VtuSeries(directory.path(), "blocks", MPI_COMM_SELF)
+    {
+    }
 
-  PvdWriter after(directory / "blocks.pvd");
+    void write(const double time)
+    {
+      write_grid(
+          { time, VtuCellType::line, { { 0., 0. }, { 1., 0. } }, { 0, 1 } });
+    }
+  };
+  const TemporaryDirectory directory;
+  Series before(directory);
+  before.start();
+  before.write(0.5);
+  save_checkpoint(directory.path(), MPI_COMM_SELF, info_at(1), before);
+  before.write(0.75);
+
+  Series after(directory);
   load_checkpoint(directory.path(), MPI_COMM_SELF, version, parameters, after);
-  after.add(1., "fields/blocks_0001_0.vtu", 0);
-  after.write();
-  const std::string text = contents(directory / "blocks.pvd");
+  after.start();
+  EXPECT_EQ(after.n_written(), 1U);
+  std::string text = contents(directory / "blocks.pvd");
+  expect_mention(text, "timestep=\"0.5\" part=\"0\" "
+                       "file=\"fields/blocks_0000_0.vtu\"");
+  EXPECT_EQ(text.find("0.75"), std::string::npos) << text;
+  after.write(1.);
+  text = contents(directory / "blocks.pvd");
   expect_mention(text, "timestep=\"0.5\"");
   expect_mention(text, "timestep=\"1\" part=\"0\" file=\"fields/blocks_0001");
 }

@@ -37,8 +37,10 @@ TEST(CsvTable, HeaderAndRows)
   table.start();
   table.add_row({ 0., 0.1 });
   table.add_row({ 1e-3, -2.5 });
+  table.add_row({ 1234567.875, 0.10000000000000002 });
   table.flush();
-  const std::string expected = "time [s],ux [m]\n0,0.1\n0.001,-2.5\n";
+  const std::string expected = "time [s],ux [m]\n0,0.1\n0.001,-2.5\n"
+                               "1234567.875,0.10000000000000002\n";
   EXPECT_EQ(contents(directory / "h.csv"), expected);
   EXPECT_EQ(table.size(), expected.size());
   EXPECT_THROW(table.add_row({ 1. }), std::logic_error);
