@@ -112,19 +112,30 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
     stage.release_duration = 4.;
     const auto after       = forces(run.model, run.state);
     const NodeRange lower  = run.model.block_nodes(0);
-    for (const double time : { 0., 2., 4., 9. })
+    for (const bool linear : { false, true })
     {
-      AlignedArray<NodeVector> held(before.size(), NodeVector{ { 0., 0. } });
-      const Release release(run.state, stage, 4.);
-      release.add_forces(time, held.data());
-      const double left = time == 0. ? 1. : time == 2. ? 0.875 : 0.75;
-      for (std::size_t i = lower.begin; i < lower.end; ++i)
-        for (unsigned int d = 0; d < 2; ++d)
-          EXPECT_NEAR(held[i].v[d], left * (before[i].v[d] - after[i].v[d]),
-                      1e-9 * largest(before));
-      // nothing acts on what is gone
-      for (std::size_t i = lower.end; i < held.size(); ++i)
-        EXPECT_EQ(std::abs(held[i].v[0]) + std::abs(held[i].v[1]), 0.);
+      stage.releases_linearly = linear;
+      // Over 4 s: as half a cosine, or straight.
+      const double quarter = linear ? 0.25 : 0.5 * (1. - std::sqrt(0.5));
+      const std::vector<std::array<double, 2>> shares = { { { 0., 0. } },
+                                                          { { 1., quarter } },
+                                                          { { 2., 0.5 } },
+                                                          { { 4., 1. } },
+                                                          { { 9., 1. } } };
+      for (const auto &[time, share] : shares)
+      {
+        AlignedArray<NodeVector> held(before.size(), NodeVector{ { 0., 0. } });
+        const Release release(run.state, stage, 4.);
+        release.add_forces(time, held.data());
+        const double left = 1. - 0.25 * share;
+        for (std::size_t i = lower.begin; i < lower.end; ++i)
+          for (unsigned int d = 0; d < 2; ++d)
+            EXPECT_NEAR(held[i].v[d], left * (before[i].v[d] - after[i].v[d]),
+                        1e-9 * largest(before));
+        // nothing acts on what is gone
+        for (std::size_t i = lower.end; i < held.size(); ++i)
+          EXPECT_EQ(std::abs(held[i].v[0]) + std::abs(held[i].v[1]), 0.);
+      }
     }
     construction.begin_stage(1, run.solver, run.state);
     ASSERT_EQ(run.state.construction.held.size(), 1U);

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace quoin;
 
 namespace
@@ -50,6 +52,15 @@ TEST(FactorSearch, NoStableFactorIsNoneOfTheBracket)
   const FactorSearch search = searched(parameters, 0.5);
   EXPECT_GT(search.highest_stable(), 0.);
   EXPECT_GE(search.trials().size(), 4U);
+}
+
+TEST(FailureWatch, WhatSlowsDownHasNotFailed)
+{
+  // 5 (1 - exp(-i/3)) is above the limit when i > 11, where it was 4.3 or more
+  // at half the time, though 1.4 at first.
+  FailureWatch settles(4.9);
+  for (unsigned int i = 1; i <= 100; ++i)
+    EXPECT_FALSE(settles.has_failed(5. * (1. - std::exp(-1. / 3. * i))));
 }
 
 TEST(FailureWatch, WhatGoesOnMovingHasFailed)
