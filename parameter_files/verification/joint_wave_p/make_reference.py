@@ -26,7 +26,7 @@ def ricker(t, amplitude, frequency, delay):
 
 
 def solve(incident, joints, z, c, k, duration, spacing=20.0, parts=800):
-    """Times, and for every joint the velocities a, b, s, r and q."""
+    """Times, and for every joint the velocities s, r and q."""
     dt = spacing / c / parts
     n = int(np.ceil(duration / dt)) + 2
     t = dt * np.arange(n)
@@ -50,10 +50,10 @@ def solve(incident, joints, z, c, k, duration, spacing=20.0, parts=800):
         f0 = a[:, i - 1] - b[:, i - 1]
         f1 = a[:, i] - b[:, i]
         q[:, i] = decay * q[:, i - 1] + w0 * f0 + w1 * f1
-    return t, a, b, q + b, a - q, q
+    return t, q + b, a - q, q
 
 
-def velocity(y, incident, joints, c, t, a, b, s, r):
+def velocity(y, incident, joints, c, t, s, r):
     """Particle velocity at height y, at the times t."""
 
     def late(values, distance):

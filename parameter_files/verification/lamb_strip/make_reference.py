@@ -87,17 +87,9 @@ def integral(weight, breaks):
     return total
 
 
-def to_strip(distance, t):
-    """Integral of the displacement under a line load from 0 to a distance."""
-    s = abs(distance)
-    if s == 0 or t <= 0:
-        return 0.0
-    value = integral(lambda y: np.minimum(s, t / y), [t / s]) / np.pi
-    return np.copysign(value, distance)
-
-
 def integrated(distance, t):
-    """The integral of to_strip over the distance."""
+    """The displacement beside a line load, integrated from 0 to a distance, and
+    this once more over the distance."""
     s = abs(distance)
     if s == 0 or t <= 0:
         return 0.0
@@ -106,13 +98,8 @@ def integrated(distance, t):
         [t / s]) / np.pi
 
 
-def at_point(x, t):
-    """mu u_z / (p b) at x/b."""
-    return to_strip(x + 1, t) - to_strip(x - 1, t)
-
-
 def at_element(x, t, length):
-    """Its mean over an element about x."""
+    """The mean of mu u_z / (p b) over an element about x/b."""
     low, high = x - length / 2, x + length / 2
     return (integrated(high + 1, t) - integrated(low + 1, t)
             - integrated(high - 1, t) + integrated(low - 1, t)) / length
