@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Reads used_parameters.prm, which quoin leaves in the output folder, and
-where that is from a case's parameter file."""
+where that is from a case's parameter file.
 
+As a program: prints where quoin writes with the arguments that are given.
+"""
+
+import argparse
 import os
 import re
+import sys
 
 
 def read(output):
@@ -73,3 +78,17 @@ def output_of(case, overrides=()):
         found = re.match(r"set\s+Output directory\s*=\s*(.+)", line)
         name = found.group(1) if found else name
     return os.path.join(os.path.dirname(case), name)
+
+
+def output_of_arguments(words):
+    """The output directory of quoin with these arguments."""
+    parser = argparse.ArgumentParser(allow_abbrev=False)
+    parser.add_argument("case")
+    parser.add_argument("--output")
+    parser.add_argument("--set", action="append", default=[])
+    options, _ = parser.parse_known_args(words)
+    return options.output or output_of(options.case, options.set)
+
+
+if __name__ == "__main__":
+    print(output_of_arguments(sys.argv[1:]))
