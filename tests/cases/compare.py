@@ -6,7 +6,8 @@
 Every column of the reference but the time is compared with the column of the
 same name of histories.csv, interpolated at the reference's times. The error is
 the largest difference relative to the column's peak (its "scale" if given). A
-case may add a check of checks.py, which returns a further error.
+case may add a check of checks.py or wall_checks.py, which returns further
+errors. Each is bounded by its entry in "tolerances", or by "tolerance".
 """
 import json
 import os
@@ -99,32 +100,34 @@ def run_case(case, options):
                                                  histories)
         iterations = ("iterations a step" in case
                       and iterations_a_step(output))
-    tolerance = case["tolerance"]
+    tolerance, tolerances = case["tolerance"], case.get("tolerances", {})
+    unknown = set(tolerances) - set(errors) - set(extra)
+    if unknown:
+        raise Failure("%s: tolerances of what is not compared: %s"
+                      % (name, ", ".join(sorted(unknown))))
     failed = []
     if iterations and iterations > case["iterations a step"]:
         failed.append("%.2f iterations a step > %g"
                       % (iterations, case["iterations a step"]))
     worst = 0.0
     for column, (largest, rms) in errors.items():
-        bound = case.get("tolerances", {}).get(column, tolerance)
+        bound = tolerances.get(column, tolerance)
         worst = max(worst, largest / bound * tolerance)
         print("  %-14s max %.3e  rms %.3e  tolerance %.1e"
               % (column, largest, rms, bound))
         if largest > bound:
             failed.append("%s %.3e > %.1e" % (column, largest, bound))
-    for label, (error, bound) in extra.items():
-        bound = case.get("tolerances", {}).get(label, bound)
+    for label, error in extra.items():
+        bound = tolerances.get(label, tolerance)
         worst = max(worst, error / bound * tolerance)
         print("  %-30s %.3e  tolerance %.1e" % (label, error, bound))
         if not error <= bound:
             failed.append("%s %.3e > %.1e" % (label, error, bound))
     common.write_result(
-        common.results_folder(options), name, title=case["title"],
-        reference=case["source"], error=worst, tolerance=tolerance,
-        seconds=round(seconds, 2), passed=not failed, wall=case.get("wall"),
-        solvers=case.get("solvers"),
-        errors={**{k: v[0] for k, v in errors.items()},
-                **{k: v[0] for k, v in extra.items()}})
+        common.results_folder(options), name, title=case["title"], reference=case["source"],
+        error=worst, tolerance=tolerance, seconds=round(seconds, 2),
+        passed=not failed, wall=case.get("wall"), solvers=case.get("solvers"),
+        errors={**{k: v[0] for k, v in errors.items()}, **extra})
     if failed:
         raise Failure("%s: %s" % (name, "; ".join(failed)))
     print("passed: %s: error %.2e, tolerance %.1e, %.1f s"
