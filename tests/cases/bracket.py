@@ -66,7 +66,7 @@ def run(case, folder, options, value, check=False):
             common.run(options.quoin,
                        os.path.join(folder, case.get("prm", "case.prm")),
                        output, sets)
-        except Failure as stopped:
+        except common.RunFailed as stopped:
             # blocks that fall may end the run; what they did before counts
             failure = stopped
         seconds = time.monotonic() - start
@@ -106,6 +106,7 @@ def run(case, folder, options, value, check=False):
 
 
 def run_case(case, options):
+    results = common.begin(options, case["name"])
     folder = os.path.join(common.VERIFICATION, case["folder"])
     table, _ = common.read_table(os.path.join(folder, "reference.csv"))
     low, high = (table[case["reference"][i]][0] for i in (0, -1))
@@ -129,7 +130,7 @@ def run_case(case, options):
     error = max(low - found, found - high, 0) / found
     tolerance = max((low - below) / low, (above - high) / high)
     common.write_result(
-        common.results_folder(options), case["name"], title=case["title"],
+        results, case["name"], title=case["title"],
         reference=case["source"], error=error, tolerance=tolerance,
         seconds=round(time.monotonic() - start, 2), passed=True,
         limit=found, between=sorted((safe, unsafe)))

@@ -22,10 +22,15 @@ MPI_ENVIRONMENT = {
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_mpi_yield_when_idle": "1",
 }
+RUN_FAILED = 2                 # exit status of quoin: its outputs are kept
 
 
 class Failure(Exception):
     """A test that did not pass; the text is the line a person reads."""
+
+
+class RunFailed(Failure):
+    """A run that quoin itself has ended, with the exit status RUN_FAILED."""
 
 
 def arguments(description):
@@ -41,6 +46,16 @@ def results_folder(options):
         os.path.dirname(os.path.abspath(options.quoin)),
         "verification_results")
     os.makedirs(folder, exist_ok=True)
+    return folder
+
+
+def begin(options, *names):
+    """Writes of each name that it has not passed, until write_result() says
+    more: the result of an earlier run must not stand for one that crashes.
+    Returns the folder of results."""
+    folder = results_folder(options)
+    for name in names:
+        write_result(folder, name, passed=False)
     return folder
 
 
@@ -74,8 +89,9 @@ def run(quoin, prm, output, sets=(), ranks=1, extra=(), accepted=(0,)):
     seconds = time.monotonic() - start
     if done.returncode not in accepted:
         tail = "\n".join(done.stdout.strip().splitlines()[-15:])
-        raise Failure("%s ended with exit status %d:\n%s"
-                      % (os.path.relpath(prm, ROOT), done.returncode, tail))
+        kind = RunFailed if done.returncode == RUN_FAILED else Failure
+        raise kind("%s ended with exit status %d:\n%s"
+                   % (os.path.relpath(prm, ROOT), done.returncode, tail))
     return seconds
 
 

@@ -58,6 +58,7 @@ def body():
     parser.add_argument("--minimum", type=float, default=1.8,
                         help="smallest order that passes")
     options = parser.parse_args()
+    results = common.begin(options, "convergence_h", "convergence_dt")
     reference = exact()
     scale = rms(reference)
     total = 0.0
@@ -86,12 +87,11 @@ def body():
           % (", ".join("%.3e" % s for s in steps), time))
 
     passed = space[-1] >= options.minimum and time >= options.minimum
-    folder = common.results_folder(options)
     for name, title, order in (
             ("convergence_h", "order in the mesh size", space[-1]),
             ("convergence_dt", "order in the time step", time)):
         common.write_result(
-            folder, name, title=title, reference="order 2 (shown: 2 - order)",
+            results, name, title=title, reference="order 2 (shown: 2 - order)",
             error=max(2 - order, 0.0), tolerance=2 - options.minimum,
             seconds=round(total / 2, 2), passed=order >= options.minimum,
             order=order)

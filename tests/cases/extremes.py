@@ -280,12 +280,14 @@ def slippery(options):
 
 def main(options):
     start = time.monotonic()
+    if not options.only:
+        results = common.begin(options, "extremes")
     for case in CASES:
         if not options.only or options.only in case.__name__:
             case(options)
     if not options.only:
         common.write_result(
-            common.results_folder(options), "extremes",
+            results, "extremes",
             title="one triangle, 10 000 joints at a vertex, stiffnesses that "
             "differ by 1e12, micrometres to 1000 km", reference="closed forms",
             error=max(errors) * 1e-3, tolerance=1e-3,

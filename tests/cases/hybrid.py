@@ -54,6 +54,7 @@ def body():
     parser.add_argument("--duration", type=float, default=0.2,
                         help="of the long run [s]")
     options = parser.parse_args()
+    results = common.begin(options, "hybrid_hole")
     with tempfile.TemporaryDirectory() as folder:
         runs, seconds = {}, {}
         for name, prm, overrides in (
@@ -106,7 +107,7 @@ def body():
                "substeps create energy")]
     failed = [text for passed, text in checks if not passed]
     common.write_result(
-        common.results_folder(options), "hybrid_hole",
+        results, "hybrid_hole",
         title="jointed region about a hole, boundary elements beyond",
         reference="blocks alone, five times the size, three transits",
         error=worst, tolerance=options.tolerance,

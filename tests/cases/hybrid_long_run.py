@@ -76,6 +76,7 @@ def body():
     parser.add_argument("--ratios", default="0.1,1,10",
                         help="Young's modulus of the blocks by that beyond")
     options = parser.parse_args()
+    results = common.begin(options, "hybrid_long_run")
     failed, worst, seconds = [], 0.0, 0.0
     for region in options.regions.split(","):
         for ratio in options.ratios.split(","):
@@ -98,7 +99,7 @@ def body():
             if np.min(result["radiated"]) < -1e-3:
                 failed.append(name + "the boundary elements create energy")
     common.write_result(
-        common.results_folder(options), "hybrid_long_run",
+        results, "hybrid_long_run",
         title="undamped blocks, boundary elements beyond, %d steps"
         % options.steps, reference="energy at the end by that after 1000 steps",
         error=worst, tolerance=1.0, seconds=round(seconds, 2), passed=not failed)

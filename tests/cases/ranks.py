@@ -159,6 +159,7 @@ def compare(quoin, prm, variant, sets, scratch):
 
 def body():
     options = common.arguments(__doc__.splitlines()[0]).parse_args()
+    results = common.begin(options, "ranks")
     worst, different = 0.0, []
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
@@ -170,10 +171,9 @@ def body():
             different += columns
         different += compare_linear_solvers(scratch)
     common.write_result(
-        common.results_folder(options), "ranks",
-        title="1, 2 and 4 ranks", reference="1 rank", error=worst,
-        tolerance=TOLERANCE, seconds=round(time.monotonic() - start, 2),
-        passed=not different)
+        results, "ranks", title="1, 2 and 4 ranks", reference="1 rank",
+        error=worst, tolerance=TOLERANCE,
+        seconds=round(time.monotonic() - start, 2), passed=not different)
     if different:
         raise Failure("columns differ: " + ", ".join(different))
     print("passed: ranks: 1, 2 and 4 agree to %.2e" % worst)

@@ -27,6 +27,7 @@ ELEMENTS = [("P", 0, 2e-4), ("SV", 30, 5e-4)]
 def body():
     parser = common.arguments(__doc__.splitlines()[0])
     options = parser.parse_args()
+    results = common.begin(options, "boundary_reflection")
     worst, total, failed = 0.0, 0.0, []
     with tempfile.TemporaryDirectory() as folder:
         for kind, angle in DASHPOTS:
@@ -54,7 +55,7 @@ def body():
                 failed.append("boundary elements, %s: %.1e"
                               % (name, energy[-1]))
     common.write_result(
-        common.results_folder(options), "boundary_reflection",
+        results, "boundary_reflection",
         title="energy reflected by dashpots and boundary elements",
         reference="plane waves at dashpots, closed form",
         error=worst, tolerance=TOLERANCE, seconds=round(total, 2),

@@ -18,8 +18,6 @@ from common import Failure
 sys.path.insert(0, os.path.join(common.ROOT, "scripts"))
 import solver_comparison  # noqa: E402
 import vtu  # noqa: E402
-LOST_EQUILIBRIUM = 2                 # exit status: outputs are kept
-
 
 def note(case, tests, peak, histories):
     place = np.argmax(-histories["horizontal"])
@@ -169,7 +167,7 @@ def compare_solvers(case, folder, output, histories):
     implicit = os.path.join(output, "implicit")
     common.run(case["quoin"], prm, implicit,
                case.get("set", []) + ["Solver=implicit"],
-               accepted=(0, LOST_EQUILIBRIUM))
+               accepted=(0, common.RUN_FAILED))
     return solvers_agree(case, prm, output, implicit)
 
 

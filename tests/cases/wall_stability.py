@@ -41,6 +41,7 @@ def peak(options, settings):
 
 def main():
     options = common.arguments(__doc__.splitlines()[0]).parse_args()
+    results = common.begin(options, "tue_wall_stability")
     base, total = peak(options, [])
     print("as shipped: %.2f kN" % (base / 1e3))
     errors = {}
@@ -51,7 +52,7 @@ def main():
         print("%s: %.2f kN, %.2e" % (name, value / 1e3, errors[name]))
     worst = max(errors.values())
     common.write_result(
-        common.results_folder(options), "tue_wall_stability",
+        results, "tue_wall_stability",
         title="shear wall J4D: peak at half the rate, other dampings",
         reference="the wall as shipped", error=worst, tolerance=TOLERANCE,
         seconds=round(total, 1), passed=worst <= TOLERANCE, errors=errors)
