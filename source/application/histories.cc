@@ -22,24 +22,69 @@ namespace quoin
         [m^2]. */
     constexpr double just_behind = 1e-18;
 
-    /** What of this rank is nearest to a point. */
+    /**
+     * What of this rank is nearest to a point. Of several at the same distance
+     * that of a block in which the point lies, then the lower, then the left
+     * one: numbers depend on the number of ranks.
+     */
     struct Nearest
     {
-      dealii::Point<2> point;
-      unsigned int entity    = 0; /**< node, cell or joint point */
-      double distance_square = std::numeric_limits<double>::max();
+      /** Squared distance [m^2], 1 outside of the block, y, x. */
+      using Key                    = std::array<double, 4>;
+      static constexpr double none = std::numeric_limits<double>::max();
 
+      dealii::Point<2> point;
+      unsigned int entity = 0; /**< node, cell or joint point */
+      Key key{ { none, none, none, none } };
+
+      /** @p finer: the key but for the distance. */
+      template <typename Finer>
       void consider(const dealii::Point<2> &p, const unsigned int candidate,
-                    const double farther = 0.)
+                    const Finer &finer, const double farther = 0.)
       {
         const double distance = p.distance_square(point) + farther;
-        if (distance < distance_square)
+        if (distance > key[0])
+          return;
+        const std::array<double, 3> rest = finer();
+        const Key other{ { distance, rest[0], rest[1], rest[2] } };
+        if (other < key)
         {
-          distance_square = distance;
-          entity          = candidate;
+          key    = other;
+          entity = candidate;
         }
       }
     };
+
+    bool contains(const BlockMesh<2> &mesh, const unsigned int cell,
+                  const dealii::Point<2> &point)
+    {
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const auto &p     = mesh.vertices[mesh.cells[cell][k]];
+        const auto along  = mesh.vertices[mesh.cells[cell][(k + 1) % 3]] - p;
+        const auto beyond = point - p;
+        if (along[0] * beyond[1] < along[1] * beyond[0])
+          return false;
+      }
+      return true;
+    }
+
+    std::array<double, 3> place_of_block(const BlockMesh<2> &mesh,
+                                         const unsigned int block,
+                                         const dealii::Point<2> &point)
+    {
+      bool inside = false;
+      for (unsigned int c = mesh.block_first_cell[block];
+           c < mesh.block_first_cell[block + 1]; ++c)
+        inside = inside || contains(mesh, c, point);
+      dealii::Point<2> sum;
+      for (unsigned int v = mesh.block_first_vertex[block];
+           v < mesh.block_first_vertex[block + 1]; ++v)
+        sum += mesh.vertices[v];
+      const unsigned int n
+          = mesh.block_first_vertex[block + 1] - mesh.block_first_vertex[block];
+      return { { inside ? 0. : 1., sum[1] / n, sum[0] / n } };
+    }
 
     void consider_nodes(const Model &model,
                         const std::vector<bool> &absent_in_the_end,
@@ -52,7 +97,10 @@ namespace quoin
         const unsigned int block = mesh.block_of_vertex(v);
         const bool absent
             = absent_in_the_end[mesh.cell_group[mesh.block_first_cell[block]]];
-        nearest.consider(mesh.vertices[v], i, absent ? just_behind : 0.);
+        nearest.consider(
+            mesh.vertices[v], i,
+            [&] { return place_of_block(mesh, block, nearest.point); },
+            absent ? just_behind : 0.);
       }
     }
 
@@ -62,11 +110,15 @@ namespace quoin
       for (unsigned int c = 0; c < model.n_cells(); ++c)
       {
         const auto &cell = mesh.cells[model.first_cell() + c];
+        const dealii::Point<2> centroid((mesh.vertices[cell[0]]
+                                         + mesh.vertices[cell[1]]
+                                         + mesh.vertices[cell[2]])
+                                        / 3.);
         nearest.consider(
-            dealii::Point<2>((mesh.vertices[cell[0]] + mesh.vertices[cell[1]]
-                              + mesh.vertices[cell[2]])
-                             / 3.),
-            c);
+            centroid, c,
+            [&] {
+              return std::array<double, 3>{ { 0., centroid[1], centroid[0] } };
+            });
       }
     }
 
@@ -81,7 +133,17 @@ namespace quoin
         if (!curve.empty() && mesh.line_names[face.name] != curve)
           continue;
         for (unsigned int k = 0; k < 2; ++k)
-          nearest.consider(mesh.vertices[face.lower[k]], 2 * i + k);
+        {
+          const auto &here  = mesh.vertices[face.lower[k]];
+          const auto &other = mesh.vertices[face.lower[1 - k]];
+          nearest.consider(
+              here, 2 * i + k,
+              [&]
+              {
+                return std::array<double, 3>{ { 0., 0.5 * (here[1] + other[1]),
+                                                0.5 * (here[0] + other[0]) } };
+              });
+        }
       }
     }
   } // namespace
@@ -155,7 +217,7 @@ namespace quoin
       return;
     }
     probe.entity = nearest.entity;
-    find_owner(probe, nearest.distance_square);
+    find_owner(probe, nearest.key);
   }
 
   void Histories::find_load(Probe &probe) const
@@ -178,14 +240,21 @@ namespace quoin
                        + "' is no platen. Use 'reaction' for other loads.");
   }
 
-  void Histories::find_owner(Probe &probe, const double distance_square) const
+  void Histories::find_owner(Probe &probe,
+                             const std::array<double, 4> &key) const
   {
     const HistoryParameters &wanted = probe.parameters;
     const std::string section = "section 'Histories/" + wanted.name + "': ";
     const BlockMesh<2> &mesh  = model.mesh();
-    // The nearest of all ranks, the first of them if there is a tie.
-    const double nearest
-        = dealii::Utilities::MPI::min(distance_square, communicator);
+    // The least key of all ranks; more than one know joints between them.
+    probe.here           = true;
+    const double nearest = dealii::Utilities::MPI::min(key[0], communicator);
+    for (const double part : key)
+    {
+      const double least = dealii::Utilities::MPI::min(
+          probe.here ? part : Nearest::none, communicator);
+      probe.here = probe.here && part == least;
+    }
     double longest = 0.;
     for (const auto &cell : mesh.cells)
       for (unsigned int k = 0; k < 3; ++k)
@@ -209,10 +278,9 @@ namespace quoin
                        + " in the model. Correct 'Curve' or 'Quantity'.");
     const unsigned int rank
         = dealii::Utilities::MPI::this_mpi_process(communicator);
-    probe.here
-        = rank
-          == dealii::Utilities::MPI::min(
-              distance_square == nearest ? rank : 1U << 30, communicator);
+    probe.here = rank
+                 == dealii::Utilities::MPI::min(probe.here ? rank : 1U << 30,
+                                                communicator);
   }
 
   double Histories::point_value(const Probe &probe, const State &state) const

@@ -109,7 +109,9 @@ namespace quoin
                       "x, y of the point whose nearest node, cell or joint "
                       "point, or boundary element, is recorded; of boundary "
                       "elements: the point in the domain, and the point about "
-                      "which the moment is taken [m]");
+                      "which the moment is taken. Of nodes at one place: that "
+                      "of the block in which the point is, else of the lower "
+                      "or left block [m]");
     prm.declare_entry("Load", "", Anything(),
                       "Load whose reaction or platen is recorded.");
     prm.declare_entry("Curve", "", Anything(),

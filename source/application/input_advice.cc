@@ -32,27 +32,6 @@ namespace quoin
       return std::find(list.begin(), list.end(), name) != list.end();
     }
 
-    /** By whether all of its functions are 'free'. */
-    bool has_no_function(const LoadParameters &load)
-    {
-      return std::all_of(load.components.begin(), load.components.end(),
-                         [](const LoadComponent &component)
-                         { return component.quantity == LoadQuantity::free; });
-    }
-
-    void advise_about_loads(const Parameters &parameters,
-                            std::vector<std::string> &advice)
-    {
-      for (const LoadParameters &load : parameters.loads)
-        if ((load.type == LoadType::traction || load.type == LoadType::gravity
-             || load.type == LoadType::prescribed_motion)
-            && has_no_function(load))
-          advice.push_back("load " + load.name
-                           + ": it does nothing, because all of its functions "
-                             "are 'free'. Give 'Horizontal' or 'Vertical', 0 "
-                             "to hold a boundary.");
-    }
-
     /** Length of the set's joints where the run begins [m]. */
     double joint_length(const JointSetParameters &set, const BlockMesh<2> &mesh)
     {
@@ -229,7 +208,6 @@ namespace quoin
                                         const Model &model)
   {
     std::vector<std::string> advice;
-    advise_about_loads(parameters, advice);
     advise_about_materials(parameters, model, advice);
     advise_about_joints(parameters, model, advice);
     advise_about_output(parameters, advice);

@@ -60,7 +60,8 @@ namespace quoin
       return;
     remove_checkpoint(output);
     for (const char *name :
-         { "summary.json", "safety.csv", "convergence.csv", "far_field.csv" })
+         { "summary.json", "histories.csv", "energies.csv", "safety.csv",
+           "convergence.csv", "far_field.csv", "rock_statistics.csv" })
       fs::remove(output + "/" + name, error);
     remove_series(output);
     remove_series(output + "/mechanism");

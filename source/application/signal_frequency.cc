@@ -3,13 +3,11 @@
 
 #include <quoin/application/signal_frequency.h>
 #include <quoin/base/constants.h>
-
-#include <fftw3.h>
+#include <quoin/base/fourier_plan.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <memory>
 
 namespace quoin
 {
@@ -67,13 +65,9 @@ namespace quoin
       return 0.;
 
     std::vector<std::complex<double>> spectrum(n / 2 + 1);
-    const std::unique_ptr<fftw_plan_s, decltype(&fftw_destroy_plan)> plan(
-        fftw_plan_dft_r2c_1d(int(n), samples.data(),
-                             reinterpret_cast<fftw_complex *>(spectrum.data()),
-                             FFTW_ESTIMATE),
-        &fftw_destroy_plan);
-    if (!plan)
-      return 0.;
+    const FourierPlan plan = owned(fftw_plan_dft_r2c_1d(
+        int(n), samples.data(),
+        reinterpret_cast<fftw_complex *>(spectrum.data()), FFTW_ESTIMATE));
     fftw_execute(plan.get());
     // The mean, which may be but what the line left, is no shaking. The last of
     // an even number stands for one frequency, the others for two.

@@ -81,7 +81,6 @@ namespace quoin
         run_implicit_stage(i);
       else
         run_stage(i);
-    write_summary(true);
   }
 
   void Simulation::make_model()
@@ -399,11 +398,28 @@ namespace quoin
   {
     solver->check_finite(record.state);
     solver->check_cells(record.state);
+    warn_of_slip(parameters.stages[index]);
     record.stage_begun = false;
     record.state.stage = index + 1;
     write_fields();
-    write_summary(false);
+    // Before the checkpoint, after which there is nothing to resume.
+    write_summary(record.state.stage == parameters.stages.size());
     save_checkpoint();
+  }
+
+  void Simulation::warn_of_slip(const StageParameters &stage)
+  {
+    /** Half of the blocks' edges is left on each other. */
+    constexpr double most = 0.5;
+    if (model->large_displacements())
+      return;
+    const double share = solver->largest_slip_share(record.state);
+    if (share > most)
+      log.warning("stage " + stage.name + ": joints have slipped by up to "
+                  + number_text(100. * share)
+                  + " % of the edges that touch, but small displacements leave "
+                    "blocks where they are: areas and neighbours no longer "
+                    "hold. Take 'Displacements = large' in section 'Contact'.");
   }
 
   bool Simulation::take_step(const StageParameters &stage)
@@ -513,12 +529,11 @@ namespace quoin
                                const bool balance) const
   {
     const State &state = record.state;
-    return balance
-           && !solver->loads_have_changed(
-               state, balance_interval * explicit_solver->get_time_step())
-           && state.time - state.stage_start >= stage.minimum_duration
+    return balance && state.time - state.stage_start >= stage.minimum_duration
            && state.stage_step > balance_interval
-           && state.unbalanced_ratio <= stage.static_ratio;
+           && state.unbalanced_ratio <= stage.static_ratio
+           && !solver->loads_change(
+               state, balance_interval * explicit_solver->get_time_step());
   }
 
   double Simulation::energy_residual() const

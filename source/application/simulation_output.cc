@@ -275,6 +275,18 @@ namespace quoin
 
   void Simulation::report_end(const nlohmann::json &summary)
   {
+    /** Of what went through; user_guide.md, "Judging". */
+    constexpr double largest_residual = 1e-3;
+    if (std::abs(energy_residual()) > largest_residual)
+      log.warning("the energy residual is "
+                  + number_text(100. * energy_residual())
+                  + " % of what went through, more than 0.1 %: energy came or "
+                    "went that no account knows of. Compare with a run with "
+                    "half the 'Share of critical time step'"
+                  + (model->large_displacements()
+                         ? "."
+                         : "; blocks that turn or slide far need "
+                           "'Displacements = large' in section 'Contact'."));
     log.message(
         "finished: " + std::to_string(record.state.step) + " steps in "
         + duration_text(record.wall_time) + ", "

@@ -140,7 +140,10 @@ namespace quoin
     trial.n_steps          = record.state.stage_step;
     trial.unbalanced_ratio = record.state.unbalanced_ratio;
     trial.displacement     = largest_displacement(base);
-    record.wall_time += seconds_since(start);
+    const double seconds   = seconds_since(start);
+    record.wall_time += seconds;
+    seconds_done += seconds;
+    steps_done += trial.n_steps;
     return trial;
   }
 

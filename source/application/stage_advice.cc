@@ -78,6 +78,50 @@ namespace quoin
                            "'Rayleigh'.");
     }
 
+    void advise_about_mass_scaling(const StageParameters &stage,
+                                   std::vector<std::string> &advice)
+    {
+      if (stage.scaled_time_step > 0. && stage.end == StageEnd::time
+          && !stage.slows_loads()
+          && (stage.damping == DampingType::none
+              || stage.damping == DampingType::rayleigh))
+        advice.push_back(of_stage(stage)
+                         + "'Mass scaling' changes how the model moves, and "
+                           "this stage follows its motion. Remove it: it is "
+                           "for stages that seek an equilibrium, with 'Damping "
+                           "= local' or 'adaptive'.");
+    }
+
+    /** Of dashpots under what is held: waves neither come in nor leave. */
+    void advise_about_supports(const Parameters &parameters,
+                               const StageParameters &stage,
+                               std::vector<std::string> &advice)
+    {
+      for (const LoadParameters &held : parameters.loads)
+        for (const LoadParameters &open : parameters.loads)
+        {
+          if (!names_load(stage, held.name) || !names_load(stage, open.name)
+              || held.type != LoadType::prescribed_motion
+              || (open.type != LoadType::viscous_boundary
+                  && open.type != LoadType::free_field)
+              || held.components[0].quantity == LoadQuantity::free
+              || held.components[1].quantity == LoadQuantity::free)
+            continue;
+          for (const std::string &curve : open.boundaries)
+            if (std::count(held.boundaries.begin(), held.boundaries.end(),
+                           curve)
+                > 0)
+            {
+              advice.push_back(of_stage(stage) + "the load " + held.name
+                               + " prescribes the motion of the curve " + curve
+                               + ", so the load " + open.name
+                               + " there does nothing: no wave comes in or "
+                                 "leaves. Take one of them out of 'Loads'.");
+              break;
+            }
+        }
+    }
+
     /** That of the stage before with which the model went on. */
     const StageParameters *stage_before(const Parameters &parameters,
                                         const unsigned int index)
@@ -187,6 +231,29 @@ namespace quoin
       }
     }
 
+    /** Of the stage before, and not in this one. */
+    void advise_about_lost_weight(const Parameters &parameters,
+                                  const unsigned int index,
+                                  std::vector<std::string> &advice)
+    {
+      const StageParameters &stage  = parameters.stages[index];
+      const StageParameters *before = stage_before(parameters, index);
+      const auto has_gravity        = [&](const StageParameters &any)
+      {
+        return std::any_of(parameters.loads.begin(), parameters.loads.end(),
+                           [&](const LoadParameters &load) {
+                             return load.type == LoadType::gravity
+                                    && names_load(any, load.name);
+                           });
+      };
+      if (before && has_gravity(*before) && !has_gravity(stage))
+        advice.push_back(of_stage(stage)
+                         + "its 'Loads' name no gravity, but stage "
+                         + before->name
+                         + " had some: the model becomes weightless at once. "
+                           "Name the load here, too, if that is not meant.");
+    }
+
     void advise_about_waves(const Parameters &parameters,
                             const unsigned int index,
                             const std::vector<CellSize> &sizes,
@@ -260,6 +327,9 @@ namespace quoin
     std::vector<std::string> advice;
     const StageParameters &stage = parameters.stages[index];
     advise_about_damping(parameters, index, advice);
+    advise_about_mass_scaling(stage, advice);
+    advise_about_supports(parameters, stage, advice);
+    advise_about_lost_weight(parameters, index, advice);
     const auto sizes
         = cell_sizes(model, state, parameters.model.materials.size());
     double rise = 0.;

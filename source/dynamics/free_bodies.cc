@@ -61,6 +61,11 @@ namespace quoin
       {
         return (p - origin) / size;
       }
+      /** The model's size [m]. */
+      double length() const
+      {
+        return size;
+      }
 
     private:
       std::array<bool, 3> held_by(const NodeConstraint &constraint,
@@ -191,7 +196,33 @@ namespace quoin
       double total = 0.;
     };
 
+    /** Adds the force and the moment of a platen, in equal parts at its nodes,
+        to @p force and, of each body, @p sums. */
+    void add_platen(const Platen &platen, const TimePoint &time,
+                    const Model &model, Bodies &bodies,
+                    std::vector<NodeVector> &force, std::vector<double> &sums)
+    {
+      const BlockMesh<2> &mesh     = model.mesh();
+      const NodeExchange &exchange = model.exchange();
+      const unsigned int n         = dealii::Utilities::MPI::sum(
+                  unsigned(platen.nodes().size()), exchange.communicator());
+      std::array<double, 3> part{};
+      for (unsigned int d = 0; d < 3; ++d)
+        if (platen.parts()[d].quantity == LoadQuantity::force)
+          part[d] = platen.parts()[d].value(time) / n;
+      for (const unsigned int i : platen.nodes())
+      {
+        for (unsigned int d = 0; d < 2; ++d)
+          force[i].v[d] += part[d];
+        double *sum
+            = &sums[4 * bodies.body(mesh.block_of_vertex(exchange.global(i)))];
+        sum[2] += part[2] / bodies.length();
+        sum[3] += std::abs(part[2]) / bodies.length();
+      }
+    }
+
     std::vector<Push> pushes(const Model &model, Bodies &bodies,
+                             const std::vector<NodeConstraint *> &constraints,
                              const std::vector<const NodalLoad *> &loads,
                              const TimePoint &time)
     {
@@ -202,6 +233,9 @@ namespace quoin
       for (const NodalLoad *load : loads)
         load->add_forces(time, force.data());
       std::vector<double> sums(4 * mesh.n_blocks(), 0.);
+      for (const NodeConstraint *constraint : constraints)
+        if (const auto *platen = dynamic_cast<const Platen *>(constraint))
+          add_platen(*platen, time, model, bodies, force, sums);
       for (unsigned int i = 0; i < exchange.n_owned(); ++i)
       {
         const unsigned int v = exchange.global(i);
@@ -313,7 +347,7 @@ namespace quoin
     std::vector<bool> is_pushed(found.size(), false);
     for (unsigned int t = 0; t < times.size() && !found.empty(); ++t)
     {
-      const auto push = pushes(model, bodies, loads, times[t]);
+      const auto push = pushes(model, bodies, constraints, loads, times[t]);
       for (unsigned int i = 0; i < found.size(); ++i)
         for (const auto &motion : motions[i])
           if (pushes_along(push[bodies.body(found[i].block)], motion))

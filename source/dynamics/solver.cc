@@ -303,20 +303,32 @@ namespace quoin
       constraint->check_start({ 0., state.time });
   }
 
-  bool Solver::loads_have_changed(const State &state,
-                                  const double duration) const
+  std::vector<std::array<double, 3>>
+  Solver::load_values(const double stage_start, const double load_time) const
   {
-    const double now        = state.load_time;
-    const double before     = std::max(0., now - duration);
-    const TimePoint times[] = { { before, state.stage_start + before },
-                                { now, state.stage_start + now } };
+    const TimePoint time{ load_time, stage_start + load_time };
+    std::vector<std::array<double, 3>> result;
     for (const NodalLoad *load : loads_on)
-      if (load->amplitude(times[0]) != load->amplitude(times[1]))
-        return true;
+      result.push_back(load->amplitude(time));
     for (const NodeConstraint *constraint : constraints_on)
-      if (constraint->values(times[0]) != constraint->values(times[1]))
+      result.push_back(constraint->values(time));
+    return result;
+  }
+
+  bool Solver::loads_change(const State &state, const double duration) const
+  {
+    constexpr double late = 1e9, earliest = 1e-9; // [s]
+    const double now      = state.load_time;
+    const double before   = std::max(0., now - duration);
+    const auto values     = load_values(state.stage_start, now);
+    if (values != load_values(state.stage_start, before))
+      return true;
+    if (release.changes() && release.share(before) != release.share(now))
+      return true;
+    for (double t = late; t > std::max(now, earliest); t *= 0.9)
+      if (values != load_values(state.stage_start, t))
         return true;
-    return release.changes() && release.share(before) != release.share(now);
+    return false;
   }
 
   double Solver::sum(const double value) const

@@ -74,6 +74,23 @@ namespace quoin
       check(constraint->values(time), constraint->name());
   }
 
+  double Solver::largest_slip_share(const State &state) const
+  {
+    const BlockMesh<2> &mesh    = model.mesh();
+    const MatchedJoints &joints = model.joints();
+    double largest              = 0.;
+    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    {
+      const auto &[a, b]  = mesh.joint_faces[joints.segment(i).face].lower;
+      const double length = mesh.vertices[a].distance(mesh.vertices[b]);
+      const auto gaps     = joints.gaps(state.nodes.data(), i);
+      for (unsigned int k = 0; k < 2; ++k)
+        if (state.joints.normal_traction[2 * i + k] < 0.)
+          largest = std::max(largest, std::abs(gaps[k][1]) / length);
+    }
+    return dealii::Utilities::MPI::max(largest, communicator);
+  }
+
   void Solver::check_cells(const State &state) const
   {
     constexpr unsigned int none = -1;
@@ -123,7 +140,12 @@ namespace quoin
                "the load acts (refine the mesh there), joints or contacts so "
                "soft that blocks run into each other (raise 'Normal "
                "stiffness'), or a time step too long (lower 'Share of "
-               "critical time step'). The last checkpoint is kept.";
+               "critical time step')"
+            << (model.large_displacements()
+                    ? ""
+                    : ", or blocks that slide far or turn, which needs "
+                      "'Displacements = large' in section 'Contact'")
+            << ". The last checkpoint is kept.";
     throw ModelFailure(message.str());
   }
 } // namespace quoin

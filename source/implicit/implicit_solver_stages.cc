@@ -69,19 +69,10 @@ namespace quoin
 
   double ImplicitSolver::rest_time() const
   {
-    using Values      = std::vector<std::array<double, 3>>;
-    const auto values = [&](const double t)
-    {
-      const TimePoint time{ t, stage_start + t };
-      Values result;
-      for (const NodalLoad *load : loads_on)
-        result.push_back(load->amplitude(time));
-      for (const NodeConstraint *constraint : constraints_on)
-        result.push_back(constraint->values(time));
-      return result;
-    };
+    const auto values
+        = [&](const double t) { return load_values(stage_start, t); };
     constexpr double late = 1e9, earliest = 1e-9; // [s]
-    const Values last = values(late);
+    const auto last = values(late);
     if (values(1.7 * late) != last)
       throw InputError("section 'Stages/" + stage.name
                        + "': 'End = static ratio', but its loads never rest. "

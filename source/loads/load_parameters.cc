@@ -5,8 +5,12 @@
 #include <quoin/base/unread_parameters.h>
 #include <quoin/loads/load_parameters.h>
 
+#include <boost/algorithm/string/case_conv.hpp>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 
 namespace quoin
@@ -26,6 +30,47 @@ namespace quoin
       {
         section.fail(name, error.what());
       }
+    }
+
+    /** Refuses a record of the PEER database, whose name says what it is, as
+        the quantity that is once (velocity: 1) derived by time. */
+    void refuse_other_derivative(const ParameterSection &section,
+                                 const std::string &name,
+                                 const std::string &text, const int derivative)
+    {
+      constexpr std::array<const char *, 3> kinds
+          = { "displacement", "velocity", "acceleration" };
+      std::istringstream words(text);
+      std::string word, file;
+      words >> word >> file;
+      const std::string end
+          = word == "record" ? boost::algorithm::to_lower_copy(
+                std::filesystem::path(file).extension().string())
+                             : "";
+      const int of_file = end == ".dt2"   ? 0
+                          : end == ".vt2" ? 1
+                          : end == ".at2" ? 2
+                                          : -1;
+      int integrated    = 0;
+      while (words >> word)
+        if (word == "integrated" && words >> word)
+          integrated = word == "once" ? 1 : word == "twice" ? 2 : 0;
+      if (of_file < 0 || of_file - integrated == derivative)
+        return;
+      const int missing = of_file - derivative;
+      section.fail(name, std::string("must be of ") + kinds[derivative]
+                             + ", but the file is of " + kinds[of_file] + ": "
+                             + (missing == 1   ? "take 'integrated once'."
+                                : missing == 2 ? "take 'integrated twice'."
+                                : missing == 0 ? "leave out 'integrated'."
+                                               : "take another file."));
+    }
+
+    int derivative_of(const LoadQuantity quantity)
+    {
+      return quantity == LoadQuantity::displacement ? 0
+             : quantity == LoadQuantity::velocity   ? 1
+                                                    : 2;
     }
 
     /** What may stand before a function of time, and what it stands for. */
@@ -50,8 +95,13 @@ namespace quoin
       for (const auto &[word, quantity] : words)
       {
         if (text.rfind(word + " ", 0) == 0)
-          return { quantity,
-                   time_function(section, name, text.substr(word.size())) };
+        {
+          const std::string function = text.substr(word.size());
+          if (quantity != LoadQuantity::force)
+            refuse_other_derivative(section, name, function,
+                                    derivative_of(quantity));
+          return { quantity, time_function(section, name, function) };
+        }
         known += " or begin with '" + word + "'";
       }
       section.fail(name, "must be " + known + ".");
@@ -85,6 +135,8 @@ namespace quoin
                                           "'platen'."
                                         : "."));
         }
+      if (quantity != LoadQuantity::force || type == "gravity")
+        refuse_other_derivative(section, name, text, derivative_of(quantity));
       return { quantity, time_function(section, name, text) };
     }
 
@@ -93,6 +145,8 @@ namespace quoin
       const std::vector<std::string> initial = { "initial stress" };
       const std::vector<std::string> in_situ = { "in-situ stress" };
       const std::vector<std::string> viscous = { "viscous boundary" };
+      const std::vector<std::string> directed
+          = { "prescribed motion", "traction", "platen", "gravity" };
       refuse_unread(section, "Type",
                     { { "Boundary",
                         "",
@@ -101,6 +155,8 @@ namespace quoin
                       { "Group", "", { "platen" } },
                       { "Groups", "", { "initial stress", "in-situ stress" } },
                       { "Quantity", "velocity", { "prescribed motion" } },
+                      { "Horizontal", "free", directed },
+                      { "Vertical", "free", directed },
                       { "Rotation", "free", { "platen" } },
                       { "Pressure", "free", { "traction" } },
                       { "Incident normal velocity", "0", viscous },

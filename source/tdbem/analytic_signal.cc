@@ -5,13 +5,11 @@
 
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
-
-#include <fftw3.h>
+#include <quoin/base/fourier_plan.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <utility>
 
 namespace quoin
@@ -49,13 +47,9 @@ namespace quoin
     /** In place, without a factor. */
     void transform(std::vector<Complex> &values, const int sign)
     {
-      auto *const data = reinterpret_cast<fftw_complex *>(values.data());
-      const std::unique_ptr<fftw_plan_s, decltype(&fftw_destroy_plan)> plan(
-          fftw_plan_dft_1d(int(values.size()), data, data, sign, FFTW_ESTIMATE),
-          &fftw_destroy_plan);
-      if (!plan)
-        throw RunError("the Fourier transform of an incident wave could not "
-                       "be planned.");
+      auto *const data       = reinterpret_cast<fftw_complex *>(values.data());
+      const FourierPlan plan = owned(fftw_plan_dft_1d(
+          int(values.size()), data, data, sign, FFTW_ESTIMATE));
       fftw_execute(plan.get());
     }
 

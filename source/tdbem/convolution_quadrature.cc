@@ -5,13 +5,11 @@
 
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/fourier_plan.h>
 #include <quoin/tdbem/cut_kernels.h>
-
-#include <fftw3.h>
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -43,11 +41,9 @@ namespace quoin
 
     Eigen::VectorXcd row(n + 1);
     Eigen::VectorXd sums(points);
-    const std::unique_ptr<fftw_plan_s, decltype(&fftw_destroy_plan)> plan(
-        fftw_plan_dft_c2r_1d(int(points),
-                             reinterpret_cast<fftw_complex *>(row.data()),
-                             sums.data(), FFTW_ESTIMATE),
-        &fftw_destroy_plan);
+    const FourierPlan plan = owned(fftw_plan_dft_c2r_1d(
+        int(points), reinterpret_cast<fftw_complex *>(row.data()), sums.data(),
+        FFTW_ESTIMATE));
     Eigen::VectorXd scaling(n);
     for (unsigned k = 0; k < n; ++k)
       scaling(k) = std::pow(radius, -double(k)) / points;

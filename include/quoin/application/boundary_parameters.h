@@ -124,7 +124,7 @@ namespace quoin
     bool is_static           = false;
     double element_length    = 0.; /**< [m]; 0: each boundary has its own */
     double highest_frequency = 0.; /**< [Hz]; sets element_length if not 0 */
-    double step_ratio        = 1.; /**< c_1 dt / shortest element */
+    double step_ratio        = 0.; /**< c_1 dt / shortest element */
     double time_step         = 0.; /**< [s]; 0: as the ratio says */
     double duration          = 0.; /**< [s] */
     double decay             = 0.; /**< [1/s] */

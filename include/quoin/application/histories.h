@@ -62,8 +62,8 @@ namespace quoin
     void locate(Probe &probe) const;
     /** The load whose reaction or motion @p probe looks at. */
     void find_load(Probe &probe) const;
-    /** The rank of the nearest point, whose square distance here is given. */
-    void find_owner(Probe &probe, double distance_square) const;
+    /** The rank of the nearest point; @p key: that of this rank. */
+    void find_owner(Probe &probe, const std::array<double, 4> &key) const;
     double point_value(const Probe &probe, const State &state) const;
     /** Whether the block that @p probe looks at is absent. */
     bool is_absent(const Probe &probe, const State &state) const;

@@ -152,6 +152,7 @@ namespace quoin
     void report_far_field();
     void write_far_field_row();
     void write_boundary();
+    void warn_of_slip(const StageParameters &stage);
     /** Returns whether the stage is over. */
     bool take_step(const StageParameters &stage);
     void report_blocks_outside();

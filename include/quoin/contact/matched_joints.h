@@ -143,7 +143,7 @@ namespace quoin
                    JointLinearisation &result) const;
 
     /**
-     * By how much a point of segment @p i / 2 that linearise() left elastic
+     * By how much entry @p point of @p history that linearise() left elastic
      * exceeds its strength, as a share of its stress; zero or less: it holds.
      */
     double excess(unsigned int point, const JointHistory &history) const;

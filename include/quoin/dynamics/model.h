@@ -234,7 +234,6 @@ namespace quoin
     std::array<double, 4> initial_stress(const LoadParameters &load,
                                          const dealii::Point<2> &point,
                                          unsigned int cell) const;
-    void find_face_stress();
     AlignedArray<double> packed_initial_stress() const;
     void pack_blocks(const ConstructionState &construction);
     void find_stable_step();

@@ -82,6 +82,13 @@ namespace quoin
     /** The same, and names the load, if one that acts is not finite at
         @p load_time [s] of the stage. */
     void check_loads(const State &state, double load_time) const;
+    /**
+     * The largest slip of a matched joint that bears pressure, by the length of
+     * its face: beyond a half or so its blocks no longer face each other, and
+     * small displacements do not hold. Collective.
+     */
+    double largest_slip_share(const State &state) const;
+
     /** The same if a cell has turned inside out; collective. */
     void check_cells(const State &state) const;
 
@@ -91,10 +98,12 @@ namespace quoin
       return last_energies;
     }
     /**
-     * Whether loads have changed in the last @p duration of the stage [s]: a
-     * static stage is not over before they rest.
+     * Whether loads have changed in the last @p duration of the stage [s], or
+     * will: a static stage is not over before they rest. The future is looked
+     * at where each time is a tenth later than the one before: a shorter pulse
+     * may be missed.
      */
-    bool loads_have_changed(const State &state, double duration) const;
+    bool loads_change(const State &state, double duration) const;
 
     /** Throws an InputError about loads that would begin with a jump. */
     void check_start(const State &state) const;
@@ -164,6 +173,9 @@ namespace quoin
     void find_energies(const State &state, double strain, double joint,
                        double kinetic);
     double sum(double value) const;
+    /** Of all loads of the stage, at a time of its own clock [s]. */
+    std::vector<std::array<double, 3>> load_values(double stage_start,
+                                                   double load_time) const;
 
     const Model &model;
     MPI_Comm communicator;

@@ -133,6 +133,39 @@ TEST(InputAdvice, LocalDampingOfWavesThatComeIn)
   expect(parameters, "waves come in");
 }
 
+TEST(InputAdvice, WhatTakesAStagesMotionAway)
+{
+  Parameters parameters                 = good_parameters();
+  parameters.stages[0].scaled_time_step = 1e-3;
+  expect(parameters, "'Mass scaling' changes how the model moves");
+  parameters.stages[0].damping           = DampingType::local;
+  parameters.stages[0].local_coefficient = 0.8;
+  EXPECT_EQ(advice(parameters), "");
+
+  // A dashpot on a curve that is held; on rollers it still works along them.
+  parameters = good_parameters();
+  parameters.loads.push_back(viscous("open", "bottom"));
+  parameters.stages[0].loads.push_back("open");
+  expect(parameters, "the load open there does nothing");
+  parameters.loads[0] = motion("base", "bottom", "", "0");
+  EXPECT_EQ(advice(parameters), "");
+}
+
+TEST(InputAdvice, WeightThatAStageForgets)
+{
+  Parameters parameters    = good_parameters();
+  StageParameters before   = parameters.stages[0];
+  before.name              = "settle";
+  before.damping           = DampingType::local;
+  before.local_coefficient = 0.8;
+  before.loads             = { "base", "gravity" };
+  parameters.loads.push_back(gravity("0", "-9.81"));
+  parameters.stages.insert(parameters.stages.begin(), before);
+  expect(parameters, "becomes weightless", 1);
+  parameters.stages[1].loads.push_back("gravity");
+  EXPECT_EQ(advice(parameters, 1), "");
+}
+
 TEST(InputAdvice, JointsAndMaterials)
 {
   Parameters parameters = good_parameters();
@@ -160,7 +193,7 @@ TEST(InputAdvice, JointsAndMaterials)
   EXPECT_EQ(advice(parameters), "");
 }
 
-TEST(InputAdvice, OutputAndLoadsWithoutFunctions)
+TEST(InputAdvice, OutputThatIsTooFrequent)
 {
   Parameters parameters     = good_parameters();
   parameters.field_interval = 1e-5;
@@ -168,9 +201,6 @@ TEST(InputAdvice, OutputAndLoadsWithoutFunctions)
   parameters.field_interval   = 0.;
   parameters.history_interval = 1e-5;
   expect(parameters, "shorter than the time step");
-  parameters.history_interval = 0.;
-  parameters.loads[1]         = traction("push", "top", "", "");
-  expect(parameters, "it does nothing");
 }
 
 TEST(InputAdvice, BoundaryElementsTooLong)

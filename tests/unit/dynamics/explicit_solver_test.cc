@@ -642,6 +642,46 @@ TEST(ExplicitSolver, IncidentWaveDoublesAtTheFreeSurface)
             1e-11 * run.solver.energies().throughput());
 }
 
+TEST(ExplicitSolver, LoadsThatComeLateAreStillToChange)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  const auto changes = [&](const std::string &function, const double load_time)
+  {
+    TestRun run(mesh, two_blocks(),
+                { motion("base", "bottom", "0", "0"),
+                  traction("push", "top", "", function) });
+    run.begin(stage_with({ "base", "push" }));
+    run.state.load_time = load_time;
+    return run.solver.loads_change(run.state, 1e-3);
+  };
+  EXPECT_FALSE(changes("-1e3", 0.));
+  EXPECT_TRUE(changes("-1e3 * min(1, t / 0.1)", 0.05));
+  EXPECT_FALSE(changes("-1e3 * min(1, t / 0.1)", 0.2));
+  // A plateau before the last step.
+  const std::string steps = "if(t < 1, -1e3, if(t < 2, -2e3, -3e3))";
+  EXPECT_TRUE(changes(steps, 0.5));
+  EXPECT_TRUE(changes(steps, 1.5));
+  EXPECT_FALSE(changes(steps, 2.5));
+  EXPECT_TRUE(changes("if(t < 1e5, 0, -1e3)", 0.5));
+}
+
+TEST(ExplicitSolver, SlipByTheEdgesThatTouch)
+{
+  // Edges are 1 m; slip counts where the joint bears pressure.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}));
+  EXPECT_EQ(run.solver.largest_slip_share(run.state), 0.);
+  for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
+    if (mesh.block_of_vertex(v) == 1)
+      run.state.nodes[v].u[0] = -0.7;
+  EXPECT_EQ(run.solver.largest_slip_share(run.state), 0.);
+  run.state.joints.normal_traction[1] = -1.;
+  EXPECT_NEAR(run.solver.largest_slip_share(run.state), 0.7, 1e-12);
+}
+
 TEST(ExplicitSolver, RefusesFreeBodiesInAStaticStage)
 {
   BlockMesh<2> mesh;

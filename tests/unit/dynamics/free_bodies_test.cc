@@ -85,6 +85,28 @@ TEST(FreeBodies, HeldWhereItsLoadsPushIt)
   EXPECT_FALSE(bodies[0].is_loose);
 }
 
+TEST(FreeBodies, PlatensPush)
+{
+  // On rollers the block may go sideways or turn about nothing.
+  const auto base   = motion("base", "bottom", "0", "0");
+  const auto roller = motion("roller", "foot", "", "0");
+  const LoadComponent nothing;
+  const auto force = [](const std::string &function) {
+    return LoadComponent{ LoadQuantity::force, TimeFunction(function, "./") };
+  };
+  const auto down = platen("jack", "loose", nothing, force("-1e3"), nothing);
+  const auto side = platen("jack", "loose", force("1e3"), nothing, nothing);
+  const std::vector<std::string> names = { "base", "roller", "jack" };
+  EXPECT_TRUE(pushed({ base, roller, down }, names).empty());
+  EXPECT_EQ(pushed({ base, roller, side }, names).size(), 1U);
+  // Without the roller nothing bears the moment either.
+  EXPECT_EQ(
+      pushed({ base, platen("jack", "loose", nothing, nothing, force("1e3")) },
+             { "base", "jack" })
+          .size(),
+      1U);
+}
+
 TEST(FreeBodies, DashpotsHoldInMotionButNotAtRest)
 {
   const std::vector<LoadParameters> loads
