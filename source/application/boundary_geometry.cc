@@ -5,7 +5,7 @@
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
-#include <quoin/tdbem/segment.h>
+#include <quoin/base/plane_geometry.h>
 
 #include <algorithm>
 #include <array>
@@ -368,7 +368,7 @@ namespace quoin
                            const BoundaryCurveParameters &parameters,
                            double element_length)
     {
-      const double corner      = std::cos(20. * pi / 180.);
+      const double corner      = std::cos(20. * constants::degree);
       const std::size_t n      = curve.points.size();
       const std::size_t n_edge = curve.n_edges();
       double total             = 0.;

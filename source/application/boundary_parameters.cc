@@ -498,4 +498,15 @@ namespace quoin
     parameters.n_frequencies  = section.integer("Passivity frequencies");
     return parameters;
   }
+
+  FormulationOptions BoundaryElementParameters::formulation_options() const
+  {
+    FormulationOptions options;
+    options.formulation    = formulation;
+    options.decay          = decay;
+    options.damping        = damping;
+    options.direct_history = direct_history;
+    options.tolerance      = tolerance;
+    return options;
+  }
 } // namespace quoin

@@ -154,19 +154,6 @@ namespace quoin
     dt      = settings.duration / steps;
   }
 
-  FormulationOptions BoundarySimulation::formulation_options() const
-  {
-    FormulationOptions result;
-    result.formulation    = settings.formulation;
-    result.time_step      = dt;
-    result.decay          = settings.decay;
-    result.damping        = settings.damping;
-    result.direct_history = settings.direct_history;
-    result.tolerance      = settings.tolerance;
-    result.n_steps        = n_steps;
-    return result;
-  }
-
   bool BoundarySimulation::needs_record() const
   {
     return !sampled_points.empty() || !histories->interior_points().empty();
@@ -224,7 +211,9 @@ namespace quoin
 
   void BoundarySimulation::make_operators()
   {
-    const FormulationOptions formulation = formulation_options();
+    FormulationOptions formulation = settings.formulation_options();
+    formulation.time_step          = dt;
+    formulation.n_steps            = n_steps;
     kernel = make_lag_kernel(geometry.boundary, medium, formulation);
     history
         = make_history(*kernel, geometry.boundary, formulation, communicator);

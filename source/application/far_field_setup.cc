@@ -4,6 +4,7 @@
 #include <quoin/application/far_field_setup.h>
 #include <quoin/application/given_values.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/dynamics/solver.h>
 #include <quoin/loads/nodal_load.h>
 
 #include <algorithm>
@@ -24,12 +25,6 @@ namespace quoin
       return faces_of_curves(model.mesh(), curves, load);
     }
 
-    bool names(const StageParameters &stage, const std::string &load)
-    {
-      return std::find(stage.loads.begin(), stage.loads.end(), load)
-             != stage.loads.end();
-    }
-
     /** The history of the waves must have no gap. */
     void check_stages(const std::vector<StageParameters> &stages,
                       const std::string &load)
@@ -37,7 +32,8 @@ namespace quoin
       bool has_acted = false, has_stopped = false;
       for (const StageParameters &stage : stages)
       {
-        const bool acts = stage.end == StageEnd::time && names(stage, load);
+        const bool acts
+            = stage.end == StageEnd::time && names_load(stage, load);
         if (acts && has_stopped)
           throw InputError("section 'Stages/" + stage.name
                            + "': the boundary elements of load '" + load
@@ -79,12 +75,8 @@ namespace quoin
           == BoundaryShape::interface)
         domain.interface.push_back(e);
 
-    domain.formulation.formulation    = settings.formulation;
-    domain.formulation.decay          = settings.decay;
-    domain.formulation.damping        = settings.damping;
-    domain.formulation.direct_history = settings.direct_history;
-    domain.formulation.tolerance      = settings.tolerance;
-    domain.scheme                     = settings.coupling;
+    domain.formulation = settings.formulation_options();
+    domain.scheme      = settings.coupling;
 
     const auto given = std::make_shared<GivenValues>(geometry, settings);
     given->check_start();
@@ -112,7 +104,7 @@ namespace quoin
     const auto needs_it = [&](const StageParameters &stage)
     {
       return (stage.end == StageEnd::static_ratio || parameters.is_implicit)
-             && names(stage, far->name());
+             && names_load(stage, far->name());
     };
     if (!far
         || std::none_of(parameters.stages.begin(), parameters.stages.end(),

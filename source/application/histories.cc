@@ -295,7 +295,7 @@ namespace quoin
     case HistoryQuantity::velocity:
       return state.velocity[probe.entity].v[wanted.component];
     case HistoryQuantity::rotation:
-      return rotation(probe.entity, state) * 180. / constants::pi;
+      return rotation(probe.entity, state) / constants::degree;
     case HistoryQuantity::stress:
     {
       if (probe.entity >= model.n_deformable_cells())
@@ -402,7 +402,7 @@ namespace quoin
       {
         const unsigned int d = probe.parameters.component;
         row[1 + i] = state.platens[probe.platen->index()].displacement[d]
-                     * (d == 2 ? 180. / constants::pi : 1.);
+                     / (d == 2 ? constants::degree : 1.);
       }
     }
   }

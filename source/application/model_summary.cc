@@ -18,7 +18,7 @@ namespace quoin
 {
   namespace
   {
-    constexpr double degrees = 180. / constants::pi;
+    using constants::degree;
 
     std::string range_text(const double low, const double high,
                            const std::string &unit)
@@ -93,7 +93,7 @@ namespace quoin
       std::vector<std::string> words;
       if (strength.friction != other.friction)
         words.push_back(named("friction angle",
-                              std::atan(strength.friction) * degrees,
+                              std::atan(strength.friction) / degree,
                               "degrees"));
       if (strength.cohesion != other.cohesion)
         words.push_back(named("cohesion", strength.cohesion, "Pa"));
@@ -116,7 +116,7 @@ namespace quoin
     {
       return "composite, " + named("tensile strength", law.tension, "Pa") + ", "
              + named("cohesion", law.cohesion, "Pa") + ", "
-             + named("friction angle", std::atan(law.friction) * degrees,
+             + named("friction angle", std::atan(law.friction) / degree,
                      "degrees")
              + ", " + named("compressive strength", law.compression, "Pa");
     }
@@ -124,18 +124,18 @@ namespace quoin
     std::string law_text(const BartonBandisLaw &law)
     {
       return "Barton-Bandis, "
-             + named("residual friction angle", law.residual_angle * degrees,
+             + named("residual friction angle", law.residual_angle / degree,
                      "degrees")
-             + ", JRC " + number_text(law.roughness * degrees) + ", "
+             + ", JRC " + number_text(law.roughness / degree) + ", "
              + named("JCS", law.wall_strength, "Pa");
     }
 
     std::string law_text(const ContinuouslyYieldingLaw &law)
     {
       return "continuously yielding, "
-             + named("friction angle from", law.initial_angle * degrees,
+             + named("friction angle from", law.initial_angle / degree,
                      "degrees")
-             + " " + named("down to", law.residual_angle * degrees, "degrees");
+             + " " + named("down to", law.residual_angle / degree, "degrees");
     }
 
     /** Names and units of the components of a load. */
@@ -259,10 +259,10 @@ namespace quoin
       return text;
     const MohrCoulombStrength &strength = *material.strength;
     return text + ", " + named("cohesion", strength.cohesion, "Pa") + ", "
-           + named("friction angle", strength.friction_angle * degrees,
+           + named("friction angle", strength.friction_angle / degree,
                    "degrees")
            + ", "
-           + named("dilation angle", strength.dilation_angle * degrees,
+           + named("dilation angle", strength.dilation_angle / degree,
                    "degrees")
            + ", " + named("tensile strength", strength.tension, "Pa");
   }
@@ -325,7 +325,6 @@ namespace quoin
                          const std::string &unit)
   {
     constexpr unsigned int n_times = 512;
-    constexpr double late          = 1e9; /**< where loads rest [s] */
     double low = 0., high = 0., start = 0.;
     bool is_first = true;
     for (const StageParameters &stage : parameters.stages)
@@ -336,7 +335,7 @@ namespace quoin
       if (names_load(stage, load.name))
         for (unsigned int i = 0; i <= n_times + (ends ? 0 : 1); ++i)
         {
-          const double t     = i > n_times ? late : duration * i / n_times;
+          const double t     = i > n_times ? late_time : duration * i / n_times;
           const double value = component.value({ t, start + t });
           low                = is_first ? value : std::min(low, value);
           high               = is_first ? value : std::max(high, value);

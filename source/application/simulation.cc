@@ -276,19 +276,10 @@ namespace quoin
                     "and the strength of these joints.");
   }
 
-  const StageParameters *
-  Simulation::previous_stage(const unsigned int index) const
-  {
-    for (unsigned int i = index; i-- > 0;)
-      if (!parameters.stages[i].safety)
-        return &parameters.stages[i];
-    return nullptr;
-  }
-
   void Simulation::begin_stage(const unsigned int index, State &state,
                                const bool time_is_known)
   {
-    const StageParameters *previous = previous_stage(index);
+    const StageParameters *previous = previous_stage(parameters.stages, index);
     try
     {
       construction->begin_stage(index, *solver, state);
@@ -318,7 +309,8 @@ namespace quoin
     {
       construction->resume_stage(index - 1, record.state);
       if (explicit_solver)
-        explicit_solver->restore_masses(*previous_stage(index), record.state);
+        explicit_solver->restore_masses(
+            *previous_stage(parameters.stages, index), record.state);
     }
   }
 

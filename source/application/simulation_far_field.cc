@@ -83,9 +83,7 @@ namespace quoin
     FarField &far   = *solver->far_field();
     double duration = 0.;
     for (const StageParameters &stage : parameters.stages)
-      if (stage.end == StageEnd::time
-          && std::find(stage.loads.begin(), stage.loads.end(), far.name())
-                 != stage.loads.end())
+      if (stage.end == StageEnd::time && names_load(stage, far.name()))
         duration += stage.duration + step;
     waves = std::make_unique<IncidentWaves>(
         parameters.boundary, far.domain().medium, far.domain().boundary,

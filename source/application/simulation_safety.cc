@@ -8,6 +8,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
+#include <quoin/mesh/mesh_size.h>
 #include <quoin/output/atomic_file.h>
 #include <quoin/output/collective.h>
 
@@ -33,18 +34,6 @@ namespace quoin
              << trial.is_decided << "," << trial.n_steps << ","
              << trial.unbalanced_ratio << "," << trial.displacement << "\n";
       return text.str();
-    }
-
-    double diagonal(const BlockMesh<2> &mesh)
-    {
-      dealii::Point<2> low = mesh.vertices[0], high = low;
-      for (const auto &p : mesh.vertices)
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          low[d]  = std::min(low[d], p[d]);
-          high[d] = std::max(high[d], p[d]);
-        }
-      return low.distance(high);
     }
   } // namespace
 
@@ -88,7 +77,8 @@ namespace quoin
     }
     report_safety(index);
     if (explicit_solver)
-      explicit_solver->restore_masses(*previous_stage(index), record.state);
+      explicit_solver->restore_masses(*previous_stage(parameters.stages, index),
+                                      record.state);
     end_stage(index);
   }
 

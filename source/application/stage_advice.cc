@@ -122,16 +122,6 @@ namespace quoin
         }
     }
 
-    /** That of the stage before with which the model went on. */
-    const StageParameters *stage_before(const Parameters &parameters,
-                                        const unsigned int index)
-    {
-      for (unsigned int i = index; i-- > 0;)
-        if (!parameters.stages[i].safety)
-          return &parameters.stages[i];
-      return nullptr;
-    }
-
     /**
      * Freedom @p d of all loads of @p stage that act where @p load does, in
      * the same way, at @p t of a stage that began at @p start [s].
@@ -156,7 +146,6 @@ namespace quoin
     {
       /** Share of the largest value that counts as a jump. */
       constexpr double smallest    = 0.2;
-      constexpr double late        = 1e9; /**< where loads rest [s] */
       const StageParameters &stage = parameters.stages[index];
       const double start           = start_of_stage(parameters.stages, index);
       const FunctionOfTime value   = [&](const double t)
@@ -165,13 +154,13 @@ namespace quoin
       for (const double v : sampled(value, stage.duration, 1025))
         largest = std::max(largest, std::abs(v));
       Jump jump                     = largest_jump(value, stage.duration);
-      const StageParameters *before = stage_before(parameters, index);
+      const StageParameters *before = previous_stage(parameters.stages, index);
       double last                   = 0.;
       if (before && before->end == StageEnd::time)
         last = force_like(parameters, *before, load, d, before->duration,
                           start - before->duration);
       else if (before)
-        last = force_like(parameters, *before, load, d, late, start);
+        last = force_like(parameters, *before, load, d, late_time, start);
       // At the start of the run it may be what the initial stress bears.
       const bool is_borne
           = index == 0 && !parameters.model.initial_stresses.empty();
@@ -237,7 +226,7 @@ namespace quoin
                                   std::vector<std::string> &advice)
     {
       const StageParameters &stage  = parameters.stages[index];
-      const StageParameters *before = stage_before(parameters, index);
+      const StageParameters *before = previous_stage(parameters.stages, index);
       const auto has_gravity        = [&](const StageParameters &any)
       {
         return std::any_of(parameters.loads.begin(), parameters.loads.end(),

@@ -2,13 +2,11 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/finite_numbers.h>
 #include <quoin/base/number_table.h>
-
-#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -22,23 +20,6 @@ namespace quoin
       const std::size_t first = word.find_first_not_of("+-.");
       return first != std::string::npos
              && std::isdigit(static_cast<unsigned char>(word[first]));
-    }
-
-    /** The numbers in @p words; none if one is no finite number. */
-    std::vector<double> numbers(const std::vector<std::string> &words)
-    {
-      std::vector<double> values;
-      try
-      {
-        values = dealii::Utilities::string_to_double(words);
-      }
-      catch (const dealii::ExceptionBase &)
-      {
-      }
-      if (!std::all_of(values.begin(), values.end(),
-                       [](const double value) { return std::isfinite(value); }))
-        values.clear();
-      return values;
     }
   } // namespace
 
@@ -66,7 +47,7 @@ namespace quoin
           || (rows.empty()
               && std::none_of(words.begin(), words.end(), begins_as_number)))
         continue;
-      const auto values = numbers(words);
+      const auto values = finite_numbers(words);
       if (values.size() != n_columns)
         throw InputError("line " + std::to_string(number) + " of the table '"
                          + file + "' is not " + row

@@ -2,11 +2,11 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/finite_numbers.h>
 #include <quoin/base/parameter_section.h>
 
 #include <deal.II/base/utilities.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -110,26 +110,6 @@ namespace quoin
         fail(name, "has nothing before or between commas: remove a comma.");
     return words;
   }
-
-  namespace
-  {
-    /** None if one of @p words is no finite number. */
-    std::vector<double> finite_numbers(const std::vector<std::string> &words)
-    {
-      std::vector<double> values;
-      try
-      {
-        values = dealii::Utilities::string_to_double(words);
-      }
-      catch (const dealii::ExceptionBase &)
-      {
-      }
-      if (!std::all_of(values.begin(), values.end(),
-                       [](const double value) { return std::isfinite(value); }))
-        values.clear();
-      return values;
-    }
-  } // namespace
 
   std::vector<std::vector<double>>
   ParameterSection::rows(const std::string &name, const std::size_t n_columns,

@@ -14,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <tuple>
 
 namespace quoin
 {

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/contact/contact_search.h>
 
 #include <boost/geometry/geometries/box.hpp>
@@ -35,14 +36,9 @@ namespace quoin
                      std::max(ends.y[0], ends.y[1]) + margin) };
     }
 
-    double distance_to_segment(const EdgeEnds &s, const double x,
-                               const double y)
+    dealii::Point<2> end(const EdgeEnds &edge, const unsigned int k)
     {
-      const double dx = s.x[1] - s.x[0], dy = s.y[1] - s.y[0];
-      const double t = std::clamp(((x - s.x[0]) * dx + (y - s.y[0]) * dy)
-                                      / (dx * dx + dy * dy),
-                                  0., 1.);
-      return std::hypot(s.x[0] + t * dx - x, s.y[0] + t * dy - y);
+      return { edge.x[k], edge.y[k] };
     }
 
     bool cross(const EdgeEnds &a, const EdgeEnds &b)
@@ -138,8 +134,9 @@ namespace quoin
       return 0.;
     double nearest = std::numeric_limits<double>::max();
     for (unsigned int k = 0; k < 2; ++k)
-      nearest = std::min({ nearest, distance_to_segment(a, b.x[k], b.y[k]),
-                           distance_to_segment(b, a.x[k], a.y[k]) });
+      nearest = std::min(
+          { nearest, distance_to_segment(end(b, k), end(a, 0), end(a, 1)),
+            distance_to_segment(end(a, k), end(b, 0), end(b, 1)) });
     return nearest;
   }
 

@@ -6,7 +6,6 @@
 #include <quoin/contact/matched_joints.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "joint_frame.h"
 #include "joint_points.h"

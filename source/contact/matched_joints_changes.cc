@@ -7,9 +7,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "joint_frame.h"
 #include "joint_points.h"
 

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace quoin
 {

@@ -16,9 +16,7 @@ namespace quoin
                                                constraints_on.end());
     for (std::size_t i = state.stage; i < all_stages.size(); ++i)
       for (const auto &constraint : all_constraints)
-        if (std::find(all_stages[i].loads.begin(), all_stages[i].loads.end(),
-                      constraint->name())
-            != all_stages[i].loads.end())
+        if (names_load(all_stages[i], constraint->name()))
           moving.push_back(constraint.get());
     moved_blocks.assign(model.n_blocks(), false);
     for (const NodeConstraint *constraint : moving)

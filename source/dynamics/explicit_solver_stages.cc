@@ -7,6 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
+#include <quoin/mesh/mesh_size.h>
 
 #include <algorithm>
 #include <cmath>
@@ -164,18 +165,8 @@ namespace quoin
                          "of a shear wave along the model, but all blocks are "
                          "rigid. Give a time in which forces may be let go "
                          "without shaking the blocks.");
-    const auto &vertices = model.mesh().vertices;
-    double low[2]        = { vertices[0][0], vertices[0][1] },
-           high[2]       = { low[0], low[1] };
-    for (const auto &p : vertices)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        low[d]  = std::min(low[d], p[d]);
-        high[d] = std::max(high[d], p[d]);
-      }
     // Masses that are added slow waves down.
-    return 2. * std::hypot(high[0] - low[0], high[1] - low[1]) / slowest
-           * std::sqrt(1. + added_mass);
+    return 2. * diagonal(model.mesh()) / slowest * std::sqrt(1. + added_mass);
   }
 
   void ExplicitSolver::begin_stage(const StageParameters &new_stage,

@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/free_bodies.h>
 #include <quoin/loads/platen.h>
+#include <quoin/mesh/mesh_size.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -87,7 +88,7 @@ namespace quoin
       const NodeExchange &exchange;
       const unsigned int n;
       const dealii::Point<2> origin;
-      double size = 0.;
+      const double size;
       std::vector<double> entries;
       std::vector<unsigned int> rank, parent;
       boost::disjoint_sets<unsigned int *, unsigned int *> sets;
@@ -98,11 +99,10 @@ namespace quoin
                    const std::vector<NodeConstraint *> &constraints,
                    const State &state, const bool with_drag)
       : mesh(model.mesh()), exchange(model.exchange()), n(mesh.n_blocks()),
-        origin(mesh.vertices[0]), entries(6 * n, 0.), rank(n), parent(n),
+        origin(mesh.vertices[0]), size(size_from_first_vertex(mesh)),
+        entries(6 * n, 0.), rank(n), parent(n),
         sets(rank.data(), parent.data()), grams(n)
     {
-      for (const auto &p : mesh.vertices)
-        size = std::max(size, p.distance(origin));
       for (unsigned int b = 0; b < n; ++b)
         sets.make_set(b);
       for (const NodeConstraint *constraint : constraints)

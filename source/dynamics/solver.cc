@@ -317,15 +317,15 @@ namespace quoin
 
   bool Solver::loads_change(const State &state, const double duration) const
   {
-    constexpr double late = 1e9, earliest = 1e-9; // [s]
-    const double now      = state.load_time;
-    const double before   = std::max(0., now - duration);
-    const auto values     = load_values(state.stage_start, now);
+    constexpr double earliest = 1e-9; // [s]
+    const double now          = state.load_time;
+    const double before       = std::max(0., now - duration);
+    const auto values         = load_values(state.stage_start, now);
     if (values != load_values(state.stage_start, before))
       return true;
     if (release.changes() && release.share(before) != release.share(now))
       return true;
-    for (double t = late; t > std::max(now, earliest); t *= 0.9)
+    for (double t = late_time; t > std::max(now, earliest); t *= 0.9)
       if (values != load_values(state.stage_start, t))
         return true;
     return false;

@@ -215,4 +215,14 @@ namespace quoin
     }
     return stage;
   }
+
+  const StageParameters *
+  previous_stage(const std::vector<StageParameters> &stages,
+                 const unsigned int index)
+  {
+    for (unsigned int i = index; i-- > 0;)
+      if (!stages[i].safety)
+        return &stages[i];
+    return nullptr;
+  }
 } // namespace quoin

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/implicit/equilibrium.h>
+#include <quoin/mesh/mesh_size.h>
 
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
@@ -110,12 +111,10 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     const double stiffness
         = sums[2] > 0. ? sums[0] / sums[2] : joint_stiffness();
-    const auto &vertices = model.mesh().vertices;
-    double size          = 0.;
-    for (const auto &p : vertices)
-      size = std::max(size, p.distance(vertices[0]));
-    least_applied        = least_motion * size * stiffness * vertices.size();
-    const double by_mass = stiffness / (sums[1] / vertices.size());
+    const unsigned int n_vertices = model.mesh().n_vertices();
+    least_applied = least_motion * size_from_first_vertex(model.mesh())
+                    * stiffness * n_vertices;
+    const double by_mass = stiffness / (sums[1] / n_vertices);
     for (const double mass : model.mass())
       drag_stiffness.push_back(by_mass * mass);
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)

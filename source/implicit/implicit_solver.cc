@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/exceptions.h>
 #include <quoin/implicit/implicit_solver.h>
-#include <quoin/loads/prescribed_motion.h>
+#include <quoin/mesh/mesh_size.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace quoin
 {
@@ -326,12 +326,8 @@ namespace quoin
       for (unsigned int d = 0; d < 2; ++d)
         moved = std::max(moved, std::abs(state.nodes[i].u[d]
                                          - last_equilibrium.nodes[i].u[d]));
-    const auto &vertices = model.mesh().vertices;
-    double size          = 0.;
-    for (const auto &p : vertices)
-      size = std::max(size, p.distance(vertices[0]));
     return dealii::Utilities::MPI::max(moved, communicator)
-           > collapse_share * size;
+           > collapse_share * size_from_first_vertex(model.mesh());
   }
 
   void ImplicitSolver::give_up(State &state)

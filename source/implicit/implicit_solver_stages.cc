@@ -71,9 +71,9 @@ namespace quoin
   {
     const auto values
         = [&](const double t) { return load_values(stage_start, t); };
-    constexpr double late = 1e9, earliest = 1e-9; // [s]
-    const auto last = values(late);
-    if (values(1.7 * late) != last)
+    constexpr double earliest = 1e-9; // [s]
+    const auto last           = values(late_time);
+    if (values(1.7 * late_time) != last)
       throw InputError("section 'Stages/" + stage.name
                        + "': 'End = static ratio', but its loads never rest. "
                          "Take 'End = time' and a 'Duration', or functions of "
@@ -84,7 +84,7 @@ namespace quoin
       {
         for (const LoadComponent &part : parts)
           if (part.quantity == LoadQuantity::velocity
-              && part.value({ late, stage_start + late }) != 0.)
+              && part.value({ late_time, stage_start + late_time }) != 0.)
             throw InputError("section 'Loads/" + constraint->name()
                              + "': a velocity that does not become zero never "
                                "lets the stage '"
@@ -98,8 +98,8 @@ namespace quoin
                = dynamic_cast<const PrescribedMotion *>(constraint))
         check(motion->parts());
     }
-    double rests = late, moves = 0.;
-    for (double t = late; t > earliest; t *= 0.9)
+    double rests = late_time, moves = 0.;
+    for (double t = late_time; t > earliest; t *= 0.9)
       if (values(t) == last)
         rests = t;
       else

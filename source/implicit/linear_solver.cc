@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/implicit/linear_solver.h>
+#include <quoin/mesh/mesh_size.h>
 
 #include <Teuchos_ParameterList.hpp>
 
@@ -80,10 +81,8 @@ namespace quoin
     // About the first node, in units of the model's size.
     const auto &mesh  = model.mesh();
     const auto origin = mesh.vertices[0];
-    double size       = 0.;
-    for (const auto &p : mesh.vertices)
-      size = std::max(size, p.distance(origin));
-    const auto place = [&](const Freedoms::Index first, const double x,
+    const double size = size_from_first_vertex(mesh);
+    const auto place  = [&](const Freedoms::Index first, const double x,
                            const double y, const bool(&free)[2])
     {
       if (free[0])

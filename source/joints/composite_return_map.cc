@@ -4,6 +4,8 @@
 #include <quoin/joints/composite_return_map.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace quoin
 {

@@ -41,7 +41,7 @@ namespace quoin
 
     Vector direction(const double dip)
     {
-      const double angle = dip * constants::pi / 180.;
+      const double angle = dip * constants::degree;
       Vector result;
       result[0] = std::cos(angle);
       result[1] = std::sin(angle);
@@ -105,7 +105,7 @@ namespace quoin
       double turned_reach() const
       {
         const double turn
-            = std::min(90., 3. * joints.dip.deviation) * constants::pi / 180.;
+            = std::min(90., 3. * joints.dip.deviation) * constants::degree;
         const double half
             = joints.is_persistent
                   ? 2. * radius

@@ -10,6 +10,8 @@
 #include <functional>
 #include <stdexcept>
 
+#include "element_limit.h"
+
 namespace quoin
 {
   namespace
@@ -19,9 +21,6 @@ namespace quoin
     using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
     using dealii::Patterns::Selection;
-
-    /** More do not fit into the memory of a machine. */
-    constexpr double most_elements = 1e8;
 
     /** "x, y; x, y; ..." */
     Polygon read_points(const ParameterSection &section,
@@ -378,11 +377,8 @@ namespace quoin
       if (rock.finest_size > rock.element_size)
         section.fail("Finest element size",
                      "must not exceed 'Element size', which it refines.");
-      const double n = 2. * std::abs(signed_area(rock.outline))
-                       / rock.element_size / rock.element_size;
-      if (!(n <= most_elements))
-        section.fail("Element size", "makes more than 100 million elements. "
-                                     "Check that it is in metres.");
+      limit_elements(section, 2. * std::abs(signed_area(rock.outline))
+                                  / rock.element_size / rock.element_size);
       if (rock.shortest_edge == 0.)
         rock.shortest_edge = 0.1 * rock.element_size;
       if (rock.smallest_block == 0.)

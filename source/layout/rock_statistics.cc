@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -78,7 +79,7 @@ namespace quoin
     /** Distances between neighbouring crossings with lines across @p dip. */
     std::vector<double> scan(const std::vector<Piece> &pieces, const double dip)
     {
-      const double angle = dip * constants::pi / 180.;
+      const double angle = dip * constants::degree;
       Vector along, across;
       along[0]  = std::cos(angle);
       along[1]  = std::sin(angle);
@@ -181,7 +182,7 @@ namespace quoin
     double dip_of(const Piece &piece, const double mean)
     {
       const Vector way = piece[1] - piece[0];
-      double dip       = std::atan2(way[1], way[0]) * 180. / constants::pi;
+      double dip       = std::atan2(way[1], way[0]) / constants::degree;
       while (dip > mean + 90.)
         dip -= 180.;
       while (dip < mean - 90.)

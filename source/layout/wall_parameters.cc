@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "element_limit.h"
+
 namespace quoin
 {
   void WallParameters::declare(dealii::ParameterHandler &prm)
@@ -103,7 +105,7 @@ namespace quoin
     }
 
     /** More do not fit into the memory of a machine. */
-    constexpr double most_units = 1e6, most_elements = 1e8;
+    constexpr double most_units = 1e6;
 
     void check_number_of_units(const ParameterSection &section,
                                const WallParameters &wall)
@@ -175,11 +177,8 @@ namespace quoin
       wall.element_size = 0.5 * wall.unit_height;
     const double height = wall.n_courses * wall.unit_height + wall.bottom_platen
                           + wall.top_platen;
-    if (!(2. * wall.length / wall.element_size * height / wall.element_size
-          <= most_elements))
-      section.fail("Element size",
-                   "makes more than 100 million elements. Check "
-                   "that lengths are in metres.");
+    limit_elements(section, 2. * wall.length / wall.element_size * height
+                                / wall.element_size);
     wall.structured = section.text("Elements") == "structured";
     if (wall.structured && wall.bond == WallBond::random)
       section.fail("Elements", "must be 'free' with 'Bond = random', whose "

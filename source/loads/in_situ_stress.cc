@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/finite_numbers.h>
 #include <quoin/loads/in_situ_stress.h>
 
 #include <deal.II/base/utilities.h>
@@ -16,23 +17,6 @@ namespace quoin
     using dealii::Patterns::Anything;
     using dealii::Patterns::Double;
     using dealii::Utilities::split_string_list;
-
-    /** The numbers in @p words; none if one is no finite number. */
-    std::vector<double> numbers(const std::vector<std::string> &words)
-    {
-      std::vector<double> values;
-      try
-      {
-        values = dealii::Utilities::string_to_double(words);
-      }
-      catch (const std::exception &)
-      {
-      }
-      if (!std::all_of(values.begin(), values.end(),
-                       [](const double value) { return std::isfinite(value); }))
-        values.clear();
-      return values;
-    }
 
     std::vector<std::array<double, 2>>
     read_surface(const ParameterSection &section)
@@ -65,7 +49,7 @@ namespace quoin
       for (unsigned int i = 0; i < words.size(); ++i)
       {
         const bool is_last = i + 1 == words.size();
-        const auto values  = numbers(split_string_list(words[i], ':'));
+        const auto values  = finite_numbers(split_string_list(words[i], ':'));
         if (values.size() != (is_last ? 1 : 2) || values[0] < 0.
             || (!is_last && !layers.empty() && values[1] >= layers.back().foot))
           section.fail("Unit weight",
@@ -153,7 +137,7 @@ namespace quoin
     result.out_of_plane_stress = result.horizontal_stress;
     if (section.text("Out-of-plane ratio") != "same")
     {
-      const auto ratio = numbers({ section.text("Out-of-plane ratio") });
+      const auto ratio = finite_numbers({ section.text("Out-of-plane ratio") });
       if (ratio.empty() || ratio[0] < 0.)
         section.fail("Out-of-plane ratio",
                      "must be 'same' or a number that is not negative.");

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/local_damping.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/platen.h>
 #include <quoin/loads/prescribed_motion.h>
@@ -173,12 +174,8 @@ namespace quoin
       const double a     = 0.5 * step.dt_velocity * step.mass_damping;
       const double gain  = step.dt_velocity / (1. + a) / inertia[d];
       const double free  = (1. - a) / (1. + a) * before + gain * total;
-      // Local damping as of a node (node_update.h).
-      const double sum = before + free;
-      const double local
-          = -std::copysign(std::min(step.local_damping * gain * std::abs(total),
-                                    0.5 * std::abs(sum)),
-                           sum);
+      const double local = -local_damping_velocity(
+          step.local_damping * gain * std::abs(total), before, free);
       platen.velocity[d] = free + local;
       damping[d]         = local / gain
                    - step.mass_damping * inertia[d] * 0.5

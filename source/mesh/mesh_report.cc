@@ -4,6 +4,8 @@
 #include <quoin/base/constants.h>
 #include <quoin/mesh/mesh_report.h>
 
+#include <deal.II/base/bounding_box.h>
+
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point.hpp>
@@ -15,6 +17,7 @@
 #include <limits>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 namespace quoin
 {
@@ -45,15 +48,10 @@ namespace quoin
         report.longest_edge *= 2.;
       }
       report.smallest_angle
-          = std::acos(std::min(1., largest_cosine)) * 180. / constants::pi;
+          = std::acos(std::min(1., largest_cosine)) / constants::degree;
 
-      report.lower_left = report.upper_right = mesh.vertices[0];
-      for (const auto &p : mesh.vertices)
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          report.lower_left[d]  = std::min(report.lower_left[d], p[d]);
-          report.upper_right[d] = std::max(report.upper_right[d], p[d]);
-        }
+      std::tie(report.lower_left, report.upper_right)
+          = dealii::BoundingBox<2>(mesh.vertices).get_boundary_points();
     }
 
     void add_joints(const BlockMesh<2> &mesh, MeshReport &report)

@@ -6,9 +6,9 @@
 
 #include <fcntl.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -43,48 +43,12 @@ namespace quoin
         return "Check the disk and the output directory.";
       }
     }
-
-    using CrcTables = std::array<std::array<std::uint32_t, 256>, 8>;
-
-    // Eight tables, so that eight bytes are taken at a time: a checkpoint is
-    // hundreds of megabytes, and a bytewise CRC would cost more than writing.
-    CrcTables make_crc_tables()
-    {
-      CrcTables tables{};
-      for (std::uint32_t i = 0; i < 256; ++i)
-      {
-        std::uint32_t c = i;
-        for (int k = 0; k < 8; ++k)
-          c = (c & 1U) ? (c >> 1U) ^ 0xEDB88320U : c >> 1U;
-        tables[0][i] = c;
-      }
-      for (unsigned int t = 1; t < 8; ++t)
-        for (unsigned int i = 0; i < 256; ++i)
-          tables[t][i]
-              = (tables[t - 1][i] >> 8U) ^ tables[0][tables[t - 1][i] & 0xFFU];
-      return tables;
-    }
   } // namespace
 
   std::uint32_t crc32(const std::uint32_t so_far, const char *data,
                       std::size_t n)
   {
-    static const CrcTables tables = make_crc_tables();
-
-    std::uint32_t c = ~so_far;
-    for (; n >= 8; n -= 8, data += 8)
-    {
-      std::uint64_t word;
-      std::memcpy(&word, data, 8);
-      word ^= c;
-      c = 0;
-      for (unsigned int b = 0; b < 8; ++b)
-        c ^= tables[7 - b][(word >> (8 * b)) & 0xFFU];
-    }
-    for (; n > 0; --n, ++data)
-      c = tables[0][(c ^ static_cast<unsigned char>(*data)) & 0xFFU]
-          ^ (c >> 8U);
-    return ~c;
+    return ::crc32_z(so_far, reinterpret_cast<const Bytef *>(data), n);
   }
 
   std::string write_failure(const std::string &path, const int error_number)

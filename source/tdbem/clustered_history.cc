@@ -2,9 +2,9 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/tdbem/clustered_history.h>
 #include <quoin/tdbem/gauss_legendre.h>
-#include <quoin/tdbem/segment.h>
 
 #include <Eigen/Eigenvalues>
 

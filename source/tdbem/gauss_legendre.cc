@@ -3,8 +3,9 @@
 
 #include <quoin/tdbem/gauss_legendre.h>
 
+#include <deal.II/base/quadrature_lib.h>
+
 #include <array>
-#include <cmath>
 
 namespace quoin
 {
@@ -14,28 +15,11 @@ namespace quoin
 
     GaussRule make_rule(const unsigned n)
     {
-      GaussRule rule{ std::vector<double>(n), std::vector<double>(n) };
-      for (unsigned k = 0; k < n; ++k)
-      {
-        double x = std::cos(3.14159265358979323846 * (k + 0.75) / (n + 0.5));
-        double derivative = 0.;
-        // Newton's method doubles the digits of a start that has three.
-        for (unsigned iteration = 0; iteration < 6; ++iteration)
-        {
-          double value = 1., previous = 0.;
-          for (unsigned j = 1; j <= n; ++j)
-          {
-            const double next
-                = ((2. * j - 1.) * x * value - (j - 1.) * previous) / j;
-            previous = value;
-            value    = next;
-          }
-          derivative = n * (x * value - previous) / (x * x - 1.);
-          x -= value / derivative;
-        }
-        rule.points[k]  = 0.5 * (1. - x);
-        rule.weights[k] = 1. / ((1. - x * x) * derivative * derivative);
-      }
+      const dealii::QGauss<1> quadrature(n);
+      GaussRule rule;
+      for (const dealii::Point<1> &point : quadrature.get_points())
+        rule.points.push_back(point[0]);
+      rule.weights = quadrature.get_weights();
       return rule;
     }
   } // namespace

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/plane_geometry.h>
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/interior_points.h>
-#include <quoin/tdbem/segment.h>
 #include <quoin/tdbem/static_kernels.h>
 
 #include <algorithm>

@@ -2,11 +2,11 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/tdbem/cut_kernels.h>
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/graded_rule.h>
 #include <quoin/tdbem/lag_matrices.h>
-#include <quoin/tdbem/segment.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/plane_geometry.h>
 #include <quoin/tdbem/laplace_matrices.h>
 
 #include <quoin/base/exceptions.h>
 #include <quoin/tdbem/gauss_legendre.h>
-#include <quoin/tdbem/segment.h>
 
 #include <algorithm>
 #include <cmath>

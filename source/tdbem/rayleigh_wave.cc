@@ -3,6 +3,8 @@
 
 #include <quoin/tdbem/rayleigh_wave.h>
 
+#include <boost/math/tools/roots.hpp>
+
 #include <cmath>
 #include <complex>
 #include <utility>
@@ -19,12 +21,8 @@ namespace quoin
       return (2. - square) * (2. - square)
              - 4. * std::sqrt((1. - square) * (1. - ratio * square));
     };
-    double low = 0.3, high = 1.;
-    while (high - low > 1e-15)
-    {
-      const double middle                  = 0.5 * (low + high);
-      (equation(middle) < 0. ? low : high) = middle;
-    }
+    const auto [low, high] = boost::math::tools::bisect(
+        equation, 0.3, 1., boost::math::tools::eps_tolerance<double>(50));
     return medium.c2 * std::sqrt(0.5 * (low + high));
   }
 

@@ -49,7 +49,7 @@ namespace quoin
       bool is_corner(const unsigned e, const unsigned f) const
       {
         return elements[e].tangent().dot(elements[f].tangent())
-               < std::cos(30.001 * constants::pi / 180.);
+               < std::cos(30.001 * constants::degree);
       }
 
       std::vector<unsigned> before, after; /**< or none */

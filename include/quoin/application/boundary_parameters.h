@@ -138,6 +138,9 @@ namespace quoin
     std::vector<IncidentWaveParameters> waves;
     SampledFieldParameters sampled_field;
 
+    /** All but the time step and the number of steps. */
+    FormulationOptions formulation_options() const;
+
     /** The entries of the section itself. */
     static void declare(dealii::ParameterHandler &prm);
     /**

@@ -112,7 +112,6 @@ namespace quoin
     std::vector<Eigen::Vector2d> points_in_domain() const;
     bool row_is_due(std::uint64_t step) const;
     bool fields_are_due(std::uint64_t step) const;
-    FormulationOptions formulation_options() const;
     /** Of points in the domain at the ends of some steps, total field. */
     Eigen::MatrixXd
     domain_displacements(const BoundaryRecord &all,

@@ -118,8 +118,6 @@ namespace quoin
     /** Tables of the first rank. */
     void make_tables();
     void run_stage(unsigned int index);
-    /** The last one before it that leaves the model changed, or null. */
-    const StageParameters *previous_stage(unsigned int index) const;
     void run_safety_stage(unsigned int index);
     /** Divides the strengths of @p strong by @p factor. */
     void set_strength(const ModelProperties &strong,

@@ -12,9 +12,10 @@
 namespace quoin
 {
   /**
-   * Disjoint sets of the numbers below n. Unlike in boost::disjoint_sets the
-   * representative of a set is its smallest member, so that what is numbered by
-   * representatives does not depend on the order of the unions.
+   * Disjoint sets of the numbers below n. The representative of a set is its
+   * smallest member, so that what is numbered by representatives does not
+   * depend on the order of the unions; in boost::disjoint_sets it is so only
+   * between a call of normalize_sets() and the next union.
    */
   class DisjointSets
   {

@@ -7,6 +7,7 @@
 #include <deal.II/base/point.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace quoin
 {
@@ -27,15 +28,19 @@ namespace quoin
     return (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
   }
 
-  /** Of @p p from the segment, which may be a point [m]. */
-  inline double distance_to_segment(const dealii::Point<2> &p,
-                                    const dealii::Point<2> &a,
-                                    const dealii::Point<2> &b)
+  /**
+   * Of @p p from the segment, which may be a point [m]; at its ends zero
+   * without rounding. A Vector has components [0] and [1].
+   */
+  template <typename Vector>
+  double distance_to_segment(const Vector &p, const Vector &a, const Vector &b)
   {
-    const dealii::Tensor<1, 2> way = b - a;
-    const double t                 = std::clamp(
-                        (p - a) * way / std::max(way.norm_square(), 1e-300), 0., 1.);
-    return p.distance(a + t * way);
+    const double way[2] = { b[0] - a[0], b[1] - a[1] };
+    const double arm[2] = { p[0] - a[0], p[1] - a[1] };
+    const double square = way[0] * way[0] + way[1] * way[1];
+    const double t      = std::clamp(
+             (arm[0] * way[0] + arm[1] * way[1]) / std::max(square, 1e-300), 0., 1.);
+    return std::hypot(arm[0] - t * way[0], arm[1] - t * way[1]);
   }
 } // namespace quoin
 

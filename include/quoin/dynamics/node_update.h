@@ -4,9 +4,9 @@
 #ifndef quoin_dynamics_node_update_h
 #define quoin_dynamics_node_update_h
 
+#include <quoin/base/local_damping.h>
 #include <quoin/base/state.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -61,23 +61,6 @@ namespace quoin
     /** Of the kinetic energy [J]. */
     double kinetic_change = 0.;
   };
-
-  /**
-   * What local damping takes off the velocity that a freedom would reach.
-   * Cundall's damping force is a share of the unbalanced force against the
-   * velocity. Against that of the half step before it would drive modes near
-   * the critical step, whose velocity changes sign every step; so it acts
-   * against the mean of @p v0 before and @p v1 after the step, at most
-   * halving it, and never does positive work.
-   *
-   * @p strength is the share times |force| dt / m [m/s].
-   */
-  inline double local_damping_velocity(const double strength, const double v0,
-                                       const double v1)
-  {
-    const double sum = v0 + v1;
-    return std::copysign(std::min(strength, 0.5 * std::abs(sum)), sum);
-  }
 
   /**
    * As advance_nodes(), with local and mass-proportional damping and the

@@ -81,6 +81,12 @@ namespace quoin
     static StageParameters read(const ParameterSection &section,
                                 const std::string &name);
   };
+
+  /** The last one before stage @p index that leaves the model changed, or
+      null. */
+  const StageParameters *
+  previous_stage(const std::vector<StageParameters> &stages,
+                 unsigned int index);
 } // namespace quoin
 
 #endif

@@ -98,7 +98,7 @@ namespace quoin
     double divisor        = 1.; /**< of the shear strength [-] */
 
     /** phi_r + i of the peak is not above this [rad]. */
-    static constexpr double largest_angle = 70. * constants::pi / 180.;
+    static constexpr double largest_angle = 70. * constants::degree;
 
     /** Brings @p point to @p opening and @p slip [m], overwriting it. */
     JointDissipation update(RockPoint &point, const double opening,

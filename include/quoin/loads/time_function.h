@@ -18,6 +18,9 @@ namespace quoin
     double total;
   };
 
+  /** So late in a stage that its loads rest if they ever do [s]. */
+  constexpr double late_time = 1e9;
+
   /**
    * A value that depends on time alone: an expression of t (time in the
    * stage) and T (total time), with pi and the functions of muParser,

@@ -23,3 +23,11 @@ TEST(PlaneGeometry, SegmentsEndAtTheirEnds)
   EXPECT_EQ(distance_to_segment(Point(8., -3.), a, b), 5.);
   EXPECT_EQ(distance_to_segment(Point(4., 5.), a, a), 5.);
 }
+
+TEST(PlaneGeometry, EndsOfASegmentLieOnIt)
+{
+  // 7.6 + (2.6 - 7.6) is not 2.6.
+  const Point a(7.6, 0.), b(2.6, 0.);
+  EXPECT_EQ(distance_to_segment(a, a, b), 0.);
+  EXPECT_EQ(distance_to_segment(b, a, b), 0.);
+}
