@@ -81,8 +81,12 @@ namespace quoin
             std::regex("^ *[Ll]ine <?\\d{1,9}>? of (input )?file <[^>]*>: *"),
             "");
       }
-      return where + ": " + message
-             + " Correct it; --print-parameters shows what exists.";
+      const bool lacks_section
+          = message.find("no such subsection") != std::string::npos;
+      return where + ": " + message + " Correct it"
+             + (lacks_section ? ", or list its name in 'Names' of its section"
+                              : "")
+             + "; --print-parameters shows what exists.";
     }
 
     std::string read_text(const std::string &file)

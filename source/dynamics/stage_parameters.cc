@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/unread_parameters.h>
 #include <quoin/dynamics/stage_parameters.h>
 
 namespace quoin
@@ -40,31 +39,6 @@ namespace quoin
                         "Pairs set:other set: joint sets that follow the law "
                         "of another, which may be without curves, from this "
                         "stage on; tractions stay.");
-    }
-
-    void refuse_unread_parameters(const ParameterSection &section)
-    {
-      const std::vector<std::string> safety   = { "factor of safety" };
-      const std::vector<std::string> rayleigh = { "Rayleigh" };
-      refuse_unread(
-          section, "End",
-          { { "Duration", "0", { "time" } },
-            { "Static ratio", "1e-6", { "static ratio", "factor of safety" } },
-            { "Minimum duration", "0", { "static ratio", "factor of safety" } },
-            { "First factor", "1", safety },
-            { "Lowest factor", "0.1", safety },
-            { "Highest factor", "10", safety },
-            { "Factor tolerance", "0.01", safety },
-            { "Failure displacement", "0", safety },
-            { "Reduced strength", "joints and blocks", safety } });
-      refuse_unread(section, "Damping",
-                    { { "Local damping coefficient", "0.8", { "local" } },
-                      { "Rayleigh mass coefficient", "0", rayleigh },
-                      { "Rayleigh stiffness coefficient", "0", rayleigh } });
-      if (!section.flag("Mass scaling")
-          && section.number("Scaled time step") != 0.)
-        section.fail("Scaled time step", "has no effect without 'Mass scaling "
-                                         "= yes'. Leave it at '0'.");
     }
 
     void read_construction(const ParameterSection &section,
@@ -119,7 +93,8 @@ namespace quoin
                       "is stable; below 1 [-]");
     prm.declare_entry("Minimum duration", "0", Double(),
                       "For 'End = static ratio': the stage lasts at least so "
-                      "long, for loads that begin later [s]");
+                      "long, and in any case until its loads have come to "
+                      "rest [s]");
     prm.declare_entry("Start time", "previous end", Anything(),
                       "'previous end', or the time at which the stage is "
                       "meant to begin, as a check [s]");
@@ -154,7 +129,6 @@ namespace quoin
   StageParameters StageParameters::read(const ParameterSection &section,
                                         const std::string &name)
   {
-    refuse_unread_parameters(section);
     StageParameters stage;
     stage.name  = name;
     stage.loads = section.list("Loads");
