@@ -275,7 +275,7 @@ namespace quoin
 
   void Simulation::report_end(const nlohmann::json &summary)
   {
-    /** Of what went through; user_guide.md, "Judging". */
+    /** Of what went through; user_guide.md, "Judge the result". */
     constexpr double largest_residual = 1e-3;
     if (std::abs(energy_residual()) > largest_residual)
       log.warning("the energy residual is "
