@@ -26,6 +26,17 @@ def recorded_times(output, series):
     return np.array(times)
 
 
+def check_times(output, series, wanted):
+    """Refuses times [s] that are farther from all fields than these are from
+    each other."""
+    recorded = recorded_times(output, series)
+    gap = max(np.diff(recorded), default=0.5 * abs(recorded[0]))
+    for time in wanted:
+        if not recorded[0] - gap <= time <= recorded[-1] + gap:
+            raise ValueError(f"no field was written near {time:g} s: they are "
+                             f"from {recorded[0]:g} to {recorded[-1]:g} s")
+
+
 def time_when(time, value, wanted, name):
     """When a history first reaches a value [s], on the line between rows.
 

@@ -298,6 +298,8 @@ class Pictures(unittest.TestCase):
                           "--band", "13", "15")
         self.has(path, "C1")
         self.draws("plot", "--spec", spec, ending=".pdf")
+        self.refuses("No such file or directory", "plot", "--spec", spec,
+                     "--out", os.path.join(self.folder.name, "no", "p.png"))
         self.refuses("give one each", "plot", "--spec", spec,
                      "--label", "a", "--label", "b")
         self.refuses("two numbers or two csv files", "plot", "--x",
@@ -326,6 +328,8 @@ class Pictures(unittest.TestCase):
         self.draws("render", "--joints", "damage")
         self.draws("render")
         self.refuses("never reaches 0.1", "render", "--at", "displacement=0.1")
+        for time in ("1e9", "-1"):
+            self.refuses("no field was written near", "render", "--time=" + time)
 
     def test_joint_damage(self):
         path = self.draws("joint_damage", "--against", "displacement")
