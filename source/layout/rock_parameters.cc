@@ -200,6 +200,8 @@ namespace quoin
     void read_set(const ParameterSection &section, RockJoints &joints)
     {
       joints.dip = read_distribution(section, "Dip");
+      if (!(std::abs(joints.dip.mean) <= 360.))
+        section.fail("Dip", "must have a mean between -360 and 360 degrees.");
       if (joints.dip.kind == DistributionKind::log_normal
           || joints.dip.kind == DistributionKind::exponential)
         section.fail("Dip", "is an angle: take 'Fisher', 'normal' or "
