@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/application/boundary_simulation.h>
+#include <quoin/problems/boundary_simulation.h>
 #include <quoin/application/command_line.h>
-#include <quoin/application/parameters.h>
-#include <quoin/application/simulation.h>
+#include <quoin/problems/parameters.h>
+#include <quoin/problems/simulation.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
-#include <quoin/output/collective.h>
+#include <quoin/results/collective.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -143,16 +143,16 @@ namespace quoin
     return point.slip_offset + x * normal[1] - y * normal[0];
   }
 
-  void BlockContacts::gather(const State &state)
+  void BlockContacts::gather(const State<2> &state)
   {
     reach->update_ghosts(state.nodes.data(), ghost_nodes.data());
-    const auto place = [](const NodeRecord &node) {
-      return NodeVector{ { node.X[0] + node.u[0], node.X[1] + node.u[1] } };
+    const auto place = [](const NodeRecord<2> &node) {
+      return NodeVector<2>{ { node.X[0] + node.u[0], node.X[1] + node.u[1] } };
     };
-    NodeVector *to = position.data();
+    NodeVector<2> *to = position.data();
     for (const unsigned int i : compact_owned)
       *to++ = place(state.nodes[i]);
-    for (const NodeRecord &node : ghost_nodes)
+    for (const NodeRecord<2> &node : ghost_nodes)
       *to++ = place(node);
 
     for (unsigned int e = 0; e < local_edges.size(); ++e)
@@ -171,22 +171,22 @@ namespace quoin
     }
   }
 
-  void BlockContacts::gather_velocities(const NodeVector *velocity)
+  void BlockContacts::gather_velocities(const NodeVector<2> *velocity)
   {
     reach->update_ghosts(velocity, ghost_velocity.data());
-    NodeVector *to = compact_velocity.data();
+    NodeVector<2> *to = compact_velocity.data();
     for (const unsigned int i : compact_owned)
       *to++ = velocity[i];
     std::copy(ghost_velocity.begin(), ghost_velocity.end(), to);
   }
 
-  void BlockContacts::scatter(AlignedArray<NodeVector> &from,
-                              NodeVector *to) const
+  void BlockContacts::scatter(AlignedArray<NodeVector<2>> &from,
+                              NodeVector<2> *to) const
   {
     for (unsigned int j = 0; j < compact_owned.size(); ++j)
       for (unsigned int d = 0; d < 2; ++d)
         to[compact_owned[j]].v[d] += from[j].v[d];
-    std::fill(from.begin(), from.end(), NodeVector{ { 0., 0. } });
+    std::fill(from.begin(), from.end(), NodeVector<2>{ { 0., 0. } });
   }
 
   // In line: sums stay in registers.
@@ -261,7 +261,7 @@ namespace quoin
   }
 
   void BlockContacts::add_forces(ContactState &contacts, EnergyAccounts &energy,
-                                 NodeVector *force, const Viscous *viscous)
+                                 NodeVector<2> *force, const Viscous *viscous)
   {
     if (viscous)
       gather_velocities(viscous->velocity);
@@ -295,7 +295,7 @@ namespace quoin
 
   void BlockContacts::spread(const Edge &a, const Edge &b, const double lower,
                              const double upper, const double *f,
-                             NodeVector *force)
+                             NodeVector<2> *force)
   {
     for (unsigned int d = 0; d < 2; ++d)
     {

@@ -143,7 +143,7 @@ namespace quoin
         }
   }
 
-  void BlockContacts::update(State &state, const MatchedJoints &joints,
+  void BlockContacts::update(State<2> &state, const MatchedJoints &joints,
                              const double dt)
   {
     ContactState &contacts = state.contacts;
@@ -154,7 +154,7 @@ namespace quoin
     gather(state);
   }
 
-  void BlockContacts::check(State &state, const MatchedJoints &joints,
+  void BlockContacts::check(State<2> &state, const MatchedJoints &joints,
                             const double dt)
   {
     ContactState &contacts = state.contacts;
@@ -163,13 +163,13 @@ namespace quoin
     double moved = 0., fastest = 0.;
     for (unsigned int i = 0; i < boundary_nodes.size() && !is_first; ++i)
     {
-      const NodeRecord &node = state.nodes[boundary_nodes[i]];
-      const double *from     = contacts.search_positions[i].v;
-      const double *v        = state.velocity[boundary_nodes[i]].v;
-      const double dx        = node.X[0] + node.u[0] - from[0];
-      const double dy        = node.X[1] + node.u[1] - from[1];
-      moved                  = std::max(moved, dx * dx + dy * dy);
-      fastest                = std::max(fastest, v[0] * v[0] + v[1] * v[1]);
+      const NodeRecord<2> &node = state.nodes[boundary_nodes[i]];
+      const double *from        = contacts.search_positions[i].v;
+      const double *v           = state.velocity[boundary_nodes[i]].v;
+      const double dx           = node.X[0] + node.u[0] - from[0];
+      const double dy           = node.X[1] + node.u[1] - from[1];
+      moved                     = std::max(moved, dx * dx + dy * dy);
+      fastest                   = std::max(fastest, v[0] * v[0] + v[1] * v[1]);
     }
     const bool changed = hand_over(state, joints) || search_is_due;
     search_is_due      = false;
@@ -200,7 +200,7 @@ namespace quoin
     contacts.next_check   = state.step + static_cast<std::uint64_t>(interval);
   }
 
-  bool BlockContacts::hand_over(State &state, const MatchedJoints &joints)
+  bool BlockContacts::hand_over(State<2> &state, const MatchedJoints &joints)
   {
     ContactState &contacts = state.contacts;
     const auto interface   = [&](const unsigned int segment)
@@ -311,7 +311,7 @@ namespace quoin
     return pair;
   }
 
-  void BlockContacts::search(State &state)
+  void BlockContacts::search(State<2> &state)
   {
     ContactState &contacts = state.contacts;
     AlignedArray<std::uint8_t> left_out(mesh.n_blocks());
@@ -365,7 +365,7 @@ namespace quoin
     contacts.search_positions.clear();
     for (const unsigned int i : boundary_nodes)
     {
-      const NodeRecord &node = state.nodes[i];
+      const NodeRecord<2> &node = state.nodes[i];
       contacts.search_positions.push_back(
           { { node.X[0] + node.u[0], node.X[1] + node.u[1] } });
     }
@@ -527,8 +527,8 @@ namespace quoin
     const unsigned int n_nodes = owned.size() + ghosts.size();
     position.resize(n_nodes);
     compact_velocity.resize(n_nodes);
-    compact_force.assign(n_nodes, NodeVector{ { 0., 0. } });
-    compact_viscous.assign(n_nodes, NodeVector{ { 0., 0. } });
+    compact_force.assign(n_nodes, NodeVector<2>{ { 0., 0. } });
+    compact_viscous.assign(n_nodes, NodeVector<2>{ { 0., 0. } });
   }
 
   void BlockContacts::bind_pairs(const ContactState &contacts)
@@ -569,7 +569,8 @@ namespace quoin
     }
   }
 
-  void BlockContacts::refuse_depth(const State &state, const double ratio) const
+  void BlockContacts::refuse_depth(const State<2> &state,
+                                   const double ratio) const
   {
     // The first rank that knows of it tells the others.
     const unsigned int n
@@ -602,7 +603,7 @@ namespace quoin
     throw RunError(message.str());
   }
 
-  void BlockContacts::refuse_speed(const State &state, const double speed,
+  void BlockContacts::refuse_speed(const State<2> &state, const double speed,
                                    const double dt) const
   {
     constexpr unsigned int nowhere = -1;

@@ -62,7 +62,7 @@ namespace quoin
     /** xmin, ymin, xmax, ymax of this rank's blocks, of all ranks in turn. */
     std::vector<std::array<double, 4>>
     boxes_of_blocks(const BlockMesh<2> &mesh, const ContactEdges &edges,
-                    const NodeExchange &exchange, const NodeRecord *nodes)
+                    const NodeExchange &exchange, const NodeRecord<2> *nodes)
     {
       constexpr double far = std::numeric_limits<double>::max();
       std::vector<double> own;
@@ -74,7 +74,7 @@ namespace quoin
         for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1);
              ++e)
         {
-          const NodeRecord &node = nodes[exchange.local(edges[e].nodes[0])];
+          const NodeRecord<2> &node = nodes[exchange.local(edges[e].nodes[0])];
           for (unsigned int d = 0; d < 2; ++d)
           {
             const double x = node.X[d] + node.u[d];
@@ -100,11 +100,10 @@ namespace quoin
     }
 
     /** Blocks of other ranks near those of this one, ascending. */
-    std::vector<unsigned int>
-    blocks_within_reach(const BlockMesh<2> &mesh, const ContactEdges &edges,
-                        const NodeExchange &exchange, const NodeRecord *nodes,
-                        const AlignedArray<std::uint8_t> &left_out,
-                        const double skin)
+    std::vector<unsigned int> blocks_within_reach(
+        const BlockMesh<2> &mesh, const ContactEdges &edges,
+        const NodeExchange &exchange, const NodeRecord<2> *nodes,
+        const AlignedArray<std::uint8_t> &left_out, const double skin)
     {
       const auto boxes  = boxes_of_blocks(mesh, edges, exchange, nodes);
       const auto box_of = [&](const unsigned int b, const double margin)
@@ -142,7 +141,7 @@ namespace quoin
 
   std::vector<EdgeEnds>
   edges_within_reach(const BlockMesh<2> &mesh, const ContactEdges &edges,
-                     const NodeExchange &exchange, const NodeRecord *nodes,
+                     const NodeExchange &exchange, const NodeRecord<2> *nodes,
                      const AlignedArray<std::uint8_t> &left_out,
                      const double skin)
   {
@@ -164,7 +163,7 @@ namespace quoin
     std::sort(blocks.begin(), blocks.end());
 
     const NodeExchange reach = exchange.with_ghosts(ghosts);
-    std::vector<NodeRecord> ghost_nodes(ghosts.size());
+    std::vector<NodeRecord<2>> ghost_nodes(ghosts.size());
     reach.update_ghosts(nodes, ghost_nodes.data());
 
     std::vector<EdgeEnds> result;
@@ -176,12 +175,12 @@ namespace quoin
         ends.edge = e;
         for (unsigned int k = 0; k < 2; ++k)
         {
-          const unsigned int i   = reach.local(edges[e].nodes[k]);
-          const NodeRecord &node = i < reach.n_owned()
-                                       ? nodes[i]
-                                       : ghost_nodes[i - reach.n_owned()];
-          ends.x[k]              = node.X[0] + node.u[0];
-          ends.y[k]              = node.X[1] + node.u[1];
+          const unsigned int i      = reach.local(edges[e].nodes[k]);
+          const NodeRecord<2> &node = i < reach.n_owned()
+                                          ? nodes[i]
+                                          : ghost_nodes[i - reach.n_owned()];
+          ends.x[k]                 = node.X[0] + node.u[0];
+          ends.y[k]                 = node.X[1] + node.u[1];
         }
         result.push_back(ends);
       }

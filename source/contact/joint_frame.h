@@ -13,12 +13,12 @@
 namespace quoin
 {
   inline MatchedJoints::Frame MatchedJoints::frame(const Segment &segment,
-                                                   const NodeRecord *nodes)
+                                                   const NodeRecord<2> *nodes)
   {
-    const NodeRecord &a0 = nodes[segment.lower[0]];
-    const NodeRecord &a1 = nodes[segment.lower[1]];
-    const NodeRecord &b0 = nodes[segment.upper[0]];
-    const NodeRecord &b1 = nodes[segment.upper[1]];
+    const NodeRecord<2> &a0 = nodes[segment.lower[0]];
+    const NodeRecord<2> &a1 = nodes[segment.lower[1]];
+    const NodeRecord<2> &b0 = nodes[segment.upper[0]];
+    const NodeRecord<2> &b1 = nodes[segment.upper[1]];
 
     // Twice the mean edge of the two sides; the lower block is on its left.
     const double x = (a1.X[0] - a0.X[0]) + (b1.X[0] - b0.X[0])
@@ -32,11 +32,11 @@ namespace quoin
 
   inline std::array<double, 2> MatchedJoints::gap(const Segment &segment,
                                                   const Frame &frame,
-                                                  const NodeRecord *nodes,
+                                                  const NodeRecord<2> *nodes,
                                                   const unsigned int k)
   {
-    const NodeRecord &a = nodes[segment.lower[k]];
-    const NodeRecord &b = nodes[segment.upper[k]];
+    const NodeRecord<2> &a = nodes[segment.lower[k]];
+    const NodeRecord<2> &b = nodes[segment.upper[k]];
 
     const double x = (b.X[0] - a.X[0]) + (b.u[0] - a.u[0]);
     const double y = (b.X[1] - a.X[1]) + (b.u[1] - a.u[1]);

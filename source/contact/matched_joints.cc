@@ -98,7 +98,7 @@ namespace quoin
   }
 
   std::array<std::array<double, 2>, 2>
-  MatchedJoints::gaps(const NodeRecord *nodes, const unsigned int i) const
+  MatchedJoints::gaps(const NodeRecord<2> *nodes, const unsigned int i) const
   {
     const Frame local = frame(segments[i], nodes);
     return { { gap(segments[i], local, nodes, 0),
@@ -113,10 +113,11 @@ namespace quoin
   }
 
   template <typename Law>
-  void
-  MatchedJoints::add_set_forces(const unsigned int set, const Law &law,
-                                const NodeRecord *nodes, JointHistory &history,
-                                EnergyAccounts &energy, NodeVector *force) const
+  void MatchedJoints::add_set_forces(const unsigned int set, const Law &law,
+                                     const NodeRecord<2> *nodes,
+                                     JointHistory &history,
+                                     EnergyAccounts &energy,
+                                     NodeVector<2> *force) const
   {
     // Positions first, for some segments at a time: the square roots and
     // divisions of several then overlap, where one followed by its law would
@@ -149,10 +150,10 @@ namespace quoin
             = advance_joint(law, opening, slip, segment.area[k] * segment.share,
                             history, p, energy);
 
-        const double sigma = segment.area[k] * point.normal_traction;
-        const double tau   = segment.area[k] * point.shear_traction;
-        NodeVector &lower  = force[segment.lower[k]];
-        NodeVector &upper  = force[segment.upper[k]];
+        const double sigma   = segment.area[k] * point.normal_traction;
+        const double tau     = segment.area[k] * point.shear_traction;
+        NodeVector<2> &lower = force[segment.lower[k]];
+        NodeVector<2> &upper = force[segment.upper[k]];
         for (unsigned int d = 0; d < 2; ++d)
         {
           const double f = sigma * local.normal[d] + tau * local.tangent[d];
@@ -163,9 +164,9 @@ namespace quoin
     }
   }
 
-  void MatchedJoints::add_forces(const NodeRecord *nodes, JointHistory &history,
-                                 EnergyAccounts &energy,
-                                 NodeVector *force) const
+  void MatchedJoints::add_forces(const NodeRecord<2> *nodes,
+                                 JointHistory &history, EnergyAccounts &energy,
+                                 NodeVector<2> *force) const
   {
     // Summed apart: a step's share is small beside the account.
     EnergyAccounts lost;
@@ -179,11 +180,11 @@ namespace quoin
     energy += lost;
   }
 
-  void MatchedJoints::add_viscous_forces(const NodeRecord *nodes,
+  void MatchedJoints::add_viscous_forces(const NodeRecord<2> *nodes,
                                          const JointHistory &history,
-                                         const NodeVector *velocity,
+                                         const NodeVector<2> *velocity,
                                          const double beta,
-                                         NodeVector *force) const
+                                         NodeVector<2> *force) const
   {
     for (unsigned int i = 0; i < segments.size(); ++i)
     {
@@ -219,7 +220,7 @@ namespace quoin
     }
   }
 
-  double MatchedJoints::stored_energy(const NodeRecord *nodes,
+  double MatchedJoints::stored_energy(const NodeRecord<2> *nodes,
                                       const JointHistory &history) const
   {
     double energy = 0.;
@@ -243,7 +244,7 @@ namespace quoin
   }
 
   void MatchedJoints::add_stiffness_bound(
-      const NodeRecord *nodes, const NodeRatio &ratio,
+      const NodeRecord<2> *nodes, const NodeRatio &ratio,
       std::vector<std::array<double, 3>> &stiffness) const
   {
     for (const Segment &segment : segments)

@@ -37,7 +37,7 @@ namespace quoin
   } // namespace
 
   void MatchedJoints::initialise(const std::vector<FaceStress> &face_stress,
-                                 const State &state,
+                                 const State<2> &state,
                                  JointHistory &history) const
   {
     for (unsigned int i = 0; i < segments.size(); ++i)
@@ -73,9 +73,9 @@ namespace quoin
   }
 
   void MatchedJoints::add_traction_forces(const unsigned int i,
-                                          const NodeRecord *nodes,
+                                          const NodeRecord<2> *nodes,
                                           const JointHistory &history,
-                                          NodeVector *force) const
+                                          NodeVector<2> *force) const
   {
     const Segment &segment = segments[i];
     const Frame local      = frame(segment, nodes);
@@ -101,7 +101,8 @@ namespace quoin
     }
   }
 
-  void MatchedJoints::begin_anew(const unsigned int i, const NodeRecord *nodes,
+  void MatchedJoints::begin_anew(const unsigned int i,
+                                 const NodeRecord<2> *nodes,
                                  JointHistory &history) const
   {
     history.handed_over[i] = 0;
@@ -141,7 +142,7 @@ namespace quoin
     }
   }
 
-  void MatchedJoints::keep_tractions(const NodeRecord *nodes,
+  void MatchedJoints::keep_tractions(const NodeRecord<2> *nodes,
                                      JointHistory &history) const
   {
     for (unsigned int i = 0; i < segments.size(); ++i)

@@ -113,15 +113,15 @@ namespace quoin
      * How the frame of four nodes turns with their displacements [1/m]:
      * d phi = (E x dE) / |E|^2, E the sum of both edges.
      */
-    Row turn_of_frame(const NodeRecord *nodes,
+    Row turn_of_frame(const NodeRecord<2> *nodes,
                       const std::array<unsigned int, 4> &corners)
     {
       double edge[2] = { 0., 0. };
       for (unsigned int d = 0; d < 2; ++d)
         for (const unsigned int side : { 0U, 2U })
         {
-          const NodeRecord &a = nodes[corners[side]];
-          const NodeRecord &b = nodes[corners[side + 1]];
+          const NodeRecord<2> &a = nodes[corners[side]];
+          const NodeRecord<2> &b = nodes[corners[side + 1]];
           edge[d] += (b.X[d] - a.X[d]) + (b.u[d] - a.u[d]);
         }
       const double square = edge[0] * edge[0] + edge[1] * edge[1];
@@ -136,7 +136,8 @@ namespace quoin
     }
   } // namespace
 
-  void MatchedJoints::linearise(const unsigned int i, const NodeRecord *nodes,
+  void MatchedJoints::linearise(const unsigned int i,
+                                const NodeRecord<2> *nodes,
                                 const std::vector<std::uint8_t> &broken,
                                 JointHistory &history, EnergyAccounts &energy,
                                 JointLinearisation &result) const

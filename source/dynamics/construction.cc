@@ -33,10 +33,10 @@ namespace quoin
 
   void Construction::restart()
   {
-    restore(0, State());
+    restore(0, State<2>());
   }
 
-  void Construction::restore(const unsigned int n, const State &state)
+  void Construction::restore(const unsigned int n, const State<2> &state)
   {
     const auto changed = [&](const unsigned int last)
     {
@@ -50,13 +50,14 @@ namespace quoin
     n_begun = n;
   }
 
-  void Construction::resume_stage(const unsigned int stage, const State &state)
+  void Construction::resume_stage(const unsigned int stage,
+                                  const State<2> &state)
   {
     restore(stage + 1, state);
   }
 
   void Construction::begin_stage(const unsigned int stage, Solver &solver,
-                                 State &state)
+                                 State<2> &state)
   {
     const Step &step = steps[stage];
     restore(stage, state);
@@ -84,7 +85,7 @@ namespace quoin
     n_begun = stage + 1;
   }
 
-  double Construction::stored_energy(const State &state) const
+  double Construction::stored_energy(const State<2> &state) const
   {
     return model.blocks().strain_energy(state.nodes.data(), state.plastic)
            + model.joints().stored_energy(state.nodes.data(), state.joints);
@@ -109,12 +110,13 @@ namespace quoin
   }
 
   void Construction::take_away(const Step &step, Solver &solver,
-                               State &state) const
+                               State<2> &state) const
   {
     const BlockMesh<2> &mesh    = model.mesh();
     const MatchedJoints &joints = model.joints();
-    AlignedArray<NodeVector> held(state.nodes.size(), NodeVector{ { 0., 0. } });
-    AlignedArray<NodeVector> lost = held; // of joints within what is taken
+    AlignedArray<NodeVector<2>> held(state.nodes.size(),
+                                     NodeVector<2>{ { 0., 0. } });
+    AlignedArray<NodeVector<2>> lost = held; // of joints within what is taken
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
       if (model.is_at_absent_block(i, state))
@@ -159,7 +161,7 @@ namespace quoin
     state.construction.held.push_back(std::move(item));
   }
 
-  void Construction::place(const Step &step, State &state) const
+  void Construction::place(const Step &step, State<2> &state) const
   {
     const MatchedJoints &joints = model.joints();
     const auto blocks           = own_blocks(step.fill);

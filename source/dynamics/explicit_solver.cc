@@ -16,7 +16,7 @@ namespace quoin
     /** Change of its coefficient in one step. */
     constexpr double adaptive_change = 1.005;
 
-    double norm(const NodeVector &f)
+    double norm(const NodeVector<2> &f)
     {
       return std::sqrt(f.v[0] * f.v[0] + f.v[1] * f.v[1]);
     }
@@ -34,11 +34,11 @@ namespace quoin
     if (model.large_displacements())
       block_contacts = std::make_unique<BlockContacts>(model.mesh(), exchange,
                                                        model.contact_model());
-    force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
-    viscous_force.assign(exchange.n_local(), NodeVector{ { 0., 0. } });
+    force.assign(exchange.n_local(), NodeVector<2>{ { 0., 0. } });
+    viscous_force.assign(exchange.n_local(), NodeVector<2>{ { 0., 0. } });
   }
 
-  StepContext ExplicitSolver::step_context(const State &state) const
+  StepContext ExplicitSolver::step_context(const State<2> &state) const
   {
     const double in_stage = state.load_time;
     const double advance  = state.load_rate * time_step;
@@ -60,7 +60,7 @@ namespace quoin
     return context;
   }
 
-  void ExplicitSolver::step(State &state, const Requests &wanted)
+  void ExplicitSolver::step(State<2> &state, const Requests &wanted)
   {
     Requests requests = wanted;
     if (stage.slows_loads() && requests.balance)
@@ -119,7 +119,7 @@ namespace quoin
     advance_time(state, context, requests);
   }
 
-  double ExplicitSolver::kinetic_energy(const State &state,
+  double ExplicitSolver::kinetic_energy(const State<2> &state,
                                         const StepContext &context) const
   {
     // 1/2 m v- v+, or the same half work on from v- if the step changed.
@@ -136,7 +136,7 @@ namespace quoin
     return kinetic;
   }
 
-  void ExplicitSolver::advance_time(State &state, const StepContext &context,
+  void ExplicitSolver::advance_time(State<2> &state, const StepContext &context,
                                     const Requests &requests) const
   {
     ++state.step;
@@ -157,7 +157,7 @@ namespace quoin
         = loading_rate::next(state.load_rate, state.load_rate_growth);
   }
 
-  void ExplicitSolver::account_for_new_step(State &state,
+  void ExplicitSolver::account_for_new_step(State<2> &state,
                                             const StepContext &context) const
   {
     // The kinetic energy that fits the trapezoidal work of the steps h1 before
@@ -178,7 +178,7 @@ namespace quoin
     state.pending.external += energy;
   }
 
-  void ExplicitSolver::apply_forces(State &state, const StepContext &context)
+  void ExplicitSolver::apply_forces(State<2> &state, const StepContext &context)
   {
     const bool viscous = stage.stiffness_coefficient > 0.;
     if (viscous)
@@ -213,25 +213,26 @@ namespace quoin
            * release.power(state.load_time, state.velocity.data());
     for (unsigned int i = model.exchange().n_owned();
          i < model.exchange().n_local(); ++i)
-      force[i] = viscous_force[i] = NodeVector{ { 0., 0. } };
+      force[i] = viscous_force[i] = NodeVector<2>{ { 0., 0. } };
     for (const NodeRange &range : removed_nodes)
       std::fill(&force[range.begin], &force[range.begin] + range.size(),
-                NodeVector{ { 0., 0. } });
+                NodeVector<2>{ { 0., 0. } });
   }
 
   void ExplicitSolver::find_begun_forces(const StepContext &context)
   {
-    AlignedArray<NodeVector> begun(force.size(), NodeVector{ { 0., 0. } });
+    AlignedArray<NodeVector<2>> begun(force.size(),
+                                      NodeVector<2>{ { 0., 0. } });
     for (const NodalLoad *load : loads_begun)
       load->add_forces(context.begin, begun.data());
     for (CapturedNode &node : captured)
       node.begun = begun[node.node];
   }
 
-  void ExplicitSolver::update_histories(State &state)
+  void ExplicitSolver::update_histories(State<2> &state)
   {
-    AlignedArray<NodeVector> unused(state.nodes.size(),
-                                    NodeVector{ { 0., 0. } });
+    AlignedArray<NodeVector<2>> unused(state.nodes.size(),
+                                       NodeVector<2>{ { 0., 0. } });
     if (block_contacts)
     {
       state.contacts.next_check = -1; // search nothing for a mere look
@@ -244,7 +245,7 @@ namespace quoin
         += model.blocks().update(state.nodes.data(), state.plastic);
   }
 
-  void ExplicitSolver::capture(CapturedNode &node, const State &state) const
+  void ExplicitSolver::capture(CapturedNode &node, const State<2> &state) const
   {
     node.force   = force[node.node];
     node.viscous = viscous_force[node.node];
@@ -256,7 +257,8 @@ namespace quoin
     node.velocity = state.velocity[node.node];
   }
 
-  void ExplicitSolver::advance_blocks(State &state, const StepContext &context,
+  void ExplicitSolver::advance_blocks(State<2> &state,
+                                      const StepContext &context,
                                       const Requests &requests)
   {
     const BlockForces &blocks = model.blocks();
@@ -324,7 +326,7 @@ namespace quoin
       adapt_damping(state, work);
   }
 
-  void ExplicitSolver::move_constrained_nodes(State &state,
+  void ExplicitSolver::move_constrained_nodes(State<2> &state,
                                               const StepContext &context)
   {
     // Components that nobody prescribes move by their own force.
@@ -363,7 +365,7 @@ namespace quoin
         }
   }
 
-  void ExplicitSolver::adapt_damping(State &state,
+  void ExplicitSolver::adapt_damping(State<2> &state,
                                      const DampingWork &work) const
   {
     double sums[2] = { work.mass_power, work.kinetic_change };
@@ -379,7 +381,7 @@ namespace quoin
       state.adaptive_damping /= adaptive_change;
   }
 
-  void ExplicitSolver::find_ratio(State &state, const StepContext &context,
+  void ExplicitSolver::find_ratio(State<2> &state, const StepContext &context,
                                   double applied, double unbalanced)
   {
     // What nobody moves is unbalanced by its force, what a viscous boundary or
@@ -387,7 +389,7 @@ namespace quoin
     // load does; what is prescribed is held by a reaction.
     for (const CapturedNode &node : captured)
     {
-      NodeVector free{ { 0., 0. } }, held{ { 0., 0. } };
+      NodeVector<2> free{ { 0., 0. } }, held{ { 0., 0. } };
       for (unsigned int d = 0; d < 2; ++d)
         if (!node.owner[d])
           free.v[d] = node.force.v[d];

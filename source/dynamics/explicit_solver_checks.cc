@@ -10,7 +10,7 @@
 
 namespace quoin
 {
-  void ExplicitSolver::find_moved_blocks(const State &state)
+  void ExplicitSolver::find_moved_blocks(const State<2> &state)
   {
     std::vector<const NodeConstraint *> moving(constraints_on.begin(),
                                                constraints_on.end());
@@ -26,7 +26,7 @@ namespace quoin
             = true;
   }
 
-  void ExplicitSolver::hold_removed_blocks(const State &state)
+  void ExplicitSolver::hold_removed_blocks(const State<2> &state)
   {
     removed_nodes.clear();
     if (state.block_marks.empty())
@@ -47,7 +47,7 @@ namespace quoin
     }
   }
 
-  void ExplicitSolver::look_at_box(State &state)
+  void ExplicitSolver::look_at_box(State<2> &state)
   {
     const auto found = box.look(state, moved_blocks);
     if (found.empty())
@@ -59,7 +59,7 @@ namespace quoin
   }
 
   void ExplicitSolver::remove_blocks(const std::vector<BlockOutside> &found,
-                                     State &state)
+                                     State<2> &state)
   {
     state.energy.plastic
         += model.blocks().update(state.nodes.data(), state.plastic);
@@ -88,7 +88,7 @@ namespace quoin
   }
 
   double ExplicitSolver::stop_blocks(const std::vector<unsigned int> &blocks,
-                                     State &state)
+                                     State<2> &state)
   {
     // The forces at the present positions have not worked over the last half
     // step yet. Those of loads and damping never will, for the block is gone;
@@ -120,7 +120,7 @@ namespace quoin
                         .velocity,
                     3, 0.);
     }
-    std::fill(force.begin(), force.end(), NodeVector{ { 0., 0. } });
+    std::fill(force.begin(), force.end(), NodeVector<2>{ { 0., 0. } });
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
     return energy + rigid.kinetic_energy(rigid_stage, rigid_0, rigid_0, 1.)
            - rigid.kinetic_energy(rigid_stage, state.rigid_blocks,

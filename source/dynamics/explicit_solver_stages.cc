@@ -15,7 +15,8 @@
 
 namespace quoin
 {
-  void ExplicitSolver::scale_masses(const StageParameters &stage, State &state)
+  void ExplicitSolver::scale_masses(const StageParameters &stage,
+                                    State<2> &state)
   {
     const RigidBlocks &rigid = model.rigid_blocks();
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
@@ -88,7 +89,7 @@ namespace quoin
       }
   }
 
-  void ExplicitSolver::collect_constrained_nodes(const State &state)
+  void ExplicitSolver::collect_constrained_nodes(const State<2> &state)
   {
     // Nodes of absent blocks stay where they are, whatever moves others.
     const auto absent = model.absent_nodes(state);
@@ -146,7 +147,7 @@ namespace quoin
     hold_removed_blocks(state);
   }
 
-  double ExplicitSolver::release_duration(const State &state) const
+  double ExplicitSolver::release_duration(const State<2> &state) const
   {
     const auto &held = state.construction.held;
     if (std::none_of(held.begin(), held.end(),
@@ -171,7 +172,7 @@ namespace quoin
 
   void ExplicitSolver::begin_stage(const StageParameters &new_stage,
                                    const StageParameters *previous,
-                                   State &state)
+                                   State<2> &state)
   {
     activate(new_stage, state);
     scale_masses(stage, state);
@@ -202,10 +203,10 @@ namespace quoin
   }
 
   void ExplicitSolver::resume_stage(const StageParameters &resumed,
-                                    State &state)
+                                    State<2> &state)
   {
     activate(resumed, state);
-    const State saved = state;
+    const State<2> saved = state;
     scale_masses(stage, state);
     release = Release(state, stage, release_duration(state));
     for (NodeConstraint *constraint : constraints_on)

@@ -10,7 +10,7 @@
 
 namespace quoin
 {
-  void ExplicitSolver::account_for_initial_motion(State &state) const
+  void ExplicitSolver::account_for_initial_motion(State<2> &state) const
   {
     unsigned int moved = -1;
     for (unsigned int i = model.n_deformable_nodes();
@@ -31,14 +31,14 @@ namespace quoin
     }
 
     // Joints and cells that yield follow the positions in the first step.
-    State moving = state, rest = model.initial_state();
-    AlignedArray<NodeVector> unused(state.nodes.size(),
-                                    NodeVector{ { 0., 0. } });
+    State<2> moving = state, rest = model.initial_state();
+    AlignedArray<NodeVector<2>> unused(state.nodes.size(),
+                                       NodeVector<2>{ { 0., 0. } });
     EnergyAccounts lost;
     model.joints().add_forces(moving.nodes.data(), moving.joints, lost,
                               unused.data());
     lost.plastic = model.blocks().update(moving.nodes.data(), moving.plastic);
-    const auto stored = [&](const State &s)
+    const auto stored = [&](const State<2> &s)
     {
       return model.blocks().strain_energy(s.nodes.data(), s.plastic)
              + model.joints().stored_energy(s.nodes.data(), s.joints);

@@ -46,7 +46,7 @@ namespace quoin
       /** @p with_drag: whether dashpots and the like hold. Collective. */
       Bodies(const Model &model,
              const std::vector<NodeConstraint *> &constraints,
-             const State &state, bool with_drag);
+             const State<2> &state, bool with_drag);
 
       /** The block that stands for the body of @p block. */
       unsigned int body(const unsigned int block)
@@ -76,7 +76,7 @@ namespace quoin
       /** All blocks of a platen are one body, its rows go to the first. */
       void add_platen(const NodeConstraint &constraint,
                       const std::array<bool, 3> &holds);
-      void add_joints(const State &state);
+      void add_joints(const State<2> &state);
       void add(const unsigned int block, const Gram &gram)
       {
         for (unsigned int k = 0; k < 6; ++k)
@@ -97,7 +97,7 @@ namespace quoin
 
     Bodies::Bodies(const Model &model,
                    const std::vector<NodeConstraint *> &constraints,
-                   const State &state, const bool with_drag)
+                   const State<2> &state, const bool with_drag)
       : mesh(model.mesh()), exchange(model.exchange()), n(mesh.n_blocks()),
         origin(mesh.vertices[0]), size(size_from_first_vertex(mesh)),
         entries(6 * n, 0.), rank(n), parent(n),
@@ -178,7 +178,7 @@ namespace quoin
       add(first, gram);
     }
 
-    void Bodies::add_joints(const State &state)
+    void Bodies::add_joints(const State<2> &state)
     {
       for (const JointFace &face : mesh.joint_faces)
       {
@@ -200,7 +200,8 @@ namespace quoin
         to @p force and, of each body, @p sums. */
     void add_platen(const Platen &platen, const TimePoint &time,
                     const Model &model, Bodies &bodies,
-                    std::vector<NodeVector> &force, std::vector<double> &sums)
+                    std::vector<NodeVector<2>> &force,
+                    std::vector<double> &sums)
     {
       const BlockMesh<2> &mesh     = model.mesh();
       const NodeExchange &exchange = model.exchange();
@@ -228,8 +229,8 @@ namespace quoin
     {
       const BlockMesh<2> &mesh     = model.mesh();
       const NodeExchange &exchange = model.exchange();
-      std::vector<NodeVector> force(exchange.n_local(),
-                                    NodeVector{ { 0., 0. } });
+      std::vector<NodeVector<2>> force(exchange.n_local(),
+                                       NodeVector<2>{ { 0., 0. } });
       for (const NodalLoad *load : loads)
         load->add_forces(time, force.data());
       std::vector<double> sums(4 * mesh.n_blocks(), 0.);
@@ -301,7 +302,7 @@ namespace quoin
 
   void check_no_free_bodies(const Model &model,
                             const std::vector<NodeConstraint *> &constraints,
-                            const std::string &stage, const State &state)
+                            const std::string &stage, const State<2> &state)
   {
     const BlockMesh<2> &mesh = model.mesh();
     Bodies bodies(model, constraints, state, false);
@@ -326,7 +327,7 @@ namespace quoin
   find_pushed_bodies(const Model &model,
                      const std::vector<NodeConstraint *> &constraints,
                      const std::vector<const NodalLoad *> &loads,
-                     const std::vector<TimePoint> &times, const State &state)
+                     const std::vector<TimePoint> &times, const State<2> &state)
   {
     const BlockMesh<2> &mesh = model.mesh();
     Bodies bodies(model, constraints, state, true);

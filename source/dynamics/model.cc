@@ -4,7 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/dynamics/model.h>
-#include <quoin/dynamics/triangle.h>
+#include <quoin/blocks/triangle.h>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@ namespace quoin
 {
   namespace
   {
-    NodeRecord at_rest(const dealii::Point<2> &p)
+    NodeRecord<2> at_rest(const dealii::Point<2> &p)
     {
       return { { p[0], p[1] }, { 0., 0. } };
     }
@@ -223,8 +223,8 @@ namespace quoin
 
   void Model::add_joint_bound(std::vector<std::array<double, 3>> &bound) const
   {
-    const State state = initial_state();
-    const auto none   = std::find(rigid_block.begin(), rigid_block.end(), true);
+    const State<2> state = initial_state();
+    const auto none = std::find(rigid_block.begin(), rigid_block.end(), true);
     if (none == rigid_block.end())
     {
       matched_joints.add_stiffness_bound(state.nodes.data(), node_mass, bound);

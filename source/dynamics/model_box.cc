@@ -57,19 +57,20 @@ namespace quoin
     }
   }
 
-  bool ModelBox::is_outside(const unsigned int block, const State &state) const
+  bool ModelBox::is_outside(const unsigned int block,
+                            const State<2> &state) const
   {
     const NodeRange range = model.block_nodes(block);
     return std::none_of(
         &state.nodes[range.begin], &state.nodes[range.begin] + range.size(),
-        [&](const NodeRecord &node)
+        [&](const NodeRecord<2> &node)
         {
           return is_inside(parameters.box, node.X[0] + node.u[0],
                            node.X[1] + node.u[1]);
         });
   }
 
-  std::vector<BlockOutside> ModelBox::look(State &state,
+  std::vector<BlockOutside> ModelBox::look(State<2> &state,
                                            const std::vector<bool> &moved) const
   {
     using Outside               = ContactParameters::Outside;
@@ -121,7 +122,7 @@ namespace quoin
   }
 
   void ModelBox::spread_along_joints(std::vector<std::uint8_t> &stays,
-                                     const State &state) const
+                                     const State<2> &state) const
   {
     const BlockMesh<2> &mesh    = model.mesh();
     const MatchedJoints &joints = model.joints();
@@ -152,7 +153,7 @@ namespace quoin
   }
 
   void ModelBox::find_positions(std::vector<BlockOutside> &found,
-                                const State &state) const
+                                const State<2> &state) const
   {
     std::vector<double> sums(2 * found.size(), 0.);
     for (unsigned int k = 0; k < found.size(); ++k)

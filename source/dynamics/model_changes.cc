@@ -28,7 +28,7 @@ namespace quoin
     return result;
   }
 
-  std::vector<bool> Model::absent_nodes(const State &state) const
+  std::vector<bool> Model::absent_nodes(const State<2> &state) const
   {
     std::vector<bool> result(nodes->n_local(), false);
     if (!state.block_marks.empty())
@@ -45,11 +45,11 @@ namespace quoin
     return present;
   }
 
-  void Model::bring_to_rest(const unsigned int block, State &state) const
+  void Model::bring_to_rest(const unsigned int block, State<2> &state) const
   {
     const NodeRange range = block_nodes(block);
     for (std::size_t i = range.begin; i < range.end; ++i)
-      state.velocity[i] = NodeVector{ { 0., 0. } };
+      state.velocity[i] = NodeVector<2>{ { 0., 0. } };
     if (rigid_block[block])
     {
       std::fill_n(state.rigid_blocks[block - rigid_begin].velocity, 3, 0.);
@@ -64,7 +64,7 @@ namespace quoin
     forget_yielding(block, state.plastic);
   }
 
-  void Model::place(const unsigned int block, State &state) const
+  void Model::place(const unsigned int block, State<2> &state) const
   {
     bring_to_rest(block, state);
     const NodeRange range = block_nodes(block);
@@ -75,7 +75,7 @@ namespace quoin
   }
 
   bool Model::is_at_absent_block(const unsigned int segment,
-                                 const State &state) const
+                                 const State<2> &state) const
   {
     const JointFace &face
         = block_mesh.joint_faces[matched_joints.segment(segment).face];
@@ -115,7 +115,8 @@ namespace quoin
         std::fill_n(&stress[4 * c], 4, 0.);
   }
 
-  void Model::change_properties(const ModelProperties &properties, State &state)
+  void Model::change_properties(const ModelProperties &properties,
+                                State<2> &state)
   {
     std::vector<PlaneStiffness> stiffness;
     std::vector<std::optional<MohrCoulomb>> laws;

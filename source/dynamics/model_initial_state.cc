@@ -99,16 +99,16 @@ namespace quoin
       block_forces.forget_history(c - first_cell(), history);
   }
 
-  State Model::initial_state() const
+  State<2> Model::initial_state() const
   {
-    State state;
+    State<2> state;
     state.rigid_blocks.resize(rigid.n_blocks());
     for (unsigned int i = 0; i < nodes->n_local(); ++i)
     {
       const auto &p = block_mesh.vertices[nodes->global(i)];
       state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
     }
-    state.velocity.assign(nodes->n_local(), NodeVector{ { 0., 0. } });
+    state.velocity.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
     state.plastic = block_forces.initial_history();
     state.joints.resize(matched_joints.n_points(), matched_joints.can_soften(),
                         matched_joints.can_wear());

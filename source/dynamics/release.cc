@@ -9,7 +9,7 @@
 
 namespace quoin
 {
-  Release::Release(const State &state, const StageParameters &stage,
+  Release::Release(const State<2> &state, const StageParameters &stage,
                    const double duration)
     : is_linear(stage.releases_linearly), ramp_duration(duration)
   {
@@ -41,7 +41,7 @@ namespace quoin
     return is_linear ? t : 0.5 * (1. - std::cos(dealii::numbers::PI * t));
   }
 
-  void Release::add_forces(const double load_time, NodeVector *force) const
+  void Release::add_forces(const double load_time, NodeVector<2> *force) const
   {
     const double s = share(load_time);
     for (const NodalForce &item : forces)
@@ -50,7 +50,7 @@ namespace quoin
   }
 
   double Release::power(const double load_time,
-                        const NodeVector *velocity) const
+                        const NodeVector<2> *velocity) const
   {
     const double s = share(load_time);
     double result  = 0.;

@@ -155,16 +155,16 @@ namespace quoin
 
   inline DEAL_II_ALWAYS_INLINE RigidBlocks::Resultants
   RigidBlocks::take_forces(const Block &block, const Direction &now,
-                           NodeVector *force, NodeVector *viscous) const
+                           NodeVector<2> *force, NodeVector<2> *viscous) const
   {
     Resultants sum;
-    const auto take
-        = [](double(&to)[3], const double x, const double y, NodeVector &node)
+    const auto take =
+        [](double(&to)[3], const double x, const double y, NodeVector<2> &node)
     {
       to[0] += node.v[0];
       to[1] += node.v[1];
       to[2] += x * node.v[1] - y * node.v[0];
-      node = NodeVector{ { 0., 0. } };
+      node = NodeVector<2>{ { 0., 0. } };
     };
     const Arm *arm = arms_of(block);
     for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
@@ -179,7 +179,7 @@ namespace quoin
 
   inline DEAL_II_ALWAYS_INLINE void
   RigidBlocks::place_nodes(const Block &block, const RigidBlockState &rigid,
-                           const Direction &before, State &state) const
+                           const Direction &before, State<2> &state) const
   {
     const Direction after(rigid.rotation);
     // 1 - cos without cancellation.
@@ -203,8 +203,9 @@ namespace quoin
 
   RigidBlockWork RigidBlocks::advance(const StepContext &step,
                                       const RigidBlockStage &stage,
-                                      NodeVector *force, NodeVector *viscous,
-                                      State &state) const
+                                      NodeVector<2> *force,
+                                      NodeVector<2> *viscous,
+                                      State<2> &state) const
   {
     const double a            = 0.5 * step.dt_velocity * step.mass_damping;
     const double decay        = (1. - a) / (1. + a);
@@ -217,7 +218,7 @@ namespace quoin
       if (stage.held[b])
       {
         for (unsigned int i = block.begin; i < block.end; ++i)
-          force[i] = viscous[i] = NodeVector{ { 0., 0. } };
+          force[i] = viscous[i] = NodeVector<2>{ { 0., 0. } };
         continue;
       }
       RigidBlockState &rigid = state.rigid_blocks[b];
@@ -256,7 +257,7 @@ namespace quoin
   }
 
   void RigidBlocks::follow_nodes(const RigidBlockStage &stage,
-                                 State &state) const
+                                 State<2> &state) const
   {
     for (unsigned int b = 0; b < blocks.size(); ++b)
     {

@@ -77,7 +77,7 @@ namespace quoin
     }
     make_free_fields(loads);
 
-    const State rest = model.initial_state();
+    const State<2> rest = model.initial_state();
     strain_at_start
         = sum(model.blocks().strain_energy(rest.nodes.data(), rest.plastic));
     joint_at_start
@@ -108,7 +108,7 @@ namespace quoin
     }
   }
 
-  void Solver::activate(const StageParameters &new_stage, const State &state)
+  void Solver::activate(const StageParameters &new_stage, const State<2> &state)
   {
     stage = new_stage;
     for (const std::string &name : stage.loads)
@@ -171,7 +171,7 @@ namespace quoin
            && !(&constraint == static_far && far && !is_static);
   }
 
-  void Solver::make_room(State &state) const
+  void Solver::make_room(State<2> &state) const
   {
     unsigned int n_platens = 0, n_viscous = 0, n_free_fields = 0;
     for (const auto &constraint : all_constraints)
@@ -187,7 +187,7 @@ namespace quoin
     state.free_fields.resize(n_free_fields);
   }
 
-  void Solver::refuse_absent_nodes(const State &state) const
+  void Solver::refuse_absent_nodes(const State<2> &state) const
   {
     constexpr unsigned int none = -1;
     const auto absent           = model.absent_nodes(state);
@@ -291,13 +291,13 @@ namespace quoin
     return static_far && acts_in(*static_far, stage);
   }
 
-  void Solver::save(State &state) const
+  void Solver::save(State<2> &state) const
   {
     for (const auto &constraint : all_constraints)
       constraint->save(state);
   }
 
-  void Solver::check_start(const State &state) const
+  void Solver::check_start(const State<2> &state) const
   {
     for (const NodeConstraint *constraint : constraints_on)
       constraint->check_start({ 0., state.time });
@@ -315,7 +315,7 @@ namespace quoin
     return result;
   }
 
-  bool Solver::loads_change(const State &state, const double duration) const
+  bool Solver::loads_change(const State<2> &state, const double duration) const
   {
     constexpr double earliest = 1e-9; // [s]
     const double now          = state.load_time;
@@ -336,7 +336,7 @@ namespace quoin
     return dealii::Utilities::MPI::sum(value, communicator);
   }
 
-  void Solver::find_energies(const State &state, const double strain,
+  void Solver::find_energies(const State<2> &state, const double strain,
                              const double joint, const double kinetic)
   {
     double values[12] = { kinetic,

@@ -13,7 +13,7 @@
 
 namespace quoin
 {
-  std::vector<PushedBody> Solver::pushed_bodies(const State &state) const
+  std::vector<PushedBody> Solver::pushed_bodies(const State<2> &state) const
   {
     constexpr unsigned int n_times = 32;
     const double duration
@@ -27,7 +27,7 @@ namespace quoin
     return find_pushed_bodies(model, constraints_on, loads_on, times, state);
   }
 
-  void Solver::check_finite(const State &state) const
+  void Solver::check_finite(const State<2> &state) const
   {
     unsigned int bad     = -1;
     const unsigned int n = model.exchange().n_owned();
@@ -54,7 +54,7 @@ namespace quoin
     throw RunError(message.str());
   }
 
-  void Solver::check_loads(const State &state, const double load_time) const
+  void Solver::check_loads(const State<2> &state, const double load_time) const
   {
     const TimePoint time{ load_time, state.stage_start + load_time };
     const auto check = [&](const auto &values, const std::string &name)
@@ -74,7 +74,7 @@ namespace quoin
       check(constraint->values(time), constraint->name());
   }
 
-  double Solver::largest_slip_share(const State &state) const
+  double Solver::largest_slip_share(const State<2> &state) const
   {
     const BlockMesh<2> &mesh    = model.mesh();
     const MatchedJoints &joints = model.joints();
@@ -91,7 +91,7 @@ namespace quoin
     return dealii::Utilities::MPI::max(largest, communicator);
   }
 
-  void Solver::check_cells(const State &state) const
+  void Solver::check_cells(const State<2> &state) const
   {
     constexpr unsigned int none = -1;
     const BlockMesh<2> &mesh    = model.mesh();

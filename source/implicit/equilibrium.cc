@@ -14,13 +14,13 @@ namespace quoin
   namespace
   {
     using Index = Freedoms::Index;
-    constexpr NodeVector no_force{ { 0., 0. } };
+    constexpr NodeVector<2> no_force{ { 0., 0. } };
 
     /** Of all nodes, as a share of the model's size: forces that this needs
         count as applied, as rounding is all there is without loads [-]. */
     constexpr double least_motion = 1e-11;
 
-    double norm(const NodeVector &f)
+    double norm(const NodeVector<2> &f)
     {
       return std::hypot(f.v[0], f.v[1]);
     }
@@ -96,7 +96,7 @@ namespace quoin
     };
     CellLinearisation cell;
     PlasticHistory history = model.blocks().initial_history();
-    const State rest       = model.initial_state();
+    const State<2> rest    = model.initial_state();
     double sums[3]         = { 0., 0., 0. }; // stiffness, mass, nodes
     for (unsigned int c = 0; c < model.blocks().n_cells(); ++c)
       if (model.blocks().linearise(c, rest.nodes.data(), history, cell))
@@ -244,7 +244,7 @@ namespace quoin
     }
   }
 
-  void Equilibrium::add_far_field(const State &committed,
+  void Equilibrium::add_far_field(const State<2> &committed,
                                   const Configuration &configuration,
                                   Balance &balance, const bool with_derivatives)
   {
@@ -253,7 +253,7 @@ namespace quoin
     if (!far_field)
       return;
     const auto &nodes = far_field->nodes();
-    AlignedArray<NodeVector> force(model.exchange().n_local(), no_force);
+    AlignedArray<NodeVector<2>> force(model.exchange().n_local(), no_force);
     balance.far_field_energy = far_field->add_forces(
         configuration.nodes.data(), committed.static_far_field, force.data());
     for (const unsigned int node : nodes)
@@ -291,7 +291,7 @@ namespace quoin
       }
   }
 
-  void Equilibrium::add_drag(const State &committed,
+  void Equilibrium::add_drag(const State<2> &committed,
                              const Configuration &configuration,
                              Balance &balance, const bool with_derivatives)
   {
@@ -313,7 +313,7 @@ namespace quoin
     }
   }
 
-  void Equilibrium::add_turning(const AlignedArray<NodeVector> &force)
+  void Equilibrium::add_turning(const AlignedArray<NodeVector<2>> &force)
   {
     // The arms turn with the body: r x f changes by -r . f per radian.
     for (const Freedoms::Body &body : freedoms.bodies())
@@ -330,13 +330,13 @@ namespace quoin
     }
   }
 
-  void Equilibrium::add_forces(const State &committed,
+  void Equilibrium::add_forces(const State<2> &committed,
                                const Configuration &configuration,
                                const std::vector<std::uint8_t> &broken,
                                Balance &balance, const bool with_derivatives)
   {
     const unsigned int n_owned = model.exchange().n_owned();
-    const NodeRecord *nodes    = configuration.nodes.data();
+    const NodeRecord<2> *nodes = configuration.nodes.data();
     balance.lost               = EnergyAccounts();
     balance.joints             = committed.joints;
     balance.plastic            = committed.plastic;
@@ -391,7 +391,7 @@ namespace quoin
     }
   }
 
-  void Equilibrium::add_loads(const State &committed,
+  void Equilibrium::add_loads(const State<2> &committed,
                               const Configuration &configuration,
                               Balance &balance)
   {
@@ -419,7 +419,7 @@ namespace quoin
   }
 
   void Equilibrium::add_external(const double load_time,
-                                 AlignedArray<NodeVector> &force) const
+                                 AlignedArray<NodeVector<2>> &force) const
   {
     for (const NodalLoad *load : loads)
       load->add_forces({ load_time, stage_start + load_time }, force.data());
@@ -430,11 +430,11 @@ namespace quoin
         force[i] = no_force;
   }
 
-  void Equilibrium::find_ratio(const AlignedArray<NodeVector> &applied,
+  void Equilibrium::find_ratio(const AlignedArray<NodeVector<2>> &applied,
                                Balance &balance)
   {
     double sums[3] = { 0., 0., 0. }; // unbalanced, applied, dragged
-    AlignedArray<NodeVector> total = balance.force;
+    AlignedArray<NodeVector<2>> total = balance.force;
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         total[i].v[d] += balance.drag[i].v[d];
@@ -442,7 +442,7 @@ namespace quoin
     {
       sums[1] += norm(applied[i]);
       sums[2] += norm(balance.drag[i]);
-      NodeVector free = total[i], given = total[i];
+      NodeVector<2> free = total[i], given = total[i];
       for (unsigned int d = 0; d < 2; ++d)
         (freedoms.is_free(i, d) ? given : free).v[d] = 0.;
       sums[0] += norm(free);
@@ -469,7 +469,7 @@ namespace quoin
     balance.dragged    = sums[2];
   }
 
-  void Equilibrium::find_forces(const State &committed,
+  void Equilibrium::find_forces(const State<2> &committed,
                                 const Configuration &configuration,
                                 const std::vector<std::uint8_t> &broken,
                                 Balance &balance)
@@ -481,7 +481,7 @@ namespace quoin
     add_loads(committed, configuration, balance);
   }
 
-  void Equilibrium::linearise(const State &committed,
+  void Equilibrium::linearise(const State<2> &committed,
                               const Configuration &configuration,
                               const std::vector<std::uint8_t> &broken,
                               const Advance &advance, Balance &balance,

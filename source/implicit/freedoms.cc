@@ -52,7 +52,7 @@ namespace quoin
 
   Freedoms::Freedoms(const Model &model,
                      const std::vector<NodeConstraint *> &constraints,
-                     const std::vector<bool> &held, const State &state)
+                     const std::vector<bool> &held, const State<2> &state)
     : model(model), communicator(model.exchange().communicator()),
       in_body(model.exchange().n_owned(), 0), absent(model.absent_nodes(state))
   {
@@ -78,7 +78,7 @@ namespace quoin
   }
 
   void Freedoms::add_platens(const std::vector<NodeConstraint *> &constraints,
-                             const State &state)
+                             const State<2> &state)
   {
     for (const NodeConstraint *constraint : constraints)
     {
@@ -181,7 +181,7 @@ namespace quoin
     exchange.update_ghosts(node_list.data());
   }
 
-  Configuration Freedoms::configuration(const State &state) const
+  Configuration Freedoms::configuration(const State<2> &state) const
   {
     Configuration result;
     result.nodes     = state.nodes;
@@ -202,7 +202,8 @@ namespace quoin
     return result;
   }
 
-  void Freedoms::write(const Configuration &configuration, State &state) const
+  void Freedoms::write(const Configuration &configuration,
+                       State<2> &state) const
   {
     state.nodes             = configuration.nodes;
     state.load_time         = configuration.load_time;
@@ -239,11 +240,12 @@ namespace quoin
     model.exchange().update_ghosts(node_list.data());
   }
 
-  AlignedArray<NodeVector>
+  AlignedArray<NodeVector<2>>
   Freedoms::given_motion(const Configuration &configuration,
                          const double load_time, const double stage_start) const
   {
-    AlignedArray<NodeVector> motion(node_list.size(), NodeVector{ { 0., 0. } });
+    AlignedArray<NodeVector<2>> motion(node_list.size(),
+                                       NodeVector<2>{ { 0., 0. } });
     for (const Prescribed &p : prescribed_list)
       motion[p.node].v[p.component] = given_change(
           *p.part, configuration.load_time, load_time, stage_start);
@@ -313,7 +315,7 @@ namespace quoin
       const double c = std::cos(d[2]), s = std::sin(d[2]);
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
       {
-        NodeRecord &node = configuration.nodes[body.nodes[i]];
+        NodeRecord<2> &node = configuration.nodes[body.nodes[i]];
         const double x = body.arms[2 * i], y = body.arms[2 * i + 1];
         // The sum of what nearly cancels first, to keep digits.
         node.u[0]
@@ -324,7 +326,7 @@ namespace quoin
     }
   }
 
-  void Freedoms::project(const AlignedArray<NodeVector> &force,
+  void Freedoms::project(const AlignedArray<NodeVector<2>> &force,
                          const std::vector<std::array<double, 3>> &body_force,
                          Vector &right_hand_side) const
   {
@@ -344,7 +346,7 @@ namespace quoin
   }
 
   std::vector<std::array<double, 3>>
-  Freedoms::body_forces(const AlignedArray<NodeVector> &force) const
+  Freedoms::body_forces(const AlignedArray<NodeVector<2>> &force) const
   {
     std::vector<std::array<double, 3>> result(body_list.size(),
                                               { { 0., 0., 0. } });

@@ -53,7 +53,7 @@ namespace quoin
     for (unsigned int b = 0; b < loads.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
         loads[b][d] += balance.held[b][d];
-    AlignedArray<NodeVector> total = balance.force;
+    AlignedArray<NodeVector<2>> total = balance.force;
     for (unsigned int i = 0; i < total.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         total[i].v[d] += balance.drag[i].v[d];
@@ -85,7 +85,7 @@ namespace quoin
     return true;
   }
 
-  void ImplicitSolver::correct(const State &state, const double share,
+  void ImplicitSolver::correct(const State<2> &state, const double share,
                                Configuration &configuration)
   {
     const Configuration from = configuration;
@@ -130,7 +130,7 @@ namespace quoin
     go(best_share);
   }
 
-  ImplicitSolver::Outcome ImplicitSolver::iterate(const State &state,
+  ImplicitSolver::Outcome ImplicitSolver::iterate(const State<2> &state,
                                                   const Target &target,
                                                   Configuration &configuration)
   {
@@ -180,7 +180,7 @@ namespace quoin
     }
   }
 
-  void ImplicitSolver::try_iteration(const State &state)
+  void ImplicitSolver::try_iteration(const State<2> &state)
   {
     const Configuration configuration = freedoms->configuration(state);
     const Target target               = choose_target(state);
@@ -211,7 +211,7 @@ namespace quoin
     return true;
   }
 
-  ImplicitSolver::Outcome ImplicitSolver::solve(const State &state,
+  ImplicitSolver::Outcome ImplicitSolver::solve(const State<2> &state,
                                                 const Target &target,
                                                 Configuration &configuration)
   {
@@ -227,9 +227,10 @@ namespace quoin
     return Outcome::converged;
   }
 
-  ImplicitSolver::Target ImplicitSolver::choose_target(const State &state) const
+  ImplicitSolver::Target
+  ImplicitSolver::choose_target(const State<2> &state) const
   {
-    const ImplicitState &now = state.implicit;
+    const ImplicitState<2> &now = state.implicit;
     if (now.released < 1.)
     {
       const double next = now.released + now.step;
@@ -245,7 +246,7 @@ namespace quoin
     return { next, 1., 0. };
   }
 
-  void ImplicitSolver::step(State &state)
+  void ImplicitSolver::step(State<2> &state)
   {
     current_step = state.step;
     if (!state.implicit.jumps)
@@ -276,7 +277,7 @@ namespace quoin
       if (!cut_step(state))
         give_up(state);
     }
-    const State before = state;
+    const State<2> before = state;
     commit(configuration, state);
     if (state.implicit.jumps)
       go_on_jumping(before, state);
@@ -284,9 +285,9 @@ namespace quoin
       adapt_step(before, state);
   }
 
-  void ImplicitSolver::go_on_jumping(const State &before, State &state)
+  void ImplicitSolver::go_on_jumping(const State<2> &before, State<2> &state)
   {
-    ImplicitState &now = state.implicit;
+    ImplicitState<2> &now = state.implicit;
     now.jump_loss += state.energy.damping - before.energy.damping;
     ++now.n_drag;
     if (now.n_drag >= most_drag_steps || has_gone_far(state))
@@ -319,7 +320,7 @@ namespace quoin
           dealii::Utilities::MPI::sum(now.jump_loss, communicator) });
   }
 
-  bool ImplicitSolver::has_gone_far(const State &state) const
+  bool ImplicitSolver::has_gone_far(const State<2> &state) const
   {
     double moved = 0.;
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
@@ -330,7 +331,7 @@ namespace quoin
            > collapse_share * size_from_first_vertex(model.mesh());
   }
 
-  void ImplicitSolver::give_up(State &state)
+  void ImplicitSolver::give_up(State<2> &state)
   {
     const double tried = std::abs(state.implicit.step);
     const bool jumped  = state.implicit.jumps;
@@ -338,9 +339,9 @@ namespace quoin
     fail(state, tried, jumped);
   }
 
-  bool ImplicitSolver::begin_jump(State &state) const
+  bool ImplicitSolver::begin_jump(State<2> &state) const
   {
-    ImplicitState &now = state.implicit;
+    ImplicitState<2> &now = state.implicit;
     if (!parameters.jumps || now.released < 1.)
       return false;
     now.follows_path = false;
@@ -356,9 +357,9 @@ namespace quoin
     return true;
   }
 
-  bool ImplicitSolver::cut_step(State &state) const
+  bool ImplicitSolver::cut_step(State<2> &state) const
   {
-    ImplicitState &now = state.implicit;
+    ImplicitState<2> &now = state.implicit;
     if (now.jumps)
     {
       now.drag_step *= drag_cut;
@@ -391,9 +392,9 @@ namespace quoin
     return now.step >= parameters.smallest_step;
   }
 
-  void ImplicitSolver::adapt_step(const State &before, State &state) const
+  void ImplicitSolver::adapt_step(const State<2> &before, State<2> &state) const
   {
-    ImplicitState &now = state.implicit;
+    ImplicitState<2> &now = state.implicit;
     const double went
         = before.implicit.released < 1.
               ? now.released - before.implicit.released

@@ -118,7 +118,7 @@ namespace quoin
     return rests > earliest ? rests : 0.;
   }
 
-  void ImplicitSolver::prepare_stage(const State &state)
+  void ImplicitSolver::prepare_stage(const State<2> &state)
   {
     stage_start = state.stage_start;
     check_no_free_bodies(model, constraints_on, stage.name, state);
@@ -153,7 +153,7 @@ namespace quoin
     broken.assign(model.joints().n_points(), 0);
   }
 
-  void ImplicitSolver::hold_absent_blocks(const State &state)
+  void ImplicitSolver::hold_absent_blocks(const State<2> &state)
   {
     const unsigned int first = model.first_block() + model.n_blocks()
                                - model.rigid_blocks().n_blocks();
@@ -164,7 +164,7 @@ namespace quoin
 
   void ImplicitSolver::begin_stage(const StageParameters &new_stage,
                                    const StageParameters *previous,
-                                   State &state)
+                                   State<2> &state)
   {
     activate(new_stage, state);
     make_room(state);
@@ -183,13 +183,13 @@ namespace quoin
     state.stage_step  = 0;
     state.load_time   = 0.;
     state.load_rate   = 1.;
-    state.implicit    = ImplicitState();
+    state.implicit    = ImplicitState<2>();
     prepare_stage(state);
     hold_what_is_out_of_balance(previous, state);
   }
 
   void ImplicitSolver::resume_stage(const StageParameters &resumed,
-                                    State &state)
+                                    State<2> &state)
   {
     activate(resumed, state);
     for (NodeConstraint *constraint : constraints_on)
@@ -201,7 +201,7 @@ namespace quoin
     prepare_stage(state);
   }
 
-  void ImplicitSolver::save(State &state) const
+  void ImplicitSolver::save(State<2> &state) const
   {
     Solver::save(state);
     if (state.implicit.jumps)
@@ -210,11 +210,11 @@ namespace quoin
 
   void
   ImplicitSolver::hold_what_is_out_of_balance(const StageParameters *previous,
-                                              State &state)
+                                              State<2> &state)
   {
-    ImplicitState &now = state.implicit;
-    now.released       = 1.;
-    now.step           = first_load_step();
+    ImplicitState<2> &now = state.implicit;
+    now.released          = 1.;
+    now.step              = first_load_step();
     if (static_far_field_acts() && !state.static_far_field.active)
     {
       // It holds what its boundary carried until now, without loads that
@@ -249,7 +249,8 @@ namespace quoin
                                : -forces[b][d] - balance.drives[b][d]);
   }
 
-  void ImplicitSolver::commit(const Configuration &configuration, State &state)
+  void ImplicitSolver::commit(const Configuration &configuration,
+                              State<2> &state)
   {
     EnergyAccounts done = balance.lost;
     book_work(state, configuration, done);
@@ -279,7 +280,7 @@ namespace quoin
         model.joints().stored_energy(state.nodes.data(), state.joints), 0.);
   }
 
-  void ImplicitSolver::book_work(const State &state,
+  void ImplicitSolver::book_work(const State<2> &state,
                                  const Configuration &configuration,
                                  EnergyAccounts &energy) const
   {
@@ -420,7 +421,7 @@ namespace quoin
     return "nowhere";
   }
 
-  void ImplicitSolver::fail(const State &state, const double tried,
+  void ImplicitSolver::fail(const State<2> &state, const double tried,
                             const bool jumped) const
   {
     check_loads(state, state.load_time);

@@ -98,7 +98,7 @@ namespace quoin
     };
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
     {
-      const NodeRecord &node = configuration.nodes[i];
+      const NodeRecord<2> &node = configuration.nodes[i];
       const bool free[2] = { freedoms.is_free(i, 0), freedoms.is_free(i, 1) };
       place(2 * Freedoms::Index(model.exchange().global(i)),
             node.X[0] + node.u[0], node.X[1] + node.u[1], free);

@@ -224,7 +224,7 @@ namespace quoin
 
   // -- a step ----------------------------------------------------------------
 
-  void FreeFieldBoundary::begin_stage(State &state, const bool continues)
+  void FreeFieldBoundary::begin_stage(State<2> &state, const bool continues)
   {
     if (!continues)
       state.free_fields[index] = FreeFieldState();
@@ -308,7 +308,7 @@ namespace quoin
 
   void FreeFieldBoundary::correct(const StepContext &step,
                                   const std::vector<CapturedNode> &captured,
-                                  State &state)
+                                  State<2> &state)
   {
     FreeFieldState &column = state.free_fields[index];
     if (!column.active)
@@ -337,7 +337,7 @@ namespace quoin
 
   void FreeFieldBoundary::account(const StepContext &step,
                                   const std::vector<CapturedNode> &captured,
-                                  State &state)
+                                  State<2> &state)
   {
     last_resultant = {};
     for (unsigned int i = 0; i < pull.size(); ++i)

@@ -81,7 +81,7 @@ namespace quoin
       return;
     }
     std::map<unsigned int, double> area;
-    std::map<unsigned int, NodeVector> inward_area;
+    std::map<unsigned int, NodeVector<2>> inward_area;
     for (const unsigned int f :
          faces_of_curves(mesh, parameters.boundaries, parameters.name))
     {
@@ -119,7 +119,7 @@ namespace quoin
     return component_values(components, time);
   }
 
-  void NodalLoad::add_forces(const TimePoint &time, NodeVector *force) const
+  void NodalLoad::add_forces(const TimePoint &time, NodeVector<2> *force) const
   {
     const auto [x, y, pressure] = amplitude(time);
     for (unsigned int i = 0; i < nodes.size(); ++i)
@@ -133,7 +133,7 @@ namespace quoin
   }
 
   double NodalLoad::power(const TimePoint &time,
-                          const NodeVector *velocity) const
+                          const NodeVector<2> *velocity) const
   {
     double sum[2] = { 0., 0. }, inflow = 0.;
     for (unsigned int i = 0; i < nodes.size(); ++i)

@@ -65,14 +65,14 @@ namespace quoin
       node_mass.push_back(mass[node]);
   }
 
-  void Platen::begin_stage(State &state, const bool continues)
+  void Platen::begin_stage(State<2> &state, const bool continues)
   {
     PlatenState &platen = state.platens[platen_index];
     std::array<double, 6> moments{};
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      const NodeRecord &node = state.nodes[node_list[i]];
-      const NodeVector &v    = state.velocity[node_list[i]];
+      const NodeRecord<2> &node = state.nodes[node_list[i]];
+      const NodeVector<2> &v    = state.velocity[node_list[i]];
       moments[0] += node_mass[i];
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -103,10 +103,10 @@ namespace quoin
       platen.centre[d] = centre[d] - platen.displacement[d];
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      const NodeRecord &node = state.nodes[node_list[i]];
-      const double *v        = state.velocity[node_list[i]].v;
-      const double x         = node.X[0] + node.u[0] - centre[0];
-      const double y         = node.X[1] + node.u[1] - centre[1];
+      const NodeRecord<2> &node = state.nodes[node_list[i]];
+      const double *v           = state.velocity[node_list[i]].v;
+      const double x            = node.X[0] + node.u[0] - centre[0];
+      const double y            = node.X[1] + node.u[1] - centre[1];
       platen.arms.push_back(c * x + s * y);
       platen.arms.push_back(c * y - s * x);
       spin += node_mass[i] * (x * v[1] - y * v[0]);
@@ -117,7 +117,7 @@ namespace quoin
       platen.velocity[2] = spin / inertia[2];
   }
 
-  void Platen::resume_stage(const State &state)
+  void Platen::resume_stage(const State<2> &state)
   {
     const auto &arms = state.platens[platen_index].arms;
     inertia          = { 0., 0., rigid_inertia };
@@ -191,7 +191,8 @@ namespace quoin
   }
 
   void Platen::correct(const StepContext &step,
-                       const std::vector<CapturedNode> &captured, State &state)
+                       const std::vector<CapturedNode> &captured,
+                       State<2> &state)
   {
     PlatenState &platen = state.platens[platen_index];
     nodal_force         = resultant(captured, platen);
@@ -208,16 +209,16 @@ namespace quoin
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
       const CapturedNode &before = captured[captured_positions[i]];
-      NodeRecord &node           = state.nodes[before.node];
+      NodeRecord<2> &node        = state.nodes[before.node];
       const double arm[2]        = { c * arms[2 * i] - s * arms[2 * i + 1],
                                      s * arms[2 * i] + c * arms[2 * i + 1] };
       // The rate from the mean arm: that from positions would lose digits.
       const double mean[2]
           = { 0.5 * (arm[0] + c0 * arms[2 * i] - s0 * arms[2 * i + 1]),
               0.5 * (arm[1] + s0 * arms[2 * i] + c0 * arms[2 * i + 1]) };
-      NodeVector &velocity = state.velocity[before.node];
-      velocity.v[0]        = platen.velocity[0] - platen.velocity[2] * mean[1];
-      velocity.v[1]        = platen.velocity[1] + platen.velocity[2] * mean[0];
+      NodeVector<2> &velocity = state.velocity[before.node];
+      velocity.v[0] = platen.velocity[0] - platen.velocity[2] * mean[1];
+      velocity.v[1] = platen.velocity[1] + platen.velocity[2] * mean[0];
       for (unsigned int d = 0; d < 2; ++d)
         node.u[d]
             = platen.centre[d] + platen.displacement[d] + arm[d] - node.X[d];
@@ -225,7 +226,7 @@ namespace quoin
   }
 
   void Platen::account(const StepContext &step,
-                       const std::vector<CapturedNode> &, State &state)
+                       const std::vector<CapturedNode> &, State<2> &state)
   {
     // Every rank knows the platen; the first one books its work.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)

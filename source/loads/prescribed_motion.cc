@@ -35,7 +35,7 @@ namespace quoin
 
   void PrescribedMotion::correct(const StepContext &step,
                                  const std::vector<CapturedNode> &captured,
-                                 State &state)
+                                 State<2> &state)
   {
     for (unsigned int d = 0; d < 2; ++d)
     {
@@ -59,7 +59,7 @@ namespace quoin
 
   void PrescribedMotion::account(const StepContext &step,
                                  const std::vector<CapturedNode> &captured,
-                                 State &state)
+                                 State<2> &state)
   {
     last_resultant = {};
     for (const unsigned int c : captured_positions)

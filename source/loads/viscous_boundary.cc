@@ -58,7 +58,7 @@ namespace quoin
 
   void move_with_dashpot(const StepContext &step, const CapturedNode &before,
                          const std::array<double, 3> &damping,
-                         const std::array<double, 2> &pull, State &state)
+                         const std::array<double, 2> &pull, State<2> &state)
   {
     const auto &[cxx, cyy, cxy] = damping;
     const double h = 0.5 * step.dt_velocity, m = before.mass;
@@ -71,9 +71,9 @@ namespace quoin
     const double axx = m + a + h * cxx, ayy = m + a + h * cyy, axy = h * cxy;
     const double determinant = axx * ayy - axy * axy;
 
-    NodeVector &after = state.velocity[before.node];
-    after.v[0]        = (ayy * bx - axy * by) / determinant;
-    after.v[1]        = (axx * by - axy * bx) / determinant;
+    NodeVector<2> &after = state.velocity[before.node];
+    after.v[0]           = (ayy * bx - axy * by) / determinant;
+    after.v[1]           = (axx * by - axy * bx) / determinant;
     for (unsigned int d = 0; d < 2; ++d)
       state.nodes[before.node].u[d]
           = before.displacement.v[d] + step.dt * after.v[d];
@@ -83,7 +83,7 @@ namespace quoin
                            const std::array<double, 3> &damping,
                            const std::array<double, 2> &pull,
                            const NodeConstraint *owner,
-                           std::array<double, 3> &resultant, State &state)
+                           std::array<double, 3> &resultant, State<2> &state)
   {
     const auto &[cxx, cyy, cxy] = damping;
     const double *v0            = before.velocity.v;
@@ -127,7 +127,7 @@ namespace quoin
                  dashpots);
   }
 
-  void ViscousBoundary::begin_stage(State &state, const bool continues)
+  void ViscousBoundary::begin_stage(State<2> &state, const bool continues)
   {
     // Before the first stage nothing has been at rest.
     if (!continues)
@@ -156,7 +156,7 @@ namespace quoin
 
   void ViscousBoundary::correct(const StepContext &step,
                                 const std::vector<CapturedNode> &captured,
-                                State &state)
+                                State<2> &state)
   {
     const double vn           = components[0].value(step.begin);
     const double vs           = components[1].value(step.begin);
@@ -170,7 +170,7 @@ namespace quoin
 
   void ViscousBoundary::account(const StepContext &step,
                                 const std::vector<CapturedNode> &captured,
-                                State &state)
+                                State<2> &state)
   {
     const double vn                 = components[0].value(step.begin);
     const double vs                 = components[1].value(step.begin);

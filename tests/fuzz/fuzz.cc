@@ -14,9 +14,9 @@
 
 #include "mutations.h"
 
-#include <quoin/application/parameters.h>
-#include <quoin/application/simulation.h>
-#include <quoin/application/boundary_simulation.h>
+#include <quoin/problems/parameters.h>
+#include <quoin/problems/simulation.h>
+#include <quoin/problems/boundary_simulation.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
 #include <quoin/loads/record.h>

@@ -48,19 +48,21 @@ namespace quoin
 
   /**
    * One node of a block: reference position X and displacement u [m]; the
-   * current position is X + u. Kept together in 32 bytes, because the block
-   * kernel loads both of every node it enters.
+   * current position is X + u. Kept together, in two dimensions in 32 bytes,
+   * because the block kernel loads both of every node it enters.
    */
-  struct alignas(32) NodeRecord
+  template <int dim>
+  struct alignas(dim == 2 ? 32 : 16) NodeRecord
   {
-    double X[2];
-    double u[2];
+    double X[dim];
+    double u[dim];
   };
 
   /** A pair of components per node: velocity [m/s] or force [N]. */
-  struct alignas(16) NodeVector
+  template <int dim>
+  struct alignas(dim == 2 ? 16 : 8) NodeVector
   {
-    double v[2];
+    double v[dim];
   };
 
   /** What a joint point has been through; the order is written to output. */
@@ -243,7 +245,7 @@ namespace quoin
     AlignedArray<std::uint8_t> handed_over; /**< of interfaces of joints */
 
     /** Of the boundary nodes, when pairs were last searched [m]. */
-    AlignedArray<NodeVector> search_positions;
+    AlignedArray<NodeVector<2>> search_positions;
     std::uint64_t next_check = 0; /**< step of the next look at motions */
     std::uint64_t n_searches = 0;
 
@@ -349,9 +351,11 @@ namespace quoin
     }
   };
 
+  template <int dim>
   struct State;
 
   /** What the implicit solver keeps from step to step; see ImplicitSolver. */
+  template <int dim>
   struct ImplicitState
   {
     /** Out-of-balance forces with which the stage began, x, y of owned nodes
@@ -373,7 +377,7 @@ namespace quoin
     unsigned int n_drag = 0;     /**< steps of the way so far */
     double jump_loss    = 0.;    /**< taken by the drag since it began [J] */
     /** In checkpoints within a jump: the equilibrium before it. */
-    std::vector<State> before_jump;
+    std::vector<State<dim>> before_jump;
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
@@ -444,6 +448,7 @@ namespace quoin
    * Nodes are numbered block by block, the nodes a rank owns first and the
    * joint partners it mirrors after them.
    */
+  template <int dim>
   struct State
   {
     double time              = 0.; /**< [s] */
@@ -455,8 +460,8 @@ namespace quoin
     double load_rate         = 1.; /**< of that clock [-] */
     double load_rate_growth  = 1.; /**< a step [-] */
 
-    AlignedArray<NodeRecord> nodes;
-    AlignedArray<NodeVector> velocity; /**< at time - dt/2 */
+    AlignedArray<NodeRecord<dim>> nodes;
+    AlignedArray<NodeVector<dim>> velocity; /**< at time - dt/2 */
     PlasticHistory plastic;
     JointHistory joints;
     ContactState contacts;            /**< empty if displacements are small */
@@ -466,7 +471,7 @@ namespace quoin
     StaticFarFieldState static_far_field;
     std::vector<ViscousBoundaryState> viscous_boundaries; /**< as platens */
     std::vector<FreeFieldState> free_fields; /**< in the order of the loads */
-    ImplicitState implicit;
+    ImplicitState<dim> implicit;
     /** Of all blocks of the mesh, block_mark; empty: all are present. */
     AlignedArray<std::uint8_t> block_marks;
     ConstructionState construction;

@@ -84,7 +84,7 @@ namespace quoin
      * the skin. Collective. @p dt: step to come [s]. Throws a RunError about
      * deep overlap and runaway velocities.
      */
-    void update(State &state, const MatchedJoints &joints, double dt);
+    void update(State<2> &state, const MatchedJoints &joints, double dt);
 
     /** Other laws of the same joint sets, with the same stiffness. */
     void set_laws(const std::vector<JointSetParameters> &sets);
@@ -99,9 +99,9 @@ namespace quoin
     /** Rates for stiffness-proportional damping. */
     struct Viscous
     {
-      const NodeVector *velocity; /**< of owned nodes [m/s] */
-      double beta;                /**< [s] */
-      NodeVector *force;          /**< of owned nodes [N] */
+      const NodeVector<2> *velocity; /**< of owned nodes [m/s] */
+      double beta;                   /**< [s] */
+      NodeVector<2> *force;          /**< of owned nodes [N] */
     };
 
     /**
@@ -110,7 +110,7 @@ namespace quoin
      * @p viscous is given.
      */
     void add_forces(ContactState &contacts, EnergyAccounts &energy,
-                    NodeVector *force, const Viscous *viscous = nullptr);
+                    NodeVector<2> *force, const Viscous *viscous = nullptr);
 
     /** Recoverable energy [J] of this rank's share, after add_forces(). */
     double stored_energy(const ContactState &contacts) const;
@@ -181,10 +181,10 @@ namespace quoin
         std::visit(use, laws[set]);
     }
     void find_set_of_materials(const ContactModel &model);
-    void check(State &state, const MatchedJoints &joints, double dt);
+    void check(State<2> &state, const MatchedJoints &joints, double dt);
     /** Returns whether joints of this rank became general contacts. */
-    bool hand_over(State &state, const MatchedJoints &joints);
-    void search(State &state);
+    bool hand_over(State<2> &state, const MatchedJoints &joints);
+    void search(State<2> &state);
     bool is_matched(const ContactState &contacts, unsigned int a,
                     unsigned int b) const;
     ContactPair new_pair(const EdgeEnds &a, const EdgeEnds &b) const;
@@ -199,7 +199,7 @@ namespace quoin
     void bind_pairs(const ContactState &contacts);
     /** Of an edge, into local_edges. */
     unsigned int local_edge(unsigned int edge) const;
-    void gather(const State &state);
+    void gather(const State<2> &state);
 
     /** False if the edges do not overlap. */
     bool geometry(const ContactPair &pair, const Edge &a, const Edge &b,
@@ -217,14 +217,14 @@ namespace quoin
     static double slip(const ContactPoint &point, const Edge &a, const Edge &b,
                        const double *normal);
     static void spread(const Edge &a, const Edge &b, double lower, double upper,
-                       const double *f, NodeVector *force);
+                       const double *f, NodeVector<2> *force);
     /** What a step loses [J]. */
     struct Losses
     {
       double friction = 0., fracture = 0.;
       double contact = 0.; /**< with areas and contacts that go */
     };
-    void gather_velocities(const NodeVector *velocity);
+    void gather_velocities(const NodeVector<2> *velocity);
     void add_point_forces(unsigned int pair, unsigned int k, const Geometry &g,
                           ContactState &contacts, const Viscous *viscous,
                           Losses &losses);
@@ -232,7 +232,7 @@ namespace quoin
                             unsigned int k, double beta,
                             const std::array<double, 2> &stiffness);
     /** Adds to owned nodes what is in @p from, and empties that. */
-    void scatter(AlignedArray<NodeVector> &from, NodeVector *to) const;
+    void scatter(AlignedArray<NodeVector<2>> &from, NodeVector<2> *to) const;
     void relative_velocity(const Edge &a, const Edge &b, double lower,
                            double upper, double *rate) const;
     /** Makes pairs active that touch by now. */
@@ -255,8 +255,8 @@ namespace quoin
     double release(ContactPair &pair) const;
 
     void note_depth(unsigned int pair, double depth);
-    [[noreturn]] void refuse_depth(const State &state, double ratio) const;
-    [[noreturn]] void refuse_speed(const State &state, double speed,
+    [[noreturn]] void refuse_depth(const State<2> &state, double ratio) const;
+    [[noreturn]] void refuse_speed(const State<2> &state, double speed,
                                    double dt) const;
 
     const BlockMesh<2> &mesh;
@@ -276,8 +276,8 @@ namespace quoin
     std::uint64_t bound_search = -1;
     std::unique_ptr<NodeExchange> reach;
     std::vector<unsigned int> compact_owned; /**< local node of each */
-    std::vector<NodeRecord> ghost_nodes;
-    std::vector<NodeVector> ghost_velocity;
+    std::vector<NodeRecord<2>> ghost_nodes;
+    std::vector<NodeVector<2>> ghost_velocity;
     std::vector<std::array<unsigned int, 2>> pair_edges; /**< local */
     std::vector<float> pair_share;          /**< of the energy that we count */
     std::vector<double> pair_depth;         /**< that is too deep [m] */
@@ -285,7 +285,7 @@ namespace quoin
     std::vector<unsigned int> edge_numbers; /**< of the local edges */
     std::vector<unsigned int> edge_pairs_begin, edge_pairs;
 
-    AlignedArray<NodeVector> position, compact_force, compact_velocity,
+    AlignedArray<NodeVector<2>> position, compact_force, compact_velocity,
         compact_viscous;
     std::vector<Edge> local_edges;
     std::vector<std::array<double, 2>> openings; /**< of the last forces */

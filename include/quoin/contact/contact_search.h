@@ -27,7 +27,7 @@ namespace quoin
    */
   std::vector<EdgeEnds>
   edges_within_reach(const BlockMesh<2> &mesh, const ContactEdges &edges,
-                     const NodeExchange &exchange, const NodeRecord *nodes,
+                     const NodeExchange &exchange, const NodeRecord<2> *nodes,
                      const AlignedArray<std::uint8_t> &left_out, double skin);
 
   /**

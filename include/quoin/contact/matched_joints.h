@@ -79,7 +79,7 @@ namespace quoin
 
     /** Sets the tractions that balance an initial stress at rest. */
     void initialise(const std::vector<FaceStress> &face_stress,
-                    const State &state, JointHistory &history) const;
+                    const State<2> &state, JointHistory &history) const;
 
     /** Points, of all ranks, whose tractions exceed their strength. */
     double n_beyond_strength(const JointHistory &history,
@@ -88,15 +88,15 @@ namespace quoin
     // For blocks that are taken away or placed, and for other laws.
 
     /** Adds the forces of segment @p i by the tractions of @p history. */
-    void add_traction_forces(unsigned int i, const NodeRecord *nodes,
+    void add_traction_forces(unsigned int i, const NodeRecord<2> *nodes,
                              const JointHistory &history,
-                             NodeVector *force) const;
+                             NodeVector<2> *force) const;
 
     /** Segment @p i is no joint from now on: a side of it is not there. */
     void let_go(unsigned int i, JointHistory &history) const;
 
     /** Segment @p i is an intact joint, free of traction where it is now. */
-    void begin_anew(unsigned int i, const NodeRecord *nodes,
+    void begin_anew(unsigned int i, const NodeRecord<2> *nodes,
                     JointHistory &history) const;
 
     /**
@@ -110,23 +110,24 @@ namespace quoin
      * Inelastic opening and slip of @p history become those with which the
      * tractions it has are the law's at the gaps in @p nodes.
      */
-    void keep_tractions(const NodeRecord *nodes, JointHistory &history) const;
+    void keep_tractions(const NodeRecord<2> *nodes,
+                        JointHistory &history) const;
 
     /**
      * Brings the histories to the positions in @p nodes, adds the joint
      * forces to @p force and books the dissipation.
      */
-    void add_forces(const NodeRecord *nodes, JointHistory &history,
-                    EnergyAccounts &energy, NodeVector *force) const;
+    void add_forces(const NodeRecord<2> *nodes, JointHistory &history,
+                    EnergyAccounts &energy, NodeVector<2> *force) const;
 
     /**
      * Adds the stiffness-proportional damping forces of points that neither
      * slip nor are open: beta kn, beta ks times the rates [Pa].
      */
-    void add_viscous_forces(const NodeRecord *nodes,
+    void add_viscous_forces(const NodeRecord<2> *nodes,
                             const JointHistory &history,
-                            const NodeVector *velocity, double beta,
-                            NodeVector *force) const;
+                            const NodeVector<2> *velocity, double beta,
+                            NodeVector<2> *force) const;
 
     /**
      * What add_forces() does for segment @p i, with its derivative, consistent
@@ -137,7 +138,7 @@ namespace quoin
      * beyond their strength unless @p broken, an entry for each point, says
      * that they break; see excess().
      */
-    void linearise(unsigned int i, const NodeRecord *nodes,
+    void linearise(unsigned int i, const NodeRecord<2> *nodes,
                    const std::vector<std::uint8_t> &broken,
                    JointHistory &history, EnergyAccounts &energy,
                    JointLinearisation &result) const;
@@ -149,7 +150,7 @@ namespace quoin
     double excess(unsigned int point, const JointHistory &history) const;
 
     /** Recoverable energy [J] of this rank's share of the joints. */
-    double stored_energy(const NodeRecord *nodes,
+    double stored_energy(const NodeRecord<2> *nodes,
                          const JointHistory &history) const;
 
     /** What node a counts for against node b, see add_stiffness_bound(). */
@@ -163,12 +164,12 @@ namespace quoin
      * any r > 0 and is closest where r is that of the masses, m_a / m_b.
      */
     void
-    add_stiffness_bound(const NodeRecord *nodes, const NodeRatio &ratio,
+    add_stiffness_bound(const NodeRecord<2> *nodes, const NodeRatio &ratio,
                         std::vector<std::array<double, 3>> &stiffness) const;
 
     /** The same with the ratio of the node masses @p mass. */
     void
-    add_stiffness_bound(const NodeRecord *nodes,
+    add_stiffness_bound(const NodeRecord<2> *nodes,
                         const std::vector<double> &mass,
                         std::vector<std::array<double, 3>> &stiffness) const
     {
@@ -194,7 +195,7 @@ namespace quoin
     }
 
     /** Opening and slip [m] of both points of segment @p i. */
-    std::array<std::array<double, 2>, 2> gaps(const NodeRecord *nodes,
+    std::array<std::array<double, 2>, 2> gaps(const NodeRecord<2> *nodes,
                                               unsigned int i) const;
 
     const JointLaw &law(const unsigned int set) const
@@ -220,9 +221,10 @@ namespace quoin
       double normal[2];
       double tangent[2];
     };
-    static Frame frame(const Segment &segment, const NodeRecord *nodes);
+    static Frame frame(const Segment &segment, const NodeRecord<2> *nodes);
     static std::array<double, 2> gap(const Segment &segment, const Frame &frame,
-                                     const NodeRecord *nodes, unsigned int k);
+                                     const NodeRecord<2> *nodes,
+                                     unsigned int k);
 
     /** Calls @p use with the law of a set, of its own type. */
     template <typename Use>
@@ -234,8 +236,8 @@ namespace quoin
     /** add_forces() of a set. */
     template <typename Law>
     void add_set_forces(unsigned int set, const Law &law,
-                        const NodeRecord *nodes, JointHistory &history,
-                        EnergyAccounts &energy, NodeVector *force) const;
+                        const NodeRecord<2> *nodes, JointHistory &history,
+                        EnergyAccounts &energy, NodeVector<2> *force) const;
 
     std::vector<Segment> segments; /**< sorted by set */
     std::vector<JointLaw> laws;    /**< of each set */

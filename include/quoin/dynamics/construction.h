@@ -43,10 +43,10 @@ namespace quoin
      * Called before @p solver begins stage @p stage, with the state of the end
      * of the one before. Collective.
      */
-    void begin_stage(unsigned int stage, Solver &solver, State &state);
+    void begin_stage(unsigned int stage, Solver &solver, State<2> &state);
 
     /** Called instead when @p state is one within stage @p stage. */
-    void resume_stage(unsigned int stage, const State &state);
+    void resume_stage(unsigned int stage, const State<2> &state);
 
     /** Of each physical surface, whether the last stage leaves it absent. */
     std::vector<bool> absent_in_the_end() const;
@@ -78,11 +78,11 @@ namespace quoin
                        Step &step) const;
     bool is_in(unsigned int block, const std::vector<bool> &groups) const;
     std::vector<unsigned int> own_blocks(const std::vector<bool> &groups) const;
-    double stored_energy(const State &state) const; /**< of this rank [J] */
-    void take_away(const Step &step, Solver &solver, State &state) const;
-    void place(const Step &step, State &state) const;
+    double stored_energy(const State<2> &state) const; /**< of this rank [J] */
+    void take_away(const Step &step, Solver &solver, State<2> &state) const;
+    void place(const Step &step, State<2> &state) const;
     /** Makes the model that which @p n stages left. */
-    void restore(unsigned int n, const State &state);
+    void restore(unsigned int n, const State<2> &state);
 
     Model &model;
     const ModelProperties at_start;

@@ -6,7 +6,7 @@
 
 #include <quoin/base/state.h>
 #include <quoin/dynamics/model_box.h>
-#include <quoin/dynamics/node_update.h>
+#include <quoin/blocks/node_update.h>
 #include <quoin/dynamics/solver.h>
 
 #include <memory>
@@ -44,7 +44,7 @@ namespace quoin
      * as brought in from outside. Throws an InputError if rigid blocks move;
      * collective.
      */
-    void account_for_initial_motion(State &state) const;
+    void account_for_initial_motion(State<2> &state) const;
 
     /** Steps between looks at unbalanced force, at NaN, and at the rate of
         loads. */
@@ -54,7 +54,7 @@ namespace quoin
      * Masses become those of @p previous, the stage at whose end @p state was
      * saved: the energy of what moves is counted with them.
      */
-    void restore_masses(const StageParameters &previous, State state)
+    void restore_masses(const StageParameters &previous, State<2> state)
     {
       scale_masses(previous, state);
     }
@@ -74,10 +74,10 @@ namespace quoin
      * bodies that a static stage would let drift.
      */
     void begin_stage(const StageParameters &stage,
-                     const StageParameters *previous, State &state);
+                     const StageParameters *previous, State<2> &state);
 
     /** The same for a state read from a checkpoint in mid-stage. */
-    void resume_stage(const StageParameters &stage, State &state);
+    void resume_stage(const StageParameters &stage, State<2> &state);
 
     /** Critical time step of the stage [s], the same on all ranks. */
     double critical_time_step() const
@@ -104,12 +104,12 @@ namespace quoin
      * t; energies(), reactions and the unbalanced ratio are those of t too.
      * Throws a RunError if the state is no longer sound.
      */
-    void step(State &state, const Requests &requests);
+    void step(State<2> &state, const Requests &requests);
 
-    void update_histories(State &state) override;
+    void update_histories(State<2> &state) override;
 
     double stop_blocks(const std::vector<unsigned int> &blocks,
-                       State &state) override;
+                       State<2> &state) override;
 
     /** Blocks found outside the box since the last call. */
     std::vector<BlockOutside> take_blocks_outside()
@@ -132,34 +132,36 @@ namespace quoin
   private:
     /** CapturedNode::begun of the stage's first step. */
     void find_begun_forces(const StepContext &context);
-    void scale_masses(const StageParameters &stage, State &state);
-    void collect_constrained_nodes(const State &state);
+    void scale_masses(const StageParameters &stage, State<2> &state);
+    void collect_constrained_nodes(const State<2> &state);
     /** How long forces of excavated blocks are let go in this stage [s]. */
-    double release_duration(const State &state) const;
+    double release_duration(const State<2> &state) const;
     /** Blocks of this rank that loads of this or a later stage move. */
-    void find_moved_blocks(const State &state);
+    void find_moved_blocks(const State<2> &state);
     /** Makes removed blocks stay where they are. */
-    void hold_removed_blocks(const State &state);
-    void look_at_box(State &state);
+    void hold_removed_blocks(const State<2> &state);
+    void look_at_box(State<2> &state);
     /**
      * Leaves blocks at rest and without strain, and books what energy they
      * had as done from outside.
      */
-    void remove_blocks(const std::vector<BlockOutside> &found, State &state);
-    StepContext step_context(const State &state) const;
-    void apply_forces(State &state, const StepContext &context);
-    void advance_blocks(State &state, const StepContext &context,
+    void remove_blocks(const std::vector<BlockOutside> &found, State<2> &state);
+    StepContext step_context(const State<2> &state) const;
+    void apply_forces(State<2> &state, const StepContext &context);
+    void advance_blocks(State<2> &state, const StepContext &context,
                         const Requests &requests);
-    void capture(CapturedNode &node, const State &state) const;
-    void move_constrained_nodes(State &state, const StepContext &context);
+    void capture(CapturedNode &node, const State<2> &state) const;
+    void move_constrained_nodes(State<2> &state, const StepContext &context);
     /** At the time of the step [J], from velocities before and after it. */
-    double kinetic_energy(const State &state, const StepContext &context) const;
-    void account_for_new_step(State &state, const StepContext &context) const;
+    double kinetic_energy(const State<2> &state,
+                          const StepContext &context) const;
+    void account_for_new_step(State<2> &state,
+                              const StepContext &context) const;
     /** Time, steps and the loads' clock of the next step. */
-    void advance_time(State &state, const StepContext &context,
+    void advance_time(State<2> &state, const StepContext &context,
                       const Requests &requests) const;
-    void adapt_damping(State &state, const DampingWork &work) const;
-    void find_ratio(State &state, const StepContext &context, double applied,
+    void adapt_damping(State<2> &state, const DampingWork &work) const;
+    void find_ratio(State<2> &state, const StepContext &context, double applied,
                     double unbalanced);
 
     std::unique_ptr<BlockContacts> block_contacts;
@@ -184,9 +186,9 @@ namespace quoin
     /** Of each tile, and of the rigid blocks. */
     std::vector<unsigned int> captured_begin;
 
-    AlignedArray<NodeVector> force;
-    AlignedArray<NodeVector> viscous_force;
-    AlignedArray<NodeVector> velocity_before; /**< when energies are due */
+    AlignedArray<NodeVector<2>> force;
+    AlignedArray<NodeVector<2>> viscous_force;
+    AlignedArray<NodeVector<2>> velocity_before; /**< when energies are due */
     std::vector<RigidBlockState> rigid_before;
     double applied_force    = 0.;
     double unbalanced_force = 0.;

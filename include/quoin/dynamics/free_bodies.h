@@ -21,7 +21,7 @@ namespace quoin
    */
   void check_no_free_bodies(const Model &model,
                             const std::vector<NodeConstraint *> &constraints,
-                            const std::string &stage, const State &state);
+                            const std::string &stage, const State<2> &state);
 
   /** A body that loads push where nothing holds it. */
   struct PushedBody
@@ -38,11 +38,10 @@ namespace quoin
    * boundaries of dashpots, free fields and boundary elements hold too.
    * Collective.
    */
-  std::vector<PushedBody>
-  find_pushed_bodies(const Model &model,
-                     const std::vector<NodeConstraint *> &constraints,
-                     const std::vector<const NodalLoad *> &loads,
-                     const std::vector<TimePoint> &times, const State &state);
+  std::vector<PushedBody> find_pushed_bodies(
+      const Model &model, const std::vector<NodeConstraint *> &constraints,
+      const std::vector<const NodalLoad *> &loads,
+      const std::vector<TimePoint> &times, const State<2> &state);
 } // namespace quoin
 
 #endif

@@ -8,9 +8,9 @@
 #include <quoin/base/state.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/matched_joints.h>
-#include <quoin/dynamics/block_forces.h>
+#include <quoin/blocks/block_forces.h>
 #include <quoin/dynamics/rigid_blocks.h>
-#include <quoin/dynamics/stable_time_step.h>
+#include <quoin/blocks/stable_time_step.h>
 #include <quoin/joints/joint_parameters.h>
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/load_parameters.h>
@@ -78,7 +78,7 @@ namespace quoin
     }
 
     /** Positions at rest, initial joint tractions, what is absent. */
-    State initial_state() const;
+    State<2> initial_state() const;
 
     const ModelProperties &properties() const
     {
@@ -93,7 +93,7 @@ namespace quoin
     void set_properties(const ModelProperties &properties,
                         const ConstructionState &construction);
     /** The same; stresses and joint tractions of @p state stay. */
-    void change_properties(const ModelProperties &properties, State &state);
+    void change_properties(const ModelProperties &properties, State<2> &state);
     /** Cells of @p groups bear nothing without strain from now on. */
     void forget_initial_stress(const std::vector<bool> &groups,
                                ConstructionState &construction);
@@ -103,9 +103,9 @@ namespace quoin
     std::vector<bool> find_groups(const std::vector<std::string> &names,
                                   const std::string &where) const;
     /** Whether a block beside joint segment @p segment is absent. */
-    bool is_at_absent_block(unsigned int segment, const State &state) const;
+    bool is_at_absent_block(unsigned int segment, const State<2> &state) const;
     /** Of each local node, whether its block is absent in @p state. */
-    std::vector<bool> absent_nodes(const State &state) const;
+    std::vector<bool> absent_nodes(const State<2> &state) const;
 
     const BlockMesh<2> &mesh() const
     {
@@ -197,9 +197,9 @@ namespace quoin
     // Of blocks that this rank owns.
 
     /** Leaves @p block where it is, without strain and motion. */
-    void bring_to_rest(unsigned int block, State &state) const;
+    void bring_to_rest(unsigned int block, State<2> &state) const;
     /** Puts @p block where the mesh has it, without strain and motion. */
-    void place(unsigned int block, State &state) const;
+    void place(unsigned int block, State<2> &state) const;
     /** Makes cells of @p block, which this rank owns, as at the start. */
     void forget_yielding(unsigned int block, PlasticHistory &history) const;
     unsigned int first_cell() const

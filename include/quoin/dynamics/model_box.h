@@ -47,16 +47,16 @@ namespace quoin
      * are marked so. Collective. @p moved: whether loads move the block, for
      * each block of this rank. Throws a RunError if no block may leave.
      */
-    std::vector<BlockOutside> look(State &state,
+    std::vector<BlockOutside> look(State<2> &state,
                                    const std::vector<bool> &moved) const;
 
   private:
-    bool is_outside(unsigned int block, const State &state) const;
+    bool is_outside(unsigned int block, const State<2> &state) const;
     /** A block that is tied to one that stays, stays. */
     void spread_along_joints(std::vector<std::uint8_t> &stays,
-                             const State &state) const;
+                             const State<2> &state) const;
     void find_positions(std::vector<BlockOutside> &found,
-                        const State &state) const;
+                        const State<2> &state) const;
 
     const Model &model;
     const ContactParameters &parameters;

@@ -23,7 +23,8 @@ namespace quoin
     Release() = default;
 
     /** @p duration: of the ramp [s]; 0: at once. */
-    Release(const State &state, const StageParameters &stage, double duration);
+    Release(const State<2> &state, const StageParameters &stage,
+            double duration);
 
     /** Whether the forces change in the stage. */
     bool changes() const
@@ -34,10 +35,10 @@ namespace quoin
     /** s [-] */
     double share(double load_time) const;
 
-    void add_forces(double load_time, NodeVector *force) const;
+    void add_forces(double load_time, NodeVector<2> *force) const;
 
     /** Rate of work [W] on nodes that move with @p velocity. */
-    double power(double load_time, const NodeVector *velocity) const;
+    double power(double load_time, const NodeVector<2> *velocity) const;
 
   private:
     struct NodalForce

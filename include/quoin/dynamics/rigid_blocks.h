@@ -5,7 +5,7 @@
 #define quoin_dynamics_rigid_blocks_h
 
 #include <quoin/base/state.h>
-#include <quoin/dynamics/node_update.h>
+#include <quoin/blocks/node_update.h>
 #include <quoin/loads/node_constraint.h>
 #include <quoin/materials/material_parameters.h>
 #include <quoin/mesh/block_mesh.h>
@@ -100,14 +100,14 @@ namespace quoin
      * stay where they are.
      */
     RigidBlockWork advance(const StepContext &step,
-                           const RigidBlockStage &stage, NodeVector *force,
-                           NodeVector *viscous, State &state) const;
+                           const RigidBlockStage &stage, NodeVector<2> *force,
+                           NodeVector<2> *viscous, State<2> &state) const;
 
     /**
      * Displacement, rotation and velocity of the blocks that are held, from
      * what a platen gave their nodes.
      */
-    void follow_nodes(const RigidBlockStage &stage, State &state) const;
+    void follow_nodes(const RigidBlockStage &stage, State<2> &state) const;
 
     /**
      * Kinetic energy [J] of all blocks, 1/2 v m w, where w is @p share of the
@@ -143,10 +143,10 @@ namespace quoin
     };
     /** Of the forces on a block's nodes, which it leaves zero. */
     Resultants take_forces(const Block &block, const Direction &now,
-                           NodeVector *force, NodeVector *viscous) const;
+                           NodeVector<2> *force, NodeVector<2> *viscous) const;
     /** Moves a block's nodes to where it is now. */
     void place_nodes(const Block &block, const RigidBlockState &rigid,
-                     const Direction &before, State &state) const;
+                     const Direction &before, State<2> &state) const;
 
     const Arm *arms_of(const Block &block) const
     {

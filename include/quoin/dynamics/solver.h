@@ -5,8 +5,8 @@
 #define quoin_dynamics_solver_h
 
 #include <quoin/base/state.h>
-#include <quoin/coupling/far_field.h>
-#include <quoin/coupling/static_far_field.h>
+#include <quoin/farfield/far_field.h>
+#include <quoin/farfield/static_far_field.h>
 #include <quoin/dynamics/free_bodies.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/release.h>
@@ -65,32 +65,32 @@ namespace quoin
      * Brings the histories of cells, joints and contacts of @p state, a copy,
      * to its positions. Collective.
      */
-    virtual void update_histories(State &state) = 0;
+    virtual void update_histories(State<2> &state) = 0;
 
     /**
      * Takes the motion off @p blocks of this rank and returns the energy that
      * they had by it [J].
      */
     virtual double stop_blocks(const std::vector<unsigned int> & /*blocks*/,
-                               State & /*state*/)
+                               State<2> & /*state*/)
     {
       return 0.;
     }
 
     /** Throws a RunError if the state is no longer finite; collective. */
-    void check_finite(const State &state) const;
+    void check_finite(const State<2> &state) const;
     /** The same, and names the load, if one that acts is not finite at
         @p load_time [s] of the stage. */
-    void check_loads(const State &state, double load_time) const;
+    void check_loads(const State<2> &state, double load_time) const;
     /**
      * The largest slip of a matched joint that bears pressure, by the length of
      * its face: beyond a half or so its blocks no longer face each other, and
      * small displacements do not hold. Collective.
      */
-    double largest_slip_share(const State &state) const;
+    double largest_slip_share(const State<2> &state) const;
 
     /** The same if a cell has turned inside out; collective. */
-    void check_cells(const State &state) const;
+    void check_cells(const State<2> &state) const;
 
     /** As last computed. */
     const Energies &energies() const
@@ -103,16 +103,16 @@ namespace quoin
      * at where each time is a tenth later than the one before: a shorter pulse
      * may be missed.
      */
-    bool loads_change(const State &state, double duration) const;
+    bool loads_change(const State<2> &state, double duration) const;
 
     /** Throws an InputError about loads that would begin with a jump. */
-    void check_start(const State &state) const;
+    void check_start(const State<2> &state) const;
 
     /**
      * Bodies that the loads of the stage that has begun with @p state push
      * where nothing holds them; see find_pushed_bodies().
      */
-    std::vector<PushedBody> pushed_bodies(const State &state) const;
+    std::vector<PushedBody> pushed_bodies(const State<2> &state) const;
 
     /** Force x, y [N] and moment [N m] of a load; collective. */
     virtual std::array<double, 3> resultant(const std::string &load) const;
@@ -134,7 +134,7 @@ namespace quoin
     bool static_far_field_acts() const;
 
     /** Called before a checkpoint: completes @p state. */
-    virtual void save(State &state) const;
+    virtual void save(State<2> &state) const;
 
     /** Null if displacements are small. */
     virtual const BlockContacts *contacts() const
@@ -154,14 +154,14 @@ namespace quoin
      * loads, bodies that a static stage would let drift, or loads on blocks
      * that are absent in @p state.
      */
-    void activate(const StageParameters &stage, const State &state);
+    void activate(const StageParameters &stage, const State<2> &state);
     /** Of the loads in constraints_on, all but prescribed motions. */
-    void refuse_absent_nodes(const State &state) const;
+    void refuse_absent_nodes(const State<2> &state) const;
     /** Whether @p stage names it and, of far fields, is of its kind. */
     bool acts_in(const NodeConstraint &constraint,
                  const StageParameters &stage) const;
     /** Makes room in @p state for what loads keep there. */
-    void make_room(State &state) const;
+    void make_room(State<2> &state) const;
     /**
      * The rigid blocks that platens of the stage move. Throws an InputError
      * about one that is held in part or by something else.
@@ -170,7 +170,7 @@ namespace quoin
     /** Throws an InputError if two platens of the stage share a node. */
     void refuse_shared_platens() const;
     /** Sums the energies of all ranks; those given are this rank's [J]. */
-    void find_energies(const State &state, double strain, double joint,
+    void find_energies(const State<2> &state, double strain, double joint,
                        double kinetic);
     double sum(double value) const;
     /** Of all loads of the stage, at a time of its own clock [s]. */

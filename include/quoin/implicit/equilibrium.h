@@ -4,7 +4,7 @@
 #ifndef quoin_implicit_equilibrium_h
 #define quoin_implicit_equilibrium_h
 
-#include <quoin/coupling/static_far_field.h>
+#include <quoin/farfield/static_far_field.h>
 #include <quoin/dynamics/release.h>
 #include <quoin/implicit/freedoms.h>
 #include <quoin/loads/nodal_load.h>
@@ -20,14 +20,15 @@ namespace quoin
   /** What acts at a configuration, and what brought it there. */
   struct Balance
   {
-    AlignedArray<NodeVector> force;    /**< out of balance, owned nodes [N] */
-    AlignedArray<NodeVector> external; /**< of loads, part of it [N] */
+    AlignedArray<NodeVector<2>> force; /**< out of balance, owned nodes [N] */
+    AlignedArray<NodeVector<2>> external; /**< of loads, part of it [N] */
     /** Of bodies, besides what acts on their nodes [N, N m]. */
     std::vector<std::array<double, 3>> drives, held;
-    AlignedArray<NodeVector> drag; /**< against the motion, not in force [N] */
-    double unbalanced = 0.;        /**< with it, summed over unknowns [N] */
-    double dragged    = 0.;        /**< the sum of the drag [N] */
-    double applied    = 0.;        /**< by joints, loads and reactions [N] */
+    AlignedArray<NodeVector<2>>
+        drag;               /**< against the motion, not in force [N] */
+    double unbalanced = 0.; /**< with it, summed over unknowns [N] */
+    double dragged    = 0.; /**< the sum of the drag [N] */
+    double applied    = 0.; /**< by joints, loads and reactions [N] */
 
     JointHistory joints; /**< brought to the configuration */
     PlasticHistory plastic;
@@ -50,9 +51,10 @@ namespace quoin
   /** Where a step goes from a configuration. */
   struct Advance
   {
-    double load_time = 0.;          /**< there [s] */
-    double released  = 1.;          /**< there [-] */
-    AlignedArray<NodeVector> given; /**< motion on the way, local nodes [m] */
+    double load_time = 0.; /**< there [s] */
+    double released  = 1.; /**< there [-] */
+    AlignedArray<NodeVector<2>>
+        given; /**< motion on the way, local nodes [m] */
   };
 
   /**
@@ -93,7 +95,8 @@ namespace quoin
      * Forces at @p configuration, to which the histories of @p committed are
      * brought. @p broken: see MatchedJoints::linearise(). Collective.
      */
-    void find_forces(const State &committed, const Configuration &configuration,
+    void find_forces(const State<2> &committed,
+                     const Configuration &configuration,
                      const std::vector<std::uint8_t> &broken, Balance &balance);
 
     /**
@@ -102,7 +105,8 @@ namespace quoin
      * @p advance; @p by_unknown and @p path_by_advance, those of
      * Balance::path.
      */
-    void linearise(const State &committed, const Configuration &configuration,
+    void linearise(const State<2> &committed,
+                   const Configuration &configuration,
                    const std::vector<std::uint8_t> &broken,
                    const Advance &advance, Balance &balance, Vector &by_advance,
                    Vector &by_unknown, double &path_by_advance);
@@ -125,26 +129,29 @@ namespace quoin
     void find_far_stiffness();
     /** For models without deformable blocks: the stiffest point [N/m]. */
     double joint_stiffness() const;
-    void add_forces(const State &committed, const Configuration &configuration,
+    void add_forces(const State<2> &committed,
+                    const Configuration &configuration,
                     const std::vector<std::uint8_t> &broken, Balance &balance,
                     bool with_derivatives);
-    void add_loads(const State &committed, const Configuration &configuration,
-                   Balance &balance);
-    void add_drag(const State &committed, const Configuration &configuration,
+    void add_loads(const State<2> &committed,
+                   const Configuration &configuration, Balance &balance);
+    void add_drag(const State<2> &committed, const Configuration &configuration,
                   Balance &balance, bool with_derivatives);
     /** Of loads, on nodes that are there. */
-    void add_external(double load_time, AlignedArray<NodeVector> &force) const;
-    void find_ratio(const AlignedArray<NodeVector> &applied, Balance &balance);
+    void add_external(double load_time,
+                      AlignedArray<NodeVector<2>> &force) const;
+    void find_ratio(const AlignedArray<NodeVector<2>> &applied,
+                    Balance &balance);
     /** Adds the rows of owned nodes of an element with @p n nodes. */
     template <std::size_t size>
     void
     add_stiffness(const unsigned int *nodes, unsigned int n,
                   const std::array<std::array<double, size>, size> &element);
-    void add_far_field(const State &committed,
+    void add_far_field(const State<2> &committed,
                        const Configuration &configuration, Balance &balance,
                        bool with_derivatives);
     void fill_unused_rows();
-    void add_turning(const AlignedArray<NodeVector> &force);
+    void add_turning(const AlignedArray<NodeVector<2>> &force);
 
     const Model &model;
     Freedoms &freedoms;
@@ -164,8 +171,8 @@ namespace quoin
 
     dealii::TrilinosWrappers::SparseMatrix matrix;
     const Advance *under_way = nullptr;
-    AlignedArray<NodeVector> by_given; /**< forces, as it goes [N] */
-    AlignedArray<NodeVector> path_gradient, joint_force;
+    AlignedArray<NodeVector<2>> by_given; /**< forces, as it goes [N] */
+    AlignedArray<NodeVector<2>> path_gradient, joint_force;
     double path_by_given = 0.;
   };
 } // namespace quoin

@@ -21,7 +21,7 @@ namespace quoin
   /** A place where equilibrium is sought; what State has beside histories. */
   struct Configuration
   {
-    AlignedArray<NodeRecord> nodes;
+    AlignedArray<NodeRecord<2>> nodes;
     /** x, y [m] and rotation [rad] of each of Freedoms::bodies(). */
     std::vector<std::array<double, 3>> bodies;
     double load_time = 0.; /**< in the stage [s] */
@@ -78,7 +78,7 @@ namespace quoin
      */
     Freedoms(const Model &model,
              const std::vector<NodeConstraint *> &constraints,
-             const std::vector<bool> &held, const State &state);
+             const std::vector<bool> &held, const State<2> &state);
 
     const std::vector<Body> &bodies() const
     {
@@ -117,9 +117,9 @@ namespace quoin
       return in_body[node];
     }
 
-    Configuration configuration(const State &state) const;
+    Configuration configuration(const State<2> &state) const;
     /** Writes nodes, platens and rigid blocks; times are the caller's. */
-    void write(const Configuration &configuration, State &state) const;
+    void write(const Configuration &configuration, State<2> &state) const;
 
     /** Arms of bodies' nodes become those of @p configuration; collective. */
     void update_arms(const Configuration &configuration);
@@ -129,9 +129,9 @@ namespace quoin
      * @p configuration to @p load_time: of every local node, by its arm;
      * collective.
      */
-    AlignedArray<NodeVector> given_motion(const Configuration &configuration,
-                                          double load_time,
-                                          double stage_start) const;
+    AlignedArray<NodeVector<2>> given_motion(const Configuration &configuration,
+                                             double load_time,
+                                             double stage_start) const;
 
     /**
      * Moves @p configuration by @p share of the @p increment of the unknowns
@@ -145,13 +145,13 @@ namespace quoin
      * free; @p body_force: what acts on bodies besides, on each rank that
      * counts it. Collective.
      */
-    void project(const AlignedArray<NodeVector> &force,
+    void project(const AlignedArray<NodeVector<2>> &force,
                  const std::vector<std::array<double, 3>> &body_force,
                  Vector &right_hand_side) const;
 
     /** Force and moment of @p force on the nodes of each body; collective. */
     std::vector<std::array<double, 3>>
-    body_forces(const AlignedArray<NodeVector> &force) const;
+    body_forces(const AlignedArray<NodeVector<2>> &force) const;
 
     /** Loads of the freedoms of bodies at a time; zero for those given. */
     std::vector<std::array<double, 3>> drives(double load_time,
@@ -159,7 +159,7 @@ namespace quoin
 
   private:
     void add_platens(const std::vector<NodeConstraint *> &constraints,
-                     const State &state);
+                     const State<2> &state);
     void add_rigid_blocks(const std::vector<bool> &held);
     void number();
     void place(Configuration &configuration) const;

@@ -71,9 +71,9 @@ namespace quoin
 
     /** As ExplicitSolver::begin_stage(). */
     void begin_stage(const StageParameters &stage,
-                     const StageParameters *previous, State &state);
+                     const StageParameters *previous, State<2> &state);
     /** With a state that save() has completed. */
-    void resume_stage(const StageParameters &stage, State &state);
+    void resume_stage(const StageParameters &stage, State<2> &state);
 
     /** Load time at which the stage ends [s]. */
     double duration() const
@@ -81,7 +81,7 @@ namespace quoin
       return stage_duration;
     }
     /** A jump has loads of its end from its first step on. */
-    bool is_over(const State &state) const
+    bool is_over(const State<2> &state) const
     {
       return state.implicit.released == 1. && !state.implicit.jumps
              && state.load_time >= stage_duration;
@@ -92,13 +92,13 @@ namespace quoin
      * where forces are out of balance most, if there is none within the
      * smallest step; the state is then the last equilibrium.
      */
-    void step(State &state);
+    void step(State<2> &state);
 
     /**
      * Makes the matrix, its factors and the first correction of the step to
      * come, for whoever wants to know what that costs, and forgets them.
      */
-    void try_iteration(const State &state);
+    void try_iteration(const State<2> &state);
     /** Steps that the stage takes at least, if none is cut. */
     double least_steps() const
     {
@@ -106,11 +106,11 @@ namespace quoin
     }
 
     /** Histories of an equilibrium are those of its positions. */
-    void update_histories(State &) override
+    void update_histories(State<2> &) override
     {
     }
 
-    void save(State &state) const override;
+    void save(State<2> &state) const override;
 
     std::array<double, 3> resultant(const std::string &load) const override;
 
@@ -156,43 +156,44 @@ namespace quoin
       failed
     };
 
-    void prepare_stage(const State &state);
+    void prepare_stage(const State<2> &state);
     /** Rigid blocks that are absent are no bodies. */
-    void hold_absent_blocks(const State &state);
+    void hold_absent_blocks(const State<2> &state);
     double rest_time() const;
     void hold_what_is_out_of_balance(const StageParameters *previous,
-                                     State &state);
+                                     State<2> &state);
     /** Loads that rest take one step. */
     double first_load_step() const
     {
       return rests ? 1. : parameters.first_step;
     }
-    Target choose_target(const State &state) const;
-    Outcome iterate(const State &state, const Target &target,
+    Target choose_target(const State<2> &state) const;
+    Outcome iterate(const State<2> &state, const Target &target,
                     Configuration &configuration);
-    Outcome solve(const State &state, const Target &target,
+    Outcome solve(const State<2> &state, const Target &target,
                   Configuration &configuration);
     /** Share of the advance that goes with a correction; false: none. */
     bool find_correction(const Target &target,
                          const Configuration &configuration, bool is_first,
                          double path_by_advance, double &share);
-    void correct(const State &state, double share,
+    void correct(const State<2> &state, double share,
                  Configuration &configuration);
     bool break_joints();
     /** Makes the next attempt the first of a jump; false: there are none. */
-    bool begin_jump(State &state) const;
-    void go_on_jumping(const State &before, State &state);
-    void commit(const Configuration &configuration, State &state);
-    void book_work(const State &state, const Configuration &configuration,
+    bool begin_jump(State<2> &state) const;
+    void go_on_jumping(const State<2> &before, State<2> &state);
+    void commit(const Configuration &configuration, State<2> &state);
+    void book_work(const State<2> &state, const Configuration &configuration,
                    EnergyAccounts &energy) const;
-    void adapt_step(const State &before, State &state) const;
+    void adapt_step(const State<2> &before, State<2> &state) const;
     /** Makes the next attempt a smaller one; false: there is none. */
-    bool cut_step(State &state) const;
+    bool cut_step(State<2> &state) const;
     /** Whether a jump has become a collapse; collective. */
-    bool has_gone_far(const State &state) const;
+    bool has_gone_far(const State<2> &state) const;
     /** Makes @p state the last equilibrium and throws the RunError. */
-    [[noreturn]] void give_up(State &state);
-    [[noreturn]] void fail(const State &state, double tried, bool jumped) const;
+    [[noreturn]] void give_up(State<2> &state);
+    [[noreturn]] void fail(const State<2> &state, double tried,
+                           bool jumped) const;
     /** Where forces are out of balance most; collective. */
     std::string worst_place() const;
     std::string describe_node(unsigned int node) const;
@@ -208,10 +209,10 @@ namespace quoin
     std::unique_ptr<Equilibrium> equilibrium;
     std::unique_ptr<LinearSolver> linear_solver;
 
-    State last_equilibrium; /**< before the step or jump under way */
-    Balance start;          /**< at the last equilibrium */
-    Balance balance;        /**< at the configuration */
-    Balance trial;          /**< in a line search */
+    State<2> last_equilibrium; /**< before the step or jump under way */
+    Balance start;             /**< at the last equilibrium */
+    Balance balance;           /**< at the configuration */
+    Balance trial;             /**< in a line search */
     Advance advance;
     std::vector<std::uint8_t> broken; /**< joint points, in this step */
     Freedoms::Vector residual, by_advance, by_unknown, correction, advanced;

@@ -63,13 +63,13 @@ namespace quoin
                       const BlockMesh<2> &mesh, const NodeExchange &exchange,
                       const FreeFieldGround &ground, const FreeFieldBase &base);
 
-    void begin_stage(State &state, bool continues) override;
+    void begin_stage(State<2> &state, bool continues) override;
     void correct(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
-                 State &state) override;
+                 State<2> &state) override;
     void account(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
-                 State &state) override;
+                 State<2> &state) override;
     std::array<double, 3> values(const TimePoint &) const override
     {
       return {};

@@ -32,10 +32,10 @@ namespace quoin
     /** Weights of gravity where masses have changed; see the constructor. */
     void set_mass(const std::vector<double> &mass);
 
-    void add_forces(const TimePoint &time, NodeVector *force) const;
+    void add_forces(const TimePoint &time, NodeVector<2> *force) const;
 
     /** Rate of work [W] on nodes that move with @p velocity. */
-    double power(const TimePoint &time, const NodeVector *velocity) const;
+    double power(const TimePoint &time, const NodeVector<2> *velocity) const;
 
     /** Traction x, y and pressure [Pa] or acceleration x, y [m/s^2]. */
     std::array<double, 3> amplitude(const TimePoint &time) const;
@@ -51,7 +51,7 @@ namespace quoin
     std::array<LoadComponent, 3> components;
     std::vector<unsigned int> nodes;
     std::vector<double> weights;
-    std::vector<NodeVector> inward; /**< n_i [m^2]; empty without pressure */
+    std::vector<NodeVector<2>> inward; /**< n_i [m^2]; empty without pressure */
   };
 
   /**

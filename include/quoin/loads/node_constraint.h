@@ -22,17 +22,17 @@ namespace quoin
    */
   struct CapturedNode
   {
-    unsigned int node;       /**< local */
-    double mass;             /**< [kg] */
-    NodeVector force;        /**< [N] */
-    NodeVector velocity;     /**< [m/s] */
-    NodeVector displacement; /**< [m] */
-    NodeVector viscous; /**< stiffness-proportional part of the force [N] */
+    unsigned int node;          /**< local */
+    double mass;                /**< [kg] */
+    NodeVector<2> force;        /**< [N] */
+    NodeVector<2> velocity;     /**< [m/s] */
+    NodeVector<2> displacement; /**< [m] */
+    NodeVector<2> viscous; /**< stiffness-proportional part of the force [N] */
     /**
      * Part of the force at the first step of a stage: of tractions and gravity
      * that did not act in the stage before, if there was one [N].
      */
-    NodeVector begun;
+    NodeVector<2> begun;
     /** What moves each component: the last to act on it; null: nothing. */
     const NodeConstraint *owner[2];
   };
@@ -40,7 +40,7 @@ namespace quoin
   /** Moment about the origin [N m] of @p force [N] on a node, as it was at t.
    */
   inline double moment_of(const double *force, const CapturedNode &before,
-                          const NodeRecord &node)
+                          const NodeRecord<2> &node)
   {
     return (node.X[0] + before.displacement.v[0]) * force[1]
            - (node.X[1] + before.displacement.v[1]) * force[0];
@@ -116,28 +116,28 @@ namespace quoin
     }
 
     /** Called when a stage begins; @p continues: it acted in the last one. */
-    virtual void begin_stage(State &, const bool /*continues*/)
+    virtual void begin_stage(State<2> &, const bool /*continues*/)
     {
     }
 
     /** Called instead when a run is resumed within a stage. */
-    virtual void resume_stage(const State &)
+    virtual void resume_stage(const State<2> &)
     {
     }
 
     /** Called before a checkpoint: what is not in the state goes there. */
-    virtual void save(State &) const
+    virtual void save(State<2> &) const
     {
     }
 
     virtual void correct(const StepContext &step,
                          const std::vector<CapturedNode> &captured,
-                         State &state)
+                         State<2> &state)
         = 0;
 
     virtual void account(const StepContext &step,
                          const std::vector<CapturedNode> &captured,
-                         State &state)
+                         State<2> &state)
         = 0;
 
     /**

@@ -33,14 +33,14 @@ namespace quoin
     void set_mass(const std::vector<double> &mass, double extra_inertia = 0.,
                   double extra_spin = 0.);
 
-    void begin_stage(State &state, bool continues) override;
-    void resume_stage(const State &state) override;
+    void begin_stage(State<2> &state, bool continues) override;
+    void resume_stage(const State<2> &state) override;
     void correct(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
-                 State &state) override;
+                 State<2> &state) override;
     void account(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
-                 State &state) override;
+                 State<2> &state) override;
 
     bool is_global() const override
     {

@@ -20,10 +20,10 @@ namespace quoin
 
     void correct(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
-                 State &state) override;
+                 State<2> &state) override;
     void account(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
-                 State &state) override;
+                 State<2> &state) override;
     const std::array<LoadComponent, 3> &parts() const
     {
       return components;

@@ -59,7 +59,7 @@ namespace quoin
    */
   void move_with_dashpot(const StepContext &step, const CapturedNode &before,
                          const std::array<double, 3> &damping,
-                         const std::array<double, 2> &pull, State &state);
+                         const std::array<double, 2> &pull, State<2> &state);
 
   /**
    * Books the work of what move_with_dashpot() did, for the components that
@@ -70,7 +70,7 @@ namespace quoin
                            const std::array<double, 3> &damping,
                            const std::array<double, 2> &pull,
                            const NodeConstraint *owner,
-                           std::array<double, 3> &resultant, State &state);
+                           std::array<double, 3> &resultant, State<2> &state);
 
   /**
    * The standard viscous boundary (@cite LysmerKuhlemeyer1969) with waves
@@ -94,13 +94,13 @@ namespace quoin
                     const BlockMesh<2> &mesh, const NodeExchange &exchange,
                     const std::vector<Impedance> &impedance, double thickness);
 
-    void begin_stage(State &state, bool continues) override;
+    void begin_stage(State<2> &state, bool continues) override;
     void correct(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
-                 State &state) override;
+                 State<2> &state) override;
     void account(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
-                 State &state) override;
+                 State<2> &state) override;
     std::array<double, 3> values(const TimePoint &time) const override
     {
       return component_values(components, time);

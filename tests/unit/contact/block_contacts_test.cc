@@ -83,8 +83,8 @@ namespace
     std::unique_ptr<NodeExchange> exchange;
     MatchedJoints joints;
     std::unique_ptr<BlockContacts> contacts;
-    State state;
-    AlignedArray<NodeVector> force;
+    State<2> state;
+    AlignedArray<NodeVector<2>> force;
 
     Scene(const std::function<void(BlockMesh<2> &)> &make,
           const std::vector<JointSetParameters> &sets = { touching() })
@@ -100,7 +100,7 @@ namespace
                           joints.can_wear());
       for (const auto &p : mesh.vertices)
         state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
-      state.velocity.assign(mesh.n_vertices(), NodeVector{ { 0., 0. } });
+      state.velocity.assign(mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
     }
 
     explicit Scene(const std::vector<Rectangle> &rectangles,
@@ -140,11 +140,11 @@ namespace
       for_block(block,
                 [&](const unsigned int v)
                 {
-                  NodeRecord &node = state.nodes[v];
-                  const double x   = node.X[0] + node.u[0] - x0;
-                  const double y   = node.X[1] + node.u[1] - y0;
-                  node.u[0]        = x0 + c * x - s * y - node.X[0];
-                  node.u[1]        = y0 + s * x + c * y - node.X[1];
+                  NodeRecord<2> &node = state.nodes[v];
+                  const double x      = node.X[0] + node.u[0] - x0;
+                  const double y      = node.X[1] + node.u[1] - y0;
+                  node.u[0]           = x0 + c * x - s * y - node.X[0];
+                  node.u[1]           = y0 + s * x + c * y - node.X[1];
                 });
     }
 
@@ -153,7 +153,7 @@ namespace
     {
       if (look)
         state.contacts.next_check = state.step;
-      force.assign(mesh.n_vertices(), NodeVector{ { 0., 0. } });
+      force.assign(mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
       joints.add_forces(state.nodes.data(), state.joints, state.energy,
                         force.data());
       // A look hands over: the joints' forces are those before it.
@@ -169,7 +169,7 @@ namespace
       for_block(block,
                 [&](const unsigned int v)
                 {
-                  const NodeRecord &node = state.nodes[v];
+                  const NodeRecord<2> &node = state.nodes[v];
                   sum[0] += force[v].v[0];
                   sum[1] += force[v].v[1];
                   sum[2] += (node.X[0] + node.u[0]) * force[v].v[1]
@@ -179,7 +179,7 @@ namespace
     }
   };
 
-  double pressing_area(const State &state)
+  double pressing_area(const State<2> &state)
   {
     double area = 0.;
     for (const ContactPair &pair : state.contacts.pairs)
@@ -417,7 +417,7 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
       ASSERT_TRUE(scene.state.contacts.handed_over[0]);
       scene.find_forces(false);
       const auto general = scene.total(upper);
-      State matched      = scene.state;
+      State<2> matched   = scene.state;
       std::fill(matched.joints.handed_over.begin(),
                 matched.joints.handed_over.end(), 0);
       for (unsigned int p = 0; p < scene.joints.n_points(); ++p)
@@ -443,7 +443,7 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
             matched.joints.reload[p]    = point.reload;
           }
       }
-      scene.force.assign(scene.mesh.n_vertices(), NodeVector{ { 0., 0. } });
+      scene.force.assign(scene.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
       scene.joints.add_forces(scene.state.nodes.data(), matched.joints,
                               scene.state.energy, scene.force.data());
       const auto before = scene.total(upper);
@@ -479,7 +479,7 @@ TEST(BlockContacts, HandedOverJointsGoOnFromTheirHistory)
   {
     EnergyAccounts unused;
     const auto force = scene.force;
-    scene.force.assign(scene.mesh.n_vertices(), NodeVector{ { 0., 0. } });
+    scene.force.assign(scene.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
     scene.joints.add_forces(scene.state.nodes.data(), twin, unused,
                             scene.force.data());
     const auto sum = scene.total(upper);
@@ -549,7 +549,8 @@ TEST(BlockContacts, SearchesChangeNothing)
   const auto before            = scene.total(upper);
   const std::uint64_t searches = scene.state.contacts.n_searches;
   scene.state.contacts.search_positions.assign(
-      scene.state.contacts.search_positions.size(), NodeVector{ { 1e3, 0. } });
+      scene.state.contacts.search_positions.size(),
+      NodeVector<2>{ { 1e3, 0. } });
   scene.find_forces();
   EXPECT_EQ(scene.state.contacts.n_searches, searches + 1);
   const auto after = scene.total(upper);

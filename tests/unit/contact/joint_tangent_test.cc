@@ -24,7 +24,7 @@ namespace
   {
     BlockMesh<2> mesh;
     MatchedJoints joints;
-    AlignedArray<NodeRecord> nodes;
+    AlignedArray<NodeRecord<2>> nodes;
     JointHistory history;
     std::vector<std::uint8_t> broken{ 0, 0 };
 
@@ -45,7 +45,7 @@ namespace
     void place(const double angle, const double (&gaps)[2][2])
     {
       const double c = std::cos(angle), s = std::sin(angle);
-      for (NodeRecord &node : nodes)
+      for (NodeRecord<2> &node : nodes)
       {
         node.u[0] = (c - 1.) * node.X[0] - s * node.X[1] + 0.3;
         node.u[1] = s * node.X[0] + (c - 1.) * node.X[1] - 0.1;
@@ -60,7 +60,7 @@ namespace
     }
 
     /** What linearise() makes of the history, which it leaves. */
-    JointLinearisation linearise(const AlignedArray<NodeRecord> &at,
+    JointLinearisation linearise(const AlignedArray<NodeRecord<2>> &at,
                                  JointHistory *end      = nullptr,
                                  EnergyAccounts *energy = nullptr) const
     {
@@ -324,8 +324,8 @@ TEST(JointTangent, ForcesAreThoseOfTheExplicitSolver)
       JointHistory end;
       EnergyAccounts lost, expected;
       const auto result = joint.linearise(joint.nodes, &end, &lost);
-      AlignedArray<NodeVector> force(joint.nodes.size(),
-                                     NodeVector{ { 0., 0. } });
+      AlignedArray<NodeVector<2>> force(joint.nodes.size(),
+                                        NodeVector<2>{ { 0., 0. } });
       joint.joints.add_forces(joint.nodes.data(), joint.history, expected,
                               force.data());
       for (unsigned int j = 0; j < 8; ++j)

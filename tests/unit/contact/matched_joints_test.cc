@@ -21,8 +21,8 @@ namespace
   {
     BlockMesh<2> mesh;
     MatchedJoints joints;
-    State state;
-    AlignedArray<NodeVector> force;
+    State<2> state;
+    AlignedArray<NodeVector<2>> force;
     EnergyAccounts energy;
 
     explicit Stack(const unsigned int nx = 1, const double angle = 0.,
@@ -58,7 +58,7 @@ namespace
 
     void find_forces()
     {
-      force.assign(mesh.n_vertices(), NodeVector{ { 0., 0. } });
+      force.assign(mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
       joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
     }
 
@@ -133,7 +133,7 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   // of 3, which the trapezoidal rule on the same nodes misses by 1/72.
   const double turn = 1e-9;
   const double c = std::cos(50. * degree), s = std::sin(50. * degree);
-  std::vector<NodeVector> motion(stack.mesh.n_vertices(), { { 0., 0. } });
+  std::vector<NodeVector<2>> motion(stack.mesh.n_vertices(), { { 0., 0. } });
   for (unsigned int v = stack.mesh.block_first_vertex[1];
        v < stack.mesh.block_first_vertex[2]; ++v)
   {
@@ -161,7 +161,7 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
 
   // At the rate of this motion dampers of the joint's stiffness give the same
   // force; that of each node has its own area.
-  std::vector<NodeVector> viscous(stack.mesh.n_vertices(), { { 0., 0. } });
+  std::vector<NodeVector<2>> viscous(stack.mesh.n_vertices(), { { 0., 0. } });
   stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.state.joints,
                                   motion.data(), 1., viscous.data());
   std::vector<std::array<double, 3>> stiffness(stack.mesh.n_vertices(),
@@ -252,7 +252,7 @@ TEST(MatchedJoints, TheFrameTurnsWithTheBlocks)
   Stack stack(2);
   const double angle = 37. * degree;
   const double c = std::cos(angle), s = std::sin(angle);
-  for (NodeRecord &node : stack.state.nodes)
+  for (NodeRecord<2> &node : stack.state.nodes)
   {
     const double x = node.X[0] - 3., y = node.X[1] + 1.;
     node.u[0] = c * x - s * y - x + 0.7;
@@ -283,7 +283,7 @@ TEST(MatchedJoints, TheFrameIsTheMeanOfBothSides)
   for (unsigned int v = stack.mesh.block_first_vertex[1];
        v < stack.mesh.block_first_vertex[2]; ++v)
   {
-    NodeRecord &node = stack.state.nodes[v];
+    NodeRecord<2> &node = stack.state.nodes[v];
     const double x = node.X[0] - 0.5, y = node.X[1] - 1.;
     node.u[0] = (std::cos(angle) - 1.) * x - std::sin(angle) * y;
     node.u[1] = std::sin(angle) * x + (std::cos(angle) - 1.) * y;
@@ -392,12 +392,12 @@ TEST(MatchedJoints, ViscousForcesOfRockJointsByTheStiffnessOfTheMoment)
   const double s = 5e6, rate = 1e-3, beta = 1e-4;
   stack.move_upper(0., -law.closure.closure(s));
   stack.find_forces();
-  AlignedArray<NodeVector> velocity(stack.mesh.n_vertices(),
-                                    NodeVector{ { 0., 0. } });
+  AlignedArray<NodeVector<2>> velocity(stack.mesh.n_vertices(),
+                                       NodeVector<2>{ { 0., 0. } });
   for (unsigned int v = stack.mesh.block_first_vertex[1];
        v < stack.mesh.block_first_vertex[2]; ++v)
     velocity[v].v[1] = -rate;
-  stack.force.assign(stack.mesh.n_vertices(), NodeVector{ { 0., 0. } });
+  stack.force.assign(stack.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
   stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.state.joints,
                                   velocity.data(), beta, stack.force.data());
   const double expected = -beta * law.closure.stiffness(s) * rate * thickness;
@@ -451,8 +451,8 @@ TEST(MatchedJoints, ViscousForcesOfStickingPoints)
   Stack stack(1, 0., frictional());
   stack.move_upper(0., -1e-4);
   stack.find_forces();
-  AlignedArray<NodeVector> velocity(stack.mesh.n_vertices(),
-                                    NodeVector{ { 0., 0. } });
+  AlignedArray<NodeVector<2>> velocity(stack.mesh.n_vertices(),
+                                       NodeVector<2>{ { 0., 0. } });
   for (unsigned int v = stack.mesh.block_first_vertex[1];
        v < stack.mesh.block_first_vertex[2]; ++v)
     velocity[v] = { { 0.3, -0.2 } };
@@ -460,7 +460,7 @@ TEST(MatchedJoints, ViscousForcesOfStickingPoints)
   const double beta = 1e-4;
   const auto damp   = [&]()
   {
-    stack.force.assign(stack.mesh.n_vertices(), NodeVector{ { 0., 0. } });
+    stack.force.assign(stack.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
     stack.joints.add_viscous_forces(stack.state.nodes.data(),
                                     stack.state.joints, velocity.data(), beta,
                                     stack.force.data());
@@ -518,7 +518,7 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   ASSERT_EQ(segment.lower[tip], segment.upper[tip]);
   ASSERT_NE(segment.lower[1 - tip], segment.upper[1 - tip]);
 
-  State state;
+  State<2> state;
   state.joints.resize(joints.n_points());
   for (const auto &p : mesh.vertices)
     state.nodes.push_back({ { p[0], p[1] }, { 0.01 * p[0], -0.02 * p[1] } });
@@ -526,7 +526,7 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   joints.initialise({ { { { { 2e5, 3e5, 1e5 } }, { { 2e5, 3e5, 1e5 } } } } },
                     state, state.joints);
 
-  AlignedArray<NodeVector> force(n, NodeVector{ { 0., 0. } });
+  AlignedArray<NodeVector<2>> force(n, NodeVector<2>{ { 0., 0. } });
   EnergyAccounts energy;
   joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
   const auto gaps = joints.gaps(state.nodes.data(), 0);
@@ -564,7 +564,7 @@ TEST(MatchedJoints, SetsActOnTheirOwnCurves)
       mesh, NodeExchange(0, n, n, {}, MPI_COMM_SELF),
       { elastic_joint(1e9, 1e8, "second"), elastic_joint(5e9, 5e8, "first") },
       1.);
-  State state;
+  State<2> state;
   state.joints.resize(joints.n_points());
   for (const auto &p : mesh.vertices)
     state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
@@ -572,7 +572,7 @@ TEST(MatchedJoints, SetsActOnTheirOwnCurves)
     for (unsigned int v = mesh.block_first_vertex[b];
          v < mesh.block_first_vertex[b + 1]; ++v)
       state.nodes[v].u[0] = b * 1e-3;
-  AlignedArray<NodeVector> force(n, NodeVector{ { 0., 0. } });
+  AlignedArray<NodeVector<2>> force(n, NodeVector<2>{ { 0., 0. } });
   EnergyAccounts energy;
   joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
   const double expected[3] = { 5e6, 1e6 - 5e6, -1e6 };

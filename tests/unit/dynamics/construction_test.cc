@@ -43,10 +43,10 @@ namespace
   }
 
   /** What acts on each node at the positions of the state, without motion. */
-  AlignedArray<NodeVector> forces(const Model &model, State state)
+  AlignedArray<NodeVector<2>> forces(const Model &model, State<2> state)
   {
-    AlignedArray<NodeVector> result(state.nodes.size(),
-                                    NodeVector{ { 0., 0. } });
+    AlignedArray<NodeVector<2>> result(state.nodes.size(),
+                                       NodeVector<2>{ { 0., 0. } });
     model.joints().add_forces(state.nodes.data(), state.joints, state.energy,
                               result.data());
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
@@ -55,10 +55,10 @@ namespace
     return result;
   }
 
-  double largest(const AlignedArray<NodeVector> &force)
+  double largest(const AlignedArray<NodeVector<2>> &force)
   {
     double result = 0.;
-    for (const NodeVector &f : force)
+    for (const NodeVector<2> &f : force)
       result = std::max({ result, std::abs(f.v[0]), std::abs(f.v[1]) });
     return result;
   }
@@ -72,7 +72,7 @@ namespace
     run.throw_at_random(1e-5);
     const NodeRange upper = run.model.block_nodes(1);
     for (std::size_t i = upper.begin; i < upper.end; ++i)
-      run.state.velocity[i] = NodeVector{ { 0., 0. } };
+      run.state.velocity[i] = NodeVector<2>{ { 0., 0. } };
     run.solver.account_for_initial_motion(run.state);
     double result = 0.;
     for (unsigned int i = 0; i < stages.size(); ++i)
@@ -124,7 +124,8 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
                                                           { { 9., 1. } } };
       for (const auto &[time, share] : shares)
       {
-        AlignedArray<NodeVector> held(before.size(), NodeVector{ { 0., 0. } });
+        AlignedArray<NodeVector<2>> held(before.size(),
+                                         NodeVector<2>{ { 0., 0. } });
         const Release release(run.state, stage, 4.);
         release.add_forces(time, held.data());
         const double left = 1. - 0.25 * share;
@@ -149,7 +150,7 @@ TEST(Construction, PlacedBlocksAreFreeOfStress)
   BlockMesh<2> mesh;
   make_stack(mesh, 3, 2);
   TestRun run(mesh, under_stress(), {});
-  for (NodeRecord &node : run.state.nodes)
+  for (NodeRecord<2> &node : run.state.nodes)
     node.u[1] += 1e-4 * node.X[0];
   Construction construction(
       run.model, { stage_of({ "upper" }, {}), stage_of({}, { "upper" }) });
@@ -197,7 +198,7 @@ TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
     TestRun run(mesh, parameters, {});
     std::mt19937 random(3);
     std::uniform_real_distribution<double> uniform(-1e-4, 1e-4);
-    for (NodeRecord &node : run.state.nodes)
+    for (NodeRecord<2> &node : run.state.nodes)
       for (double &u : node.u)
         u = uniform(random);
     const auto before = forces(run.model, run.state);

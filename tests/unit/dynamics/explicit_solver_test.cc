@@ -446,7 +446,7 @@ TEST(ExplicitSolver, FreeFall)
   for (unsigned int i = 0; i < n; ++i)
     run.solver.step(run.state, { true, false });
   const double fallen = std::pow(n * run.dt(), 2) / 2.;
-  for (const NodeRecord &node : run.state.nodes)
+  for (const NodeRecord<2> &node : run.state.nodes)
   {
     EXPECT_NEAR(node.u[0], 1.5 * fallen, 1e-12 * fallen);
     EXPECT_NEAR(node.u[1], -9.81 * fallen, 1e-11 * fallen);
@@ -499,7 +499,7 @@ TEST(ExplicitSolver, ChangeOfTimeStepKeepsTheParabola)
   EXPECT_DOUBLE_EQ(run.dt(), 0.5 * h);
   run.step(2);
   const double u = 0.5 * g * 4. * h * h;
-  for (const NodeRecord &node : run.state.nodes)
+  for (const NodeRecord<2> &node : run.state.nodes)
     EXPECT_NEAR(node.u[1], u, 1e-13 * std::abs(u));
   EXPECT_NEAR(run.state.time, 2. * h, 1e-15);
   EXPECT_NEAR(run.state.stage_start, h, 1e-15);
@@ -519,7 +519,7 @@ TEST(ExplicitSolver, ViscousBoundaryAbsorbs)
       { viscous("base", "bottom"), motion("rollers", "sides", "0", "") });
   run.begin(stage_with({ "base", "rollers" }));
   const double v = -1e-9;
-  for (NodeVector &node : run.state.velocity)
+  for (NodeVector<2> &node : run.state.velocity)
     node.v[1] = v;
   const double M       = 1e10 * 0.8 / (1.2 * 0.6);
   const double c       = std::sqrt(M / 2500.);
@@ -609,7 +609,7 @@ TEST(ExplicitSolver, ViscousBoundaryTakesOverReactions)
     const double first = run.state.velocity[run.node(1., 0.)].v[1];
     run.step(200);
     double fastest = 0.;
-    for (const NodeVector &v : run.state.velocity)
+    for (const NodeVector<2> &v : run.state.velocity)
       fastest = std::max(fastest, std::abs(v.v[1]));
     // Of half the traction: the other half goes into the dashpots.
     const double speed = 1e3 / (2. * 2500. * std::sqrt(1e10 / 2500.));
@@ -843,7 +843,7 @@ TEST(ExplicitSolver, MassScalingBehindAStiffJoint)
   run.begin(stage, 0.99);
   run.throw_at_random(1e-6);
   run.step(2000);
-  for (const NodeVector &v : run.state.velocity)
+  for (const NodeVector<2> &v : run.state.velocity)
     EXPECT_LT(std::abs(v.v[0]) + std::abs(v.v[1]), 1e-4);
 }
 

@@ -3,7 +3,7 @@
 
 // The block kernel against deal.II's own linear simplex elements.
 
-#include <quoin/dynamics/block_forces.h>
+#include <quoin/blocks/block_forces.h>
 #include <quoin/mesh/block_mesh.h>
 #include <quoin/mesh/block_splitter.h>
 
@@ -74,12 +74,13 @@ namespace quoin
     blocks.prepare(data);
 
     // Displacements small enough for the rotation not to matter.
-    AlignedArray<NodeRecord> nodes;
+    AlignedArray<NodeRecord<2>> nodes;
     for (const auto &p : mesh.vertices)
       nodes.push_back({ { p[0], p[1] },
                         { 1e-12 * std::sin(7. * p[0] + 3. * p[1]),
                           1e-12 * std::cos(5. * p[0] - 4. * p[1]) } });
-    AlignedArray<NodeVector> force(nodes.size(), NodeVector{ { 0., 0. } });
+    AlignedArray<NodeVector<2>> force(nodes.size(),
+                                      NodeVector<2>{ { 0., 0. } });
     PlasticHistory none;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
       blocks.add_forces(tile, nodes.data(), none, force.data());
@@ -95,7 +96,8 @@ namespace quoin
     const dealii::FEValuesExtractors::Vector displacement(0);
     const double mu     = 3e10 / 2.6;
     const double lambda = 3e10 * 0.3 / (1.3 * 0.4);
-    std::vector<NodeVector> expected(nodes.size(), NodeVector{ { 0., 0. } });
+    std::vector<NodeVector<2>> expected(nodes.size(),
+                                        NodeVector<2>{ { 0., 0. } });
     double largest = 0.;
     for (const auto &cell : dofs.active_cell_iterators())
     {
@@ -118,7 +120,7 @@ namespace quoin
                * (stress * values[displacement].symmetric_gradient(i, 0));
       }
     }
-    for (const NodeVector &f : expected)
+    for (const NodeVector<2> &f : expected)
       largest = std::max({ largest, std::abs(f.v[0]), std::abs(f.v[1]) });
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)

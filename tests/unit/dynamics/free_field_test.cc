@@ -244,7 +244,7 @@ TEST(ViscousBoundary, OfAnotherMaterialBeyond)
   base.far_material   = "hard";
   TestRun run(mesh, parameters, { base, motion("rollers", "sides", "0", "") });
   run.begin(stage_with({ "base", "rollers" }));
-  for (NodeVector &node : run.state.velocity)
+  for (NodeVector<2> &node : run.state.velocity)
     node.v[1] = -1e-9;
   const double c = std::sqrt(1e10 * 0.8 / (1.2 * 0.6) / 2500.);
   run.step(static_cast<unsigned int>(40. / c / run.dt()));

@@ -4,7 +4,7 @@
 #include "../base/message_of.h"
 #include "test_models.h"
 
-#include <quoin/application/field_output.h>
+#include <quoin/results/field_output.h>
 #include <quoin/base/exceptions.h>
 
 using namespace quoin;
@@ -84,7 +84,7 @@ namespace
   /** Moves the whole model as it is. */
   void shift(TestRun &run, const double y)
   {
-    for (NodeRecord &node : run.state.nodes)
+    for (NodeRecord<2> &node : run.state.nodes)
       node.u[1] += y;
     for (RigidBlockState &rigid : run.state.rigid_blocks)
       rigid.displacement[1] += y;
@@ -147,7 +147,7 @@ TEST(ModelBox, DeletedBlockTakesItsEnergyAlong)
 
     // What is left is at rest, without strain, and stays so.
     const NodeRange range = run.model.block_nodes(1);
-    const State then      = run.state;
+    const State<2> then   = run.state;
     for (unsigned int i = 0; i < 300; ++i)
     {
       run.solver.step(run.state, { true, i % 100 == 0 });
@@ -266,10 +266,10 @@ TEST(ModelBox, BlocksThatLoadsMoveStay)
   const std::vector<StageParameters> stages
       = { stage_with({}), stage_with({ "held" }) };
   ExplicitSolver solver(run.model, loads, stages);
-  State state = run.model.initial_state();
+  State<2> state = run.model.initial_state();
   solver.begin_stage(stages[0], nullptr, state);
   solver.set_time_step(0.5 * solver.critical_time_step());
-  for (NodeRecord &node : state.nodes)
+  for (NodeRecord<2> &node : state.nodes)
     node.u[1] += 2.;
   solver.step(state, { true, true });
   found = solver.take_blocks_outside();
@@ -293,7 +293,7 @@ TEST(ModelBox, DeletedBlocksStayDeletedInTheNextStageAndWhenResumed)
     run.begin(first, 0.5);
     throw_upper(run, 0., 20., 1.);
     ASSERT_EQ(step_until_outside(run).size(), 1U);
-    const NodeRecord there = run.state.nodes[mesh.block_first_vertex[1]];
+    const NodeRecord<2> there = run.state.nodes[mesh.block_first_vertex[1]];
 
     run.begin(second, 0.4, &first);
     run.step(20);
@@ -310,7 +310,7 @@ TEST(ModelBox, DeletedBlocksStayDeletedInTheNextStageAndWhenResumed)
         EXPECT_EQ(run.state.velocity[i].v[d], resumed.state.velocity[i].v[d]);
       }
     EXPECT_EQ(run.state.energy.external, resumed.state.energy.external);
-    const NodeRecord &here = run.state.nodes[mesh.block_first_vertex[1]];
+    const NodeRecord<2> &here = run.state.nodes[mesh.block_first_vertex[1]];
     EXPECT_EQ(here.u[0], there.u[0]);
     EXPECT_EQ(here.u[1], there.u[1]);
     EXPECT_LT(run.state.nodes[0].u[1], -1e-6);
@@ -407,13 +407,13 @@ TEST(ModelBox, CellsInsideOutAreFound)
     run.begin(stage_with({}), 0.1);
     run.solver.check_cells(run.state);
     // Turned and stretched is no harm.
-    for (NodeRecord &node : run.state.nodes)
+    for (NodeRecord<2> &node : run.state.nodes)
     {
       node.u[0] = -1.2 * node.X[1] - node.X[0];
       node.u[1] = 0.8 * node.X[0] - node.X[1];
     }
     run.solver.check_cells(run.state);
-    for (NodeRecord &node : run.state.nodes)
+    for (NodeRecord<2> &node : run.state.nodes)
       node.u[0] = node.u[1] = 0.;
     run.step(1);
     run.state.nodes[run.node(2., 0.)].u[0] = -1.5;

@@ -78,7 +78,7 @@ TEST(Model, StartsAtRestInPlace)
   BlockMesh<2> mesh;
   make_stack(mesh, 2, 1);
   const Model model(mesh, { 0, 0 }, two_blocks(), MPI_COMM_SELF);
-  const State state = model.initial_state();
+  const State<2> state = model.initial_state();
   ASSERT_EQ(state.nodes.size(), mesh.n_vertices());
   ASSERT_EQ(state.joints.state.size(), 4U);
   for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
@@ -113,7 +113,7 @@ TEST(Model, InitialStressInEquilibriumStaysAtRest)
   }
   run.begin(stage_with({ "top", "bottom", "sides" }));
   run.step(100);
-  for (const NodeVector &v : run.state.velocity)
+  for (const NodeVector<2> &v : run.state.velocity)
     for (unsigned int d = 0; d < 2; ++d)
       // To rounding of forces of 1e6 N on 400 kg, a hundred times.
       EXPECT_NEAR(v.v[d], 0., 1e-10 * run.dt() * 1e6 / 400. * 100.);
@@ -131,7 +131,7 @@ TEST(Model, InitialStressOfAGroupAndWithDepth)
       = { initial_stress({ { 0., -1e6, 0. } }, { { 0., 3e5, 0. } }),
           initial_stress({ { -5e5, 0., 1e5 } }, {}, { "upper" }) };
   const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
-  const State state = model.initial_state();
+  const State<2> state = model.initial_state();
   for (unsigned int c = 0; c < mesh.n_cells(); ++c)
   {
     double y = 0.;
@@ -164,7 +164,7 @@ TEST(Model, InitialStressOutOfThePlane)
   for (auto &material : parameters.materials)
     material.strength = MohrCoulombStrength{ 1e9, 0., 0. };
   const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
-  const State state = model.initial_state();
+  const State<2> state = model.initial_state();
   for (unsigned int c = 0; c < mesh.n_cells(); ++c)
   {
     double y = 0.;

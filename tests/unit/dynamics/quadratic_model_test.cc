@@ -35,7 +35,7 @@ namespace
     {
       const NodalLoad load(parameters, mesh, model->exchange(), model->mass(),
                            thickness);
-      std::vector<NodeVector> force(mesh.n_vertices(), { { 0., 0. } });
+      std::vector<NodeVector<2>> force(mesh.n_vertices(), { { 0., 0. } });
       load.add_forces({ 0., 0. }, force.data());
       std::array<double, 3> sum{};
       for (unsigned int v = 0; v < force.size(); ++v)
@@ -100,7 +100,7 @@ TEST(QuadraticModel, TractionAndPressureHaveTheirResultants)
   // Of each edge of 1 m: a sixth at its ends, two thirds in the middle.
   const NodalLoad load(traction("pull", "top", "0", "1"), stack.mesh,
                        stack.model->exchange(), stack.model->mass(), thickness);
-  std::vector<NodeVector> force(stack.mesh.n_vertices(), { { 0., 0. } });
+  std::vector<NodeVector<2>> force(stack.mesh.n_vertices(), { { 0., 0. } });
   load.add_forces({ 0., 0. }, force.data());
   const double expected[]
       = { 1. / 6., 2. / 3., 1. / 3., 2. / 3., 1. / 3., 2. / 3., 1. / 6. };
@@ -129,7 +129,7 @@ TEST(QuadraticModel, RigidBlocksAreTheBody)
 TEST(QuadraticModel, PlatensHaveTheCentreOfTheirGroup)
 {
   const Stack stack(true);
-  State state = stack.model->initial_state();
+  State<2> state = stack.model->initial_state();
   state.platens.resize(1);
   Platen platen(::platen("plate", "upper", {}, {}, {}), 0, stack.mesh,
                 stack.model->exchange());

@@ -5,7 +5,7 @@
 #define quoin_tests_unit_dynamics_random_blocks_h
 
 #include <quoin/base/state.h>
-#include <quoin/dynamics/block_forces.h>
+#include <quoin/blocks/block_forces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +79,7 @@ namespace quoin
     template <typename Function>
     void displace(const Function &u)
     {
-      for (NodeRecord &node : nodes)
+      for (NodeRecord<2> &node : nodes)
         u(node.X[0], node.X[1], node.u);
     }
 
@@ -105,10 +105,10 @@ namespace quoin
       for (const auto &cell : data.cells)
         for (unsigned int i = 0; i < 3; ++i)
         {
-          const NodeRecord &a = nodes[cell[i]];
-          const NodeRecord &b = nodes[cell[(i + 1) % 3]];
-          const double length = std::hypot(a.X[0] - b.X[0], a.X[1] - b.X[1]);
-          reach[cell[i]]      = std::min(reach[cell[i]], length);
+          const NodeRecord<2> &a = nodes[cell[i]];
+          const NodeRecord<2> &b = nodes[cell[(i + 1) % 3]];
+          const double length    = std::hypot(a.X[0] - b.X[0], a.X[1] - b.X[1]);
+          reach[cell[i]]         = std::min(reach[cell[i]], length);
           reach[cell[(i + 1) % 3]] = std::min(reach[cell[(i + 1) % 3]], length);
         }
       for (std::size_t i = 0; i < nodes.size(); ++i)
@@ -116,10 +116,10 @@ namespace quoin
           u += strain * reach[i] * random();
     }
 
-    AlignedArray<NodeVector> random_velocity()
+    AlignedArray<NodeVector<2>> random_velocity()
     {
-      AlignedArray<NodeVector> velocity(nodes.size());
-      for (NodeVector &v : velocity)
+      AlignedArray<NodeVector<2>> velocity(nodes.size());
+      for (NodeVector<2> &v : velocity)
         v = { { random(), random() } };
       return velocity;
     }
@@ -131,7 +131,7 @@ namespace quoin
     }
 
     BlockForcesData data;
-    AlignedArray<NodeRecord> nodes;
+    AlignedArray<NodeRecord<2>> nodes;
 
   private:
     void finish_block()

@@ -98,10 +98,10 @@ namespace
     return 0;
   }
 
-  double distance(const State &state, const unsigned int i,
+  double distance(const State<2> &state, const unsigned int i,
                   const unsigned int j)
   {
-    const NodeRecord &a = state.nodes[i], &b = state.nodes[j];
+    const NodeRecord<2> &a = state.nodes[i], &b = state.nodes[j];
     return std::hypot(a.X[0] + a.u[0] - b.X[0] - b.u[0],
                       a.X[1] + a.u[1] - b.X[1] - b.u[1]);
   }
@@ -124,7 +124,7 @@ namespace
   /** Force and moment on each rigid block at displacements of all of them. */
   std::vector<double> forces(const Model &model, const std::vector<double> &q)
   {
-    State state              = model.initial_state();
+    State<2> state           = model.initial_state();
     const RigidBlocks &rigid = model.rigid_blocks();
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
       for (unsigned int i = rigid.block(b).begin; i < rigid.block(b).end; ++i)
@@ -134,8 +134,8 @@ namespace
         state.nodes[i].u[0] = q[3 * b] - q[3 * b + 2] * y;
         state.nodes[i].u[1] = q[3 * b + 1] + q[3 * b + 2] * x;
       }
-    AlignedArray<NodeVector> force(state.nodes.size(),
-                                   NodeVector{ { 0., 0. } });
+    AlignedArray<NodeVector<2>> force(state.nodes.size(),
+                                      NodeVector<2>{ { 0., 0. } });
     EnergyAccounts energy;
     model.joints().add_forces(state.nodes.data(), state.joints, energy,
                               force.data());
@@ -258,7 +258,7 @@ TEST(RigidBlocks, ThrownAndSpunFreely)
   const double start[3]  = { 3., 4., 5. };
   std::copy(start, start + 3, block.velocity);
 
-  const State rest     = run.state;
+  const State<2> rest  = run.state;
   const unsigned int n = 10000;
   run.step(n - 1);
   run.solver.step(run.state, { true, true });
@@ -274,7 +274,7 @@ TEST(RigidBlocks, ThrownAndSpunFreely)
   for (unsigned int i = 0; i < run.state.nodes.size(); ++i)
     for (unsigned int j = 0; j < i; ++j)
       EXPECT_NEAR(distance(run.state, i, j), distance(rest, i, j), 2e-14);
-  const NodeRecord &node = run.state.nodes[0];
+  const NodeRecord<2> &node = run.state.nodes[0];
   const double x = node.X[0] - own.centre[0], y = node.X[1] - own.centre[1];
   EXPECT_NEAR(node.X[0] + node.u[0],
               own.centre[0] + 30. + std::cos(50.) * x - std::sin(50.) * y,
@@ -479,7 +479,7 @@ TEST(RigidBlocks, PlatenTakesOverAndReleases)
   run.step(1000);
   check(1.);
 
-  State before = run.state;
+  State<2> before = run.state;
   run.solver.begin_stage(released, &driven, run.state);
   run.step(1);
   check(1.001);
@@ -674,7 +674,7 @@ TEST(RigidBlocks, ResumesInMidStage)
   run.step(200);
   other.step(200);
   EXPECT_EQ(std::memcmp(run.state.nodes.data(), other.state.nodes.data(),
-                        run.state.nodes.size() * sizeof(NodeRecord)),
+                        run.state.nodes.size() * sizeof(NodeRecord<2>)),
             0);
   EXPECT_EQ(std::memcmp(run.state.rigid_blocks.data(),
                         other.state.rigid_blocks.data(),

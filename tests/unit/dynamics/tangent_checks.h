@@ -6,7 +6,7 @@
 
 #include "random_blocks.h"
 
-#include <quoin/dynamics/block_forces.h>
+#include <quoin/blocks/block_forces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +74,7 @@ namespace quoin::tangent_test
 
   /** Forces on all nodes, x and y in turns; and the stiffness if asked for. */
   inline Vector linearised(const BlockForces &blocks,
-                           const AlignedArray<NodeRecord> &nodes,
+                           const AlignedArray<NodeRecord<2>> &nodes,
                            PlasticHistory &history, Matrix *stiffness = nullptr,
                            double *dissipated = nullptr)
   {

@@ -169,7 +169,7 @@ namespace quoin::test
     BlockMesh<2> &mesh;
     Model model;
     ExplicitSolver solver;
-    State state;
+    State<2> state;
 
     TestRun(BlockMesh<2> &mesh, const ModelParameters &parameters,
             const std::vector<LoadParameters> &loads)
@@ -219,7 +219,7 @@ namespace quoin::test
     {
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> uniform(-speed, speed);
-      for (NodeVector &v : state.velocity)
+      for (NodeVector<2> &v : state.velocity)
         v = { { uniform(random), uniform(random) } };
     }
   };

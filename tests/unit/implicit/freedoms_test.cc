@@ -25,7 +25,7 @@ namespace
     std::unique_ptr<Model> model;
     std::unique_ptr<Platen> beam;
     std::unique_ptr<Freedoms> freedoms;
-    State state;
+    State<2> state;
 
     Bodies(const LoadComponent &x, const LoadComponent &y,
            const LoadComponent &rotation)
@@ -158,8 +158,8 @@ TEST(Freedoms, ProjectionIsTheTransposeOfTheMotion)
   run.freedoms->update_arms(configuration);
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1., 1.);
-  AlignedArray<NodeVector> force(run.mesh.n_vertices());
-  for (NodeVector &f : force)
+  AlignedArray<NodeVector<2>> force(run.mesh.n_vertices());
+  for (NodeVector<2> &f : force)
     f = { { uniform(random), uniform(random) } };
   const Values others{ { 0.3, -0.8, 0.5 }, { -0.2, 0.4, 0.7 } };
   auto sums = run.vector();
@@ -215,7 +215,7 @@ TEST(Freedoms, PlatensMayBeDrivenInPart)
                   later.nodes[v].u[d] - configuration.nodes[v].u[d], 1e-5 * dt);
 
   // Only what is not given has a right-hand side.
-  AlignedArray<NodeVector> force(run.mesh.n_vertices(), { { 1., 1. } });
+  AlignedArray<NodeVector<2>> force(run.mesh.n_vertices(), { { 1., 1. } });
   auto sums = run.vector();
   run.freedoms->project(force, Values(2, { { 0., 0., 0. } }), sums);
   EXPECT_EQ(sums(beam.first), 0.);
@@ -228,7 +228,7 @@ TEST(Freedoms, TheLastMotionOfANodePrevails)
   BlockMesh<2> mesh;
   make_stack(mesh, 2, 1);
   const Model model(mesh, { 0, 0 }, two_blocks(), MPI_COMM_SELF);
-  State state = model.initial_state();
+  State<2> state = model.initial_state();
   PrescribedMotion bottom(motion("bottom", "bottom", "1", "2"), mesh,
                           model.exchange());
   PrescribedMotion sides(motion("sides", "sides", "3", ""), mesh,

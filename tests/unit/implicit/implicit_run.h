@@ -16,7 +16,7 @@ namespace quoin::test
     const BlockMesh<2> &mesh;
     Model model;
     ImplicitSolver solver;
-    State state;
+    State<2> state;
 
     ImplicitRun(const BlockMesh<2> &mesh, const ModelParameters &parameters,
                 const std::vector<LoadParameters> &loads,

@@ -4,9 +4,9 @@
 #include "implicit_run.h"
 
 #include <quoin/base/exceptions.h>
-#include <quoin/coupling/static_far_field.h>
+#include <quoin/farfield/static_far_field.h>
 #include <quoin/mesh/crossed_triangles.h>
-#include <quoin/output/archive.h>
+#include <quoin/results/archive.h>
 
 #include <boost/archive/binary_oarchive.hpp>
 
@@ -86,7 +86,7 @@ namespace
                 LoadQuantity::displacement, x, y);
   }
 
-  std::string bytes(const State &state)
+  std::string bytes(const State<2> &state)
   {
     std::ostringstream stream;
     boost::archive::binary_oarchive(stream) << state;
@@ -244,7 +244,7 @@ TEST(ImplicitSolver, SlidingBeyondItsLimitKeepsTheLastEquilibrium)
 {
   Sliding sliding(false);
   ImplicitRun &run = *sliding.run;
-  State last;
+  State<2> last;
   try
   {
     for (;;)
@@ -353,7 +353,7 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
       std::make_unique<StaticFarField>(
           "far", domain, mesh, faces_of_curves(mesh, { "bottom" }, "far"),
           model.exchange(), model.thickness()));
-  State state = model.initial_state();
+  State<2> state = model.initial_state();
   solver.begin_stage(stage_with({ "far", "turn" }), nullptr, state);
   while (!solver.is_over(state))
     solver.step(state);

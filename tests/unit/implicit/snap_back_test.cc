@@ -5,7 +5,7 @@
 
 #include "implicit_run.h"
 
-#include <quoin/output/archive.h>
+#include <quoin/results/archive.h>
 
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -127,7 +127,7 @@ namespace
     return result;
   }
 
-  std::string bytes(const State &state)
+  std::string bytes(const State<2> &state)
   {
     std::ostringstream stream;
     boost::archive::binary_oarchive(stream) << state;
@@ -197,7 +197,7 @@ TEST(SnapBack, ARunThatIsResumedIsBitwiseTheSame)
   const double weak = 0.3 * strength;
   Bar whole(values, weak);
   whole.begin();
-  std::vector<State> states;
+  std::vector<State<2>> states;
   while (!whole.run->solver.is_over(whole.run->state))
   {
     states.push_back(whole.run->state);

@@ -26,7 +26,7 @@ namespace quoin::test
     NodeExchange exchange{ 0, 4, 4, {}, MPI_COMM_SELF };
     std::vector<double> mass = { 2., 1., 2., 1. }; /**< [kg] */
     std::vector<CapturedNode> captured;
-    State state;
+    State<2> state;
     StepContext step{};
 
     BoundarySquare()
@@ -52,7 +52,7 @@ namespace quoin::test
 
     /** What the solver does before it: captures the nodes, as they are. */
     void capture(NodeConstraint &constraint,
-                 const std::vector<NodeVector> &force)
+                 const std::vector<NodeVector<2>> &force)
     {
       captured.clear();
       std::vector<unsigned int> positions;

@@ -44,7 +44,7 @@ TEST(NodalLoad, PressurePushesOnTheBlock)
 {
   const Rectangle rectangle;
   const NodalLoad load = rectangle.load({ "right" }, "2 * t", 0.5);
-  std::vector<NodeVector> force(4, NodeVector{ { 0., 0. } });
+  std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
   load.add_forces({ 3., 3. }, force.data());
   for (const unsigned int node : { 1U, 2U })
   {
@@ -58,16 +58,16 @@ TEST(NodalLoad, PressureAllAroundIsInBalanceAndDoesTheWorkOfVolume)
 {
   const Rectangle rectangle;
   const NodalLoad load = rectangle.load({ "wall", "right" }, "7", 2.);
-  std::vector<NodeVector> force(4, NodeVector{ { 0., 0. } });
+  std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
   load.add_forces({ 0., 0. }, force.data());
   double sum[2] = { 0., 0. };
-  for (const NodeVector &f : force)
+  for (const NodeVector<2> &f : force)
     for (unsigned int d = 0; d < 2; ++d)
       sum[d] += f.v[d];
   EXPECT_NEAR(sum[0], 0., 1e-14);
   EXPECT_NEAR(sum[1], 0., 1e-14);
   // The area, 3 m^2, grows by 0.1 + 0.2 of itself a second.
-  std::vector<NodeVector> velocity;
+  std::vector<NodeVector<2>> velocity;
   for (const auto &p : rectangle.mesh.vertices)
     velocity.push_back({ { 0.1 * p[0], 0.2 * p[1] } });
   EXPECT_NEAR(load.power({ 0., 0. }, velocity.data()), -7. * 2. * 3. * 0.3,

@@ -51,7 +51,7 @@ namespace
     }
   };
 
-  const std::vector<NodeVector> no_forces(4, NodeVector{ { 0., 0. } });
+  const std::vector<NodeVector<2>> no_forces(4, NodeVector<2>{ { 0., 0. } });
 } // namespace
 
 // 12 N on 6 kg, 30 N m about the middle of the block, from its loads and from
@@ -61,9 +61,9 @@ TEST(Platen, ForcesAndMomentsAccelerateItsMass)
   HeldBlock block(BoundarySquare::component(LoadQuantity::force, "12"), {},
                   BoundarySquare::component(LoadQuantity::force, "20"));
   // 5 N up on the right end, down on the left one, arms of 1.5 m
-  std::vector<NodeVector> forces = no_forces;
-  forces[1].v[1]                 = 10. / 3.;
-  forces[3].v[1]                 = -10. / 3.;
+  std::vector<NodeVector<2>> forces = no_forces;
+  forces[1].v[1]                    = 10. / 3.;
+  forces[3].v[1]                    = -10. / 3.;
   block.capture(block.platen, forces);
   block.move(block.platen);
   const PlatenState &now = block.state.platens[0];

@@ -63,7 +63,8 @@ TEST(PrescribedMotion, ADisplacementMovesByItsChange)
   BoundarySquare square;
   PrescribedMotion motion(to_the_right(LoadQuantity::displacement, "5 + 2 * t"),
                           square.mesh, square.exchange);
-  square.capture(motion, std::vector<NodeVector>(4, NodeVector{ { 0., 0. } }));
+  square.capture(motion,
+                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));
   square.move(motion);
   EXPECT_NEAR(square.state.velocity[1].v[0], 2., 1e-9);
   EXPECT_NEAR(square.state.nodes[1].u[0], 2. * square.dt, 1e-12);
@@ -75,7 +76,8 @@ TEST(PrescribedMotion, BooksNoWorkOfComponentsThatAnotherLoadMoves)
   BoundarySquare square;
   PrescribedMotion motion(to_the_right(LoadQuantity::velocity, "1"),
                           square.mesh, square.exchange);
-  square.capture(motion, std::vector<NodeVector>(4, NodeVector{ { 9., 0. } }));
+  square.capture(motion,
+                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 9., 0. } }));
   square.captured[0].owner[0] = nullptr;
   square.move(motion);
   EXPECT_NEAR(motion.resultant()[0], 2. / square.dt - 9., 1e-9);

@@ -31,7 +31,7 @@ namespace
 
 TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
 {
-  State state;
+  State<2> state;
   state.nodes.resize(2);
   state.velocity.resize(2);
   state.nodes[0] = { { 1., 2. }, { 0., 0. } };
@@ -61,10 +61,10 @@ TEST(ViscousBoundary, ResistsMotionByItsImpedance)
   square.state.viscous_boundaries.resize(1);
   ViscousBoundary boundary = at_the_right(square, "0", "0");
   boundary.begin_stage(square.state, false);
-  for (NodeVector &v : square.state.velocity)
+  for (NodeVector<2> &v : square.state.velocity)
     v = { { 2., 3. } };
   square.capture(boundary,
-                 std::vector<NodeVector>(4, NodeVector{ { 0., 0. } }));
+                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));
   square.move(boundary);
   const double area = 0.5;
   EXPECT_NEAR(boundary.resultant()[0], -300. * 2. * area, 1e-6);
@@ -86,7 +86,7 @@ TEST(ViscousBoundary, IncidentWavesPushWithTwiceTheirTraction)
   ViscousBoundary boundary = at_the_right(square, "2", "3");
   boundary.begin_stage(square.state, false);
   square.capture(boundary,
-                 std::vector<NodeVector>(4, NodeVector{ { 0., 0. } }));
+                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));
   square.move(boundary);
   EXPECT_NEAR(boundary.resultant()[0], -2. * 300. * 2. * 0.5, 1e-6);
   EXPECT_NEAR(boundary.resultant()[1], 2. * 200. * 3. * 0.5, 1e-6);

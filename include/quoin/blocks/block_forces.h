@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_blocks_block_forces_h
+#define quoin_blocks_block_forces_h
+
+#include <quoin/base/state.h>
+#include <quoin/blocks/triangle.h>
+#include <quoin/blocks/triangle_strips.h>
+#include <quoin/materials/linear_elastic.h>
+#include <quoin/materials/mohr_coulomb.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace quoin
+{
+  /** What the block kernel knows of a mesh; copied by prepare(). */
+  struct BlockForcesData
+  {
+    /** Nodes of each cell, block-major. */
+    std::vector<std::array<unsigned int, 3>> cells;
+    std::vector<unsigned int> block_first_cell; /**< n_blocks + 1 entries */
+    std::vector<unsigned int> block_first_node; /**< n_blocks + 1 entries */
+
+    std::vector<PlaneStiffness> stiffness; /**< the different ones */
+
+    /** Index into stiffness of each cell; empty if there is only one. */
+    std::vector<unsigned int> cell_stiffness;
+
+    /** How cells of each stiffness yield, if they do; empty: none does. */
+    std::vector<std::optional<MohrCoulomb>> laws;
+
+    /**
+     * Stress xx, yy, xy, zz of each cell at zero strain [Pa]; it turns with
+     * the cell. zz is 0 in plane stress. Empty: none.
+     */
+    AlignedArray<std::array<double, 4>> initial_stress;
+
+    double thickness = 1.; /**< [m] */
+
+    /**
+     * Each four cells are one six-node triangle, cut as the function
+     * cut_into_quadratic_triangles() does. What goes cell by cell, strains,
+     * stresses and linearise(), is then of that triangle at the centroids of
+     * the cells; add_forces() and what else goes in lanes is not.
+     */
+    bool quadratic = false;
+  };
+
+  /** How the block kernel cuts its work; the defaults suit usual caches. */
+  struct BlockForcesOptions
+  {
+    /** Nodes of a tile stay below this many bytes, if a block does. */
+    std::size_t tile_bytes = 64 * 1024;
+
+    /**
+     * Strips reach over no more than this many consecutive cells, so that in
+     * a large block too the lanes stay near one another.
+     */
+    std::size_t max_run_cells = 4096;
+
+    /** Triangles computed at once: 4, 8, or 0 for what the machine has. */
+    unsigned int n_lanes = 0;
+  };
+
+  /**
+   * A cell's nodal forces and minus their derivative by the displacements of
+   * its nodes: entry 2 i + d is node i, component d.
+   */
+  struct CellLinearisation
+  {
+    unsigned int n_nodes = 3;
+    std::array<unsigned int, 6> nodes;
+    std::array<double, 12> force;                     /**< [N] */
+    std::array<std::array<double, 12>, 12> stiffness; /**< [N/m] */
+    double dissipated; /**< by the update of the history [J] */
+  };
+
+  struct NodeRange
+  {
+    std::size_t begin;
+    std::size_t end;
+
+    std::size_t size() const
+    {
+      return end - begin;
+    }
+  };
+
+  /**
+   * Internal forces of blocks that undergo any rotation (triangle.h has the
+   * element), linear elastic or with a law by which they yield. Tension is
+   * positive, and a force is what the cells exert on their nodes [N].
+   *
+   * The work comes in tiles, consecutive whole blocks whose nodes fit into
+   * the second level cache, so that the caller can do everything else with a
+   * tile's nodes while they are there:
+   * @code
+   *   for (unsigned int tile = 0; tile < forces.n_tiles(); ++tile)
+   *     {
+   *       forces.add_forces(tile, nodes, history, force);
+   *       advance_nodes(forces.tile_nodes(tile).begin, ...);
+   *     }
+   * @endcode
+   * Blocks share no nodes, hence tiles do not either.
+   *
+   * Within a tile cells of equal stiffness are laid out as triangle strips,
+   * one per SIMD lane. Each step a lane loads the one node that enters its
+   * strip, computes the triangle from scratch, keeps the forces of the
+   * strip's three current nodes in registers and adds that of the node which
+   * leaves to memory, lane after lane, so that lanes may share nodes.
+   *
+   * Cells that yield have their own kernel, which also loads each cell's
+   * plastic strain, compares the trial stress with the limits in lanes and
+   * hands the triangles that exceed them to the law one by one.
+   */
+  class BlockForces
+  {
+  public:
+    void prepare(const BlockForcesData &data,
+                 const BlockForcesOptions &options = BlockForcesOptions());
+
+    unsigned int n_tiles() const
+    {
+      return tiles.size();
+    }
+
+    NodeRange tile_nodes(const unsigned int tile) const
+    {
+      return tiles[tile].nodes;
+    }
+
+    /** Cells [begin, end) of a tile. */
+    NodeRange tile_cells(const unsigned int tile) const
+    {
+      return tiles[tile].cells;
+    }
+
+    /** Histories of cells without strain; empty if none of them yields. */
+    PlasticHistory initial_history() const;
+
+    /** Makes @p cell what it is in initial_history(), if any cell yields. */
+    void forget_history(unsigned int cell, PlasticHistory &history) const;
+
+    /**
+     * Adds the internal forces of a tile's cells. Brings @p history to the
+     * positions and returns what that dissipated [J].
+     */
+    double add_forces(unsigned int tile, const NodeRecord<2> *nodes,
+                      PlasticHistory &history, NodeVector<2> *force) const;
+
+    unsigned int n_cells() const
+    {
+      return data.cells.size();
+    }
+
+    /**
+     * What add_forces() does for one cell, with its derivative, consistent
+     * with the update of @p history. Does nothing and returns false for a
+     * cell without weight.
+     */
+    bool linearise(unsigned int cell, const NodeRecord<2> *nodes,
+                   PlasticHistory &history, CellLinearisation &result) const;
+
+    /** What add_forces() of all tiles does to @p history; returns the same. */
+    double update(const NodeRecord<2> *nodes, PlasticHistory &history) const;
+
+    /**
+     * Adds the forces of stiffness-proportional damping: the stress
+     * @p beta [s] times the stiffness times the strain rate in the rotating
+     * frame, sym(R^T dF/dt). Linear in @p velocity, zero for rigid motion,
+     * never doing positive work; cells that yield have it unchanged.
+     */
+    void add_viscous_forces(unsigned int tile, const NodeRecord<2> *nodes,
+                            const NodeVector<2> *velocity, double beta,
+                            NodeVector<2> *force) const;
+
+    /** add_forces() cell by cell: what the strips are compared with. */
+    double add_forces_by_cell(unsigned int tile, const NodeRecord<2> *nodes,
+                              PlasticHistory &history,
+                              NodeVector<2> *force) const;
+
+    /** add_viscous_forces() cell by cell. */
+    void add_viscous_forces_by_cell(unsigned int tile,
+                                    const NodeRecord<2> *nodes,
+                                    const NodeVector<2> *velocity, double beta,
+                                    NodeVector<2> *force) const;
+
+    /**
+     * Energy of all cells with the plastic strain of @p history [J]; minus
+     * its gradient are the forces. With initial stress it counts from the
+     * undeformed state and may be negative.
+     */
+    double strain_energy(const NodeRecord<2> *nodes,
+                         const PlasticHistory &history) const;
+
+    /**
+     * Stress xx, yy, xy, zz [Pa] and, if asked for, strain xx, yy, xy of a
+     * cell in the fixed frame: R S R^T and R e R^T. The initial stress is
+     * part of the stress. A cell that yields has the stress to which the
+     * positions bring its @p history.
+     */
+    std::array<double, 4> cell_stress(const NodeRecord<2> *nodes,
+                                      const PlasticHistory &history,
+                                      std::size_t cell,
+                                      PlaneTensor *strain = nullptr) const;
+
+    /**
+     * Stress xx, yy, xy, zz [Pa] in the rotating frame by the strain of a cell
+     * less the plastic one of its @p history, with any @p stiffness and law
+     * (null: elastic). With those of the cell and initial_stress() it is the
+     * stress, if the history is that of the positions.
+     */
+    std::array<double, 4> stress_of_strain(const NodeRecord<2> *nodes,
+                                           const PlasticHistory &history,
+                                           std::size_t cell,
+                                           const PlaneStiffness &stiffness,
+                                           const MohrCoulomb *law) const;
+
+    /** Stress xx, yy, xy, zz of a cell without strain [Pa]. */
+    std::array<double, 4> initial_stress(const unsigned int cell) const
+    {
+      return data.initial_stress.empty() ? std::array<double, 4>{}
+                                         : data.initial_stress[cell];
+    }
+
+    /** cell_stress() of all cells. */
+    void stresses(const NodeRecord<2> *nodes, const PlasticHistory &history,
+                  std::vector<std::array<double, 4>> &stress,
+                  std::vector<PlaneTensor> &strain) const;
+
+    const PlaneStiffness &cell_stiffness(const unsigned int cell) const
+    {
+      return data
+          .stiffness[data.cell_stiffness.empty() ? 0
+                                                 : data.cell_stiffness[cell]];
+    }
+
+    /** Whether any cell yields. */
+    bool is_plastic() const
+    {
+      return std::any_of(data.laws.begin(), data.laws.end(),
+                         [](const auto &law) { return law.has_value(); });
+    }
+
+    /** How a cell yields; null if it is elastic. */
+    const MohrCoulomb *cell_law(const unsigned int cell) const
+    {
+      return law(data.cell_stiffness.empty() ? 0 : data.cell_stiffness[cell]);
+    }
+
+    /** History of a cell that yields, brought to the positions. */
+    PlasticPoint cell_history(const NodeRecord<2> *nodes,
+                              const PlasticHistory &history,
+                              unsigned int cell) const;
+
+  private:
+    /** Strips of equal stiffness that go through the lanes together. */
+    struct Run
+    {
+      std::size_t first_step; /**< into offsets, masks, lane_stress */
+      std::size_t n_steps;
+      double bulk;             /**< plane bulk modulus times thickness [N/m] */
+      double shear;            /**< shear modulus times thickness [N/m] */
+      unsigned int stiffness;  /**< of which of the different ones */
+      std::size_t first_group; /**< into node_groups */
+      std::size_t n_groups;
+    };
+
+    struct Tile
+    {
+      NodeRange nodes;
+      NodeRange cells;
+      std::size_t begin_run;
+      std::size_t end_run;
+    };
+
+    void make_tiles(std::size_t tile_bytes);
+
+    void make_runs(Tile &tile, std::size_t max_run_cells);
+
+    void append_run(const std::vector<StripEntry> &strips, const Tile &tile,
+                    unsigned int s);
+
+    template <int lanes>
+    double add_forces_in_lanes(const Tile &tile, const NodeRecord<2> *nodes,
+                               PlasticHistory &history,
+                               NodeVector<2> *force) const;
+
+    template <int lanes>
+    void add_viscous_forces_in_lanes(const Tile &tile,
+                                     const NodeRecord<2> *nodes,
+                                     const NodeVector<2> *velocity, double beta,
+                                     NodeVector<2> *force) const;
+
+    const MohrCoulomb *law(const unsigned int stiffness) const
+    {
+      return data.laws.empty() || !data.laws[stiffness]
+                 ? nullptr
+                 : &*data.laws[stiffness];
+    }
+
+    /** Nodes of a cell, the gradients of their shape functions at its point
+        [1/m] and the area that the point counts for [m^2]. */
+    struct CellPoint
+    {
+      unsigned int n_nodes;
+      std::array<unsigned int, 6> nodes;
+      std::array<std::array<double, 2>, 6> gradients;
+      double area;
+
+      /** Of the displacements: [[11, 12], [21, 22]]. */
+      std::array<double, 4>
+      displacement_gradient(const NodeRecord<2> *records) const;
+    };
+    CellPoint cell_point(const NodeRecord<2> *nodes, unsigned int cell) const;
+
+    /** Strain in the rotating frame, and area if it is asked for. */
+    CorotatedStrain cell_strain(const NodeRecord<2> *nodes, std::size_t cell,
+                                double *area = nullptr) const;
+
+    /** Brings @p history of a cell that yields to @p strain [J/m^3]. */
+    double update_cell(std::size_t cell, const PlaneTensor &strain,
+                       PlasticHistory &history) const;
+
+    BlockForcesData data;
+    unsigned int n_lanes = 0;
+    std::vector<Tile> tiles;
+    std::vector<Run> runs;
+
+    /**
+     * The node that enters each lane at each step, as its offset in bytes
+     * into the tile's NodeVectors, and half of that into its NodeRecords.
+     */
+    AlignedArray<std::uint32_t> offsets;
+
+    /**
+     * The groups of four consecutive nodes that each run meets: what is to
+     * be fetched while the run before is at work.
+     */
+    std::vector<std::uint32_t> node_groups;
+
+    /** Bit l says that lane l completes a triangle. */
+    std::vector<std::uint8_t> masks;
+
+    /** As offsets, the triangles' cells; empty if none yields. */
+    AlignedArray<std::uint32_t> lane_cells;
+
+    /**
+     * Half the thickness times the initial stress, per step its mean, half
+     * its difference and its shear component, each in all lanes.
+     */
+    AlignedArray<double> lane_stress;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_farfield_far_field_h
+#define quoin_farfield_far_field_h
+
+#include <quoin/farfield/interface_transfer.h>
+#include <quoin/loads/node_constraint.h>
+#include <quoin/tdbem/boundary.h>
+#include <quoin/tdbem/boundary_history.h>
+#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/tdbem/formulation.h>
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** How the forces of the boundary elements follow the nodes in a step. */
+  enum class CouplingScheme
+  {
+    /**
+     * The impedance of the newest step acts on the mean velocity of each
+     * block step, implicitly on the nodes of the interface alone; the history
+     * is frozen. Does not lower the critical step, and creates no energy if
+     * the boundary elements are passive.
+     */
+    implicit,
+    /**
+     * Eqs. 17 and 18 of @cite JinWangZhang1998: the displacement at the end
+     * of the boundary elements' step is extrapolated from that of the block
+     * step; their traction is the mean of those that acted. Unstable in most
+     * uses.
+     */
+    staggered
+  };
+
+  /** What is beyond the interface. */
+  struct FarFieldDomain
+  {
+    Boundary boundary;
+    ElasticMedium medium{};
+    /** Of @p boundary: the elements along the blocks. */
+    std::vector<unsigned int> interface;
+    /** Of each unknown not on the interface. */
+    std::vector<bool> traction_is_given;
+
+    FormulationOptions formulation; /**< without time step and n_steps */
+    CouplingScheme scheme = CouplingScheme::implicit;
+
+    /**
+     * Given values of the step from begin to end [s], total fields; those on
+     * the interface are not looked at. Null: zero.
+     */
+    std::function<Eigen::VectorXd(double begin, double end)> given;
+  };
+
+  /**
+   * Boundary elements beyond the outer boundary of blocks, from which waves
+   * come in and into which they leave (@cite JinWangZhang1998, Eqs. 14-18).
+   *
+   * The elements take steps of several block steps each, K. In step M their
+   * tractions on the interface are p = p_h + Z0 v, v the mean
+   * velocity over each element: Z0, the lag-0 impedance condensed to the
+   * interface, times a velocity, and p_h, which follows from the history, the
+   * given values and the field that comes in, and is frozen during the step.
+   *
+   * Time of the boundary elements begins when it first acts. What forces are
+   * unbalanced on the interface then are held from there on: so reactions of a
+   * static stage, or an initial stress, do not set anything in motion.
+   */
+  class FarField : public NodeConstraint
+  {
+  public:
+    /** What has happened to energy in the steps finished so far [J]. */
+    struct Ledger
+    {
+      /** Work of the scattered tractions on the scattered motion. */
+      double radiated = 0.;
+      /** Lost in the block steps of a boundary element step: not negative. */
+      double substeps = 0.;
+      /** Brought in by the incident field. */
+      double incident = 0.;
+      /** As radiated, of the rest of the boundary, where values are given. */
+      double given = 0.;
+      /** Largest |p - (p_h + Z0 v)| by the largest p: rounding. */
+      double mismatch = 0.;
+    };
+
+    /**
+     * @p faces: outer edges of @p mesh, indices into boundary_faces, along the
+     * interface. Throws an InputError that begins with the section.
+     */
+    FarField(const std::string &name, FarFieldDomain domain,
+             const BlockMesh<2> &mesh, const std::vector<unsigned int> &faces,
+             const NodeExchange &exchange, double thickness);
+    ~FarField() override;
+
+    /**
+     * Must be called before a stage begins: the step of the boundary elements
+     * [s], always the same, @p n_substeps block steps, and the most steps that
+     * there will be. Makes the operators when called first; collective.
+     */
+    void set_time_step(double time_step, unsigned int n_substeps,
+                       unsigned long n_steps);
+
+    /**
+     * The field that comes in, all over the boundary: displacements at a time
+     * [m], and the tractions of the step from begin to end [Pa]. Must be
+     * called before it first acts.
+     */
+    void set_incident_field(
+        std::function<Eigen::VectorXd(double time)> displacement,
+        std::function<Eigen::VectorXd(double begin, double end)> traction)
+    {
+      incident_displacement = std::move(displacement);
+      incident_traction     = std::move(traction);
+    }
+
+    /** 0 before set_time_step() [s]. */
+    double time_step() const
+    {
+      return dt;
+    }
+    unsigned int n_substeps() const
+    {
+      return substeps;
+    }
+
+    const FarFieldDomain &domain() const
+    {
+      return problem;
+    }
+    const LagKernel &lag_kernel() const
+    {
+      return *kernel;
+    }
+    const BoundaryHistory &boundary_history() const
+    {
+      return *history;
+    }
+
+    Ledger ledger(const State<2> &state) const;
+
+    /** Total fields on the boundary after the last step [m], [m/s], [Pa]. */
+    Eigen::VectorXd displacement(const State<2> &state) const;
+    Eigen::VectorXd velocity(const State<2> &state) const;
+    Eigen::VectorXd traction(const State<2> &state) const;
+
+    void begin_stage(State<2> &state, bool continues) override;
+    void resume_stage(const State<2> &state) override;
+    void save(State<2> &state) const override;
+    void correct(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State<2> &state) override;
+    void account(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State<2> &state) override;
+    std::array<double, 3> values(const TimePoint &) const override
+    {
+      return {};
+    }
+    std::array<bool, 3> holds() const override
+    {
+      return { { false, false, false } };
+    }
+
+  private:
+    using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+    void start(const std::vector<CapturedNode> &captured, State<2> &state);
+    void prepare(const StepContext &step,
+                 const std::vector<CapturedNode> &captured);
+    void find_incident(const FarFieldState &far);
+    void begin_element_step(State<2> &state);
+    void finish_element_step(State<2> &state);
+    /** All over the boundary. */
+    Eigen::VectorXd scattered_values(double begin, double end) const;
+
+    FarFieldDomain problem;
+    InterfaceTransfer transfer;
+    std::function<Eigen::VectorXd(double)>
+        incident_displacement; /**< or null */
+    std::function<Eigen::VectorXd(double, double)> incident_traction;
+    double thickness;
+    MPI_Comm communicator;
+    bool is_first_rank;
+    std::vector<unsigned int> unknowns; /**< of the interface */
+    Eigen::VectorXd area;               /**< of these [m^2] */
+    Eigen::VectorXd outer_area; /**< of the others, 0 on the interface [m^2] */
+
+    double dt             = 0.;
+    unsigned int substeps = 0;
+    std::unique_ptr<LagKernel> kernel;
+    std::unique_ptr<BoundaryHistory> history;
+    std::unique_ptr<BoundaryMarch> march;
+    Eigen::MatrixXd stiffness; /**< dp/du of one step [Pa/m] */
+    Eigen::MatrixXd impedance; /**< Z0 [Pa s/m] */
+
+    /** For the block steps, as long as these are the same; 0: not made. */
+    double prepared_step = 0., prepared_damping = 0.;
+    /** Staggered: the step that begins at rest belongs to no other. */
+    bool from_rest = false;
+    std::vector<double> gain;     /**< velocity by force, of the nodes */
+    SparseMatrix mobility;        /**< v of elements by their p [m/(Pa s)] */
+    Eigen::MatrixXd from_history; /**< p by p_h */
+    SparseMatrix from_motion;     /**< p by velocities before and free */
+    /** from_history times frozen, or not made since either changed. */
+    Eigen::VectorXd p_of_history;
+    bool p_of_history_is_due = true;
+
+    /** Of this step: tractions [Pa], velocities [m/s] of the elements. */
+    Eigen::VectorXd p, v_before, v_free, v_after, v_mean;
+    Eigen::VectorXd last_u; /**< of the elements since the start [m] */
+    /** Of the step of the boundary elements under way. */
+    Eigen::VectorXd frozen, incident_u, incident_velocity, incident_p;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_farfield_incident_waves_h
+#define quoin_farfield_incident_waves_h
+
+#include <quoin/farfield/boundary_parameters.h>
+#include <quoin/tdbem/boundary.h>
+#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/tdbem/incident_field.h>
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** All that comes in, as section 'Incident waves' says. */
+  class IncidentWaves
+  {
+  public:
+    /**
+     * @p points: where the field is asked for beside the boundary; @p duration
+     * and @p time_step of the boundary elements [s]. @p boundary must outlive
+     * this object. Throws an InputError that begins with the section.
+     */
+    IncidentWaves(const BoundaryElementParameters &settings,
+                  const ElasticMedium &medium, const Boundary &boundary,
+                  const std::vector<Eigen::Vector2d> &points, double duration,
+                  double time_step);
+
+    bool empty() const
+    {
+      return waves.empty();
+    }
+
+    /** As IncidentField says, of all waves; on the boundary entry 2 e + i. */
+    Eigen::Vector2d displacement(const Eigen::Vector2d &x, double time) const;
+    Eigen::VectorXd displacements(double time) const;
+    /**
+     * Tractions that belong to the step from @p begin to @p end: in its mean,
+     * or, for convolution quadrature, at its end.
+     */
+    Eigen::VectorXd tractions(double begin, double end) const;
+
+    /** For the log. */
+    const std::vector<std::string> &reports() const
+    {
+      return report_texts;
+    }
+
+  private:
+    void check_place(const IncidentWaveParameters &wave,
+                     const std::vector<Eigen::Vector2d> &points) const;
+    void check_start(const IncidentWaveParameters &wave,
+                     const IncidentField &field,
+                     const std::function<double(double)> &signal,
+                     double duration, double time_step);
+
+    const Boundary &boundary;
+    bool tractions_at_end; /**< convolution quadrature */
+    std::vector<std::unique_ptr<IncidentField>> waves;
+    std::vector<std::string> report_texts;
+  };
+} // namespace quoin
+
+#endif

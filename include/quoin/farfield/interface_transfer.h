@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_farfield_interface_transfer_h
+#define quoin_farfield_interface_transfer_h
+
+#include <quoin/base/node_exchange.h>
+#include <quoin/mesh/block_mesh.h>
+#include <quoin/tdbem/boundary.h>
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * Between the nodes of blocks and the boundary elements along them.
+   *
+   * The motion of an element is the mean over the edges of blocks that it
+   * spans, sum_i w_ei v_i with weights that sum to one; the force of its
+   * traction p_e on node i is T L_e w_ei p_e, T the thickness. So the work is
+   * the same on both sides, and the element's resultant is kept.
+   */
+  class InterfaceTransfer
+  {
+  public:
+    /**
+     * @p elements of @p boundary lie along @p faces, indices into
+     * mesh.boundary_faces, on the other side of them. Throws an InputError if
+     * an edge lies along no element, or an element along no edge.
+     */
+    InterfaceTransfer(const Boundary &boundary,
+                      const std::vector<unsigned int> &elements,
+                      const BlockMesh<2> &mesh,
+                      const std::vector<unsigned int> &faces,
+                      const NodeExchange &exchange);
+
+    /** Local nodes that this rank owns, ascending. */
+    const std::vector<unsigned int> &nodes() const
+    {
+      return node_list;
+    }
+
+    unsigned int n_elements() const
+    {
+      return length.size();
+    }
+
+    /**
+     * Means over the elements of @p value(k), an array of two for the k-th of
+     * nodes(): entry 2 e + d; summed over the ranks.
+     */
+    template <typename Value>
+    void gather(const Value &value, Eigen::VectorXd &means) const
+    {
+      means.setZero(2 * n_elements());
+      for (unsigned int k = 0; k < node_list.size(); ++k)
+      {
+        const std::array<double, 2> v = value(k);
+        for (unsigned int j = row_begin[k]; j < row_begin[k + 1]; ++j)
+          for (unsigned int d = 0; d < 2; ++d)
+            means[2 * entries[j].element + d] += entries[j].weight * v[d];
+      }
+      sum(means);
+    }
+
+    /** Force by thickness on the k-th of nodes(): sum_e L_e w_ek p_e [N/m]. */
+    std::array<double, 2> force(const unsigned int k,
+                                const Eigen::VectorXd &traction) const
+    {
+      std::array<double, 2> result{};
+      for (unsigned int j = row_begin[k]; j < row_begin[k + 1]; ++j)
+        for (unsigned int d = 0; d < 2; ++d)
+          result[d] += entries[j].weight * length[entries[j].element]
+                       * traction[2 * entries[j].element + d];
+      return result;
+    }
+
+    /**
+     * The matrix w S L, n_elements() square, with S a diagonal matrix of the
+     * nodes, entry k for the k-th of nodes(); summed over the ranks.
+     */
+    Eigen::MatrixXd congruence(const std::vector<double> &diagonal) const;
+
+    /**
+     * The same for both components, twice as large: by thickness, the motion
+     * of elements by their tractions if @p gain is motion by force of nodes.
+     */
+    Eigen::MatrixXd mobility(const std::vector<double> &gain) const;
+
+    /** w_ek of the k-th of nodes(), a row for each, a column per element. */
+    Eigen::MatrixXd weights() const
+    {
+      Eigen::MatrixXd result
+          = Eigen::MatrixXd::Zero(node_list.size(), n_elements());
+      for (unsigned int k = 0; k < node_list.size(); ++k)
+        for (unsigned int j = row_begin[k]; j < row_begin[k + 1]; ++j)
+          result(k, entries[j].element) += entries[j].weight;
+      return result;
+    }
+
+    /** Of the elements [m]. */
+    const std::vector<double> &lengths() const
+    {
+      return length;
+    }
+
+  private:
+    struct Entry
+    {
+      unsigned int element;
+      double weight;
+    };
+
+    void sum(Eigen::VectorXd &values) const;
+
+    MPI_Comm communicator;
+    std::vector<double> length;
+    std::vector<unsigned int> node_list;
+    std::vector<unsigned int> row_begin; /**< of each node, in entries */
+    std::vector<Entry> entries;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_farfield_static_far_field_h
+#define quoin_farfield_static_far_field_h
+
+#include <quoin/farfield/far_field.h>
+#include <quoin/farfield/interface_transfer.h>
+#include <quoin/loads/node_constraint.h>
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * The rock beyond the outer boundary of blocks, at rest: a static stiffness
+   * on the interface. It takes the place of FarField in static stages.
+   *
+   * What forces are unbalanced on the interface when it first acts are held
+   * from there on; to them comes -K (u - u_0), K of ExteriorStiffness and u_0
+   * the motion at that time. It acts implicitly, as K times the mean
+   * (u_{n-1} + 2 u_n + u_{n+1}) / 4: the same as adding dt^2 K / 4 to the
+   * masses of the interface's nodes, which cannot lower the critical step and
+   * does not change where the blocks come to rest.
+   */
+  class StaticFarField : public NodeConstraint
+  {
+  public:
+    /** As FarField, of whose @p domain motion and waves are not looked at. */
+    StaticFarField(const std::string &name, const FarFieldDomain &domain,
+                   const BlockMesh<2> &mesh,
+                   const std::vector<unsigned int> &faces,
+                   const NodeExchange &exchange, double thickness);
+
+    /**
+     * Largest entry of the difference between the stiffness as computed and
+     * its transpose, by the largest entry, before it was made symmetric.
+     */
+    double asymmetry() const
+    {
+      return relative_asymmetry;
+    }
+
+    // For solvers of equilibrium.
+
+    /**
+     * Begins, if it has not: from now on @p force, what is out of balance on
+     * local nodes without the far field, is held on the interface. Collective.
+     */
+    void hold(const NodeVector<2> *force, State<2> &state) const;
+
+    /**
+     * Adds its forces on the interface's nodes to @p force and returns its
+     * elastic energy [J]. Collective.
+     */
+    double add_forces(const NodeRecord<2> *nodes,
+                      const StaticFarFieldState &state,
+                      NodeVector<2> *force) const;
+
+    /** Minus the derivative of these forces. */
+    struct NodalStiffness
+    {
+      std::vector<unsigned int> nodes; /**< of all ranks, global, ascending */
+      /** [N/m]; row 2 k + d is the k-th of nodes(), of this rank, column
+          2 j + e the j-th of nodes. */
+      Eigen::MatrixXd rows;
+    };
+    /** Collective. */
+    NodalStiffness nodal_stiffness(const NodeExchange &exchange) const;
+
+    void begin_stage(State<2> &state, bool continues) override;
+    void resume_stage(const State<2> &state) override;
+    void correct(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State<2> &state) override;
+    void account(const StepContext &step,
+                 const std::vector<CapturedNode> &captured,
+                 State<2> &state) override;
+    std::array<double, 3> values(const TimePoint &) const override
+    {
+      return {};
+    }
+    std::array<bool, 3> holds() const override
+    {
+      return { { false, false, false } };
+    }
+    bool supports() const override
+    {
+      return true;
+    }
+
+  private:
+    void start(const std::vector<CapturedNode> &captured, State<2> &state);
+    void prepare(const StepContext &step,
+                 const std::vector<CapturedNode> &captured);
+    void gather_displacement(const std::vector<CapturedNode> &captured,
+                             Eigen::VectorXd &means) const;
+    void book_stored(const StepContext &step, State<2> &state);
+
+    InterfaceTransfer transfer;
+    double thickness;
+    bool is_first_rank;
+    Eigen::VectorXd areas;     /**< of the interface's unknowns [m^2] */
+    Eigen::MatrixXd stiffness; /**< traction by displacement [Pa/m] */
+    double relative_asymmetry = 0.;
+
+    /** For the block steps, as long as these are the same; 0: not made. */
+    double prepared_step = 0., prepared_velocity_step = 0.;
+    std::vector<double> gain;    /**< velocity by force, of the nodes */
+    Eigen::MatrixXd from_motion; /**< p by displacement [Pa/m] */
+
+    /** Of this step: tractions [Pa], motion of the elements since u_0 [m]. */
+    Eigen::VectorXd p, u, mean;
+    Eigen::VectorXd v_before, v_after, change; /**< of velocity [m/s] */
+    Eigen::VectorXd before, after;             /**< u half a step off [m] */
+    Eigen::VectorXd elastic, elastic_before;   /**< K times those [Pa] */
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_space_time_function_h
+#define quoin_loads_space_time_function_h
+
+#include <Eigen/Core>
+
+#include <functional>
+#include <string>
+
+namespace quoin
+{
+  /**
+   * A value that depends on place and time: an expression of x, y [m] and t
+   * [s], with pi and the functions of muParser, if(condition, a, b) among
+   * them; or "table FILE" or a signal, such as "pulse triangular 1e-3 5e-3",
+   * as in TimeFunction; or one of these and "times EXPRESSION", the product of
+   * the two.
+   */
+  class SpaceTimeFunction
+  {
+  public:
+    /** Zero. */
+    SpaceTimeFunction() = default;
+
+    /**
+     * Reads @p text. Files are sought in @p folder. Throws an InputError that
+     * says what is wrong, without naming section or parameter.
+     */
+    SpaceTimeFunction(const std::string &text, const std::string &folder);
+
+    double operator()(const Eigen::Vector2d &x, const double t) const
+    {
+      return evaluate(x, t);
+    }
+
+    /** Whether the value may differ between places; if not, one will do. */
+    bool depends_on_place() const
+    {
+      return on_place;
+    }
+
+    /** Whether the value may change in time. */
+    bool depends_on_time() const
+    {
+      return on_time;
+    }
+
+  private:
+    std::function<double(const Eigen::Vector2d &, double)> evaluate
+        = [](const Eigen::Vector2d &, double) { return 0.; };
+    bool on_place = false;
+    bool on_time  = false;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_archive_h
+#define quoin_results_archive_h
+
+#include <quoin/base/state.h>
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/binary_object.hpp>
+#include <boost/serialization/split_free.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <type_traits>
+
+// What Boost.Serialization needs to know about the arrays of a State: they go
+// into an archive as one block of bytes. Element by element they would take
+// some hundred times as long, and their padding keeps them bitwise equal.
+namespace boost
+{
+  namespace serialization
+  {
+    template <typename Archive, typename T>
+    void save(Archive &archive,
+              const std::vector<T, quoin::CacheAlignedAllocator<T>> &array,
+              const unsigned int)
+    {
+      static_assert(std::is_trivially_copyable_v<T>,
+                    "Only plain data can be copied as bytes.");
+      const std::uint64_t n = array.size();
+      archive << n;
+      if (n > 0)
+        archive << make_binary_object(const_cast<T *>(array.data()),
+                                      n * sizeof(T));
+    }
+
+    template <typename Archive, typename T>
+    void load(Archive &archive,
+              std::vector<T, quoin::CacheAlignedAllocator<T>> &array,
+              const unsigned int)
+    {
+      std::uint64_t n = 0;
+      archive >> n;
+      array.resize(n);
+      if (n > 0)
+        archive >> make_binary_object(array.data(), n * sizeof(T));
+    }
+
+    template <typename Archive, typename T>
+    void serialize(Archive &archive,
+                   std::vector<T, quoin::CacheAlignedAllocator<T>> &array,
+                   const unsigned int version)
+    {
+      split_free(archive, array, version);
+    }
+  } // namespace serialization
+} // namespace boost
+
+#endif

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_boundary_histories_h
+#define quoin_results_boundary_histories_h
+
+#include <quoin/farfield/boundary_geometry.h>
+#include <quoin/results/history_parameters.h>
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** The total field on a boundary at one moment, two entries per element. */
+  struct BoundaryState
+  {
+    Eigen::VectorXd displacement; /**< [m] */
+    Eigen::VectorXd velocity;     /**< mean over the step [m/s] */
+    Eigen::VectorXd traction;     /**< [Pa] */
+    Eigen::VectorXd hoop_stress;  /**< one entry per element [Pa] */
+  };
+
+  /** The columns of histories.csv of a run of boundary elements. */
+  class BoundaryHistories
+  {
+  public:
+    /**
+     * Throws an InputError that begins with the section if a point of the
+     * domain is not in it, or nearer to the boundary than a quarter of an
+     * element, or if a point of the boundary is far from it.
+     * @p thickness: that forces are for [m].
+     */
+    BoundaryHistories(const std::vector<HistoryParameters> &parameters,
+                      const BoundaryGeometry &geometry,
+                      const BoundaryElementParameters &boundaries,
+                      double thickness);
+
+    /** "time [s]" and "name [unit]" of each column. */
+    std::vector<std::string> column_names() const;
+
+    /** The points in the domain, of which set_interior() has to know. */
+    const std::vector<Eigen::Vector2d> &interior_points() const
+    {
+      return points;
+    }
+
+    /** A row; quantities in the domain are left zero. */
+    std::vector<double> row(double time, const BoundaryState &state) const;
+
+    /** Sets them: displacements and velocities, two entries a point. */
+    void set_interior(std::vector<double> &row,
+                      const Eigen::VectorXd &displacement,
+                      const Eigen::VectorXd &velocity) const;
+
+  private:
+    struct Probe
+    {
+      HistoryParameters parameters;
+      unsigned int entity = 0; /**< element or point */
+    };
+
+    double force(const HistoryParameters &wanted,
+                 const BoundaryState &state) const;
+
+    std::vector<Probe> probes;
+    std::vector<Eigen::Vector2d> points;
+    const BoundaryGeometry &geometry;
+    std::vector<std::string> names; /**< of the boundaries */
+    double thickness;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_boundary_output_h
+#define quoin_results_boundary_output_h
+
+#include <quoin/results/vtu_series.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace quoin
+{
+  /** Boundary elements at one moment, an entry each. */
+  struct BoundaryFields
+  {
+    std::vector<std::array<double, 2>> a, b;         /**< ends [m] */
+    std::vector<std::array<double, 2>> displacement; /**< [m] */
+    std::vector<std::array<double, 2>> velocity;     /**< [m/s] */
+    std::vector<std::array<double, 2>> traction;     /**< [Pa] */
+    std::vector<double> hoop_stress;                 /**< [Pa] */
+    std::vector<std::int32_t> boundary;              /**< number */
+  };
+
+  /** The series boundary.pvd: a line for each boundary element. */
+  class BoundaryOutput : public VtuSeries
+  {
+  public:
+    BoundaryOutput(const std::string &output_directory,
+                   const MPI_Comm communicator);
+
+    /** Collective. Writes the fields of the time @p time [s]. */
+    void write(const double time, const BoundaryFields &fields);
+  };
+
+  /** Points in the domain at one moment, with triangles between them. */
+  struct SampledFields
+  {
+    std::vector<std::array<double, 2>> position; /**< [m] */
+    std::vector<std::array<std::int32_t, 3>> triangles;
+    std::vector<std::array<double, 2>> displacement; /**< [m] */
+    std::vector<std::array<double, 2>> velocity;     /**< [m/s] */
+  };
+
+  /** The series field.pvd: the field in the domain of boundary elements. */
+  class SampledFieldOutput : public VtuSeries
+  {
+  public:
+    SampledFieldOutput(const std::string &output_directory,
+                       const MPI_Comm communicator);
+
+    /** Collective. Writes the fields of the time @p time [s]. */
+    void write(const double time, const SampledFields &fields);
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_checkpoint_h
+#define quoin_results_checkpoint_h
+
+#include <quoin/results/archive.h>
+
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <functional>
+#include <streambuf>
+#include <string>
+
+namespace quoin
+{
+  /** What a checkpoint says about itself besides its contents. */
+  struct CheckpointInfo
+  {
+    std::uint64_t step = 0;
+    double time        = 0.; /**< [s] */
+    std::string version;     /**< of the program */
+    std::string parameters;  /**< fingerprint() of the effective ones */
+  };
+
+  /** A short text that differs if @p text does (64-bit FNV-1a, hex). */
+  std::string fingerprint(const std::string &text);
+
+  /** Whether <output directory>/checkpoint/latest exists. */
+  bool checkpoint_exists(const std::string &output_directory);
+
+  /**
+   * Removes the checkpoint in an output directory, whole or in parts, and
+   * nothing else that may be there.
+   */
+  void remove_checkpoint(const std::string &output_directory);
+
+  /** The work behind save_checkpoint(); @p write fills this rank's archive. */
+  void
+  save_checkpoint_archives(const std::string &output_directory,
+                           const MPI_Comm communicator,
+                           const CheckpointInfo &info,
+                           const std::function<void(std::streambuf &)> &write);
+
+  /** The work behind load_checkpoint(); @p read takes this rank's archive. */
+  CheckpointInfo load_checkpoint_archives(
+      const std::string &output_directory, const MPI_Comm communicator,
+      const std::string &version, const std::string &parameters,
+      const std::function<void(std::streambuf &)> &read);
+
+  /**
+   * Collective. Writes @p data of every rank as a binary archive
+   *
+   *     checkpoint/<step>/rank_<r>.bin
+   *
+   * below the output directory, and after that the manifest
+   * checkpoint/latest, which names the directory, what info says, and size
+   * and CRC-32 of each archive. Both are written aside, brought to the disk
+   * and renamed, so that a crash at any moment leaves either the older or the
+   * newer checkpoint valid. Older directories are removed at the end.
+   *
+   * @throws RunError on all ranks if one of them cannot write
+   */
+  template <typename T>
+  void save_checkpoint(const std::string &output_directory,
+                       const MPI_Comm communicator, const CheckpointInfo &info,
+                       const T &data)
+  {
+    save_checkpoint_archives(output_directory, communicator, info,
+                             [&](std::streambuf &buffer)
+                             {
+                               boost::archive::binary_oarchive archive(buffer);
+                               archive << data;
+                             });
+  }
+
+  /**
+   * Collective. Reads what save_checkpoint() wrote; bitwise the same.
+   *
+   * @throws InputError on all ranks if there is no checkpoint, if it is of
+   * another version or format, number of ranks or other parameters, or if it
+   * is damaged; @p data is unchanged unless the archive itself is unreadable
+   * though its CRC-32 is right
+   */
+  template <typename T>
+  CheckpointInfo load_checkpoint(const std::string &output_directory,
+                                 const MPI_Comm communicator,
+                                 const std::string &version,
+                                 const std::string &parameters, T &data)
+  {
+    return load_checkpoint_archives(
+        output_directory, communicator, version, parameters,
+        [&](std::streambuf &buffer)
+        {
+          boost::archive::binary_iarchive archive(buffer);
+          archive >> data;
+        });
+  }
+} // namespace quoin
+
+#endif

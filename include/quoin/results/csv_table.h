@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_csv_table_h
+#define quoin_results_csv_table_h
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  class FileBuffer;
+
+  /** The shortest decimal text that reads back as exactly this number. */
+  std::string shortest_text(const double value);
+
+  /**
+   * A comma separated table under one header row, written row by row through
+   * a buffer. A checkpoint notes size(), and a resumed run cuts the table to
+   * that size, so that rows written after the checkpoint do not appear twice.
+   *
+   * Members throw RunError, which names the file, if it cannot be written;
+   * but not add_row(), because only one rank has the table and the others would
+   * wait for it: check(), and flush() and sync(), do so later.
+   */
+  class CsvTable
+  {
+  public:
+    /** Remembers only; the file is made by start() or opened by resume(). */
+    CsvTable(const std::string &path,
+             const std::vector<std::string> &column_names);
+    ~CsvTable();
+
+    /** A new file with its header row; an older one is replaced. */
+    void start();
+
+    /**
+     * Goes on with the file of an interrupted run, cut to @p n_bytes.
+     * @throws InputError if the file is shorter than that, is missing, or has
+     * other columns
+     */
+    void resume(const std::uint64_t n_bytes);
+
+    /** Adds a row, one value for each column. See check(). */
+    void add_row(const std::vector<double> &values);
+
+    /** @throws RunError if a row so far could not be written */
+    void check() const;
+
+    /** Hands the rows to the system, so that other programs see them. */
+    void flush();
+
+    /** As flush(), and waits for the disk: to be called before a checkpoint. */
+    void sync();
+
+    /** Bytes of the table so far, buffered ones included. */
+    std::uint64_t size() const;
+
+  private:
+    std::string path;
+    std::string header;
+    unsigned int n_columns;
+    std::uint64_t size_at_opening = 0;
+    std::unique_ptr<FileBuffer> buffer;
+  };
+} // namespace quoin
+
+#endif

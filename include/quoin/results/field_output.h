@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_field_output_h
+#define quoin_results_field_output_h
+
+#include <quoin/farfield/boundary_geometry.h>
+#include <quoin/results/boundary_histories.h>
+#include <quoin/base/state.h>
+#include <quoin/farfield/far_field.h>
+#include <quoin/dynamics/model.h>
+#include <quoin/results/block_output.h>
+#include <quoin/results/boundary_output.h>
+#include <quoin/results/joint_output.h>
+
+namespace quoin
+{
+  /** Blocks of this rank as they go to ParaView. */
+  BlockFields block_fields(const Model &model, const State<2> &state);
+
+  /**
+   * Matched joints of this rank. @p state: after
+   * Solver::update_histories().
+   */
+  JointFields joint_fields(const Model &model, const State<2> &state);
+
+  /** General contacts of this rank, for the same state. */
+  JointFields contact_fields(const BlockContacts &contacts,
+                             const State<2> &state);
+
+  /** The total field on the boundary after the far field's last step. */
+  BoundaryState boundary_state(const FarField &far, const State<2> &state);
+
+  /** Boundary elements as they go to ParaView. */
+  BoundaryFields boundary_fields(const BoundaryGeometry &geometry,
+                                 const BoundaryState &state);
+} // namespace quoin
+
+#endif

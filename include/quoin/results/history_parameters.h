@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_history_parameters_h
+#define quoin_results_history_parameters_h
+
+#include <quoin/base/parameter_section.h>
+
+#include <array>
+#include <string>
+
+namespace quoin
+{
+  enum class HistoryQuantity
+  {
+    displacement,
+    velocity,
+    stress,
+    yielding,
+    rotation,
+    joint,
+    reaction,
+    platen_displacement,
+    platen_force,
+    unbalanced_ratio,
+    kinetic_share,
+    load_time,
+    loading_rate,
+    contacts,
+    boundary_displacement,
+    boundary_traction,
+    boundary_velocity,
+    boundary_hoop_stress,
+    boundary_force
+  };
+
+  /** One column of histories.csv: a subsection of 'Histories'. */
+  struct HistoryParameters
+  {
+    std::string name;
+    HistoryQuantity quantity = HistoryQuantity::displacement;
+    unsigned int component   = 0;
+    std::string unit;
+    std::array<double, 2> point{}; /**< [m] */
+    std::string load;
+    std::string curve;
+
+    /** On boundary elements, alone or beyond blocks. */
+    bool is_of_boundary() const
+    {
+      return quantity >= HistoryQuantity::boundary_displacement;
+    }
+    /** Of blocks, or in the domain of boundary elements. */
+    bool is_of_interior() const
+    {
+      return quantity == HistoryQuantity::displacement
+             || quantity == HistoryQuantity::velocity;
+    }
+
+    static void declare(dealii::ParameterHandler &prm);
+    static HistoryParameters read(const ParameterSection &section,
+                                  const std::string &name);
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_joint_output_h
+#define quoin_results_joint_output_h
+
+#include <quoin/base/state.h>
+#include <quoin/results/vtu_series.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * The joint faces of this rank at one moment. Face f has the points 2 f and
+   * 2 f + 1; all but the last array have one entry for each point. Opening
+   * and tension are positive; slip is positive when the upper side
+   * moves to the right on a horizontal joint (matched_joints.h).
+   */
+  struct JointFields
+  {
+    std::vector<std::array<double, 2>> position; /**< reference [m] */
+    /** mean displacement of both sides [m] */
+    std::vector<std::array<double, 2>> displacement;
+    std::vector<double> opening;         /**< [m] */
+    std::vector<double> slip;            /**< [m] */
+    std::vector<double> normal_traction; /**< [Pa] */
+    std::vector<double> shear_traction;  /**< [Pa] */
+    std::vector<double> damage;          /**< 0 to 1, or empty [-] */
+    std::vector<double> crushing;        /**< of the cap, or empty [m] */
+    std::vector<JointState> state;
+    std::vector<std::int32_t> joint_set; /**< of each face */
+  };
+
+  /**
+   * The state that is to be shown for a face whose points are in the states
+   * @p a and @p b: open before slipping before slipped before intact.
+   */
+  JointState worst(const JointState a, const JointState b);
+
+  /**
+   * The series joints.pvd: a line for each joint face, in the middle of the
+   * current positions of its two sides. The displacement of that middle is
+   * point data, so that the reference position is known too.
+   */
+  class JointOutput : public VtuSeries
+  {
+  public:
+    /** @p name of the series: joints, or contacts. */
+    JointOutput(const std::string &output_directory,
+                const MPI_Comm communicator,
+                const std::string &name = "joints");
+
+    /** Collective. Writes the fields of the time @p time [s]. */
+    void write(const double time, const JointFields &fields);
+  };
+} // namespace quoin
+
+#endif

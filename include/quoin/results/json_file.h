@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_json_file_h
+#define quoin_results_json_file_h
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <string>
+
+namespace quoin
+{
+  /**
+   * Writes an object such as the summary of a run, indented; the file appears
+   * complete or not at all. Numbers that are not finite become null.
+   *
+   * @throws RunError if the file cannot be written
+   */
+  void write_json(const std::string &path, const nlohmann::json &object);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/blocks/block_forces.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+#include "plastic_strip_kernel.h"
+
+namespace quoin
+{
+  namespace
+  {
+    /** A run starts with two nodes per lane and then takes steps by three. */
+    std::size_t padded_steps(const std::size_t n)
+    {
+      return 2 + 3 * ((std::max<std::size_t>(n, 3) - 2 + 2) / 3);
+    }
+  } // namespace
+
+  void BlockForces::prepare(const BlockForcesData &new_data,
+                            const BlockForcesOptions &options)
+  {
+    data    = new_data;
+    n_lanes = options.n_lanes == 0 ? native_lanes : options.n_lanes;
+
+    runs.clear();
+    offsets.clear();
+    masks.clear();
+    lane_stress.clear();
+    lane_cells.clear();
+    node_groups.clear();
+    make_tiles(options.tile_bytes);
+    for (Tile &tile : tiles)
+      make_runs(tile, options.max_run_cells);
+  }
+
+  void BlockForces::make_tiles(const std::size_t tile_bytes)
+  {
+    // Node record, velocity, force, inverse mass.
+    constexpr std::size_t node_bytes
+        = sizeof(NodeRecord<2>) + 2 * sizeof(NodeVector<2>) + sizeof(double);
+
+    const auto &first_node = data.block_first_node;
+    const auto &first_cell = data.block_first_cell;
+    tiles.clear();
+    for (std::size_t begin = 0; begin + 1 < first_node.size();)
+    {
+      std::size_t end = begin + 1;
+      while (end + 1 < first_node.size()
+             && (first_node[end + 1] - first_node[begin]) * node_bytes
+                    <= tile_bytes)
+        ++end;
+      tiles.push_back({ { first_node[begin], first_node[end] },
+                        { first_cell[begin], first_cell[end] },
+                        0,
+                        0 });
+      begin = end;
+    }
+    for (const Tile &tile : tiles)
+      if (tile.nodes.end - tile.nodes.begin
+          > std::numeric_limits<std::uint32_t>::max() / sizeof(NodeVector<2>))
+        throw InputError(
+            "A block has " + std::to_string(tile.nodes.end - tile.nodes.begin)
+            + " nodes, more than 268 million: refine the mesh less "
+              "or cut the block.");
+  }
+
+  void BlockForces::make_runs(Tile &tile, const std::size_t max_run_cells)
+  {
+    tile.begin_run = runs.size();
+    std::vector<std::vector<unsigned int>> members(data.stiffness.size());
+    const auto finish = [&](const unsigned int s)
+    {
+      if (!members[s].empty())
+        append_run(make_strips(data.cells, members[s], nullptr), tile, s);
+      members[s].clear();
+    };
+    for (std::size_t cell = tile.cells.begin; cell < tile.cells.end; ++cell)
+    {
+      const unsigned int s
+          = data.cell_stiffness.empty() ? 0 : data.cell_stiffness[cell];
+      members[s].push_back(cell);
+      if (members[s].size() >= max_run_cells)
+        finish(s);
+    }
+    for (unsigned int s = 0; s < members.size(); ++s)
+      finish(s);
+    tile.end_run = runs.size();
+  }
+
+  void BlockForces::append_run(const std::vector<StripEntry> &strips,
+                               const Tile &tile, const unsigned int s)
+  {
+    // Each lane takes an equal piece of the sequence, wherever that cuts a
+    // strip, after the two nodes before the piece: all lanes end together.
+    const std::size_t end         = strips.size();
+    const std::size_t piece       = (end + n_lanes - 1) / n_lanes;
+    const std::size_t n           = padded_steps(piece + 2);
+    const std::size_t first       = masks.size();
+    const std::size_t first_group = node_groups.size();
+    for (const StripEntry &entry : strips)
+      node_groups.push_back(entry.node / 4);
+    const auto groups = node_groups.begin() + first_group;
+    std::sort(groups, node_groups.end());
+    node_groups.erase(std::unique(groups, node_groups.end()),
+                      node_groups.end());
+    runs.push_back({ first, n, data.stiffness[s].bulk() * data.thickness,
+                     data.stiffness[s].c33 * data.thickness, s, first_group,
+                     node_groups.size() - first_group });
+
+    // The kernel begins two steps more than it ends.
+    const std::size_t n_rows = n + 2;
+    offsets.resize((first + n_rows) * n_lanes);
+    masks.resize(first + n_rows, 0);
+    if (!data.initial_stress.empty())
+      lane_stress.resize(3 * (first + n_rows) * n_lanes, 0.);
+    if (is_plastic())
+      lane_cells.resize((first + n_rows) * n_lanes, tile.cells.begin);
+
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+    {
+      const std::size_t lane_begin = std::min(lane * piece, end);
+      const std::size_t lane_end   = std::min(lane_begin + piece, end);
+      for (std::size_t step = 0; step < n_rows; ++step)
+      {
+        // Before and after its piece a lane repeats what is there.
+        const std::size_t k = std::min(
+            std::max<std::size_t>(lane_begin + step, 2) - 2, end - 1);
+        const bool in_piece   = step >= 2 && lane_begin + step - 2 < lane_end;
+        const std::size_t row = first + step;
+        offsets[row * n_lanes + lane]
+            = (strips[k].node - tile.nodes.begin) * sizeof(NodeVector<2>);
+        if (!in_piece || strips[k].cell == StripEntry::no_cell)
+          continue;
+        masks[row] |= 1u << lane;
+        if (is_plastic())
+          lane_cells[row * n_lanes + lane] = strips[k].cell;
+        if (!data.initial_stress.empty())
+        {
+          const auto &s     = data.initial_stress[strips[k].cell];
+          double *to        = &lane_stress[3 * row * n_lanes + lane];
+          const double half = 0.5 * data.thickness;
+          to[0]             = half * 0.5 * (s[0] + s[1]);
+          to[n_lanes]       = half * 0.5 * (s[0] - s[1]);
+          to[2 * n_lanes]   = half * s[2];
+        }
+      }
+    }
+  }
+
+  template <int lanes>
+  double BlockForces::add_forces_in_lanes(const Tile &tile,
+                                          const NodeRecord<2> *nodes,
+                                          PlasticHistory &history,
+                                          NodeVector<2> *force) const
+  {
+    double dissipated = 0.;
+    for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
+    {
+      const Run &run  = runs[r];
+      const Run &next = runs[r + 1 < runs.size() ? r + 1 : 0];
+      Prefetcher prefetcher(nodes, force, &node_groups[next.first_group],
+                            &node_groups[next.first_group] + next.n_groups,
+                            run.n_steps / 3);
+      StripSequence sequence{ &offsets[run.first_step * lanes],
+                              &masks[run.first_step], run.n_steps };
+      ScaledModuli moduli{ run.bulk, run.shear };
+      const NodeRecord<2> *tile_records = nodes + tile.nodes.begin;
+      NodeVector<2> *tile_force         = force + tile.nodes.begin;
+      if (const MohrCoulomb *yields = law(run.stiffness))
+      {
+        const PlasticStrips<lanes> strips(
+            *yields, data.stiffness[run.stiffness], data.thickness,
+            &lane_cells[run.first_step * lanes],
+            lane_stress.empty() ? nullptr : data.initial_stress.data(),
+            history);
+        dissipated += strips.add_forces(sequence, tile_records, tile_force,
+                                        prefetcher);
+      }
+      else if (lane_stress.empty())
+        elastic_strips<lanes, false>(sequence, moduli, nullptr, tile_records,
+                                     tile_force, prefetcher);
+      else
+        elastic_strips<lanes, true>(sequence, moduli,
+                                    &lane_stress[3 * run.first_step * lanes],
+                                    tile_records, tile_force, prefetcher);
+    }
+    return dissipated;
+  }
+
+  template <int lanes>
+  void BlockForces::add_viscous_forces_in_lanes(const Tile &tile,
+                                                const NodeRecord<2> *nodes,
+                                                const NodeVector<2> *velocity,
+                                                const double beta,
+                                                NodeVector<2> *force) const
+  {
+    for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
+    {
+      const Run &run = runs[r];
+      viscous_strips<lanes>(
+          { &offsets[run.first_step * lanes], &masks[run.first_step],
+            run.n_steps },
+          { beta * run.bulk, beta * run.shear }, nodes + tile.nodes.begin,
+          velocity + tile.nodes.begin, force + tile.nodes.begin);
+    }
+  }
+
+  double BlockForces::add_forces(const unsigned int tile,
+                                 const NodeRecord<2> *nodes,
+                                 PlasticHistory &history,
+                                 NodeVector<2> *force) const
+  {
+    if (is_plastic())
+      for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
+           ++k)
+        history.yielding[k] = MohrCoulomb::past(history.yielding[k]);
+    return n_lanes == 8
+               ? add_forces_in_lanes<8>(tiles[tile], nodes, history, force)
+               : add_forces_in_lanes<4>(tiles[tile], nodes, history, force);
+  }
+
+  void BlockForces::add_viscous_forces(const unsigned int tile,
+                                       const NodeRecord<2> *nodes,
+                                       const NodeVector<2> *velocity,
+                                       const double beta,
+                                       NodeVector<2> *force) const
+  {
+    if (n_lanes == 8)
+      add_viscous_forces_in_lanes<8>(tiles[tile], nodes, velocity, beta, force);
+    else
+      add_viscous_forces_in_lanes<4>(tiles[tile], nodes, velocity, beta, force);
+  }
+} // namespace quoin

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// What BlockForces gives to solvers that need derivatives.
+
+#include <quoin/blocks/block_forces.h>
+#include <quoin/blocks/triangle_tangent.h>
+
+namespace quoin
+{
+  std::array<double, 4> BlockForces::CellPoint::displacement_gradient(
+      const NodeRecord<2> *records) const
+  {
+    // Differences, so that strains keep their digits under large motions.
+    const double *origin = records[nodes[0]].u;
+    std::array<double, 4> H{};
+    for (unsigned int i = 1; i < n_nodes; ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double u = records[nodes[i]].u[d] - origin[d];
+        H[2 * d] += u * gradients[i][0];
+        H[2 * d + 1] += u * gradients[i][1];
+      }
+    return H;
+  }
+
+  BlockForces::CellPoint BlockForces::cell_point(const NodeRecord<2> *nodes,
+                                                 const unsigned int cell) const
+  {
+    std::array<unsigned int, 3> corners = data.cells[cell];
+    const unsigned int first            = cell & ~3U; // of a quadratic one
+    if (data.quadratic)
+      for (unsigned int i = 0; i < 3; ++i)
+        corners[i] = data.cells[first + i][0];
+    const auto [a, b, c] = corners;
+    const Triangle triangle(nodes[a], nodes[b], nodes[c]);
+    CellPoint point;
+    point.n_nodes      = 3;
+    point.nodes        = { { a, b, c } };
+    const double det   = triangle.det;
+    point.gradients[1] = { { triangle.e2[1] / det, -triangle.e2[0] / det } };
+    point.gradients[2] = { { -triangle.e1[1] / det, triangle.e1[0] / det } };
+    for (unsigned int d = 0; d < 2; ++d)
+      point.gradients[0][d] = -point.gradients[1][d] - point.gradients[2][d];
+    point.area = triangle.area();
+    if (!data.quadratic)
+      return point;
+
+    // The centroids of the three outer cells are the points of the rule that
+    // is exact for quadratic functions; the inner cell is for output.
+    const bool is_inner = cell == first + 3;
+    std::array<double, 3> lambda;
+    lambda.fill(is_inner ? 1. / 3. : 1. / 6.);
+    if (!is_inner)
+      lambda[cell - first] = 2. / 3.;
+    point.area = is_inner ? 0. : triangle.area() / 3.;
+    const std::array<std::array<double, 2>, 3> linear
+        = { { point.gradients[0], point.gradients[1], point.gradients[2] } };
+    point.n_nodes = 6;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      const unsigned int j = (i + 1) % 3;
+      point.nodes[3 + i]   = data.cells[first + 3][i]; // between i and j
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        point.gradients[i][d] = (4. * lambda[i] - 1.) * linear[i][d];
+        point.gradients[3 + i][d]
+            = 4. * (lambda[i] * linear[j][d] + lambda[j] * linear[i][d]);
+      }
+    }
+    return point;
+  }
+
+  bool BlockForces::linearise(const unsigned int cell,
+                              const NodeRecord<2> *nodes,
+                              PlasticHistory &history,
+                              CellLinearisation &result) const
+  {
+    const CellPoint point = cell_point(nodes, cell);
+    const CorotatedStrain strain(point.displacement_gradient(nodes));
+    if (point.area == 0.)
+    {
+      if (cell_law(cell))
+        update_cell(cell, strain.e, history);
+      return false;
+    }
+    const double volume = data.thickness * point.area;
+    const auto initial  = initial_stress(cell);
+
+    PlaneTensor stress;
+    PlaneTangent tangent;
+    result.dissipated = 0.;
+    if (const MohrCoulomb *yields = cell_law(cell))
+    {
+      tangent           = yields->tangent(yields->trial_stress(
+                    plastic_point(history, cell), strain.e, initial));
+      result.dissipated = volume * update_cell(cell, strain.e, history);
+      std::copy_n(history.cells[cell].stress, 3, stress.begin());
+    }
+    else
+    {
+      tangent = elastic_tangent(cell_stiffness(cell));
+      stress  = elastic_stress(cell_stiffness(cell), strain.e);
+      for (unsigned int i = 0; i < 3; ++i)
+        stress[i] += initial[i];
+    }
+    const ElementDerivatives energy(strain, stress, tangent);
+
+    result.n_nodes       = point.n_nodes;
+    result.nodes         = point.nodes;
+    const unsigned int n = 2 * point.n_nodes;
+    std::array<PlaneGradient, 12> rows, by_node;
+    for (unsigned int i = 0; i < point.n_nodes; ++i)
+    {
+      const auto pair = node_gradients(point.gradients[i]);
+      rows[2 * i]     = pair[0];
+      rows[2 * i + 1] = pair[1];
+    }
+    for (unsigned int i = 0; i < n; ++i)
+    {
+      result.force[i] = 0.;
+      for (unsigned int k = 0; k < 4; ++k)
+      {
+        result.force[i] -= volume * rows[i][k] * energy.first[k];
+        by_node[i][k] = 0.;
+        for (unsigned int l = 0; l < 4; ++l)
+          by_node[i][k] += volume * energy.second[k][l] * rows[i][l];
+      }
+    }
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+      {
+        double sum = 0.;
+        for (unsigned int k = 0; k < 4; ++k)
+          sum += rows[i][k] * by_node[j][k];
+        result.stiffness[i][j] = sum;
+      }
+    return true;
+  }
+} // namespace quoin

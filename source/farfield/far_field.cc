@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/farfield/far_field.h>
+#include <quoin/tdbem/plain_vector.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    using Eigen::MatrixXd;
+    using Eigen::VectorXd;
+
+    /**
+     * Without what is below rounding beside the largest of its row: the newest
+     * step reaches few elements, so that little is left.
+     */
+    Eigen::SparseMatrix<double, Eigen::RowMajor>
+    without_rounding(const MatrixXd &matrix)
+    {
+      constexpr double smallest = 1e-17;
+      std::vector<Eigen::Triplet<double>> entries;
+      for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+      {
+        const double threshold = smallest * matrix.row(i).cwiseAbs().maxCoeff();
+        for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+          if (std::abs(matrix(i, j)) > threshold)
+            entries.emplace_back(i, j, matrix(i, j));
+      }
+      Eigen::SparseMatrix<double, Eigen::RowMajor> result(matrix.rows(),
+                                                          matrix.cols());
+      result.setFromTriplets(entries.begin(), entries.end());
+      return result;
+    }
+  } // namespace
+
+  FarField::FarField(const std::string &name, FarFieldDomain domain,
+                     const BlockMesh<2> &mesh,
+                     const std::vector<unsigned int> &faces,
+                     const NodeExchange &exchange, const double thickness)
+    : problem(std::move(domain)),
+      transfer(problem.boundary, problem.interface, mesh, faces, exchange),
+      thickness(thickness), communicator(exchange.communicator()),
+      is_first_rank(
+          dealii::Utilities::MPI::this_mpi_process(exchange.communicator())
+          == 0)
+  {
+    load_name = name;
+    node_list = transfer.nodes();
+    for (const unsigned int element : problem.interface)
+      for (const unsigned int d : { 0U, 1U })
+        unknowns.push_back(2 * element + d);
+    problem.traction_is_given.resize(problem.boundary.n_unknowns(), true);
+    for (const unsigned int k : unknowns)
+      problem.traction_is_given[k] = false;
+    area.resize(Eigen::Index(unknowns.size()));
+    for (unsigned int e = 0; e < transfer.n_elements(); ++e)
+      area.segment<2>(2 * e).setConstant(transfer.lengths()[e] * thickness);
+    outer_area.resize(Eigen::Index(problem.boundary.n_unknowns()));
+    for (unsigned int e = 0; e < problem.boundary.n_elements(); ++e)
+      outer_area.segment<2>(2 * e).setConstant(
+          problem.boundary.elements[e].length() * thickness);
+    outer_area(unknowns).setZero();
+  }
+
+  FarField::~FarField() = default;
+
+  void FarField::set_time_step(const double time_step,
+                               const unsigned int n_substeps,
+                               const unsigned long n_steps)
+  {
+    substeps = n_substeps;
+    if (kernel)
+      return;
+    dt                          = time_step;
+    FormulationOptions &options = problem.formulation;
+    options.time_step           = time_step;
+    options.n_steps             = n_steps;
+    kernel    = make_lag_kernel(problem.boundary, problem.medium, options);
+    history   = make_history(*kernel, problem.boundary, options, communicator);
+    march     = std::make_unique<BoundaryMarch>(*kernel, *history,
+                                            problem.traction_is_given);
+    stiffness = march->condensed_matrix(unknowns);
+    impedance = dt * stiffness;
+    // What is implicit must dissipate, or the blocks' step is not stable.
+    const VectorXd root = area.cwiseSqrt();
+    const MatrixXd power
+        = root.asDiagonal() * impedance * root.cwiseInverse().asDiagonal();
+    const double smallest
+        = Eigen::SelfAdjointEigenSolver<MatrixXd>(
+              0.5 * (power + power.transpose()), Eigen::EigenvaluesOnly)
+              .eigenvalues()(0);
+    if (!(smallest > 0.))
+      throw InputError(
+          "section 'Boundary elements': the impedance of the first lag is not "
+          "positive. Take longer steps, 'Step ratio', or a boundary with "
+          "elements of more equal length.");
+  }
+
+  // -- stages ----------------------------------------------------------------
+
+  void FarField::begin_stage(State<2> &state, const bool continues)
+  {
+    prepared_step = 0.;
+    if (!continues)
+      state.far_field = FarFieldState();
+    resume_stage(state);
+  }
+
+  void FarField::save(State<2> &state) const
+  {
+    if (!march || !state.far_field.active)
+      return;
+    state.far_field.history = history->save();
+  }
+
+  void FarField::resume_stage(const State<2> &state)
+  {
+    const FarFieldState &far = state.far_field;
+    prepared_step            = 0.;
+    if (!far.active || far.history.empty())
+      return;
+    history->restore(far.history);
+    march->restore(to_eigen(far.displacement), to_eigen(far.traction));
+    frozen              = to_eigen(far.frozen);
+    p_of_history_is_due = true;
+    find_incident(far);
+  }
+
+  void FarField::start(const std::vector<CapturedNode> &captured,
+                       State<2> &state)
+  {
+    FarFieldState &far = state.far_field;
+    far                = FarFieldState();
+    far.active         = true;
+    for (const unsigned int c : captured_positions)
+      for (unsigned int d = 0; d < 2; ++d)
+        far.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
+    VectorXd values;
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const auto &u = captured[captured_positions[k]].displacement.v;
+          return std::array<double, 2>{ { u[0], u[1] } };
+        },
+        values);
+    far.origin      = to_vector(values);
+    const auto none = std::vector<double>(unknowns.size(), 0.);
+    far.last_motion = far.frozen = far.velocity_sum = far.traction_sum = none;
+    far.displacement.assign(problem.boundary.n_unknowns(), 0.);
+    far.velocity = far.traction = far.displacement;
+    frozen                      = to_eigen(none);
+    find_incident(far);
+  }
+
+  // -- a step of the boundary elements -------------------------------------
+
+  void FarField::find_incident(const FarFieldState &far)
+  {
+    const auto part
+        = [&](const VectorXd &values) { return VectorXd(values(unknowns)); };
+    const double begin = double(far.n_steps) * dt, end = begin + dt;
+    const VectorXd none = VectorXd::Zero(Eigen::Index(unknowns.size()));
+    incident_u = incident_velocity = incident_p = none;
+    if (incident_displacement)
+    {
+      incident_u = part(incident_displacement(end));
+      incident_velocity
+          = (incident_u - part(incident_displacement(begin))) / dt;
+      incident_p = part(incident_traction(begin, end));
+    }
+  }
+
+  VectorXd FarField::scattered_values(const double begin,
+                                      const double end) const
+  {
+    const auto n    = Eigen::Index(problem.boundary.n_unknowns());
+    VectorXd values = problem.given ? problem.given(begin, end)
+                                    : VectorXd(VectorXd::Zero(n));
+    if (!incident_displacement)
+      return values;
+    const VectorXd u = incident_displacement(end),
+                   t = incident_traction(begin, end);
+    for (Eigen::Index k = 0; k < n; ++k)
+      values[k] -= problem.traction_is_given[k] ? t[k] : u[k];
+    return values;
+  }
+
+  void FarField::begin_element_step(State<2> &state)
+  {
+    FarFieldState &far = state.far_field;
+    find_incident(far);
+    const double begin = double(far.n_steps) * dt;
+    const VectorXd rest
+        = march->condensed_load(unknowns, scattered_values(begin, begin + dt));
+    frozen = rest + stiffness * (to_eigen(far.last_motion) - incident_u)
+             + incident_p;
+    far.frozen          = to_vector(frozen);
+    p_of_history_is_due = true;
+    std::fill(far.velocity_sum.begin(), far.velocity_sum.end(), 0.);
+    std::fill(far.traction_sum.begin(), far.traction_sum.end(), 0.);
+    far.duration = far.square_sum = 0.;
+  }
+
+  void FarField::finish_element_step(State<2> &state)
+  {
+    FarFieldState &far  = state.far_field;
+    const double begin  = double(far.n_steps) * dt;
+    const VectorXd last = to_eigen(far.last_motion);
+    // By the mean velocities, so that the tractions are those that acted.
+    const VectorXd motion = problem.scheme == CouplingScheme::staggered
+                                ? last_u
+                                : VectorXd(last + to_eigen(far.velocity_sum));
+    VectorXd given        = scattered_values(begin, begin + dt);
+    given(unknowns)       = motion - incident_u;
+    march->begin_step(given);
+
+    const VectorXd mean      = (motion - last) / dt;
+    const VectorXd total     = march->p()(unknowns) + incident_p;
+    const VectorXd scattered = total - incident_p;
+    const auto work = [&](const VectorXd &traction, const VectorXd &velocity)
+    { return dt * traction.cwiseProduct(area).dot(velocity); };
+    const double radiated = work(scattered, mean - incident_velocity);
+    far.radiated += radiated;
+    far.incident += radiated - work(total, mean);
+    far.substep_sum
+        += far.square_sum
+           - far.duration * (impedance * mean).cwiseProduct(area).dot(mean);
+    const double scale = total.cwiseAbs().maxCoeff();
+    if (scale > 0.)
+      far.mismatch
+          = std::max(far.mismatch,
+                     (total - frozen - impedance * mean).cwiseAbs().maxCoeff()
+                         / std::max(scale, frozen.cwiseAbs().maxCoeff()));
+
+    if (problem.scheme == CouplingScheme::staggered)
+      march->finish_step(unknowns, to_eigen(far.traction_sum) / double(substeps)
+                                       - incident_p);
+    else
+      march->finish_step();
+    far.given += march->p()
+                     .cwiseProduct(outer_area)
+                     .dot(march->u() - to_eigen(far.displacement));
+    far.last_motion = to_vector(motion);
+    far.velocity    = to_vector((march->u() - to_eigen(far.displacement)) / dt);
+    far.displacement = to_vector(march->u());
+    far.traction     = to_vector(march->p());
+    far.substep      = 0;
+    ++far.n_steps;
+  }
+
+  // -- a step of the blocks --------------------------------------------------
+
+  void FarField::prepare(const StepContext &step,
+                         const std::vector<CapturedNode> &captured)
+  {
+    const bool same = step.dt_velocity == prepared_step
+                      && step.mass_damping == prepared_damping;
+    if (same)
+      return;
+    prepared_step    = step.dt_velocity;
+    prepared_damping = step.mass_damping;
+    gain.clear();
+    const double a = 0.5 * step.dt_velocity * step.mass_damping;
+    for (const unsigned int c : captured_positions)
+      gain.push_back(step.dt_velocity / (captured[c].mass * (1. + a)));
+    const MatrixXd v_by_p = thickness * transfer.mobility(gain);
+    const Eigen::Index n  = v_by_p.rows();
+    const Eigen::PartialPivLU<MatrixXd> lu(MatrixXd::Identity(n, n)
+                                           + 0.5 * impedance * v_by_p);
+    mobility            = without_rounding(v_by_p);
+    from_history        = lu.inverse();
+    from_motion         = without_rounding(lu.solve(0.5 * impedance));
+    p_of_history_is_due = true;
+  }
+
+  void FarField::correct(const StepContext &step,
+                         const std::vector<CapturedNode> &captured,
+                         State<2> &state)
+  {
+    FarFieldState &far = state.far_field;
+    const bool begins  = !far.active;
+    if (begins)
+      start(captured, state);
+    prepare(step, captured);
+    const bool staggered = problem.scheme == CouplingScheme::staggered;
+    from_rest            = staggered && begins;
+    if (far.substep == 0 && !from_rest)
+      begin_element_step(state);
+
+    const double a  = 0.5 * step.dt_velocity * step.mass_damping;
+    const auto node = [&](const unsigned int k) -> const CapturedNode &
+    { return captured[captured_positions[k]]; };
+    const auto free_velocity = [&](const unsigned int k)
+    {
+      std::array<double, 2> v{};
+      for (unsigned int d = 0; d < 2; ++d)
+        v[d] = (1. - a) / (1. + a) * node(k).velocity.v[d]
+               + gain[k] * (node(k).force.v[d] + far.held[2 * k + d]);
+      return v;
+    };
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          return std::array<double, 2>{ { node(k).velocity.v[0],
+                                          node(k).velocity.v[1] } };
+        },
+        v_before);
+    transfer.gather(free_velocity, v_free);
+    if (!staggered)
+    {
+      if (p_of_history_is_due)
+        p_of_history.noalias() = from_history * frozen;
+      p_of_history_is_due = false;
+      v_mean              = v_before + v_free;
+      p                   = p_of_history;
+      p.noalias() += from_motion * v_mean;
+    }
+    else
+    {
+      transfer.gather(
+          [&](const unsigned int k)
+          {
+            return std::array<double, 2>{ { node(k).displacement.v[0],
+                                            node(k).displacement.v[1] } };
+          },
+          last_u);
+      last_u -= to_eigen(far.origin);
+      p = frozen;
+      if (!from_rest)
+        p += stiffness * (last_u - to_eigen(far.last_motion))
+             * (double(substeps) / double(far.substep + 1));
+    }
+    v_after = v_free;
+    v_after.noalias() -= mobility * p;
+
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+    {
+      const auto v     = free_velocity(k);
+      const auto force = transfer.force(k, p);
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double v1 = v[d] - gain[k] * thickness * force[d];
+        state.velocity[node(k).node].v[d] = v1;
+        state.nodes[node(k).node].u[d]
+            = node(k).displacement.v[d] + step.dt * v1;
+      }
+    }
+  }
+
+  void FarField::account(const StepContext &step,
+                         const std::vector<CapturedNode> &captured,
+                         State<2> &state)
+  {
+    FarFieldState &far = state.far_field;
+    last_resultant     = {};
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+    {
+      const CapturedNode &before = captured[captured_positions[k]];
+      const auto traction        = transfer.force(k, p);
+      double reaction[2]         = { 0., 0. };
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        if (before.owner[d] != this)
+          continue;
+        const double v0    = before.velocity.v[d];
+        const double v1    = state.velocity[before.node].v[d];
+        const double force = far.held[2 * k + d] - thickness * traction[d];
+        const double rayleigh
+            = step.mass_damping * before.mass * 0.5 * (v0 + v1);
+        const double w0 = 0.5 * step.dt_before * v0;
+        const double w1 = 0.5 * step.dt * v1;
+        state.energy.external += force * w0;
+        state.pending.external += force * w1;
+        state.energy.damping += rayleigh * w0;
+        state.pending.damping += rayleigh * w1;
+        reaction[d] = force;
+        last_resultant[d] += force;
+      }
+      last_resultant[2]
+          += moment_of(reaction, before, state.nodes[before.node]);
+    }
+    if (is_first_rank)
+    {
+      // Of the work done on the domain, that on the scattered field has left.
+      const auto power = [&](const VectorXd &v) {
+        return (p - incident_p).cwiseProduct(area).dot(v - incident_velocity);
+      };
+      const double now  = 0.5 * step.dt_before * power(v_before);
+      const double next = 0.5 * step.dt * power(v_after);
+      state.energy.radiated += now;
+      state.energy.external += now;
+      state.pending.radiated += next;
+      state.pending.external += next;
+    }
+
+    if (from_rest)
+      return;
+    v_mean = 0.5 * (v_before + v_after);
+    Eigen::Map<VectorXd>(far.velocity_sum.data(), v_mean.size())
+        += step.dt_velocity * v_mean;
+    Eigen::Map<VectorXd>(far.traction_sum.data(), p.size()) += p;
+    far.duration += step.dt_velocity;
+    // Of what the impedance adds to the frozen tractions.
+    far.square_sum
+        += step.dt_velocity * (p - frozen).cwiseProduct(area).dot(v_mean);
+    if (++far.substep == substeps)
+      finish_element_step(state);
+  }
+
+  FarField::Ledger FarField::ledger(const State<2> &state) const
+  {
+    const FarFieldState &far = state.far_field;
+    return { far.radiated, far.substep_sum, far.incident, far.given,
+             far.mismatch };
+  }
+
+  VectorXd FarField::displacement(const State<2> &state) const
+  {
+    VectorXd u = to_eigen(state.far_field.displacement);
+    if (incident_displacement)
+      u += incident_displacement(double(state.far_field.n_steps) * dt);
+    return u;
+  }
+
+  VectorXd FarField::velocity(const State<2> &state) const
+  {
+    VectorXd v         = to_eigen(state.far_field.velocity);
+    const auto n_steps = double(state.far_field.n_steps);
+    if (incident_displacement && n_steps > 0.)
+      v += (incident_displacement(n_steps * dt)
+            - incident_displacement((n_steps - 1.) * dt))
+           / dt;
+    return v;
+  }
+
+  VectorXd FarField::traction(const State<2> &state) const
+  {
+    VectorXd t         = to_eigen(state.far_field.traction);
+    const auto n_steps = double(state.far_field.n_steps);
+    if (incident_displacement && n_steps > 0.)
+      t += incident_traction((n_steps - 1.) * dt, n_steps * dt);
+    return t;
+  }
+} // namespace quoin

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/farfield/boundary_geometry.h>
+#include <quoin/farfield/incident_waves.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
+#include <quoin/tdbem/line_source.h>
+#include <quoin/tdbem/plane_wave.h>
+#include <quoin/tdbem/rayleigh_wave.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace quoin
+{
+  namespace
+  {
+    using Eigen::Vector2d;
+    using Eigen::VectorXd;
+  } // namespace
+
+  IncidentWaves::IncidentWaves(const BoundaryElementParameters &settings,
+                               const ElasticMedium &medium,
+                               const Boundary &boundary,
+                               const std::vector<Vector2d> &points,
+                               const double duration, const double time_step)
+    : boundary(boundary),
+      tractions_at_end(settings.formulation
+                       == Formulation::convolution_quadrature)
+  {
+    // How much earlier or later than at the origin a wave can pass: hardly any
+    // is slower than 0.85 c2, and signals are correct beyond their range, too.
+    double reach = 0.;
+    for (const BoundaryElement &element : boundary.elements)
+      reach = std::max({ reach, element.a.norm(), element.b.norm() });
+    for (const Vector2d &x : points)
+      reach = std::max(reach, x.norm());
+    const double delay = reach / (0.85 * medium.c2);
+    // Tractions of convolution quadrature are asked for half a step later.
+    const double end = duration + time_step;
+    const SignalRange range{ -delay, end + delay, 0.5 * time_step };
+
+    for (const IncidentWaveParameters &wave : settings.waves)
+    {
+      using Type = IncidentWaveType;
+      check_place(wave, points);
+      // Analytic signals want the signal for as long again.
+      const auto signal
+          = wave.function(0., 2. * range.end - range.begin, range.step);
+      try
+      {
+        switch (wave.type)
+        {
+        case Type::plane_p:
+        case Type::plane_sv:
+          waves.push_back(std::make_unique<PlaneWave>(
+              medium,
+              wave.type == Type::plane_p ? PlaneWave::Type::P
+                                         : PlaneWave::Type::SV,
+              wave.half_plane, wave.angle, signal, range));
+          break;
+        case Type::rayleigh:
+          waves.push_back(std::make_unique<RayleighWave>(
+              medium, wave.angle > 0., signal, range));
+          break;
+        case Type::line_source:
+          waves.push_back(std::make_unique<LineSource>(
+              medium, Vector2d(wave.position[0], wave.position[1]), signal,
+              SignalRange{ 0., end, 0.25 * time_step }));
+          break;
+        }
+      }
+      catch (const InputError &error)
+      {
+        throw InputError("section 'Incident waves/" + wave.name
+                         + "': " + error.what());
+      }
+      check_start(wave, *waves.back(), signal, duration, time_step);
+      if (!wave.signal.report.empty())
+        report_texts.push_back("incident wave " + wave.name + ": "
+                               + wave.signal.report);
+    }
+  }
+
+  void IncidentWaves::check_place(const IncidentWaveParameters &wave,
+                                  const std::vector<Vector2d> &points) const
+  {
+    const std::string section = "section 'Incident waves/" + wave.name + "': ";
+    if (wave.half_plane)
+      for (const BoundaryElement &element : boundary.elements)
+      {
+        const double slack = 1e-9 * element.length();
+        if (element.a.y() > slack || element.b.y() > slack)
+          throw InputError(section
+                           + "'Space = half-plane' is the medium below y = "
+                             "0, but the boundary comes above it. Move it "
+                             "down.");
+      }
+    if (wave.type != IncidentWaveType::line_source)
+      return;
+    const Vector2d source(wave.position[0], wave.position[1]);
+    const std::string position = "'Position = " + number_text(source.x()) + ", "
+                                 + number_text(source.y()) + "'";
+    const NearestElement nearest = nearest_element(boundary, source);
+    const double length          = boundary.elements[nearest.element].length();
+    if (!nearest.inside_domain || nearest.distance < length)
+      throw InputError(section + position
+                       + " is not in the domain, or less than an element, "
+                       + number_text(length)
+                       + " m, away from the boundary. Move the source, or give "
+                         "shorter elements.");
+    for (const Vector2d &x : points)
+      if ((x - source).norm() < 1e-6 * length)
+        throw InputError(section + position
+                         + " is a point where the field is asked for, by "
+                           "'Histories' or the 'Sampled field': the field "
+                           "has no value there. Move one of them.");
+  }
+
+  void IncidentWaves::check_start(const IncidentWaveParameters &wave,
+                                  const IncidentField &field,
+                                  const std::function<double(double)> &signal,
+                                  const double duration, const double time_step)
+  {
+    const std::string section = "section 'Incident waves/" + wave.name + "': '"
+                                + wave.signal_entry + "': ";
+    double peak  = 0.;
+    const auto n = std::uint64_t(duration / time_step);
+    for (std::uint64_t k = 0; k <= n; ++k)
+    {
+      const double t = double(k) * time_step;
+      if (!std::isfinite(signal(t)))
+        throw InputError(section + "it is not finite at t = " + number_text(t)
+                         + " s. Change the expression so that it has a value "
+                           "at all times of the run.");
+      peak = std::max(peak, std::abs(signal(t)));
+    }
+    if (wave.type == IncidentWaveType::line_source)
+    {
+      if (!(std::abs(signal(0.)) <= 1e-3 * peak))
+        throw InputError(section + "the moment is " + number_text(signal(0.))
+                         + " N at t = 0 already. Let it begin at 0.");
+      return;
+    }
+    const double start
+        = field.displacements(boundary, 0.).lpNorm<Eigen::Infinity>();
+    if (!(start <= 1e-3 * peak))
+      throw InputError(
+          section + "at t = 0 the wave moves the boundary by "
+          + number_text(start) + " m already"
+          + (field.has_precursors()
+                 ? ", more than a thousandth of the peak, " + number_text(peak)
+                       + " m. Its displacement contains the Hilbert transform "
+                         "of the signal, which precedes the wave, far ahead if "
+                         "the signal has a mean. Let it start later, or take "
+                         "one without a mean, such as 'wavelet Ricker'."
+                 : std::string(". Everything must be at rest then: let it "
+                               "start later, and be 0 before.")));
+    if (field.has_precursors() && peak > 0.)
+      report_texts.push_back(
+          "incident wave " + wave.name
+          + ": its displacement contains the Hilbert transform of the signal; "
+            "at t = 0 the boundary has "
+          + number_text(start / peak) + " of the peak");
+  }
+
+  Vector2d IncidentWaves::displacement(const Vector2d &x,
+                                       const double time) const
+  {
+    Vector2d sum = Vector2d::Zero();
+    for (const auto &wave : waves)
+      sum += wave->displacement(x, time);
+    return sum;
+  }
+
+  VectorXd IncidentWaves::displacements(const double time) const
+  {
+    VectorXd sum = VectorXd::Zero(Eigen::Index(boundary.n_unknowns()));
+    for (const auto &wave : waves)
+      sum += wave->displacements(boundary, time);
+    return sum;
+  }
+
+  VectorXd IncidentWaves::tractions(const double begin, const double end) const
+  {
+    // The value at the end, of which a mean about it is one of second order.
+    const double shift = tractions_at_end ? 0.5 * (end - begin) : 0.;
+    VectorXd sum       = VectorXd::Zero(Eigen::Index(boundary.n_unknowns()));
+    for (const auto &wave : waves)
+      sum += wave->mean_tractions(boundary, begin + shift, end + shift);
+    return sum;
+  }
+} // namespace quoin

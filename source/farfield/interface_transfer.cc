@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/farfield/interface_transfer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    using Eigen::Vector2d;
+
+    std::string place(const Vector2d &x)
+    {
+      std::ostringstream text;
+      text << "(" << x.x() << ", " << x.y() << ") m";
+      return text.str();
+    }
+
+    /** Of the segment @p element and the edge from @p a to @p b. */
+    struct Overlap
+    {
+      double begin, end; /**< places on the edge, 0 to 1 */
+      double distance;   /**< of their middles across the element [m] */
+    };
+
+    Overlap overlap(const BoundaryElement &element, const Vector2d &a,
+                    const Vector2d &b)
+    {
+      const Vector2d edge = b - a;
+      const auto place    = [&](const Vector2d &x)
+      { return edge.dot(x - a) / edge.squaredNorm(); };
+      // The domain of the elements is on the other side.
+      const double from     = std::clamp(place(element.b), 0., 1.),
+                   to       = std::clamp(place(element.a), 0., 1.);
+      const Vector2d middle = a + 0.5 * (from + to) * edge;
+      return { from, to,
+               std::abs(element.normal().dot(middle - element.middle())) };
+    }
+  } // namespace
+
+  InterfaceTransfer::InterfaceTransfer(
+      const Boundary &boundary, const std::vector<unsigned int> &elements,
+      const BlockMesh<2> &mesh, const std::vector<unsigned int> &faces,
+      const NodeExchange &exchange)
+    : communicator(exchange.communicator())
+  {
+    std::vector<double> covered(elements.size(), 0.);
+    std::map<unsigned int, std::vector<Entry>> rows; // of all nodes
+    for (const unsigned int f : faces)
+    {
+      const BlockFace &face = mesh.boundary_faces[f];
+      const auto &p         = mesh.vertices[face.vertices[0]],
+                 &q         = mesh.vertices[face.vertices[1]];
+      const Vector2d a(p[0], p[1]), b(q[0], q[1]);
+      const double size = (b - a).norm();
+      double found      = 0.;
+      for (unsigned int e = 0; e < elements.size(); ++e)
+      {
+        const BoundaryElement &element = boundary.elements[elements[e]];
+        // Elements may be chords of several edges of a curved boundary.
+        const double reach = element.length() + size;
+        if ((element.middle() - 0.5 * (a + b)).norm() > 0.51 * reach
+            || -element.tangent().dot(b - a) < 0.5 * size)
+          continue;
+        const Overlap part = overlap(element, a, b);
+        const double share = part.end - part.begin;
+        if (share < 1e-6 || part.distance > 0.3 * element.length())
+          continue;
+        found += share;
+        covered[e] += share * size;
+        // Integrals of the edge's linear functions over the part.
+        const double mean = 0.5 * (part.begin + part.end);
+        rows[face.vertices[0]].push_back({ e, share * size * (1. - mean) });
+        rows[face.vertices[1]].push_back({ e, share * size * mean });
+      }
+      if (std::abs(found - 1.) > 1e-3)
+        throw InputError("the edge of a block at " + place(0.5 * (a + b))
+                         + " lies along "
+                         + (found < 1. ? "no boundary element, or not all of "
+                                         "it does"
+                                       : "more than one boundary element")
+                         + ". Interface and load must be of the same curves, "
+                           "with the domain on the other side of them.");
+    }
+    for (unsigned int e = 0; e < elements.size(); ++e)
+    {
+      const BoundaryElement &element = boundary.elements[elements[e]];
+      length.push_back(element.length());
+      if (covered[e] < 0.5 * element.length())
+        throw InputError("the boundary element at " + place(element.middle())
+                         + " lies along no edge of a block.");
+    }
+
+    row_begin = { 0 };
+    for (auto &[vertex, row] : rows)
+    {
+      if (!exchange.owns(vertex))
+        continue;
+      node_list.push_back(exchange.local(vertex));
+      std::sort(row.begin(), row.end(),
+                [](const Entry &x, const Entry &y)
+                { return x.element < y.element; });
+      for (const Entry &entry : row)
+      {
+        const double weight = entry.weight / covered[entry.element];
+        if (entries.size() > row_begin.back()
+            && entries.back().element == entry.element)
+          entries.back().weight += weight;
+        else
+          entries.push_back({ entry.element, weight });
+      }
+      row_begin.push_back(entries.size());
+    }
+  }
+
+  Eigen::MatrixXd
+  InterfaceTransfer::congruence(const std::vector<double> &diagonal) const
+  {
+    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n_elements(), n_elements());
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+      for (unsigned int i = row_begin[k]; i < row_begin[k + 1]; ++i)
+        for (unsigned int j = row_begin[k]; j < row_begin[k + 1]; ++j)
+          result(entries[i].element, entries[j].element)
+              += entries[i].weight * diagonal[k] * entries[j].weight
+                 * length[entries[j].element];
+    MPI_Allreduce(MPI_IN_PLACE, result.data(), int(result.size()), MPI_DOUBLE,
+                  MPI_SUM, communicator);
+    return result;
+  }
+
+  Eigen::MatrixXd
+  InterfaceTransfer::mobility(const std::vector<double> &gain) const
+  {
+    const Eigen::MatrixXd matrix = congruence(gain);
+    Eigen::MatrixXd result
+        = Eigen::MatrixXd::Zero(2 * matrix.rows(), 2 * matrix.cols());
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i)
+      for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+        result(2 * i, 2 * j) = result(2 * i + 1, 2 * j + 1) = matrix(i, j);
+    return result;
+  }
+
+  void InterfaceTransfer::sum(Eigen::VectorXd &values) const
+  {
+    MPI_Allreduce(MPI_IN_PLACE, values.data(), int(values.size()), MPI_DOUBLE,
+                  MPI_SUM, communicator);
+  }
+} // namespace quoin

@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/farfield/static_far_field.h>
+#include <quoin/tdbem/exterior_stiffness.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+
+namespace quoin
+{
+  namespace
+  {
+    using Eigen::MatrixXd;
+    using Eigen::VectorXd;
+  } // namespace
+
+  StaticFarField::StaticFarField(const std::string &name,
+                                 const FarFieldDomain &domain,
+                                 const BlockMesh<2> &mesh,
+                                 const std::vector<unsigned int> &faces,
+                                 const NodeExchange &exchange,
+                                 const double thickness)
+    : transfer(domain.boundary, domain.interface, mesh, faces, exchange),
+      thickness(thickness),
+      is_first_rank(
+          dealii::Utilities::MPI::this_mpi_process(exchange.communicator())
+          == 0)
+  {
+    load_name                           = name;
+    node_list                           = transfer.nodes();
+    std::vector<bool> traction_is_given = domain.traction_is_given;
+    traction_is_given.resize(domain.boundary.n_unknowns(), true);
+    std::vector<unsigned int> unknowns;
+    for (const unsigned int element : domain.interface)
+      for (const unsigned int d : { 0U, 1U })
+      {
+        unknowns.push_back(2 * element + d);
+        traction_is_given[unknowns.back()] = false;
+      }
+    const ExteriorStiffness exterior
+        = exterior_stiffness(domain.boundary, domain.medium,
+                             Projection::galerkin, unknowns, traction_is_given);
+    stiffness          = exterior.traction;
+    relative_asymmetry = exterior.asymmetry;
+    areas.resize(stiffness.rows());
+    for (Eigen::Index k = 0; k < areas.size(); ++k)
+      areas[k] = transfer.lengths()[k / 2] * thickness;
+  }
+
+  void StaticFarField::begin_stage(State<2> &state, const bool continues)
+  {
+    prepared_step = 0.;
+    if (continues)
+      return;
+    const double stored    = state.static_far_field.stored;
+    state.static_far_field = { false, {}, {}, stored, stored };
+  }
+
+  void StaticFarField::resume_stage(const State<2> &)
+  {
+    prepared_step = 0.;
+  }
+
+  void StaticFarField::start(const std::vector<CapturedNode> &captured,
+                             State<2> &state)
+  {
+    StaticFarFieldState &far = state.static_far_field;
+    far.active               = true;
+    for (const unsigned int c : captured_positions)
+      for (unsigned int d = 0; d < 2; ++d)
+        far.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
+    gather_displacement(captured, u);
+    far.origin.assign(u.data(), u.data() + u.size());
+  }
+
+  void
+  StaticFarField::gather_displacement(const std::vector<CapturedNode> &captured,
+                                      VectorXd &means) const
+  {
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const auto &value = captured[captured_positions[k]].displacement.v;
+          return std::array<double, 2>{ { value[0], value[1] } };
+        },
+        means);
+  }
+
+  void StaticFarField::prepare(const StepContext &step,
+                               const std::vector<CapturedNode> &captured)
+  {
+    if (step.dt == prepared_step && step.dt_velocity == prepared_velocity_step)
+      return;
+    prepared_step          = step.dt;
+    prepared_velocity_step = step.dt_velocity;
+    gain.clear();
+    for (const unsigned int c : captured_positions)
+      gain.push_back(step.dt_velocity / captured[c].mass);
+    const MatrixXd mobility = thickness * transfer.mobility(gain);
+    const Eigen::Index n    = stiffness.rows();
+    from_motion
+        = Eigen::PartialPivLU<MatrixXd>(MatrixXd::Identity(n, n)
+                                        + 0.25 * step.dt * stiffness * mobility)
+              .solve(stiffness);
+  }
+
+  void StaticFarField::correct(const StepContext &step,
+                               const std::vector<CapturedNode> &captured,
+                               State<2> &state)
+  {
+    StaticFarFieldState &far = state.static_far_field;
+    if (!far.active)
+      start(captured, state);
+    prepare(step, captured);
+
+    const auto node = [&](const unsigned int k) -> const CapturedNode &
+    { return captured[captured_positions[k]]; };
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          return std::array<double, 2>{ { node(k).velocity.v[0],
+                                          node(k).velocity.v[1] } };
+        },
+        v_before);
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          std::array<double, 2> change{};
+          for (unsigned int d = 0; d < 2; ++d)
+            change[d] = gain[k] * (node(k).force.v[d] + far.held[2 * k + d]);
+          return change;
+        },
+        change);
+    gather_displacement(captured, u);
+    u -= VectorXd::Map(far.origin.data(), u.size());
+    // With mass damping of the added mass, too, so that this is all of it.
+    mean = u + 0.25 * step.dt * change
+           + 0.25 * (step.dt - step.dt_before) * v_before;
+    p.noalias() = from_motion * mean;
+
+    const double a = 0.5 * step.dt_velocity * step.mass_damping;
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+    {
+      const auto force = transfer.force(k, p);
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double total
+            = node(k).force.v[d] + far.held[2 * k + d] - thickness * force[d];
+        const double v1
+            = ((1. - a) * node(k).velocity.v[d] + gain[k] * total) / (1. + a);
+        state.velocity[node(k).node].v[d] = v1;
+        state.nodes[node(k).node].u[d]
+            = node(k).displacement.v[d] + step.dt * v1;
+      }
+    }
+  }
+
+  void StaticFarField::account(const StepContext &step,
+                               const std::vector<CapturedNode> &captured,
+                               State<2> &state)
+  {
+    StaticFarFieldState &far = state.static_far_field;
+    last_resultant           = {};
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+    {
+      const CapturedNode &before = captured[captured_positions[k]];
+      const auto traction        = transfer.force(k, p);
+      double reaction[2]         = { 0., 0. };
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const double v0 = before.velocity.v[d];
+        const double v1 = state.velocity[before.node].v[d];
+        const double w0 = 0.5 * step.dt_before * v0;
+        const double w1 = 0.5 * step.dt * v1;
+        const bool own  = before.owner[d] == this;
+        // Who else moves the node works against the domain, too.
+        const double held = own ? far.held[2 * k + d] : thickness * traction[d];
+        state.energy.external += held * w0;
+        state.pending.external += held * w1;
+        if (!own)
+          continue;
+        const double rayleigh
+            = step.mass_damping * before.mass * 0.5 * (v0 + v1);
+        state.energy.damping += rayleigh * w0;
+        state.pending.damping += rayleigh * w1;
+        reaction[d] = held - thickness * traction[d];
+        last_resultant[d] += reaction[d];
+      }
+      last_resultant[2]
+          += moment_of(reaction, before, state.nodes[before.node]);
+    }
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const NodeVector<2> &v
+              = state.velocity[captured[captured_positions[k]].node];
+          return std::array<double, 2>{ { v.v[0], v.v[1] } };
+        },
+        v_after);
+    book_stored(step, state);
+  }
+
+  void StaticFarField::book_stored(const StepContext &step, State<2> &state)
+  {
+    // Positions half a step before and after, between which the trapezoidal
+    // work of K times their mean is the change of the energy.
+    v_before *= 0.5 * step.dt_before;
+    v_after *= 0.5 * step.dt;
+    before                   = u - v_before;
+    after                    = u + v_after;
+    elastic_before.noalias() = stiffness * before;
+    elastic.noalias()        = 0.5 * stiffness * after;
+    elastic += 0.5 * elastic_before;
+    StaticFarFieldState &far = state.static_far_field;
+    far.stored               = far.stored_before
+                 + 0.5 * elastic_before.cwiseProduct(areas).dot(before)
+                 + elastic.cwiseProduct(areas).dot(v_before);
+    if (!is_first_rank)
+      return;
+    const auto damping = (p - elastic).cwiseProduct(areas);
+    state.energy.damping += damping.dot(v_before);
+    state.pending.damping += damping.dot(v_after);
+  }
+
+  void StaticFarField::hold(const NodeVector<2> *force, State<2> &state) const
+  {
+    StaticFarFieldState &far = state.static_far_field;
+    if (far.active)
+      return;
+    far.active = true;
+    far.held.clear();
+    for (const unsigned int node : node_list)
+      for (unsigned int d = 0; d < 2; ++d)
+        far.held.push_back(-force[node].v[d]);
+    VectorXd means;
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const double *u = state.nodes[node_list[k]].u;
+          return std::array<double, 2>{ { u[0], u[1] } };
+        },
+        means);
+    far.origin.assign(means.data(), means.data() + means.size());
+  }
+
+  double StaticFarField::add_forces(const NodeRecord<2> *nodes,
+                                    const StaticFarFieldState &far,
+                                    NodeVector<2> *force) const
+  {
+    VectorXd means;
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const double *u = nodes[node_list[k]].u;
+          return std::array<double, 2>{ { u[0], u[1] } };
+        },
+        means);
+    means -= VectorXd::Map(far.origin.data(), means.size());
+    const VectorXd traction = stiffness * means;
+    for (unsigned int k = 0; k < node_list.size(); ++k)
+    {
+      const auto elastic = transfer.force(k, traction);
+      for (unsigned int d = 0; d < 2; ++d)
+        force[node_list[k]].v[d]
+            += far.held[2 * k + d] - thickness * elastic[d];
+    }
+    return far.stored_before + 0.5 * traction.cwiseProduct(areas).dot(means);
+  }
+
+  StaticFarField::NodalStiffness
+  StaticFarField::nodal_stiffness(const NodeExchange &exchange) const
+  {
+    const MPI_Comm communicator = exchange.communicator();
+    std::vector<unsigned int> own;
+    for (const unsigned int node : node_list)
+      own.push_back(exchange.global(node));
+    NodalStiffness result;
+    for (const auto &part :
+         dealii::Utilities::MPI::all_gather(communicator, own))
+      result.nodes.insert(result.nodes.end(), part.begin(), part.end());
+    std::sort(result.nodes.begin(), result.nodes.end());
+
+    const Eigen::Index n = transfer.n_elements();
+    MatrixXd all         = MatrixXd::Zero(result.nodes.size(), n);
+    const MatrixXd rows  = transfer.weights();
+    for (unsigned int k = 0; k < own.size(); ++k)
+      all.row(std::lower_bound(result.nodes.begin(), result.nodes.end(), own[k])
+              - result.nodes.begin())
+          = rows.row(k);
+    MPI_Allreduce(MPI_IN_PLACE, all.data(), all.size(), MPI_DOUBLE, MPI_SUM,
+                  communicator);
+    result.rows = MatrixXd::Zero(2 * own.size(), 2 * result.nodes.size());
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int e = 0; e < 2; ++e)
+      {
+        MatrixXd part(n, n); // force by displacement of the elements
+        for (Eigen::Index i = 0; i < n; ++i)
+          for (Eigen::Index j = 0; j < n; ++j)
+            part(i, j) = areas[2 * i] * stiffness(2 * i + d, 2 * j + e);
+        const MatrixXd block = rows * part * all.transpose();
+        for (Eigen::Index k = 0; k < block.rows(); ++k)
+          for (Eigen::Index j = 0; j < block.cols(); ++j)
+            result.rows(2 * k + d, 2 * j + e) = block(k, j);
+      }
+    return result;
+  }
+} // namespace quoin

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/problems/initial_motion.h>
+#include <quoin/base/exceptions.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    /** The two expressions of @p name; false if it is empty. */
+    bool read_pair(const ParameterSection &section, const std::string &name,
+                   std::array<SpaceTimeFunction, 2> &value)
+    {
+      if (section.text(name).empty())
+        return false;
+      const auto parts
+          = dealii::Utilities::split_string_list(section.text(name), ';');
+      if (parts.size() != 2)
+        section.fail(name, "must be two expressions of x and y with a "
+                           "semicolon between them.");
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        try
+        {
+          value[d] = SpaceTimeFunction(parts[d], section.folder());
+        }
+        catch (const InputError &error)
+        {
+          section.fail(name, error.what());
+        }
+        if (value[d].depends_on_time())
+          section.fail(name, "must not depend on time: it is the motion at "
+                             "t = 0. Give expressions of x and y alone.");
+      }
+      return true;
+    }
+  } // namespace
+
+  void InitialMotion::declare(dealii::ParameterHandler &prm)
+  {
+    for (const auto &[name, unit] :
+         { std::pair{ "Displacement", "[m]" }, { "Velocity", "[m/s]" } })
+      prm.declare_entry(name, "", dealii::Patterns::Anything(),
+                        std::string("Horizontal and vertical, of all nodes at "
+                                    "t = 0: two expressions of x and y [m] "
+                                    "with a semicolon between; empty: none ")
+                            + unit);
+  }
+
+  InitialMotion InitialMotion::read(const ParameterSection &section)
+  {
+    InitialMotion motion;
+    const bool displaced
+        = read_pair(section, "Displacement", motion.displacement);
+    const bool moving = read_pair(section, "Velocity", motion.velocity);
+    motion.is_given   = displaced || moving;
+    return motion;
+  }
+
+  void InitialMotion::apply(State<2> &state) const
+  {
+    for (std::size_t i = 0; i < state.nodes.size(); ++i)
+    {
+      NodeRecord<2> &node = state.nodes[i];
+      const Eigen::Vector2d x(node.X[0], node.X[1]);
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        node.u[d]              = displacement[d](x, 0.);
+        state.velocity[i].v[d] = velocity[d](x, 0.);
+        if (!std::isfinite(node.u[d]) || !std::isfinite(state.velocity[i].v[d]))
+        {
+          std::ostringstream message;
+          message << "section 'Initial motion': the motion at (" << x[0] << ", "
+                  << x[1]
+                  << ") m is not a finite number. Correct the expressions.";
+          throw InputError(message.str());
+        }
+      }
+    }
+  }
+} // namespace quoin

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/problems/mesh_parameters.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/layout/rock_layout.h>
+#include <quoin/layout/wall_layout.h>
+
+#include <filesystem>
+
+namespace quoin
+{
+  void declare_mesh(dealii::ParameterHandler &prm)
+  {
+    using dealii::Patterns::Anything;
+    using dealii::Patterns::Selection;
+    prm.enter_subsection("Mesh");
+    prm.declare_entry("File", "", Anything(),
+                      "gmsh geometry (.geo) or mesh (.msh), relative to "
+                      "the folder of this file; coordinates in [m]. Empty "
+                      "with a wall of section 'Wall' or rock of section "
+                      "'Rock'.");
+    prm.declare_entry("Triangles", "plain",
+                      Selection("plain|crossed|quadratic"),
+                      "plain: the file's or gmsh's triangles; crossed: "
+                      "quadrangles, each cut into four triangles by its "
+                      "diagonals, which do not lock in plastic flow; "
+                      "quadratic: those of 'plain' with nodes in the middle "
+                      "of their edges, for the implicit solver.");
+    prm.declare_entry("Joints along", "", Anything(),
+                      "Physical curves along which the mesh is split into "
+                      "blocks; empty with a wall of section 'Wall' or rock of "
+                      "section 'Rock': all of its joints.");
+    prm.declare_entry("Joints between", "", Anything(),
+                      "Pairs a:b of physical surfaces between which it is "
+                      "split, or 'all'.");
+    prm.declare_entry("Joint ends inside blocks", "keep",
+                      Selection("keep|refuse"),
+                      "Joints that end inside a block: keep them as "
+                      "cracks, or stop.");
+    prm.leave_subsection();
+
+    prm.enter_subsection("Wall");
+    WallParameters::declare(prm);
+    prm.leave_subsection();
+
+    prm.enter_subsection("Rock");
+    RockParameters::declare(prm);
+    prm.leave_subsection();
+  }
+
+  namespace
+  {
+    void lay(const WallParameters &wall, Parameters &parameters)
+    {
+      const WallLayout layout     = lay_wall(wall);
+      const GmshGeometry geometry = wall_geometry(wall, layout);
+      parameters.generated = { "wall", geometry.text, wall_report(layout), "" };
+      parameters.split.joints_along = geometry.joint_curves;
+    }
+
+    void lay(const RockParameters &rock, Parameters &parameters)
+    {
+      const RockLayout layout     = lay_rock(rock);
+      const GmshGeometry geometry = rock_geometry(rock, layout);
+      parameters.generated = { "rock", geometry.text, rock_report(rock, layout),
+                               rock_statistics(rock, layout) };
+      parameters.split.joints_along = geometry.joint_curves;
+    }
+
+    WallParameters read_wall(const ParameterSection &top)
+    {
+      return WallParameters::read(ParameterSection(top, "Wall"));
+    }
+
+    /** Lays the wall or the rock, if the file has one. */
+    bool read_generated(const ParameterSection &top, Parameters &parameters)
+    {
+      const WallParameters wall = read_wall(top);
+      const RockParameters rock = RockParameters::read(top);
+      const bool has_wall       = wall.bond != WallBond::none;
+      const bool has_rock       = !rock.outline.empty();
+      if (has_wall && has_rock)
+        ParameterSection(top, "Rock")
+            .fail("Outline",
+                  "does not go with a wall of section 'Wall': leave it "
+                  "empty, or set 'Wall/Bond = none'.");
+      if (!has_wall && !has_rock)
+        return false;
+      {
+        const ParameterSection section(top, "Mesh");
+        if (!section.text("File").empty())
+          section.fail("File",
+                       "does not go with a wall of section 'Wall' or rock of "
+                       "section 'Rock': leave it empty, or set 'Wall/Bond = "
+                       "none' and 'Rock/Outline' empty.");
+      }
+      try
+      {
+        if (has_wall)
+          lay(wall, parameters);
+        else
+          lay(rock, parameters);
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(top.file() + ", " + error.what());
+      }
+      return true;
+    }
+
+    void read_mesh_file(const ParameterSection &section, Parameters &parameters)
+    {
+      const std::string name = section.text("File");
+      if (name.empty())
+        section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
+                             "a bond, or section 'Rock' an outline.");
+      parameters.mesh_file
+          = name.front() == '/' ? name : section.folder() + name;
+      std::error_code error; // a name may be too long for any file
+      if (!std::filesystem::exists(parameters.mesh_file, error))
+        section.fail("File",
+                     "does not exist: there is no file '" + parameters.mesh_file
+                         + "'. Give the path from the folder of the parameter "
+                           "file.");
+      const auto extension
+          = std::filesystem::path(parameters.mesh_file).extension();
+      if (extension != ".geo" && extension != ".msh")
+        section.fail("File", "must end in .geo or .msh.");
+    }
+  } // namespace
+
+  void read_mesh(const ParameterSection &top, Parameters &parameters)
+  {
+    const bool generated = read_generated(top, parameters);
+    const ParameterSection section(top, "Mesh");
+    parameters.triangles = section.choice<TriangleKind>(
+        "Triangles", { { "plain", TriangleKind::plain },
+                       { "crossed", TriangleKind::crossed },
+                       { "quadratic", TriangleKind::quadratic } });
+    if (!generated)
+      read_mesh_file(section, parameters);
+    if (!generated || !section.text("Joints along").empty())
+      parameters.split.joints_along = section.list("Joints along");
+    parameters.split.joints_between = section.pairs(
+        "Joints between", "must be 'all' or pairs such as rock:concrete.",
+        &parameters.split.between_all);
+    parameters.split.joint_ends = section.choice<SplitOptions::JointEnds>(
+        "Joint ends inside blocks",
+        { { "keep", SplitOptions::keep }, { "refuse", SplitOptions::refuse } });
+  }
+
+  void check_triangles(const ParameterSection &top,
+                       const Parameters &parameters)
+  {
+    if (parameters.triangles == TriangleKind::quadratic
+        && !parameters.is_implicit)
+      ParameterSection(top, "Mesh")
+          .fail("Triangles",
+                "needs 'Solver = implicit': explicit steps divide forces by "
+                "masses of nodes, and the corners of quadratic triangles have "
+                "none. Take 'plain' or 'crossed'.");
+  }
+} // namespace quoin

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/results/field_output.h>
+#include <quoin/tdbem/tangential_stress.h>
+
+namespace quoin
+{
+  BlockFields block_fields(const Model &model, const State<2> &state)
+  {
+    // Blocks that were removed are left out with their nodes and cells.
+    BlockFields fields;
+    const BlockMesh<2> &mesh = model.mesh();
+    std::vector<std::array<double, 4>> stress;
+    std::vector<PlaneTensor> strain;
+    model.blocks().stresses(state.nodes.data(), state.plastic, stress, strain);
+    stress.resize(model.n_cells(), { { 0., 0., 0., 0. } }); // rigid
+    strain.resize(model.n_cells(), { { 0., 0., 0. } });
+    for (unsigned int b = 0; b < model.n_blocks(); ++b)
+    {
+      const unsigned int block = model.first_block() + b;
+      if (state.is_absent(block))
+        continue;
+      const NodeRange range    = model.block_nodes(block);
+      const std::int32_t shift = fields.position.size() - range.begin;
+      for (std::size_t i = range.begin; i < range.end; ++i)
+      {
+        const NodeRecord<2> &node = state.nodes[i];
+        fields.position.push_back({ { node.X[0], node.X[1] } });
+        fields.displacement.push_back({ { node.u[0], node.u[1] } });
+        fields.velocity.push_back(
+            { { state.velocity[i].v[0], state.velocity[i].v[1] } });
+      }
+      for (unsigned int c = mesh.block_first_cell[block];
+           c < mesh.block_first_cell[block + 1]; ++c)
+      {
+        const unsigned int own = c - model.first_cell();
+        fields.cells.emplace_back();
+        for (unsigned int k = 0; k < 3; ++k)
+          fields.cells.back()[k]
+              = static_cast<std::int32_t>(model.cells()[own][k]) + shift;
+        fields.stress.push_back(stress[own]);
+        fields.strain.push_back(strain[own]);
+        if (model.blocks().is_plastic())
+        {
+          const bool is_rigid = own >= model.n_deformable_cells();
+          fields.yielding.push_back(is_rigid ? 0 : state.plastic.yielding[own]);
+          fields.plastic_shear.push_back(is_rigid ? 0.
+                                                  : state.plastic.shear[own]);
+        }
+        fields.block.push_back(block);
+        fields.material.push_back(model.material_of_cell(c));
+      }
+    }
+    return fields;
+  }
+
+  JointFields joint_fields(const Model &model, const State<2> &state)
+  {
+    JointFields fields;
+    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    {
+      const auto &segment = model.joints().segment(i);
+      // A joint between two ranks is written by that of its lower side.
+      if (segment.lower[0] >= model.exchange().n_owned()
+          || state.joints.handed_over[i])
+        continue;
+      const auto gaps = model.joints().gaps(state.nodes.data(), i);
+      fields.joint_set.push_back(segment.set);
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const NodeRecord<2> &a = state.nodes[segment.lower[k]];
+        const NodeRecord<2> &b = state.nodes[segment.upper[k]];
+        const unsigned int p   = 2 * i + k;
+        fields.position.push_back(
+            { { 0.5 * (a.X[0] + b.X[0]), 0.5 * (a.X[1] + b.X[1]) } });
+        fields.displacement.push_back(
+            { { 0.5 * (a.u[0] + b.u[0]), 0.5 * (a.u[1] + b.u[1]) } });
+        fields.opening.push_back(gaps[k][0]);
+        fields.slip.push_back(gaps[k][1]);
+        fields.normal_traction.push_back(state.joints.normal_traction[p]);
+        fields.shear_traction.push_back(state.joints.shear_traction[p]);
+        if (model.joints().can_soften())
+        {
+          fields.damage.push_back(1. - state.joints.bond[p]);
+          fields.crushing.push_back(state.joints.crushing[p]);
+        }
+        fields.state.push_back(state.joints.state[p]);
+      }
+    }
+    return fields;
+  }
+
+  JointFields contact_fields(const BlockContacts &contacts,
+                             const State<2> &state)
+  {
+    JointFields fields;
+    const auto &pairs = state.contacts.pairs;
+    for (unsigned int i = 0; i < pairs.size(); ++i)
+    {
+      BlockContacts::Contact contact;
+      if (!contacts.is_own(state.contacts, i)
+          || !contacts.contact(state.contacts, i, contact))
+        continue;
+      fields.joint_set.push_back(contact.set);
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const auto &[x, y]   = contact.position[k];
+        const auto &[x0, y0] = contact.reference[k];
+        fields.position.push_back(contact.reference[k]);
+        fields.displacement.push_back({ { x - x0, y - y0 } });
+        fields.opening.push_back(contact.opening[k]);
+        fields.slip.push_back(contact.slip[k]);
+        fields.normal_traction.push_back(pairs[i].points[k].normal_traction);
+        fields.shear_traction.push_back(pairs[i].points[k].shear_traction);
+        fields.state.push_back(pairs[i].points[k].state);
+      }
+    }
+    return fields;
+  }
+
+  BoundaryState boundary_state(const FarField &far, const State<2> &state)
+  {
+    BoundaryState result{
+      far.displacement(state), far.velocity(state), far.traction(state), {}
+    };
+    result.hoop_stress
+        = TangentialStress(far.domain().boundary, far.domain().medium)(
+            result.displacement, result.traction);
+    return result;
+  }
+
+  BoundaryFields boundary_fields(const BoundaryGeometry &geometry,
+                                 const BoundaryState &state)
+  {
+    const auto pair = [](const Eigen::VectorXd &values, const unsigned int e) {
+      return std::array<double, 2>{ { values[2 * e], values[2 * e + 1] } };
+    };
+    BoundaryFields fields;
+    for (unsigned int e = 0; e < geometry.boundary.n_elements(); ++e)
+    {
+      const BoundaryElement &element = geometry.boundary.elements[e];
+      fields.a.push_back({ { element.a.x(), element.a.y() } });
+      fields.b.push_back({ { element.b.x(), element.b.y() } });
+      fields.boundary.push_back(std::int32_t(geometry.owner[e]));
+      fields.displacement.push_back(pair(state.displacement, e));
+      fields.velocity.push_back(pair(state.velocity, e));
+      fields.traction.push_back(pair(state.traction, e));
+      fields.hoop_stress.push_back(state.hoop_stress[e]);
+    }
+    return fields;
+  }
+} // namespace quoin

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/results/history_parameters.h>
+
+#include <map>
+
+namespace quoin
+{
+  namespace
+  {
+    struct Kind
+    {
+      HistoryQuantity quantity;
+      unsigned int component;
+      const char *unit;
+    };
+
+    const std::map<std::string, Kind> &kinds()
+    {
+      using Q                                        = HistoryQuantity;
+      static const std::map<std::string, Kind> table = {
+        { "displacement x", { Q::displacement, 0, "m" } },
+        { "displacement y", { Q::displacement, 1, "m" } },
+        { "velocity x", { Q::velocity, 0, "m/s" } },
+        { "velocity y", { Q::velocity, 1, "m/s" } },
+        { "stress xx", { Q::stress, 0, "Pa" } },
+        { "stress yy", { Q::stress, 1, "Pa" } },
+        { "stress xy", { Q::stress, 2, "Pa" } },
+        { "stress zz", { Q::stress, 3, "Pa" } },
+        { "stress 1", { Q::stress, 4, "Pa" } },
+        { "stress 2", { Q::stress, 5, "Pa" } },
+        { "yielding", { Q::yielding, 0, "-" } },
+        { "plastic shear strain", { Q::yielding, 1, "-" } },
+        { "rotation", { Q::rotation, 0, "deg" } },
+        { "joint opening", { Q::joint, 0, "m" } },
+        { "joint slip", { Q::joint, 1, "m" } },
+        { "joint normal traction", { Q::joint, 2, "Pa" } },
+        { "joint shear traction", { Q::joint, 3, "Pa" } },
+        { "joint state", { Q::joint, 4, "-" } },
+        { "joint damage", { Q::joint, 5, "-" } },
+        { "joint crushing", { Q::joint, 6, "m" } },
+        { "reaction x", { Q::reaction, 0, "N" } },
+        { "reaction y", { Q::reaction, 1, "N" } },
+        { "reaction moment", { Q::reaction, 2, "N m" } },
+        { "platen displacement x", { Q::platen_displacement, 0, "m" } },
+        { "platen displacement y", { Q::platen_displacement, 1, "m" } },
+        { "platen displacement rotation",
+          { Q::platen_displacement, 2, "deg" } },
+        { "platen force x", { Q::platen_force, 0, "N" } },
+        { "platen force y", { Q::platen_force, 1, "N" } },
+        { "platen force moment", { Q::platen_force, 2, "N m" } },
+        { "unbalanced ratio", { Q::unbalanced_ratio, 0, "-" } },
+        { "kinetic energy share", { Q::kinetic_share, 0, "-" } },
+        { "load time", { Q::load_time, 0, "s" } },
+        { "loading rate", { Q::loading_rate, 0, "-" } },
+        { "contacts", { Q::contacts, 0, "-" } },
+        { "boundary displacement x", { Q::boundary_displacement, 0, "m" } },
+        { "boundary displacement y", { Q::boundary_displacement, 1, "m" } },
+        { "boundary velocity x", { Q::boundary_velocity, 0, "m/s" } },
+        { "boundary velocity y", { Q::boundary_velocity, 1, "m/s" } },
+        { "boundary traction x", { Q::boundary_traction, 0, "Pa" } },
+        { "boundary traction y", { Q::boundary_traction, 1, "Pa" } },
+        { "boundary hoop stress", { Q::boundary_hoop_stress, 0, "Pa" } },
+        { "boundary force x", { Q::boundary_force, 0, "N" } },
+        { "boundary force y", { Q::boundary_force, 1, "N" } },
+        { "boundary moment", { Q::boundary_force, 2, "N m" } }
+      };
+      return table;
+    }
+
+    std::string kind_names(const std::string &separator)
+    {
+      std::string names;
+      for (const auto &[name, kind] : kinds())
+        names += (names.empty() ? "" : separator) + name;
+      return names;
+    }
+  } // namespace
+
+  void HistoryParameters::declare(dealii::ParameterHandler &prm)
+  {
+    using dealii::Patterns::Anything;
+    prm.declare_entry(
+        "Quantity", "displacement x",
+        dealii::Patterns::Selection(kind_names("|")),
+        "What the column holds, in SI units; 'stress 1' and "
+        "'stress 2' are the larger and the smaller principal "
+        "stress; 'yielding' is 0 in a cell that never yielded, else a sum of 1 "
+        "for shear and 2 for tension in the last step, 4 and 8 for either "
+        "before it; 'plastic shear strain' is accumulated; 'kinetic energy "
+        "share' is kinetic energy by "
+        "all energy that went through the model; 'joint damage' the share of "
+        "tensile strength and cohesion that a composite law has lost, 'joint "
+        "crushing' the plastic displacement on its cap; 'contacts' the "
+        "number of points that press on each other, matched "
+        "joints apart; 'rotation' is that of the nearest rigid "
+        "block, full turns counted, or of the nearest cell, "
+        "from -180 to 180, anticlockwise. Rigid blocks have no "
+        "stress: it is written as 0. Those of a 'boundary' are "
+        "for boundary elements: velocities and tractions are "
+        "the means of their last step that is over; 0 before the first "
+        "stage with 'End = time' that they act in. With 'Model = boundary "
+        "elements' displacements and velocities are those in the "
+        "domain. 'boundary hoop stress' is the normal stress "
+        "along the boundary, 'boundary force' that on the "
+        "domain.");
+    prm.declare_entry("Point", "0, 0", Anything(),
+                      "x, y of the point whose nearest node, cell or joint "
+                      "point, or boundary element, is recorded; of boundary "
+                      "elements: the point in the domain, and the point about "
+                      "which the moment is taken. Of nodes at one place: that "
+                      "of the block in which the point is, else of the lower "
+                      "or left block [m]");
+    prm.declare_entry("Load", "", Anything(),
+                      "Load whose reaction or platen is recorded.");
+    prm.declare_entry("Curve", "", Anything(),
+                      "Joint quantities: physical curve on which to look for "
+                      "the nearest joint point; empty: all. Boundary force, "
+                      "moment: the boundary, by its name in 'Boundary "
+                      "elements'.");
+  }
+
+  HistoryParameters HistoryParameters::read(const ParameterSection &section,
+                                            const std::string &name)
+  {
+    const Kind &kind = kinds().at(section.text("Quantity"));
+    HistoryParameters history;
+    history.name      = name;
+    history.quantity  = kind.quantity;
+    history.component = kind.component;
+    history.unit      = kind.unit;
+    history.point     = section.numbers<2>("Point");
+    history.load      = section.text("Load");
+    history.curve     = section.text("Curve");
+    const bool of_load
+        = kind.quantity == HistoryQuantity::reaction
+          || kind.quantity == HistoryQuantity::platen_displacement
+          || kind.quantity == HistoryQuantity::platen_force;
+    if (of_load && history.load.empty())
+      section.fail("Load", "must name the load to be recorded.");
+    if (kind.quantity == HistoryQuantity::boundary_force
+        && history.curve.empty())
+      section.fail("Curve", "must name the boundary on which the force acts.");
+    return history;
+  }
+} // namespace quoin

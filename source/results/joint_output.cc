@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/results/joint_output.h>
+
+#include <cmath>
+#include <utility>
+
+namespace quoin
+{
+  namespace
+  {
+    unsigned int severity(const JointState state)
+    {
+      switch (state)
+      {
+      case JointState::open:
+        return 3;
+      case JointState::slipping:
+        return 2;
+      case JointState::slipped:
+        return 1;
+      default:
+        return 0;
+      }
+    }
+  } // namespace
+
+  JointState worst(const JointState a, const JointState b)
+  {
+    return severity(a) >= severity(b) ? a : b;
+  }
+
+  JointOutput::JointOutput(const std::string &output_directory,
+                           const MPI_Comm communicator, const std::string &name)
+    : VtuSeries(output_directory, name, communicator)
+  {
+  }
+
+  void JointOutput::write(const double time, const JointFields &fields)
+  {
+    const std::size_t n_points = fields.position.size();
+    const std::size_t n_faces  = n_points / 2;
+
+    VtuGrid grid;
+    grid.time      = time;
+    grid.cell_type = VtuCellType::line;
+    grid.points.resize(n_points);
+    grid.cells.resize(n_points);
+    std::vector<std::uint8_t> point_state(n_points), face_state(n_faces);
+    for (std::size_t i = 0; i < n_points; ++i)
+    {
+      const std::array<double, 2> &X = fields.position[i];
+      const std::array<double, 2> &u = fields.displacement[i];
+
+      grid.points[i] = { { X[0] + u[0], X[1] + u[1] } };
+      grid.cells[i]  = static_cast<std::int32_t>(i);
+      point_state[i] = static_cast<std::uint8_t>(fields.state[i]);
+    }
+    std::vector<double> length(n_faces);
+    for (std::size_t face = 0; face < n_faces; ++face)
+    {
+      const std::array<double, 2> &a = fields.position[2 * face];
+      const std::array<double, 2> &b = fields.position[2 * face + 1];
+
+      length[face]     = std::hypot(b[0] - a[0], b[1] - a[1]);
+      face_state[face] = static_cast<std::uint8_t>(
+          worst(fields.state[2 * face], fields.state[2 * face + 1]));
+    }
+
+    grid.point_data = { { "displacement", 2, flat(fields.displacement) },
+                        { "opening", 1, fields.opening },
+                        { "slip", 1, fields.slip },
+                        { "normal traction", 1, fields.normal_traction },
+                        { "shear traction", 1, fields.shear_traction },
+                        { "point state", 1, point_state } };
+    if (!fields.damage.empty())
+    {
+      grid.point_data.push_back({ "damage", 1, fields.damage });
+      grid.point_data.push_back({ "crushing", 1, fields.crushing });
+    }
+    grid.cell_data = { { "state", 1, face_state },
+                       { "joint set", 1, fields.joint_set },
+                       { "length", 1, length } };
+    write_grid(std::move(grid));
+  }
+} // namespace quoin

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "test_models.h"
+
+#include <quoin/blocks/stable_time_step.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  /** Internal and joint forces at the displacements @p u. */
+  std::vector<double> forces(const Model &model, const std::vector<double> &u)
+  {
+    State<2> state = model.initial_state();
+    for (unsigned int i = 0; i < u.size(); ++i)
+      state.nodes[i / 2].u[i % 2] = u[i];
+    AlignedArray<NodeVector<2>> force(u.size() / 2,
+                                      NodeVector<2>{ { 0., 0. } });
+    EnergyAccounts energy;
+    model.joints().add_forces(state.nodes.data(), state.joints, energy,
+                              force.data());
+    for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
+      model.blocks().add_forces(tile, state.nodes.data(), state.plastic,
+                                force.data());
+    std::vector<double> result;
+    for (const NodeVector<2> &f : force)
+      result.insert(result.end(), { f.v[0], f.v[1] });
+    return result;
+  }
+
+  /**
+   * The largest omega^2 of the assembled operator: power iteration with the
+   * stiffness by central differences of the forces.
+   */
+  double exact_eigenvalue(const Model &model)
+  {
+    const unsigned int n = 2 * model.mass().size();
+    std::vector<std::vector<double>> K(n, std::vector<double>(n));
+    const double h = 1e-6;
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      std::vector<double> u(n, 0.);
+      u[j]             = h;
+      const auto plus  = forces(model, u);
+      u[j]             = -h;
+      const auto minus = forces(model, u);
+      for (unsigned int i = 0; i < n; ++i)
+        K[i][j] = (minus[i] - plus[i]) / (2. * h);
+    }
+
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    std::vector<double> x(n), y(n);
+    for (double &value : x)
+      value = uniform(random);
+    double eigenvalue = 0.;
+    for (unsigned int iteration = 0; iteration < 20000; ++iteration)
+    {
+      double xKx = 0., xMx = 0., norm = 0.;
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        y[i] = 0.;
+        for (unsigned int j = 0; j < n; ++j)
+          y[i] += K[i][j] * x[j];
+        xKx += x[i] * y[i];
+        xMx += x[i] * x[i] * model.mass()[i / 2];
+        y[i] /= model.mass()[i / 2];
+        norm += y[i] * y[i];
+      }
+      eigenvalue = xKx / xMx;
+      for (unsigned int i = 0; i < n; ++i)
+        x[i] = y[i] / std::sqrt(norm);
+    }
+    return eigenvalue;
+  }
+
+  double largest_speed(const State<2> &state)
+  {
+    double speed = 0.;
+    for (const NodeVector<2> &v : state.velocity)
+      speed = std::max({ speed, std::abs(v.v[0]), std::abs(v.v[1]) });
+    return speed;
+  }
+
+  const std::vector<std::pair<double, double>> joint_stiffnesses
+      = { { 1e7, 5e6 }, { 2e10, 1e10 }, { 1e11, 1e9 }, { 5e12, 2e12 } };
+} // namespace
+
+TEST(StableTimeStep, CriticalStep)
+{
+  const double omega = 3e4;
+  EXPECT_DOUBLE_EQ(StableTimeStep::critical(omega * omega, 0.), 2. / omega);
+  for (const double beta : { 1e-6, 1e-4, 1e-2 })
+  {
+    const double xi = 0.5 * beta * omega;
+    EXPECT_NEAR(StableTimeStep::critical(omega * omega, beta),
+                2. / omega * (std::sqrt(1. + xi * xi) - xi), 1e-9 / omega);
+  }
+  // All damping: 2 / (beta omega^2), which the difference above would lose.
+  EXPECT_NEAR(StableTimeStep::critical(omega * omega, 1e6)
+                  * (1e6 * omega * omega),
+              2., 1e-12);
+}
+
+TEST(StableTimeStep, CriticalStepOfTheDampedScheme)
+{
+  // One freedom: v += -(omega^2 u + beta omega^2 v) dt, u += v dt.
+  const double omega = 2., beta = 0.4;
+  const double critical = StableTimeStep::critical(omega * omega, beta);
+  const auto amplitude  = [&](const double dt)
+  {
+    double u = 1., v = 0.;
+    for (unsigned int i = 0; i < 5000; ++i)
+    {
+      v -= omega * omega * (u + beta * v) * dt;
+      u += v * dt;
+    }
+    return std::abs(u);
+  };
+  EXPECT_LT(amplitude(0.999 * critical), 1.);
+  EXPECT_GT(amplitude(1.001 * critical), 10.);
+}
+
+TEST(StableTimeStep, LargestEigenvalueAndMassScaling)
+{
+  // Eigenvalues 5 and 1, and 2 +- 3 of a shear-like bound.
+  const StableTimeStep bound({ { { 5., 1., 0. } }, { { 2., 2., 3. } } });
+  EXPECT_DOUBLE_EQ(bound.largest_eigenvalue({ 1., 1. }), 5.);
+  EXPECT_DOUBLE_EQ(bound.largest_eigenvalue({ 1., 0.5 }), 10.);
+  EXPECT_DOUBLE_EQ(bound.largest_eigenvalue({ 0.1, 1. }), 50.);
+
+  const double dt            = 0.3;
+  const double omega_squared = bound.largest_eigenvalue(
+      { bound.mass_for(0, dt), bound.mass_for(1, dt) });
+  EXPECT_DOUBLE_EQ(StableTimeStep::critical(omega_squared, 0.), dt);
+}
+
+TEST(StableTimeStep, BoundsTheLargestFrequencyClosely)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  for (const auto &[kn, ks] : joint_stiffnesses)
+  {
+    const Model model(mesh, { 0, 0 }, two_blocks(kn, ks), MPI_COMM_SELF);
+    const double exact = exact_eigenvalue(model);
+    const double bound = model.stability().largest_eigenvalue(model.mass());
+    EXPECT_GE(bound, exact * (1. - 1e-6)) << kn;
+    EXPECT_LE(bound, 1.3 * exact) << kn;
+  }
+}
+
+TEST(StableTimeStep, BoundsTheLargestFrequencyOfUnequalBlocks)
+{
+  // Stiff and light on soft and heavy, at all joint stiffnesses.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 1);
+  for (const auto &[kn, ks] : joint_stiffnesses)
+  {
+    ModelParameters parameters = two_blocks(kn, ks);
+    parameters.materials       = { material("lower", 8000., 1e9, 0.4),
+                                   material("upper", 1000., 5e10, 0.) };
+    const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+    EXPECT_GE(model.stability().largest_eigenvalue(model.mass()),
+              exact_eigenvalue(model) * (1. - 1e-6))
+        << kn;
+  }
+}
+
+TEST(StableTimeStep, BoundsTheFrequencyWhereFourBlocksMeet)
+{
+  MeshData data;
+  for (const double x : { 0., 1. })
+    for (const double y : { 0., 1. })
+      add_grid(data, 1, 1, "rock", x, y);
+  BlockMesh<2> mesh;
+  split_into_blocks(data, {}, mesh);
+  ASSERT_EQ(mesh.n_blocks(), 4U);
+  for (const auto &[kn, ks] : joint_stiffnesses)
+  {
+    ModelParameters parameters;
+    parameters.materials = { material("rock") };
+    parameters.joints    = { elastic_joint(kn, ks, "unnamed") };
+    const Model model(mesh, { 0, 0, 0, 0 }, parameters, MPI_COMM_SELF);
+    const double exact = exact_eigenvalue(model);
+    const double bound = model.stability().largest_eigenvalue(model.mass());
+    EXPECT_GE(bound, exact * (1. - 1e-6)) << kn;
+    EXPECT_LE(bound, 1.3 * exact) << kn;
+  }
+}
+
+TEST(StableTimeStep, RunsAtTheBoundStayBounded)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  for (const auto &[kn, ks] : joint_stiffnesses)
+    for (const double beta : { 0., 2e-4 })
+    {
+      TestRun run(mesh, two_blocks(kn, ks), {});
+      StageParameters stage = stage_with({}, beta > 0. ? DampingType::rayleigh
+                                                       : DampingType::none);
+      stage.stiffness_coefficient = beta;
+      run.begin(stage, 0.99);
+      run.throw_at_random(1e-6);
+      run.step(2000, true);
+      EXPECT_LT(largest_speed(run.state), 2e-5) << kn << " " << beta;
+    }
+}
+
+TEST(StableTimeStep, RunsAboveTheLargestFrequencyBlowUp)
+{
+  // So that the test above would notice a step that is too long.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  for (const auto &[kn, ks] : joint_stiffnesses)
+  {
+    TestRun run(mesh, two_blocks(kn, ks), {});
+    run.begin(stage_with({}));
+    run.solver.set_time_step(1.01 * 2.
+                             / std::sqrt(exact_eigenvalue(run.model)));
+    run.throw_at_random(1e-12);
+    run.step(300);
+    EXPECT_GT(largest_speed(run.state), 1e-6) << kn;
+  }
+}

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/farfield/far_field.h>
+
+#include <gtest/gtest.h>
+
+using namespace quoin;
+
+namespace
+{
+  constexpr double length    = 3.; /**< [m] */
+  constexpr double thickness = 0.5;
+  constexpr unsigned int n   = 60; /**< elements and edges */
+  constexpr double element   = length / n;
+  const ElasticMedium medium{ 2000., 400., 200. };
+
+  /**
+   * The upper side of a block, from (0, 0) to (3, 0), with so much mass that
+   * nothing changes its velocity, and boundary elements above it, one to an
+   * edge, whose P waves cross one in a step.
+   */
+  struct HeavyBlock
+  {
+    BlockMesh<2> mesh;
+    NodeExchange exchange{ 0, n + 1, n + 1, {}, MPI_COMM_SELF };
+    State<2> state;
+    StepContext step{};
+    std::vector<CapturedNode> captured;
+    std::unique_ptr<FarField> far;
+
+    HeavyBlock()
+    {
+      std::vector<unsigned int> faces;
+      std::vector<Eigen::Vector2d> points;
+      for (unsigned int i = 0; i <= n; ++i)
+      {
+        mesh.vertices.emplace_back(element * i, 0.);
+        points.emplace_back(element * i, 0.);
+      }
+      FarFieldDomain domain;
+      domain.boundary.add_curve(points, false);
+      domain.medium = medium;
+      for (unsigned int k = 0; k < n; ++k)
+      {
+        faces.push_back(k);
+        mesh.boundary_faces.push_back({ { { k + 1, k } }, 0, 0 });
+        domain.interface.push_back(k);
+      }
+      far = std::make_unique<FarField>("beyond", std::move(domain), mesh, faces,
+                                       exchange, thickness);
+      step.dt = step.dt_before = step.dt_velocity = element / medium.c1;
+      state.nodes.resize(n + 1);
+      state.velocity.resize(n + 1);
+      for (unsigned int i = 0; i <= n; ++i)
+        state.nodes[i].X[0] = mesh.vertices[i][0];
+      far->set_time_step(step.dt, 1, 100);
+      far->begin_stage(state, false);
+    }
+
+    void move(const NodeVector<2> &velocity)
+    {
+      std::vector<unsigned int> positions;
+      captured.clear();
+      for (const unsigned int node : far->nodes())
+      {
+        positions.push_back(captured.size());
+        CapturedNode before{};
+        before.node     = node;
+        before.mass     = 1e15;
+        before.velocity = velocity;
+        before.displacement
+            = { { state.nodes[node].u[0], state.nodes[node].u[1] } };
+        before.owner[0] = before.owner[1] = far.get();
+        captured.push_back(before);
+      }
+      far->bind(positions);
+      far->correct(step, captured, state);
+      far->account(step, captured, state);
+    }
+  };
+} // namespace
+
+// Before waves from the ends matter: rho c1 v along the normal, rho c2 v along
+// the side; what is missing are the ends, some elements of 60.
+TEST(FarField, ResistsMotionByTheImpedanceOfWhatIsBeyond)
+{
+  for (const unsigned int d : { 0U, 1U })
+  {
+    HeavyBlock block;
+    NodeVector<2> velocity{ { 0., 0. } };
+    velocity.v[d]       = 0.1;
+    const double c      = d == 1 ? medium.c1 : medium.c2;
+    const double wanted = -medium.density * c * 0.1 * length * thickness;
+    for (unsigned int i = 0; i < 3; ++i)
+    {
+      block.move(velocity);
+      EXPECT_NEAR(block.far->resultant()[d] / wanted, 1., 0.05) << d << i;
+      EXPECT_NEAR(block.far->resultant()[1 - d] / wanted, 0., 0.02);
+      // about the origin, from the middle of the side
+      EXPECT_NEAR(block.far->resultant()[2] / wanted,
+                  d == 1 ? 0.5 * length : 0., 0.05);
+    }
+    // Over three steps: what the blocks do against it leaves as waves.
+    const double work = -wanted * 0.1 * 3. * block.step.dt;
+    EXPECT_NEAR((block.state.energy.radiated + block.state.pending.radiated)
+                    / work,
+                1., 0.05);
+    EXPECT_NEAR((block.state.energy.external + block.state.pending.external)
+                    / work,
+                0., 1e-9);
+    // The elements' own books say the same.
+    EXPECT_NEAR(block.far->ledger(block.state).radiated / work, 1., 0.05);
+    EXPECT_LT(block.far->ledger(block.state).mismatch, 1e-9);
+  }
+}
+
+// Blocks that move as the wave that comes in send nothing back: then the wave
+// pushes on them with its own traction.
+TEST(FarField, AWaveThatTheBlocksFollowIsNotScattered)
+{
+  HeavyBlock block;
+  // upwards through the side, v = 0.1 m/s: traction -rho c1 v on the domain
+  const Eigen::Index size = 2 * n;
+  block.far->set_incident_field(
+      [=](const double t)
+      {
+        Eigen::VectorXd u = Eigen::VectorXd::Zero(size);
+        for (unsigned int e = 0; e < n; ++e)
+          u[2 * e + 1] = 0.1 * t;
+        return u;
+      },
+      [=](double, double)
+      {
+        Eigen::VectorXd p = Eigen::VectorXd::Zero(size);
+        for (unsigned int e = 0; e < n; ++e)
+          p[2 * e + 1] = 7e3;
+        return p;
+      });
+  for (unsigned int i = 0; i < 3; ++i)
+  {
+    block.move({ { 0., 0.1 } });
+    EXPECT_NEAR(block.far->resultant()[1], -7e3 * length * thickness, 1e-3);
+  }
+  EXPECT_NEAR(block.state.energy.radiated + block.state.pending.radiated, 0.,
+              1e-9);
+}

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/farfield/interface_transfer.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace quoin;
+
+namespace
+{
+  /** The upper edge of blocks, from (0, 0) to (3, 0) in uneven parts; two
+      blocks meet at x = 1 with vertices of their own. */
+  struct Top
+  {
+    BlockMesh<2> mesh;
+    std::vector<unsigned int> faces;
+    std::vector<double> x = { 0., 0.4, 1., 1., 1.9, 2.2, 3. };
+    NodeExchange exchange{ 0, 7, 7, {}, MPI_COMM_SELF };
+
+    Top()
+    {
+      for (const double place : x)
+        mesh.vertices.emplace_back(place, 0.);
+      // The blocks are below: on the left of the direction of -x.
+      for (const unsigned int k : { 0U, 1U, 3U, 4U, 5U })
+      {
+        faces.push_back(mesh.boundary_faces.size());
+        mesh.boundary_faces.push_back({ { { k + 1, k } }, 0, 0 });
+      }
+    }
+  };
+
+  /** The domain is above. */
+  Boundary above(const std::vector<double> &x)
+  {
+    Boundary boundary;
+    std::vector<Eigen::Vector2d> points;
+    for (const double place : x)
+      points.emplace_back(place, 0.);
+    boundary.add_curve(points, false);
+    return boundary;
+  }
+} // namespace
+
+// Elements that end anywhere along the edges.
+TEST(InterfaceTransfer, means_of_linear_motion)
+{
+  const Top top;
+  const Boundary boundary = above({ 0., 0.7, 1.5, 3. });
+  const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.mesh, top.faces,
+                                   top.exchange);
+  Eigen::VectorXd means;
+  transfer.gather(
+      [&](const unsigned int k)
+      {
+        const double x = top.x[transfer.nodes()[k]];
+        return std::array<double, 2>{ { 2. - x, 3. * x } };
+      },
+      means);
+  for (unsigned int e = 0; e < 3; ++e)
+  {
+    const double middle = boundary.elements[e].middle().x();
+    EXPECT_NEAR(means[2 * e], 2. - middle, 1e-14);
+    EXPECT_NEAR(means[2 * e + 1], 3. * middle, 1e-14);
+  }
+}
+
+// The same work on both sides, and the resultants.
+TEST(InterfaceTransfer, virtual_work)
+{
+  const Top top;
+  const Boundary boundary = above({ 0., 0.7, 1.5, 3. });
+  const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.mesh, top.faces,
+                                   top.exchange);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1., 1.);
+  std::vector<std::array<double, 2>> v(transfer.nodes().size());
+  for (auto &node : v)
+    node = { { uniform(random), uniform(random) } };
+  Eigen::VectorXd p(6), means;
+  for (double &value : p)
+    value = uniform(random);
+  transfer.gather([&](const unsigned int k) { return v[k]; }, means);
+
+  double on_nodes = 0., on_elements = 0.;
+  std::array<double, 2> resultant{};
+  for (unsigned int k = 0; k < v.size(); ++k)
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      on_nodes += transfer.force(k, p)[d] * v[k][d];
+      resultant[d] += transfer.force(k, p)[d];
+    }
+  for (unsigned int e = 0; e < 3; ++e)
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      on_elements += transfer.lengths()[e] * p[2 * e + d] * means[2 * e + d];
+      resultant[d] -= transfer.lengths()[e] * p[2 * e + d];
+    }
+  EXPECT_NEAR(on_nodes, on_elements, 1e-14);
+  EXPECT_NEAR(resultant[0], 0., 1e-14);
+  EXPECT_NEAR(resultant[1], 0., 1e-14);
+}
+
+// w S L from the definition.
+TEST(InterfaceTransfer, congruence)
+{
+  const Top top;
+  const Boundary boundary = above({ 0., 1., 2.2, 3. });
+  const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.mesh, top.faces,
+                                   top.exchange);
+  std::vector<double> diagonal;
+  for (unsigned int k = 0; k < transfer.nodes().size(); ++k)
+    diagonal.push_back(1. + k);
+  const Eigen::MatrixXd matrix = transfer.congruence(diagonal);
+  for (unsigned int e = 0; e < 3; ++e)
+  {
+    Eigen::VectorXd p = Eigen::VectorXd::Zero(6), means;
+    p[2 * e]          = 1.;
+    transfer.gather(
+        [&](const unsigned int k)
+        {
+          const double f = diagonal[k] * transfer.force(k, p)[0];
+          return std::array<double, 2>{ { f, 0. } };
+        },
+        means);
+    for (unsigned int i = 0; i < 3; ++i)
+      EXPECT_NEAR(matrix(i, e), means[2 * i], 1e-14);
+  }
+}
+
+// Chords of a circle of edges, whose motion as a rigid body they follow.
+TEST(InterfaceTransfer, chords)
+{
+  constexpr unsigned int n = 24;
+  BlockMesh<2> mesh;
+  std::vector<unsigned int> faces;
+  std::vector<Eigen::Vector2d> points;
+  for (unsigned int k = 0; k < n; ++k)
+  {
+    const double angle = 2. * M_PI * k / n;
+    mesh.vertices.emplace_back(std::cos(angle), std::sin(angle));
+    faces.push_back(k);
+    mesh.boundary_faces.push_back({ { { k, (k + 1) % n } }, 0, 0 });
+    if (k % 3 == 0) // clockwise: the domain is outside
+      points.insert(points.begin(), { std::cos(angle), std::sin(angle) });
+  }
+  const NodeExchange exchange(0, n, n, {}, MPI_COMM_SELF);
+  Boundary boundary;
+  boundary.add_curve(points, true);
+  const InterfaceTransfer transfer(boundary, { 0, 1, 2, 3, 4, 5, 6, 7 }, mesh,
+                                   faces, exchange);
+  Eigen::VectorXd means;
+  transfer.gather(
+      [](const unsigned int) {
+        return std::array<double, 2>{ { 1., -2. } };
+      },
+      means);
+  for (unsigned int e = 0; e < 8; ++e)
+  {
+    EXPECT_NEAR(means[2 * e], 1., 1e-14);
+    EXPECT_NEAR(means[2 * e + 1], -2., 1e-14);
+  }
+}
+
+TEST(InterfaceTransfer, refuses_gaps)
+{
+  const Top top;
+  EXPECT_THROW(InterfaceTransfer(above({ 0., 1., 2. }), { 0, 1 }, top.mesh,
+                                 top.faces, top.exchange),
+               InputError);
+  EXPECT_THROW(InterfaceTransfer(above({ 0., 1., 3., 4. }), { 0, 1, 2 },
+                                 top.mesh, top.faces, top.exchange),
+               InputError);
+}
