@@ -5,7 +5,7 @@
 #include <quoin/loads/synthetic_record.h>
 
 #include "../base/message_of.h"
-#include "../output/temporary_directory.h"
+#include "../results/temporary_directory.h"
 
 #include <gtest/gtest.h>
 

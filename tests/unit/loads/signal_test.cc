@@ -5,7 +5,7 @@
 #include <quoin/loads/signal_text.h>
 
 #include "../base/message_of.h"
-#include "../output/temporary_directory.h"
+#include "../results/temporary_directory.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../dynamics/test_models.h"
-#include "../output/temporary_directory.h"
+#include "../results/temporary_directory.h"
 
 #include <quoin/problems/cost_estimate.h>
 #include <quoin/results/field_output.h>

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../base/message_of.h"
-#include "../output/temporary_directory.h"
+#include "../results/temporary_directory.h"
 
 #include <quoin/problems/parameters.h>
 #include <quoin/base/exceptions.h>
