@@ -671,11 +671,11 @@ def blocks_that_overlap(quoin, folder):
 
 
 def gmsh_comes_to_its_end(quoin, folder):
-    """A command that ends gmsh, with it the program; a file that crashes it."""
+    """A command that ends gmsh; a file that crashes it; quoin without gmsh."""
     prm = prepare(folder)
     with open(os.path.join(folder, "base.geo"), "a") as stream:
         stream.write("\nExit;\n")
-    words = ["base.geo", "gmsh", "Exit", "mend it"]
+    words = ["base.geo", "gmsh", "Exit", "repair it"]
     status, printed = run([quoin, prm])
     expect(status, printed, 1, words)
     if shutil.which("mpirun"):
@@ -687,6 +687,10 @@ def gmsh_comes_to_its_end(quoin, folder):
         stream.write("a = " + "(" * 200000 + "1" + ")" * 200000 + ";\n")
     status, printed = run([quoin, prm])
     expect(status, printed, 1, ["base.geo", "gmsh"])
+    alone = shutil.copy(quoin, folder)
+    status, printed = run([alone, prepare(folder)])
+    expect(status, printed, 1, ["'%s_gmsh'" % alone, "cannot be started",
+                                "No such file"])
     return printed
 
 

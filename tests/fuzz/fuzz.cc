@@ -22,13 +22,13 @@
 #include <quoin/loads/record.h>
 #include <quoin/loads/time_function.h>
 #include <quoin/mesh/block_numbering.h>
+#include <quoin/mesh/gmsh_reader.h>
 #include <quoin/mesh/mesh_report.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <CLI/CLI.hpp>
 
-#include <gmsh.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -112,20 +112,16 @@ namespace
   void add_meshes(const fs::path &geometry, const fs::path &folder,
                   std::vector<Original> &originals)
   {
-    gmsh::initialize(0, nullptr, false);
-    gmsh::option::setNumber("General.Terminal", 0);
-    gmsh::open(geometry.string());
-    gmsh::model::mesh::generate(2);
-    for (const double version : { 2.2, 4.1 })
-      for (const double binary : { 0., 1. })
+    for (const char *version : { "2.2", "4.1" })
+      for (const char *binary : { "0", "1" })
       {
-        gmsh::option::setNumber("Mesh.MshFileVersion", version);
-        gmsh::option::setNumber("Mesh.Binary", binary);
-        const fs::path file = folder / "made.msh";
-        gmsh::write(file.string());
+        const fs::path format = folder / "made.geo", file = folder / "made.msh";
+        std::ofstream(format) << "Mesh.MshFileVersion = " << version
+                              << "; Mesh.Binary = " << binary << ";\n"
+                              << read(geometry);
+        write_gmsh_mesh(format, file);
         originals.push_back({ Kind::mesh, folder, ".msh", read(file) });
       }
-    gmsh::finalize();
   }
 
   std::vector<Original> find_originals(const fs::path &scratch)
@@ -353,7 +349,6 @@ namespace
         mmap(nullptr, sizeof(Progress), PROT_READ | PROT_WRITE,
              MAP_SHARED | MAP_ANONYMOUS, -1, 0));
     unsigned int n_findings = 0;
-    bool is_alone           = false;
     const auto start        = std::chrono::steady_clock::now();
     std::uint64_t next      = options.first;
     const std::uint64_t end = options.first + options.n_inputs;
@@ -365,31 +360,16 @@ namespace
     {
       shared->under_way  = next;
       shared->finding[0] = '\0';
-      const auto first   = next;
       const pid_t child  = fork();
       if (child == 0)
         run_batch(originals, options, next,
-                  std::min<std::uint64_t>(end, next + (is_alone ? 1 : batch)),
-                  *shared);
+                  std::min<std::uint64_t>(end, next + batch), *shared);
       int status = 0;
       waitpid(child, &status, 0);
       next                 = shared->under_way;
-      is_alone             = false;
       const bool has_ended = WIFEXITED(status) && shared->finding[0] == '\0';
       if (has_ended && WEXITSTATUS(status) == 0 && next > options.first)
         continue;
-      if (has_ended && WEXITSTATUS(status) == 1)
-      {
-        ++next; // refused where gmsh crashed
-        continue;
-      }
-      // A mesh read before it may have damaged gmsh's memory, but a program
-      // reads one: what counts is what happens to an input that comes first.
-      if (shared->finding[0] == '\0' && next > first)
-      {
-        is_alone = true;
-        continue;
-      }
       std::string what = shared->finding;
       if (what.empty() && WIFSIGNALED(status))
         what = WTERMSIG(status) == SIGALRM || WTERMSIG(status) == SIGPROF

@@ -82,6 +82,7 @@ KINDS = {
 }
 TARGETS = {"quoin": "quoin", "unit_tests": "tests/unit_tests",
            "fuzz": "tests/fuzz", "boundary_long_run": "tests/boundary_long_run"}
+GMSH = "quoin_gmsh"  # what these programs look for beside them
 
 
 class Failure(Exception):
@@ -319,6 +320,7 @@ class Worker:
         self.place, self.build = place, build
         self.tree = os.path.join(place, "tree")
         os.makedirs(self.tree)
+        os.symlink(os.path.join(build.folder, GMSH), os.path.join(place, GMSH))
         for folder in FOLDERS:
             # not what runs leave in the folders of their parameter files
             ignored = ["__pycache__"] + (["output", "output_*"] if folder

@@ -7,8 +7,10 @@
 #include <quoin/mesh/gmsh_reader.h>
 #include <quoin/mesh/mesh_report.h>
 
-#include <gmsh.h>
+#include <sys/wait.h>
 
+#include <cerrno>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <set>
@@ -168,31 +170,21 @@ TEST(GmshReader, ReadsFormat22)
 TEST(GmshReader, ReadsAllFormatsThatGmshWrites)
 {
   const std::string geo   = write("formats.geo", two_squares + names);
-  const std::string files = ::testing::TempDir() + "/quoin_format_";
-  gmsh::initialize();
-  gmsh::option::setNumber("General.Terminal", 0);
-  gmsh::open(geo);
-  gmsh::model::mesh::generate(2);
-  for (const double version : { 2.2, 4.1 })
-    for (const int binary : { 0, 1 })
-    {
-      gmsh::option::setNumber("Mesh.MshFileVersion", version);
-      gmsh::option::setNumber("Mesh.Binary", binary);
-      gmsh::write(files + std::to_string(binary)
-                  + (version < 3. ? "22.msh" : "41.msh"));
-    }
-  gmsh::finalize();
-
   const MeshData expected = read_gmsh(geo);
-  for (const char *end : { "022.msh", "122.msh", "041.msh", "141.msh" })
-  {
-    SCOPED_TRACE(end);
-    const MeshData data = read_gmsh(files + end);
-    expect_two_squares(data);
-    EXPECT_EQ(data.triangles.size(), expected.triangles.size());
-    EXPECT_EQ(data.vertices.size(), expected.vertices.size());
-    EXPECT_EQ(data.lines.size(), expected.lines.size());
-  }
+  for (const char *version : { "2.2", "4.1" })
+    for (const char *binary : { "0", "1" })
+    {
+      SCOPED_TRACE(std::string(version) + ", binary " + binary);
+      const std::string format = std::string("Mesh.MshFileVersion = ") + version
+                                 + "; Mesh.Binary = " + binary + ";\n";
+      const std::string file = ::testing::TempDir() + "/quoin_format.msh";
+      write_gmsh_mesh(write("format.geo", format + two_squares + names), file);
+      const MeshData data = read_gmsh(file);
+      expect_two_squares(data);
+      EXPECT_EQ(data.triangles.size(), expected.triangles.size());
+      EXPECT_EQ(data.vertices.size(), expected.vertices.size());
+      EXPECT_EQ(data.lines.size(), expected.lines.size());
+    }
 }
 
 TEST(GmshReader, KeepsCoincidentNodesApart)
@@ -228,6 +220,45 @@ TEST(GmshReader, RefusesFilesItCannotRead)
   expect_refused(write("words.msh", "no mesh at all\n"), { "Mesh '" });
   expect_input_error([] { read_gmsh("nowhere/wall.geo", MPI_COMM_WORLD); },
                      { "no such file" });
+}
+
+TEST(GmshReader, SurvivesTheEndOfGmsh)
+{
+  const std::string fine = write("fine.geo", two_squares + names);
+  const auto n_open      = []()
+  {
+    namespace fs = std::filesystem;
+    return std::distance(fs::directory_iterator("/proc/self/fd"), {});
+  };
+  const auto n_open_before = n_open();
+  // A stack that overflows, which later versions may refuse; a command.
+  const std::string deep
+      = "a = " + std::string(200000, '(') + "1" + std::string(200000, ')');
+  expect_refused(write("deep.geo", deep + ";\n"), { "gmsh" });
+  expect_refused(write("end.geo", two_squares + names + "Exit;\n"),
+                 { "gmsh came to its end", "Exit", "repair it" });
+  expect_two_squares(read_gmsh(fine));
+
+  EXPECT_EQ(n_open(), n_open_before);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1); // no process is left
+  EXPECT_EQ(errno, ECHILD);
+}
+
+TEST(GmshReader, MeshesATextAsAFile)
+{
+  const std::string text = two_squares + names;
+  const MeshData made = mesh_gmsh_geometry(text, "section Wall", MPI_COMM_SELF);
+  const MeshData read = read_gmsh(write("text.geo", text));
+  EXPECT_EQ(made.source, "section Wall");
+  EXPECT_EQ(made.vertices, read.vertices);
+  EXPECT_EQ(made.triangles, read.triangles);
+  EXPECT_EQ(made.lines, read.lines);
+  expect_input_error(
+      [] {
+        mesh_gmsh_geometry("Point(1) = {0, 0;", "section Wall", MPI_COMM_SELF);
+      },
+      { "Mesh 'section Wall': gmsh could not", "syntax error",
+        "Change the parameters of that section." });
 }
 
 TEST(GmshReader, RefusesMeshesWithoutTriangles)
