@@ -74,7 +74,8 @@ namespace quoin
   bool BlockForces::linearise(const unsigned int cell,
                               const NodeRecord<2> *nodes,
                               PlasticHistory &history,
-                              CellLinearisation &result) const
+                              CellLinearisation &result,
+                              const bool with_stiffness) const
   {
     const CellPoint point = cell_point(nodes, cell);
     const CorotatedStrain strain(point.displacement_gradient(nodes));
@@ -92,8 +93,9 @@ namespace quoin
     result.dissipated = 0.;
     if (const MohrCoulomb *yields = cell_law(cell))
     {
-      tangent           = yields->tangent(yields->trial_stress(
-                    plastic_point(history, cell), strain.e, initial));
+      if (with_stiffness)
+        tangent = yields->tangent(yields->trial_stress(
+            plastic_point(history, cell), strain.e, initial));
       result.dissipated = volume * update_cell(cell, strain.e, history);
       std::copy_n(history.cells[cell].stress, 3, stress.begin());
     }
@@ -104,12 +106,13 @@ namespace quoin
       for (unsigned int i = 0; i < 3; ++i)
         stress[i] += initial[i];
     }
-    const ElementDerivatives energy(strain, stress, tangent);
+    const ElementDerivatives energy(strain, stress,
+                                    with_stiffness ? &tangent : nullptr);
 
     result.n_nodes       = point.n_nodes;
     result.nodes         = point.nodes;
     const unsigned int n = 2 * point.n_nodes;
-    std::array<PlaneGradient, 12> rows, by_node;
+    std::array<PlaneGradient, 12> rows;
     for (unsigned int i = 0; i < point.n_nodes; ++i)
     {
       const auto pair = node_gradients(point.gradients[i]);
@@ -120,13 +123,18 @@ namespace quoin
     {
       result.force[i] = 0.;
       for (unsigned int k = 0; k < 4; ++k)
-      {
         result.force[i] -= volume * rows[i][k] * energy.first[k];
+    }
+    if (!with_stiffness)
+      return true;
+    std::array<PlaneGradient, 12> by_node;
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int k = 0; k < 4; ++k)
+      {
         by_node[i][k] = 0.;
         for (unsigned int l = 0; l < 4; ++l)
           by_node[i][k] += volume * energy.second[k][l] * rows[i][l];
       }
-    }
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
       {

@@ -4,14 +4,12 @@
 #ifndef quoin_source_blocks_lanes_h
 #define quoin_source_blocks_lanes_h
 
+#include <quoin/base/intrinsics.h>
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-
-#ifdef __AVX__
-#include <immintrin.h>
-#endif
 
 // Vectors wider than the machine's registers are legal (the tests run 8 lanes
 // everywhere) but how they are passed by value is not settled: by reference.

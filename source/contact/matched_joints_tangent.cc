@@ -140,21 +140,26 @@ namespace quoin
                                 const NodeRecord<2> *nodes,
                                 const std::vector<std::uint8_t> &broken,
                                 JointHistory &history, EnergyAccounts &energy,
-                                JointLinearisation &result) const
+                                JointLinearisation &result,
+                                const bool with_stiffness) const
   {
     const Segment &segment = segments[i];
     const Frame local      = frame(segment, nodes);
     result.nodes = { { segment.lower[0], segment.lower[1], segment.upper[0],
                        segment.upper[1] } };
     result.force.fill(0.);
-    for (Row &row : result.stiffness)
-      row.fill(0.);
     result.inelastic = 0.;
-    result.inelastic_gradient.fill(0.);
+    if (with_stiffness)
+    {
+      for (Row &row : result.stiffness)
+        row.fill(0.);
+      result.inelastic_gradient.fill(0.);
+    }
     if (history.handed_over[i])
       return;
 
-    const Row turn = turn_of_frame(nodes, result.nodes);
+    const Row turn
+        = with_stiffness ? turn_of_frame(nodes, result.nodes) : Row();
     for (unsigned int k = 0; k < 2; ++k)
     {
       const auto local_gap = gap(segment, local, nodes, k);
@@ -183,7 +188,7 @@ namespace quoin
         result.force[upper + d] -= area * traction;
       }
       const JointTangent &tangent = point.tangent;
-      for (unsigned int j = 0; j < 8; ++j)
+      for (unsigned int j = 0; with_stiffness && j < 8; ++j)
       {
         const unsigned int d = j % 2;
         const double side    = j - d == upper ? 1. : j - d == lower ? -1. : 0.;

@@ -85,7 +85,7 @@ namespace quoin
     /** More would not fit into any memory: lags need the square of it. */
     constexpr double most_elements = 20000.;
 
-    /** @p n elements that a length asks for; refuses too many. */
+    /** @p n elements that a length needs; refuses too many. */
     unsigned int checked(const BoundaryCurveParameters &parameters,
                          const double n, const double element_length)
     {
@@ -650,7 +650,7 @@ namespace quoin
       const double above    = -element.normal().dot(point - element.a);
       const double slack    = 1e-9 * element.length();
       // Of two elements whose common end is nearest, the one that the point
-      // is farther off knows on which side it is.
+      // is farther off is certain to be on one side.
       if (distance < nearest.distance - slack
           || (distance < nearest.distance + slack
               && std::abs(above) > std::abs(height) + slack))

@@ -84,9 +84,9 @@ namespace quoin
     options.n_steps             = n_steps;
     kernel    = make_lag_kernel(problem.boundary, problem.medium, options);
     history   = make_history(*kernel, problem.boundary, options, communicator);
-    march     = std::make_unique<BoundaryMarch>(*kernel, *history,
-                                            problem.traction_is_given);
-    stiffness = march->condensed_matrix(unknowns);
+    marching  = std::make_unique<TimeMarching>(*kernel, *history,
+                                              problem.traction_is_given);
+    stiffness = marching->condensed_matrix(unknowns);
     impedance = dt * stiffness;
     // What is implicit must dissipate, or the blocks' step is not stable.
     const VectorXd root = area.cwiseSqrt();
@@ -115,7 +115,7 @@ namespace quoin
 
   void FarField::save(State<2> &state) const
   {
-    if (!march || !state.far_field.active)
+    if (!marching || !state.far_field.active)
       return;
     state.far_field.history = history->save();
   }
@@ -127,7 +127,7 @@ namespace quoin
     if (!far.active || far.history.empty())
       return;
     history->restore(far.history);
-    march->restore(to_eigen(far.displacement), to_eigen(far.traction));
+    marching->restore(to_eigen(far.displacement), to_eigen(far.traction));
     frozen              = to_eigen(far.frozen);
     p_of_history_is_due = true;
     find_incident(far);
@@ -196,9 +196,9 @@ namespace quoin
   {
     FarFieldState &far = state.far_field;
     find_incident(far);
-    const double begin = double(far.n_steps) * dt;
-    const VectorXd rest
-        = march->condensed_load(unknowns, scattered_values(begin, begin + dt));
+    const double begin  = double(far.n_steps) * dt;
+    const VectorXd rest = marching->condensed_load(
+        unknowns, scattered_values(begin, begin + dt));
     frozen = rest + stiffness * (to_eigen(far.last_motion) - incident_u)
              + incident_p;
     far.frozen          = to_vector(frozen);
@@ -219,10 +219,10 @@ namespace quoin
                                 : VectorXd(last + to_eigen(far.velocity_sum));
     VectorXd given        = scattered_values(begin, begin + dt);
     given(unknowns)       = motion - incident_u;
-    march->begin_step(given);
+    marching->begin_step(given);
 
     const VectorXd mean      = (motion - last) / dt;
-    const VectorXd total     = march->p()(unknowns) + incident_p;
+    const VectorXd total     = marching->p()(unknowns) + incident_p;
     const VectorXd scattered = total - incident_p;
     const auto work = [&](const VectorXd &traction, const VectorXd &velocity)
     { return dt * traction.cwiseProduct(area).dot(velocity); };
@@ -240,17 +240,17 @@ namespace quoin
                          / std::max(scale, frozen.cwiseAbs().maxCoeff()));
 
     if (problem.scheme == CouplingScheme::staggered)
-      march->finish_step(unknowns, to_eigen(far.traction_sum) / double(substeps)
-                                       - incident_p);
+      marching->finish_step(
+          unknowns, to_eigen(far.traction_sum) / double(substeps) - incident_p);
     else
-      march->finish_step();
-    far.given += march->p()
+      marching->finish_step();
+    far.given += marching->p()
                      .cwiseProduct(outer_area)
-                     .dot(march->u() - to_eigen(far.displacement));
+                     .dot(marching->u() - to_eigen(far.displacement));
     far.last_motion = to_vector(motion);
-    far.velocity    = to_vector((march->u() - to_eigen(far.displacement)) / dt);
-    far.displacement = to_vector(march->u());
-    far.traction     = to_vector(march->p());
+    far.velocity = to_vector((marching->u() - to_eigen(far.displacement)) / dt);
+    far.displacement = to_vector(marching->u());
+    far.traction     = to_vector(marching->p());
     far.substep      = 0;
     ++far.n_steps;
   }

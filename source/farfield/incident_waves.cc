@@ -38,7 +38,7 @@ namespace quoin
     for (const Vector2d &x : points)
       reach = std::max(reach, x.norm());
     const double delay = reach / (0.85 * medium.c2);
-    // Tractions of convolution quadrature are asked for half a step later.
+    // Tractions of convolution quadrature are needed half a step later.
     const double end = duration + time_step;
     const SignalRange range{ -delay, end + delay, 0.5 * time_step };
 
@@ -114,7 +114,7 @@ namespace quoin
     for (const Vector2d &x : points)
       if ((x - source).norm() < 1e-6 * length)
         throw InputError(section + position
-                         + " is a point where the field is asked for, by "
+                         + " is a point where the field is evaluated, by "
                            "'Histories' or the 'Sampled field': the field "
                            "has no value there. Move one of them.");
   }

@@ -348,7 +348,7 @@ namespace quoin
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
     {
       model.joints().linearise(i, nodes, broken, balance.joints, balance.lost,
-                               segment);
+                               segment, with_derivatives);
       for (unsigned int k = 0; k < 4; ++k)
         if (segment.nodes[k] < n_owned)
           for (unsigned int d = 0; d < 2; ++d)
@@ -380,7 +380,8 @@ namespace quoin
     for (unsigned int c = 0; c < model.blocks().n_cells(); ++c)
     {
       if (freedoms.is_absent(model.cells()[c][0])
-          || !model.blocks().linearise(c, nodes, balance.plastic, cell))
+          || !model.blocks().linearise(c, nodes, balance.plastic, cell,
+                                       with_derivatives))
         continue;
       balance.lost.plastic += cell.dissipated;
       for (unsigned int k = 0; k < cell.n_nodes; ++k)

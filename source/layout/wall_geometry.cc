@@ -75,7 +75,7 @@ namespace quoin
         write_head();
         write_points();
         write_beds();
-        write_uprights();
+        write_vertical_lines();
         write_surfaces();
         write_mesh();
         text << physical_names(surfaces, curves);
@@ -94,7 +94,7 @@ namespace quoin
       void write_head();
       void write_points();
       void write_beds();
-      void write_uprights();
+      void write_vertical_lines();
       void write_surfaces();
       void write_mesh();
 
@@ -146,7 +146,7 @@ namespace quoin
       std::vector<std::vector<double>> points; /**< x by level */
       Numbers first_point;                     /**< by level */
       /** Vertical lines by row: those at x. */
-      std::vector<std::map<double, unsigned int>> uprights;
+      std::vector<std::map<double, unsigned int>> vertical_lines;
       std::map<std::string, Numbers> curves, surfaces;
       /** Lines by their length, for the number of elements. */
       std::map<std::string, Numbers> lines_of_length;
@@ -260,10 +260,10 @@ namespace quoin
         }
     }
 
-    void Writer::write_uprights()
+    void Writer::write_vertical_lines()
     {
       unsigned int next = first_point.back() + points.back().size();
-      uprights.resize(rows.size());
+      vertical_lines.resize(rows.size());
       for (std::size_t row = 0; row < rows.size(); ++row)
       {
         const double height   = layout.levels[row + 1] - layout.levels[row];
@@ -282,7 +282,7 @@ namespace quoin
           text << "Line(" << next << ") = {" << point(row, x) << ", "
                << point(row + 1, x) << "};\n";
           lines_of_length[key].push_back(next);
-          uprights[row][x] = next;
+          vertical_lines[row][x] = next;
           if (left == nullptr || right == nullptr)
             curves[x < exact                   ? "left"
                    : x > layout.length - exact ? "right"
@@ -300,8 +300,8 @@ namespace quoin
 
     void Writer::write_surfaces()
     {
-      const auto upright = [&](const unsigned int row, const double x)
-      { return uprights[row].lower_bound(x - exact)->second; };
+      const auto vertical = [&](const unsigned int row, const double x)
+      { return vertical_lines[row].lower_bound(x - exact)->second; };
       unsigned int next = 1;
       for (std::size_t row = 0; row < rows.size(); ++row)
         for (const Piece &piece : rows[row])
@@ -310,11 +310,11 @@ namespace quoin
           for (unsigned int i = column(row, piece.left);
                i < column(row, piece.right); ++i)
             text << bed_line(row, i) << ", ";
-          text << upright(row, piece.right);
+          text << vertical(row, piece.right);
           for (unsigned int i = column(row + 1, piece.right);
                i > column(row + 1, piece.left); --i)
             text << ", -" << bed_line(row + 1, i - 1);
-          text << ", -" << upright(row, piece.left) << "};\n"
+          text << ", -" << vertical(row, piece.left) << "};\n"
                << "Plane Surface(" << next << ") = {" << next << "};\n";
           surfaces[surface_name(piece.unit->kind)].push_back(next);
           ++next;

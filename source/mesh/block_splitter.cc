@@ -375,8 +375,8 @@ namespace quoin
 
     void Splitter::fill_faces()
     {
-      // For edges this close to upright the normal is taken as horizontal.
-      constexpr double upright = 1e-6;
+      // For edges this close to vertical the normal is taken as horizontal.
+      constexpr double vertical = 1e-6;
 
       mesh.boundary_faces.clear();
       mesh.joint_faces.clear();
@@ -393,13 +393,13 @@ namespace quoin
         }
 
         // Each joint comes by twice; it is taken from its lower side. With
-        // n = (t_y, -t_x) lower means t_x < 0, or upright and t_y > 0.
+        // n = (t_y, -t_x) lower means t_x < 0, or vertical and t_y > 0.
         // Coincident edges differ within the tolerance: the direction is
         // that of both.
         const auto t = (data.vertices[second(h)] - data.vertices[first(h)])
                        - (data.vertices[second(g)] - data.vertices[first(g)]);
         const bool is_lower
-            = std::abs(t[0]) > upright * t.norm() ? t[0] < 0. : t[1] > 0.;
+            = std::abs(t[0]) > vertical * t.norm() ? t[0] < 0. : t[1] > 0.;
         if (!is_lower)
           continue;
         unsigned int joint_name = name[h];

@@ -6,27 +6,27 @@
 
 #include <algorithm>
 #include <chrono>
-#include <utility>
 
 namespace quoin
 {
-  double memory_bandwidth()
+  double memory_bandwidth(const double bytes)
   {
-    constexpr std::size_t n = 1 << 23; // 64 MiB an array
-    AlignedArray<double> a(n, 0.), b(n, 1.), c(n, 2.);
-    double best = 0.;
-    for (unsigned int run = 0; run < 6; ++run)
+    using Clock              = std::chrono::steady_clock;
+    const auto seconds_since = [](const Clock::time_point start)
+    { return std::chrono::duration<double>(Clock::now() - start).count(); };
+    constexpr std::size_t least = 4096; // beyond the resolution of the clock
+    const std::size_t n
+        = std::max(least, std::size_t(bytes / (3. * sizeof(double))));
+    AlignedArray<double> a(n, 0.), b(n, 1.);
+    double best      = 0.;
+    const auto start = Clock::now();
+    do
     {
-      const auto start = std::chrono::steady_clock::now();
-      const double s   = 0.5 + run;
+      const auto begin = Clock::now();
       for (std::size_t i = 0; i < n; ++i)
-        a[i] = b[i] + s * c[i];
-      const double seconds = std::chrono::duration<double>(
-                                 std::chrono::steady_clock::now() - start)
-                                 .count();
-      best = std::max(best, 3. * n * sizeof(double) / seconds);
-      std::swap(a, b);
-    }
+        a[i] += 0.5 * b[i];
+      best = std::max(best, 3. * n * sizeof(double) / seconds_since(begin));
+    } while (seconds_since(start) < 0.5);
     return best;
   }
 

@@ -29,7 +29,7 @@ namespace quoin
   }
 
   std::unique_ptr<PassivityReport>
-  passivity_of(const LagKernel &kernel, const BoundaryHistory &history,
+  passivity_of(const InfluenceKernel &kernel, const BoundaryHistory &history,
                const Boundary &boundary, const ElasticMedium &medium,
                const FormulationOptions &formulation, const double time_step,
                const unsigned int n_frequencies, const MPI_Comm communicator)

@@ -130,7 +130,7 @@ namespace quoin
     histories    = std::make_unique<BoundaryHistories>(
         parameters.histories, geometry, settings, parameters.model.thickness);
     hoop_stress = std::make_unique<TangentialStress>(geometry.boundary, medium);
-    given       = std::make_unique<GivenValues>(geometry, settings);
+    given       = std::make_unique<BoundaryValues>(geometry, settings);
     make_sampled_points();
     if (settings.is_static)
       return;
@@ -266,8 +266,8 @@ namespace quoin
 
   void BoundarySimulation::make_march()
   {
-    march                  = std::make_unique<BoundaryMarch>(*kernel, *history,
-                                            given->traction_is_given());
+    march                  = std::make_unique<TimeMarching>(*kernel, *history,
+                                           given->traction_is_given());
     const std::size_t size = geometry.boundary.n_unknowns();
     if (record.step > 0)
     {

@@ -40,7 +40,7 @@ namespace quoin
 
   double BoundarySimulation::seconds_of_march()
   {
-    BoundaryMarch trial(*kernel, *history, given->traction_is_given());
+    TimeMarching trial(*kernel, *history, given->traction_is_given());
     std::uint64_t step = 0;
     return double(n_steps)
            * seconds_per_call(

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/problems/far_field_setup.h>
-#include <quoin/farfield/given_values.h>
+#include <quoin/farfield/boundary_values.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/nodal_load.h>
@@ -78,7 +78,7 @@ namespace quoin
     domain.formulation = settings.formulation_options();
     domain.scheme      = settings.coupling;
 
-    const auto given = std::make_shared<GivenValues>(geometry, settings);
+    const auto given = std::make_shared<BoundaryValues>(geometry, settings);
     given->check_start();
     domain.traction_is_given = given->traction_is_given();
     domain.given             = [given](const double begin, const double end)

@@ -112,10 +112,10 @@ namespace quoin
         "boundary elements: time step " + number_text(far.time_step()) + " s, "
         + std::to_string(far.n_substeps()) + " block steps, "
         + step_ratio_text(domain, far.domain().medium, far.time_step()));
-    passivity = passivity_of(far.lag_kernel(), far.boundary_history(), domain,
-                             far.domain().medium, far.domain().formulation,
-                             far.time_step(), parameters.boundary.n_frequencies,
-                             communicator);
+    passivity = passivity_of(far.influence_kernel(), far.boundary_history(),
+                             domain, far.domain().medium,
+                             far.domain().formulation, far.time_step(),
+                             parameters.boundary.n_frequencies, communicator);
     if (passivity)
       log.message(passivity->advice());
   }

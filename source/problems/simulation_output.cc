@@ -222,10 +222,12 @@ namespace quoin
       summarise_contacts(summary);
     if (finished && parameters.measure_bandwidth)
     {
-      const double measured
-          = dealii::Utilities::MPI::sum(memory_bandwidth(), communicator);
-      const double used = step_bytes(mesh.n_vertices(), mesh.n_cells())
-                          * double(steps_done) / seconds_done;
+      const double bytes    = step_bytes(mesh.n_vertices(), mesh.n_cells());
+      const double measured = dealii::Utilities::MPI::sum(
+          memory_bandwidth(
+              bytes / dealii::Utilities::MPI::n_mpi_processes(communicator)),
+          communicator);
+      const double used = bytes * double(steps_done) / seconds_done;
       summary["memory bandwidth [B/s]"]    = measured;
       summary["share of memory bandwidth"] = used / measured;
     }

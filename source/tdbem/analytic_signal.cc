@@ -80,7 +80,7 @@ namespace quoin
     const double n = std::ceil((range.end - range.begin) / range.step);
     if (!(range.step > 0. && n >= 1. && n < 1e8))
       throw InputError("the Hilbert transform of a signal needs the range of "
-                       "times in which it is asked for, and samples of it.");
+                       "times in which it is evaluated, and samples of it.");
     n_steps = long(n);
     samples.resize(2 * n_steps + 1);
     for (long k = 0; k <= 2 * n_steps; ++k)

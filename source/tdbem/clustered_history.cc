@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/plane_geometry.h>
 #include <quoin/tdbem/clustered_history.h>
@@ -66,7 +67,7 @@ namespace quoin
     }
   } // namespace
 
-  ClusteredHistory::ClusteredHistory(const LagKernel &kernel,
+  ClusteredHistory::ClusteredHistory(const InfluenceKernel &kernel,
                                      const Boundary &boundary,
                                      const Options &given,
                                      MPI_Comm communicator)
@@ -167,7 +168,7 @@ namespace quoin
               - clusters[first_cluster].elements.begin);
   }
 
-  void ClusteredHistory::make_pairs(const LagKernel &kernel,
+  void ClusteredHistory::make_pairs(const InfluenceKernel &kernel,
                                     const Boundary &boundary,
                                     const double share)
   {
@@ -200,7 +201,7 @@ namespace quoin
       }
   }
 
-  void ClusteredHistory::make_rates(const LagKernel &kernel)
+  void ClusteredHistory::make_rates(const InfluenceKernel &kernel)
   {
     // What decays by more than this until the end of the lags kept is nothing.
     const double cutoff = -std::log(0.003 * options.tolerance);
@@ -250,7 +251,7 @@ namespace quoin
     return result;
   }
 
-  MatrixXd ClusteredHistory::cut_matrix(const LagKernel &kernel,
+  MatrixXd ClusteredHistory::cut_matrix(const InfluenceKernel &kernel,
                                         const Pair &pair,
                                         const unsigned k) const
   {
@@ -263,7 +264,7 @@ namespace quoin
     return stacked(factor * rate.factors.G * G, factor * rate.factors.H * H);
   }
 
-  void ClusteredHistory::make_bases(const LagKernel &kernel)
+  void ClusteredHistory::make_bases(const InfluenceKernel &kernel)
   {
     // Every rank makes those of all clusters in the same order, so that
     // results do not depend on their number.
@@ -295,7 +296,7 @@ namespace quoin
                 pairs.end());
   }
 
-  void ClusteredHistory::fill(const LagKernel &kernel, Pair &pair) const
+  void ClusteredHistory::fill(const InfluenceKernel &kernel, Pair &pair) const
   {
     const Cluster &row = clusters[pair.row], &column = clusters[pair.column];
     MatrixXd G, H;
@@ -499,7 +500,7 @@ namespace quoin
     return numbers * sizeof(double);
   }
 
-  double ClusteredHistory::decay_error(const LagKernel &kernel) const
+  double ClusteredHistory::decay_error(const InfluenceKernel &kernel) const
   {
     double largest[2] = { 0., 0. }; // of the difference and of the matrices
     MatrixXd G, H;
@@ -525,7 +526,7 @@ namespace quoin
     return largest[0] / largest[1];
   }
 
-  ZTransform ClusteredHistory::transform(const LagKernel &kernel) const
+  ZTransform ClusteredHistory::transform(const InfluenceKernel &kernel) const
   {
     MatrixXd G0, H0;
     kernel.lag(0, G0, H0);

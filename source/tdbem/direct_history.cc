@@ -5,7 +5,7 @@
 
 namespace quoin
 {
-  DirectHistory::DirectHistory(const LagKernel &kernel)
+  DirectHistory::DirectHistory(const InfluenceKernel &kernel)
     : kernel(kernel), sum(Eigen::VectorXd::Zero(kernel.size()))
   {
   }

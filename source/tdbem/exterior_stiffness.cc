@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/exterior_stiffness.h>
 
 #include <quoin/base/exceptions.h>

@@ -7,7 +7,7 @@
 #include <quoin/tdbem/clustered_history.h>
 #include <quoin/tdbem/convolution_quadrature.h>
 #include <quoin/tdbem/direct_history.h>
-#include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/influence_matrices.h>
 #include <quoin/tdbem/laplace_matrices.h>
 
 #include <algorithm>
@@ -39,9 +39,9 @@ namespace quoin
     }
   } // namespace
 
-  std::unique_ptr<LagKernel> make_lag_kernel(const Boundary &boundary,
-                                             const ElasticMedium &medium,
-                                             const FormulationOptions &options)
+  std::unique_ptr<InfluenceKernel>
+  make_lag_kernel(const Boundary &boundary, const ElasticMedium &medium,
+                  const FormulationOptions &options)
   {
     if (options.formulation == Formulation::convolution_quadrature)
     {
@@ -72,17 +72,17 @@ namespace quoin
     if (options.damping.mass != 0. || options.damping.stiffness != 0.)
       throw InputError("Boundary elements: Rayleigh damping needs the "
                        "formulation convolution quadrature.");
-    LagMatrices::Options lag_options;
+    InfluenceMatrices::Options lag_options;
     lag_options.projection = options.formulation == Formulation::galerkin
                                  ? Projection::galerkin
                                  : Projection::collocation;
     lag_options.decay      = options.decay;
-    return std::make_unique<LagMatrices>(boundary, medium, options.time_step,
-                                         lag_options);
+    return std::make_unique<InfluenceMatrices>(boundary, medium,
+                                               options.time_step, lag_options);
   }
 
   std::unique_ptr<BoundaryHistory>
-  make_history(const LagKernel &kernel, const Boundary &boundary,
+  make_history(const InfluenceKernel &kernel, const Boundary &boundary,
                const FormulationOptions &options, MPI_Comm communicator)
   {
     if (options.direct_history)
@@ -92,7 +92,7 @@ namespace quoin
   }
 
   ZTransform
-  make_transform(const LagKernel &kernel, const BoundaryHistory &history,
+  make_transform(const InfluenceKernel &kernel, const BoundaryHistory &history,
                  const Boundary &boundary, const ElasticMedium &medium,
                  const FormulationOptions &options, MPI_Comm communicator)
   {

@@ -22,7 +22,7 @@ namespace quoin
     const double n = std::ceil((range.end - range.begin) / range.step);
     if (!(range.step > 0. && n >= 1. && n < 1e8))
       throw InputError("the moment of a line source needs the range of times "
-                       "in which it is asked for, and samples of it.");
+                       "in which it is evaluated, and samples of it.");
     std::vector<double> value{ 0. };
     double peak = 0.;
     for (long k = 0; k <= long(n); ++k)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/passivity.h>
 
 #include <quoin/base/constants.h>
@@ -75,7 +76,7 @@ namespace quoin
     }
   } // namespace
 
-  ZTransform z_transform(const LagKernel &kernel, const unsigned n_lags)
+  ZTransform z_transform(const InfluenceKernel &kernel, const unsigned n_lags)
   {
     struct Lags
     {
@@ -120,15 +121,17 @@ namespace quoin
            << gap << " Hz at most, may be missed.";
       return text.str();
     }
-    text << "is not passive: the smallest eigenvalue of its Hermitian part is "
-         << smallest_eigenvalue << " rho c2 at " << frequency << " Hz, "
-         << frequency / nyquist << " of the highest frequency. ";
-    text << "That is about motion given everywhere, as blocks give it. ";
+    text << "is not passive: they may add energy to motions at " << frequency
+         << " Hz, " << frequency / nyquist
+         << " of the highest frequency, where the smallest eigenvalue of its "
+            "Hermitian part is "
+         << smallest_eigenvalue
+         << " rho c2 if all displacements are prescribed, as on an interface. ";
     if (smallest_eigenvalue > -1.)
-      text << "The radiation of other modes and what blocks dissipate usually "
-              "outweigh this; watch the energy radiated in a long run. ";
+      text << "The radiation of other modes and the dissipation in blocks "
+              "usually outweigh this: check 'radiated' in a long run. ";
     else
-      text << "It may make a run unstable. ";
+      text << "A run may become unstable. ";
     text << "Remedies: Galerkin with a step of 1 to 1.5 times the element "
             "length over c1 (1.2 to 1.5 if Poisson's ratio is above 0.35); "
             "convolution quadrature.";

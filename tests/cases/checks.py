@@ -282,7 +282,7 @@ def quarter(folder, ratio):
 def first_crossing(t, values, level):
     above = np.nonzero(values >= level)[0]
     if len(above) == 0 or above[0] == 0:
-        raise Failure("the block did not come upright")
+        raise Failure("the block did not stand up again")
     i = above[0]
     return float(t[i - 1] + (t[i] - t[i - 1]) * (level - values[i - 1])
                  / (values[i] - values[i - 1]))

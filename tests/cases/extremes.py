@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
-"""Models that nobody draws and everybody meets: each against a closed form.
+"""Extreme but legal models: each against a closed form.
 
 One triangle; ten thousand joints at a vertex; stiffnesses that differ by
 1e12; sizes from a micrometre to a thousand kilometres; coordinates of a map,

@@ -9,7 +9,7 @@
 // fewer steps. Fails if a response grows where the discretisation is said to
 // be stable.
 
-#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/time_marching.h>
 #include <quoin/tdbem/formulation.h>
 
 #include <mpi.h>
@@ -106,7 +106,7 @@ namespace
     options.n_steps        = marks.back();
     const auto kernel      = make_lag_kernel(domain, medium, options);
     const auto history = make_history(*kernel, domain, options, MPI_COMM_SELF);
-    BoundaryMarch solution(
+    TimeMarching solution(
         *kernel, *history,
         std::vector<bool>(domain.n_unknowns(), !run.motion_given));
 

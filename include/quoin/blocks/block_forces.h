@@ -161,11 +161,13 @@ namespace quoin
 
     /**
      * What add_forces() does for one cell, with its derivative, consistent
-     * with the update of @p history. Does nothing and returns false for a
-     * cell without weight.
+     * with the update of @p history, if @p with_stiffness; otherwise the
+     * stiffness is not set. Does nothing and returns false for a cell without
+     * weight.
      */
     bool linearise(unsigned int cell, const NodeRecord<2> *nodes,
-                   PlasticHistory &history, CellLinearisation &result) const;
+                   PlasticHistory &history, CellLinearisation &result,
+                   bool with_stiffness = true) const;
 
     /** What add_forces() of all tiles does to @p history; returns the same. */
     double update(const NodeRecord<2> *nodes, PlasticHistory &history) const;

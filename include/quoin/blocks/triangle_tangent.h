@@ -50,10 +50,11 @@ namespace quoin
 
     /**
      * @p stress: S11, S22, S12 in the rotating frame, initial stress
-     * included; @p tangent: its derivative.
+     * included; @p tangent: its derivative, without which there is no second
+     * one.
      */
     ElementDerivatives(const CorotatedStrain &strain, const PlaneTensor &stress,
-                       const PlaneTangent &tangent)
+                       const PlaneTangent *tangent)
     {
       const double c = strain.c, s = strain.s, n = strain.n;
       const double d = strain.e[0] - strain.e[1], g = 2. * strain.e[2];
@@ -77,8 +78,10 @@ namespace quoin
                      - G * a[i] - twist / n * along[i];
       }
 
+      if (tangent == nullptr)
+        return;
       // A C A^T with A = ((1, 1, 0), (1, -1, 0), (0, 0, 2)) / 2.
-      const auto &C = tangent;
+      const auto &C = *tangent;
       const double sums[2][3]
           = { { 0.5 * (C[0][0] + C[1][0]), 0.5 * (C[0][1] + C[1][1]),
                 0.5 * (C[0][2] + C[1][2]) },

@@ -131,7 +131,8 @@ namespace quoin
 
     /**
      * What add_forces() does for segment @p i, with its derivative, consistent
-     * with the update of @p history; books the dissipation.
+     * with the update of @p history, if @p with_stiffness; otherwise stiffness
+     * and inelastic_gradient are not set. Books the dissipation.
      *
      * The tractions of a brittle joint jump when it breaks, which no Newton
      * iteration survives. So intact points of a Coulomb law stay elastic here
@@ -141,7 +142,8 @@ namespace quoin
     void linearise(unsigned int i, const NodeRecord<2> *nodes,
                    const std::vector<std::uint8_t> &broken,
                    JointHistory &history, EnergyAccounts &energy,
-                   JointLinearisation &result) const;
+                   JointLinearisation &result,
+                   bool with_stiffness = true) const;
 
     /**
      * By how much entry @p point of @p history that linearise() left elastic

@@ -4,11 +4,12 @@
 #ifndef quoin_farfield_far_field_h
 #define quoin_farfield_far_field_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/farfield/interface_transfer.h>
 #include <quoin/loads/node_constraint.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/boundary_history.h>
-#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/time_marching.h>
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/formulation.h>
 
@@ -55,8 +56,8 @@ namespace quoin
     CouplingScheme scheme = CouplingScheme::implicit;
 
     /**
-     * Given values of the step from begin to end [s], total fields; those on
-     * the interface are not looked at. Null: zero.
+     * Boundary values of the step from begin to end [s], total fields; those on
+     * the interface are not used. Null: zero.
      */
     std::function<Eigen::VectorXd(double begin, double end)> given;
   };
@@ -69,7 +70,7 @@ namespace quoin
    * tractions on the interface are p = p_h + Z0 v, v the mean
    * velocity over each element: Z0, the lag-0 impedance condensed to the
    * interface, times a velocity, and p_h, which follows from the history, the
-   * given values and the field that comes in, and is frozen during the step.
+   * boundary values and the incident field, and is frozen during the step.
    *
    * Time of the boundary elements begins when it first acts. What forces are
    * unbalanced on the interface then are held from there on: so reactions of a
@@ -87,7 +88,7 @@ namespace quoin
       double substeps = 0.;
       /** Brought in by the incident field. */
       double incident = 0.;
-      /** As radiated, of the rest of the boundary, where values are given. */
+      /** As radiated, of the rest of the boundary, with boundary values. */
       double given = 0.;
       /** Largest |p - (p_h + Z0 v)| by the largest p: rounding. */
       double mismatch = 0.;
@@ -111,7 +112,7 @@ namespace quoin
                        unsigned long n_steps);
 
     /**
-     * The field that comes in, all over the boundary: displacements at a time
+     * Incident field on the whole boundary: displacements at a time
      * [m], and the tractions of the step from begin to end [Pa]. Must be
      * called before it first acts.
      */
@@ -137,7 +138,7 @@ namespace quoin
     {
       return problem;
     }
-    const LagKernel &lag_kernel() const
+    const InfluenceKernel &influence_kernel() const
     {
       return *kernel;
     }
@@ -197,9 +198,9 @@ namespace quoin
 
     double dt             = 0.;
     unsigned int substeps = 0;
-    std::unique_ptr<LagKernel> kernel;
+    std::unique_ptr<InfluenceKernel> kernel;
     std::unique_ptr<BoundaryHistory> history;
-    std::unique_ptr<BoundaryMarch> march;
+    std::unique_ptr<TimeMarching> marching;
     Eigen::MatrixXd stiffness; /**< dp/du of one step [Pa/m] */
     Eigen::MatrixXd impedance; /**< Z0 [Pa s/m] */
 

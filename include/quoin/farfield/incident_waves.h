@@ -4,12 +4,11 @@
 #ifndef quoin_farfield_incident_waves_h
 #define quoin_farfield_incident_waves_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/farfield/boundary_parameters.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/incident_field.h>
-
-#include <Eigen/Core>
 
 #include <functional>
 #include <memory>
@@ -18,12 +17,12 @@
 
 namespace quoin
 {
-  /** All that comes in, as section 'Incident waves' says. */
+  /** Sum of the incident fields of section 'Incident waves'. */
   class IncidentWaves
   {
   public:
     /**
-     * @p points: where the field is asked for beside the boundary; @p duration
+     * @p points: where the field is evaluated beside the boundary; @p duration
      * and @p time_step of the boundary elements [s]. @p boundary must outlive
      * this object. Throws an InputError that begins with the section.
      */

@@ -4,11 +4,10 @@
 #ifndef quoin_farfield_interface_transfer_h
 #define quoin_farfield_interface_transfer_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/base/node_exchange.h>
 #include <quoin/mesh/block_mesh.h>
 #include <quoin/tdbem/boundary.h>
-
-#include <Eigen/Core>
 
 #include <array>
 #include <vector>

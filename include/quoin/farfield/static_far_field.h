@@ -4,11 +4,10 @@
 #ifndef quoin_farfield_static_far_field_h
 #define quoin_farfield_static_far_field_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/farfield/interface_transfer.h>
 #include <quoin/loads/node_constraint.h>
-
-#include <Eigen/Core>
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 #ifndef quoin_loads_space_time_function_h
 #define quoin_loads_space_time_function_h
 
-#include <Eigen/Core>
+#include <quoin/base/eigen_core.h>
 
 #include <functional>
 #include <string>

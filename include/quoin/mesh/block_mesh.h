@@ -33,11 +33,11 @@ namespace quoin
    * normal points from lower to upper: n = (t_y, -t_x) for the edge
    * direction t.
    *
-   * Lower is the side whose normal points up (n_y > 0), and for upright edges
+   * Lower is the side whose normal points up (n_y > 0), and for vertical edges
    * (|n_y| <= 1e-6) the one whose normal points right (n_x > 0). So lower is
    * the block below a bed joint, with t pointing left (t_x < 0), and the block
    * left of a head joint, with t pointing up (t_y > 0). The sides of a curved
-   * joint change places where its tangent is upright.
+   * joint change places where its tangent is vertical.
    *
    * Where a joint ends inside a block the vertex there is not split:
    * lower[k] == upper[k] at such a tip.

@@ -7,10 +7,12 @@
 namespace quoin
 {
   /**
-   * Memory bandwidth that this rank gets, by the triad a = b + c * s over
-   * arrays beyond any cache; best of several runs [B/s].
+   * Bandwidth [B/s] that this rank gets where it streams @p bytes, by the
+   * update a = a + s b, which reads both arrays and writes one; best of half a
+   * second. So many bytes come from where those of a step do, memory or a
+   * cache.
    */
-  double memory_bandwidth();
+  double memory_bandwidth(double bytes);
 
   /**
    * Bytes that one undamped step must move to and from memory if each array

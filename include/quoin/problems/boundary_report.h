@@ -33,7 +33,7 @@ namespace quoin
    * Collective. See scan_passivity().
    */
   std::unique_ptr<PassivityReport>
-  passivity_of(const LagKernel &kernel, const BoundaryHistory &history,
+  passivity_of(const InfluenceKernel &kernel, const BoundaryHistory &history,
                const Boundary &boundary, const ElasticMedium &medium,
                const FormulationOptions &formulation, double time_step,
                unsigned int n_frequencies, MPI_Comm communicator);

@@ -7,7 +7,7 @@
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/results/boundary_histories.h>
 #include <quoin/results/checkpoint_clock.h>
-#include <quoin/farfield/given_values.h>
+#include <quoin/farfield/boundary_values.h>
 #include <quoin/farfield/incident_waves.h>
 #include <quoin/problems/parameters.h>
 #include <quoin/problems/run_options.h>
@@ -17,7 +17,7 @@
 #include <quoin/results/output_lock.h>
 #include <quoin/results/progress.h>
 #include <quoin/results/root_table.h>
-#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/time_marching.h>
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/interior_points.h>
 #include <quoin/tdbem/passivity.h>
@@ -138,10 +138,10 @@ namespace quoin
 
     std::unique_ptr<BoundaryHistories> histories;
     std::unique_ptr<TangentialStress> hoop_stress;
-    std::unique_ptr<GivenValues> given;
-    std::unique_ptr<LagKernel> kernel;
+    std::unique_ptr<BoundaryValues> given;
+    std::unique_ptr<InfluenceKernel> kernel;
     std::unique_ptr<BoundaryHistory> history;
-    std::unique_ptr<BoundaryMarch> march;
+    std::unique_ptr<TimeMarching> march;
     SampledFieldOutput field_output;
     TimeControl history_control, field_control;
     Record record;

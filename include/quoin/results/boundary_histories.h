@@ -4,10 +4,9 @@
 #ifndef quoin_results_boundary_histories_h
 #define quoin_results_boundary_histories_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/results/history_parameters.h>
-
-#include <Eigen/Core>
 
 #include <string>
 #include <vector>

@@ -10,7 +10,7 @@
 
 namespace quoin
 {
-  /** The times for which a signal is asked, and the spacing of samples [s]. */
+  /** Times at which a signal is evaluated, and the spacing of samples [s]. */
   struct SignalRange
   {
     double begin = 0.;
@@ -39,7 +39,7 @@ namespace quoin
    * What f has been before the range is taken as zero, and what comes after it
    * as f again, faded out over a time as long as the range.
    *
-   * Tables are made when a depth is first asked for: not for several threads.
+   * Tables are made when a depth is first used: not for several threads.
    */
   class AnalyticSignal
   {

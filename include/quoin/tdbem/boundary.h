@@ -4,7 +4,7 @@
 #ifndef quoin_tdbem_boundary_h
 #define quoin_tdbem_boundary_h
 
-#include <Eigen/Core>
+#include <quoin/base/eigen_core.h>
 
 #include <cstddef>
 #include <vector>

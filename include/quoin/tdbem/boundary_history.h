@@ -4,7 +4,7 @@
 #ifndef quoin_tdbem_boundary_history_h
 #define quoin_tdbem_boundary_history_h
 
-#include <Eigen/Core>
+#include <quoin/base/eigen_core.h>
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace quoin
 {
   /**
    * What has happened on a boundary so far, and what it still does:
-   * the convolution in the equation of LagKernel without its newest term.
+   * the convolution in the equation of InfluenceKernel without its newest term.
    */
   class BoundaryHistory
   {

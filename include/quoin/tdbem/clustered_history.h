@@ -4,15 +4,14 @@
 #ifndef quoin_tdbem_clustered_history_h
 #define quoin_tdbem_clustered_history_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/boundary_history.h>
 #include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/tdbem/influence_kernel.h>
 #include <quoin/tdbem/passivity.h>
 
 #include <mpi.h>
-
-#include <Eigen/Core>
 
 #include <algorithm>
 #include <vector>
@@ -68,7 +67,7 @@ namespace quoin
     }
 
     /** Needs the kernel only here. Collective. */
-    ClusteredHistory(const LagKernel &kernel, const Boundary &boundary,
+    ClusteredHistory(const InfluenceKernel &kernel, const Boundary &boundary,
                      const Options &options, MPI_Comm communicator);
 
     const Eigen::VectorXd &predict() override;
@@ -102,14 +101,14 @@ namespace quoin
      * exponentials and itself, relative to the largest of that lag: how well
      * the tolerance is kept. Collective; costs as much as one lag.
      */
-    double decay_error(const LagKernel &kernel) const;
+    double decay_error(const InfluenceKernel &kernel) const;
 
     /**
      * Sums G(w) and H(w) over all lags without end, as z_transform(), from
-     * what is kept. Collective, if there are several ranks; they must ask for
+     * what is kept. Collective, if there are several ranks; they must request
      * the same w.
      */
-    ZTransform transform(const LagKernel &kernel) const;
+    ZTransform transform(const InfluenceKernel &kernel) const;
 
   private:
     struct Cluster
@@ -158,14 +157,14 @@ namespace quoin
 
     void make_clusters(const Boundary &boundary, unsigned size);
     void share_clusters();
-    void make_pairs(const LagKernel &kernel, const Boundary &boundary,
+    void make_pairs(const InfluenceKernel &kernel, const Boundary &boundary,
                     double share);
-    void make_rates(const LagKernel &kernel);
-    void make_bases(const LagKernel &kernel);
-    void fill(const LagKernel &kernel, Pair &pair) const;
+    void make_rates(const InfluenceKernel &kernel);
+    void make_bases(const InfluenceKernel &kernel);
+    void fill(const InfluenceKernel &kernel, Pair &pair) const;
     bool is_mine(const Pair &pair) const;
     unsigned first_row(const Pair &pair) const;
-    Eigen::MatrixXd cut_matrix(const LagKernel &kernel, const Pair &pair,
+    Eigen::MatrixXd cut_matrix(const InfluenceKernel &kernel, const Pair &pair,
                                unsigned rate) const;
     Eigen::MatrixXd stacked(const Eigen::MatrixXd &G,
                             const Eigen::MatrixXd &H) const;

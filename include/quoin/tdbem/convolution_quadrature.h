@@ -4,10 +4,9 @@
 #ifndef quoin_tdbem_convolution_quadrature_h
 #define quoin_tdbem_convolution_quadrature_h
 
-#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/base/eigen_core.h>
+#include <quoin/tdbem/influence_kernel.h>
 #include <quoin/tdbem/laplace_matrices.h>
-
-#include <Eigen/Core>
 
 #include <complex>
 #include <functional>
@@ -53,7 +52,7 @@ namespace quoin
    * and as many complex ones while they are computed. They do not vanish
    * before the first arrival but decay quickly ahead of it.
    */
-  class ConvolutionQuadrature : public LagKernel
+  class ConvolutionQuadrature : public InfluenceKernel
   {
   public:
     /**

@@ -4,12 +4,11 @@
 #ifndef quoin_tdbem_cut_kernels_h
 #define quoin_tdbem_cut_kernels_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/tdbem/influence_kernel.h>
 #include <quoin/tdbem/laplace_kernels.h>
 #include <quoin/tdbem/projection.h>
-
-#include <Eigen/Core>
 
 namespace quoin
 {

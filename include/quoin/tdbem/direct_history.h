@@ -5,7 +5,7 @@
 #define quoin_tdbem_direct_history_h
 
 #include <quoin/tdbem/boundary_history.h>
-#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/tdbem/influence_kernel.h>
 
 namespace quoin
 {
@@ -17,7 +17,7 @@ namespace quoin
   {
   public:
     /** The kernel must outlive this object. */
-    explicit DirectHistory(const LagKernel &kernel);
+    explicit DirectHistory(const InfluenceKernel &kernel);
 
     const Eigen::VectorXd &predict() override;
     void push(const Eigen::VectorXd &u, const Eigen::VectorXd &p) override;
@@ -31,7 +31,7 @@ namespace quoin
     void restore(const std::vector<double> &saved) override;
 
   private:
-    const LagKernel &kernel;
+    const InfluenceKernel &kernel;
     std::vector<Eigen::MatrixXd> G, H; /**< of lag n in entry n - 1 */
     std::vector<Eigen::VectorXd> us, ps;
     Eigen::VectorXd sum;

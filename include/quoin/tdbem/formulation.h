@@ -7,7 +7,7 @@
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/boundary_history.h>
 #include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/tdbem/influence_kernel.h>
 #include <quoin/tdbem/laplace_kernels.h>
 #include <quoin/tdbem/passivity.h>
 
@@ -20,8 +20,8 @@ namespace quoin
   /** The ways to discretise the boundary integral equation. */
   enum class Formulation
   {
-    galerkin,              /**< LagMatrices, in the mean over each element */
-    collocation,           /**< LagMatrices, at the middles of the elements */
+    galerkin,    /**< InfluenceMatrices, in the mean over each element */
+    collocation, /**< InfluenceMatrices, at the middles of the elements */
     convolution_quadrature /**< ConvolutionQuadrature, in the mean */
   };
 
@@ -31,7 +31,7 @@ namespace quoin
     Formulation formulation = Formulation::galerkin;
     double time_step        = 0.; /**< [s] */
 
-    /** Of LagMatrices [1/s]; not for convolution quadrature. */
+    /** Of InfluenceMatrices [1/s]; not for convolution quadrature. */
     double decay = 0.;
     /** For convolution quadrature only. */
     RayleighDamping damping = {};
@@ -45,9 +45,9 @@ namespace quoin
   };
 
   /** The kernel of @p options. Throws InputError about wrong options. */
-  std::unique_ptr<LagKernel> make_lag_kernel(const Boundary &boundary,
-                                             const ElasticMedium &medium,
-                                             const FormulationOptions &options);
+  std::unique_ptr<InfluenceKernel>
+  make_lag_kernel(const Boundary &boundary, const ElasticMedium &medium,
+                  const FormulationOptions &options);
 
   /**
    * The history of @p options. The rows of a compressed one are shared by the
@@ -55,7 +55,7 @@ namespace quoin
    * and options and must outlive a direct history.
    */
   std::unique_ptr<BoundaryHistory>
-  make_history(const LagKernel &kernel, const Boundary &boundary,
+  make_history(const InfluenceKernel &kernel, const Boundary &boundary,
                const FormulationOptions &options, MPI_Comm communicator);
 
   /**
@@ -64,7 +64,7 @@ namespace quoin
    * outlive the result. Collective, as its calls are.
    */
   ZTransform
-  make_transform(const LagKernel &kernel, const BoundaryHistory &history,
+  make_transform(const InfluenceKernel &kernel, const BoundaryHistory &history,
                  const Boundary &boundary, const ElasticMedium &medium,
                  const FormulationOptions &options, MPI_Comm communicator);
 } // namespace quoin

@@ -4,9 +4,8 @@
 #ifndef quoin_tdbem_incident_field_h
 #define quoin_tdbem_incident_field_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary.h>
-
-#include <Eigen/Core>
 
 namespace quoin
 {

@@ -4,11 +4,10 @@
 #ifndef quoin_tdbem_interior_points_h
 #define quoin_tdbem_interior_points_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/static_solver.h>
-
-#include <Eigen/Core>
 
 #include <mpi.h>
 
@@ -20,7 +19,7 @@ namespace quoin
   struct BoundaryRecord
   {
     double time_step = 0.; /**< [s] */
-    double decay     = 0.; /**< as LagMatrices::Options::decay [1/s] */
+    double decay     = 0.; /**< as InfluenceMatrices::Options::decay [1/s] */
 
     /**
      * Displacements [m] at the ends of the steps and tractions [Pa], constant
@@ -33,7 +32,7 @@ namespace quoin
    * Displacements [m] of points in the domain at the end of some steps, from
    * what happened on the boundary (@cite JinWangZhang1998, Eq. 2): entry
    * (2 k + i, l) is component i of point k at the end of step steps[l], which
-   * may be 0, when all is at rest. With the notation of LagMatrices and a
+   * may be 0, when all is at rest. With the notation of InfluenceMatrices and a
    * source at the point x,
    * @f[ u(x)^M = \sum_{n=0}^{M-1}
    *     (A_n - A_{n-1}) p^{M-n}

@@ -4,9 +4,8 @@
 #ifndef quoin_tdbem_laplace_kernels_h
 #define quoin_tdbem_laplace_kernels_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/elastic_medium.h>
-
-#include <Eigen/Core>
 
 #include <complex>
 

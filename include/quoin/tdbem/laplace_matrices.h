@@ -4,11 +4,10 @@
 #ifndef quoin_tdbem_laplace_matrices_h
 #define quoin_tdbem_laplace_matrices_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/laplace_kernels.h>
 #include <quoin/tdbem/projection.h>
-
-#include <Eigen/Core>
 
 #include <complex>
 

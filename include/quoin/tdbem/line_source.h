@@ -4,11 +4,10 @@
 #ifndef quoin_tdbem_line_source_h
 #define quoin_tdbem_line_source_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/analytic_signal.h>
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/incident_field.h>
-
-#include <Eigen/Core>
 
 #include <functional>
 #include <vector>

@@ -4,11 +4,10 @@
 #ifndef quoin_tdbem_passivity_h
 #define quoin_tdbem_passivity_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/lag_kernel.h>
-
-#include <Eigen/Core>
+#include <quoin/tdbem/influence_kernel.h>
 
 #include <complex>
 #include <functional>
@@ -30,7 +29,7 @@ namespace quoin
    * most; take n_lags = 20 / (1 - |w|) to be safe. The kernel itself is not
    * needed any more.
    */
-  ZTransform z_transform(const LagKernel &kernel, unsigned n_lags);
+  ZTransform z_transform(const InfluenceKernel &kernel, unsigned n_lags);
 
   /** Where the discrete impedance of a boundary creates most energy. */
   struct PassivityReport

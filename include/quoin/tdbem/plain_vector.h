@@ -4,7 +4,7 @@
 #ifndef quoin_tdbem_plain_vector_h
 #define quoin_tdbem_plain_vector_h
 
-#include <Eigen/Core>
+#include <quoin/base/eigen_core.h>
 
 #include <vector>
 

@@ -4,11 +4,10 @@
 #ifndef quoin_tdbem_static_kernels_h
 #define quoin_tdbem_static_kernels_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/projection.h>
-
-#include <Eigen/Core>
 
 namespace quoin
 {

@@ -4,10 +4,9 @@
 #ifndef quoin_tdbem_tangential_stress_h
 #define quoin_tdbem_tangential_stress_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/elastic_medium.h>
-
-#include <Eigen/Core>
 
 #include <array>
 #include <vector>

@@ -4,9 +4,8 @@
 #ifndef quoin_tdbem_time_kernels_h
 #define quoin_tdbem_time_kernels_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/elastic_medium.h>
-
-#include <Eigen/Core>
 
 /**
  * Fundamental solutions of two-dimensional elastodynamics, integrated in time.

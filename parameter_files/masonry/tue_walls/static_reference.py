@@ -78,11 +78,11 @@ def stiffness(output, mortar=MORTAR, crack=CRACK):
             continue
         (a, b), (c, d) = edges
         normal, shear = mortar if sets[middle] == 0 else crack
-        upright = abs(points[a][0] - points[b][0]) < 1e-9
+        vertical = abs(points[a][0] - points[b][0]) < 1e-9
         area = np.linalg.norm(points[a] - points[b]) * THICKNESS / 2
         for p, q in ((a, d), (b, c)):
             for axis in range(2):
-                k = area * (normal if (axis == 0) == upright else shear)
+                k = area * (normal if (axis == 0) == vertical else shear)
                 dofs = [2 * p + axis, 2 * q + axis]
                 K[np.ix_(dofs, dofs)] += k * np.array([[1, -1], [-1, 1]])
 

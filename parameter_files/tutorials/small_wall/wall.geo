@@ -16,7 +16,7 @@ Line(3) = {4, 5};   Line(4) = {5, 6};   Line(5) = {6, 7};
 Line(6) = {8, 9};   Line(7) = {9, 10};  Line(8) = {10, 11};
 Line(9) = {12, 13}; Line(10) = {13, 14};
 
-// Upright lines from below: left side, right side, head joints
+// Vertical lines from below: left side, right side, head joints
 Line(11) = {1, 4};  Line(12) = {4, 8};  Line(13) = {8, 12};
 Line(14) = {3, 7};  Line(15) = {7, 11}; Line(16) = {11, 14};
 Line(17) = {2, 6};  Line(18) = {5, 9};  Line(19) = {10, 13};

@@ -9,7 +9,7 @@ Hooke's law with the modulus M = E (1 - nu)/((1 + nu)(1 - 2 nu)) of each:
   joint, where there   q/kn closed since the block was placed,
   top of the block     -(rho_f g h^2/2 + p h)/M_f - q/kn + u_c - u_c when placed.
 
-q is what the block exerts, or what is not let go of that. A row a stage.
+q is what the block exerts, or what is not released of that. A row a stage.
 """
 import os
 

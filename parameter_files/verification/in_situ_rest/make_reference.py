@@ -27,7 +27,7 @@ def stresses(y):
 
 
 def normal_tractions(y):
-    """Of a level joint, the fault and an upright joint [Pa]."""
+    """Of a horizontal joint, the fault and a vertical joint [Pa]."""
     horizontal, vertical = stresses(y)[:, 0], stresses(y)[:, 1]
     return np.stack([vertical, vertical * np.cos(FAULT)**2
                      + horizontal * np.sin(FAULT)**2, horizontal], axis=-1)

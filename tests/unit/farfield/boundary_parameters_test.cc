@@ -4,7 +4,7 @@
 #include "../base/message_of.h"
 #include "../results/temporary_directory.h"
 
-#include <quoin/farfield/given_values.h>
+#include <quoin/farfield/boundary_values.h>
 #include <quoin/problems/parameters.h>
 #include <quoin/base/exceptions.h>
 
@@ -128,7 +128,7 @@ TEST(BoundaryParameters, All)
   EXPECT_NEAR(boundary.waves[0].angle, M_PI / 6., 1e-15);
 }
 
-TEST(BoundaryParameters, GivenValues)
+TEST(BoundaryParameters, BoundaryValues)
 {
   Case files(good);
   const Parameters parameters
@@ -138,7 +138,7 @@ TEST(BoundaryParameters, GivenValues)
                      "Boundary elements/hole/Pressure=if(t > 0, 2, 0)",
                      "Boundary elements/hole/Horizontal=traction x^2 * t" });
   const BoundaryGeometry geometry = make_boundary_geometry(parameters.boundary);
-  GivenValues given(geometry, parameters.boundary);
+  BoundaryValues given(geometry, parameters.boundary);
   given.check_start();
   const Eigen::VectorXd first  = given(0., 0.1);
   const Eigen::VectorXd second = given(0.1, 0.3);
@@ -173,7 +173,7 @@ TEST(BoundaryParameters, MotionBeginsAtZero)
   const Parameters parameters
       = files.read({ "Boundary elements/surface/Horizontal=displacement x" });
   const BoundaryGeometry geometry = make_boundary_geometry(parameters.boundary);
-  EXPECT_THROW(GivenValues(geometry, parameters.boundary).check_start(),
+  EXPECT_THROW(BoundaryValues(geometry, parameters.boundary).check_start(),
                InputError);
 }
 

@@ -4,6 +4,7 @@
 #ifndef quoin_tests_materials_yield_planes_h
 #define quoin_tests_materials_yield_planes_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/materials/mohr_coulomb.h>
 
 #include <Eigen/Dense>

@@ -4,9 +4,10 @@
 #ifndef quoin_tests_tdbem_cavity_h
 #define quoin_tests_tdbem_cavity_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/bessel_k.h>
 #include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/tdbem/influence_kernel.h>
 #include <quoin/tdbem/laplace_kernels.h>
 
 #include <Eigen/LU>
@@ -89,7 +90,7 @@ namespace quoin::test
    * Displacements at t_1, t_2, ... [m], a column each, under the tractions
    * @p p that are switched on at t = 0.
    */
-  inline Eigen::MatrixXd step_response(const LagKernel &kernel,
+  inline Eigen::MatrixXd step_response(const InfluenceKernel &kernel,
                                        const Eigen::VectorXd &p,
                                        const unsigned n_steps)
   {

@@ -5,7 +5,7 @@
 #include <quoin/tdbem/clustered_history.h>
 #include <quoin/tdbem/convolution_quadrature.h>
 #include <quoin/tdbem/direct_history.h>
-#include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/influence_matrices.h>
 
 #include <gtest/gtest.h>
 
@@ -65,10 +65,10 @@ TEST(ClusteredHistory, time_domain)
        { Projection::galerkin, Projection::collocation })
     for (const double decay : { 0., 0.02 })
     {
-      LagMatrices::Options options;
+      InfluenceMatrices::Options options;
       options.projection = projection;
       options.decay      = decay;
-      const LagMatrices kernel(boundary, medium, 0.1, options);
+      const InfluenceMatrices kernel(boundary, medium, 0.1, options);
       for (const double tolerance : { 1e-3, 1e-6 })
       {
         ClusteredHistory::Options compression;
@@ -106,7 +106,7 @@ TEST(ClusteredHistory, convolution_quadrature)
 TEST(ClusteredHistory, resume_is_bitwise)
 {
   const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 16, true);
-  const LagMatrices kernel(boundary, medium, 0.4);
+  const InfluenceMatrices kernel(boundary, medium, 0.4);
   ClusteredHistory whole(kernel, boundary, {}, MPI_COMM_SELF);
   ClusteredHistory again(kernel, boundary, {}, MPI_COMM_SELF);
   std::mt19937 random(2);
@@ -137,7 +137,7 @@ TEST(ClusteredHistory, resume_is_bitwise)
 TEST(ClusteredHistory, transform)
 {
   const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 16, true);
-  const LagMatrices kernel(boundary, medium, 0.3);
+  const InfluenceMatrices kernel(boundary, medium, 0.3);
   const ClusteredHistory history(kernel, boundary, {}, MPI_COMM_SELF);
   const ZTransform fast = history.transform(kernel);
   const ZTransform slow = z_transform(kernel, 800);
@@ -173,7 +173,7 @@ TEST(ClusteredHistory, stiffness_damping)
 TEST(ClusteredHistory, short_run)
 {
   const Boundary boundary = two_holes();
-  const LagMatrices kernel(boundary, medium, 0.005);
+  const InfluenceMatrices kernel(boundary, medium, 0.005);
   ClusteredHistory::Options compression;
   compression.n_steps = 20;
   ClusteredHistory history(kernel, boundary, compression, MPI_COMM_SELF);

@@ -3,10 +3,10 @@
 
 #include "cavity.h"
 
-#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/time_marching.h>
 #include <quoin/tdbem/direct_history.h>
 #include <quoin/tdbem/interior_points.h>
-#include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/influence_matrices.h>
 
 #include <gtest/gtest.h>
 
@@ -24,20 +24,20 @@ namespace
                            const unsigned n_steps, const Eigen::VectorXd &p,
                            const double decay = 0.)
   {
-    LagMatrices::Options options;
+    InfluenceMatrices::Options options;
     options.decay = decay;
-    const LagMatrices kernel(boundary, medium, time_step, options);
+    const InfluenceMatrices kernel(boundary, medium, time_step, options);
     DirectHistory history(kernel);
-    BoundaryMarch march(kernel, history,
-                        std::vector<bool>(boundary.n_unknowns(), true));
+    TimeMarching marching(kernel, history,
+                          std::vector<bool>(boundary.n_unknowns(), true));
     BoundaryRecord record{ time_step, decay, {}, {} };
     record.displacement.resize(n_steps, boundary.n_unknowns());
     record.traction.resize(n_steps, boundary.n_unknowns());
     for (unsigned step = 0; step < n_steps; ++step)
     {
-      march.step(p);
-      record.displacement.row(step) = march.u();
-      record.traction.row(step)     = march.p();
+      marching.step(p);
+      record.displacement.row(step) = marching.u();
+      record.traction.row(step)     = marching.p();
     }
     return record;
   }

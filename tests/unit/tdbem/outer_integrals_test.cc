@@ -5,7 +5,7 @@
 // quadrature between all kinks, by the distance of the two elements.
 
 #include <quoin/tdbem/element_integrals.h>
-#include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/influence_matrices.h>
 
 #include <gtest/gtest.h>
 
@@ -111,15 +111,15 @@ namespace
                                       const std::vector<double> &times,
                                       const unsigned every)
   {
-    LagMatrices::Options options;
+    InfluenceMatrices::Options options;
     options.symmetrise = false;
-    const LagMatrices matrices(boundary, medium, 1., options);
+    const InfluenceMatrices matrices(boundary, medium, 1., options);
     const auto norm
         = [](const auto &matrix) { return matrix.cwiseAbs().maxCoeff(); };
     std::map<std::string, Error> result;
     for (const double time : times)
     {
-      const LagMatrices::Integrals integrals = matrices.integrals(time);
+      const InfluenceMatrices::Integrals integrals = matrices.integrals(time);
       const double A = norm(integrals.A), B = norm(integrals.B);
       for (unsigned e = 0; e < boundary.n_elements(); e += every)
         for (unsigned f = 0; f < boundary.n_elements(); ++f)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/tdbem/convolution_quadrature.h>
-#include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/influence_matrices.h>
 #include <quoin/tdbem/passivity.h>
 
 #include <gtest/gtest.h>
@@ -46,9 +47,9 @@ namespace
   PassivityReport scan_time_stepping(const Projection projection,
                                      const double beta)
   {
-    LagMatrices::Options options;
+    InfluenceMatrices::Options options;
     options.projection = projection;
-    const LagMatrices kernel(circle, medium, time_step(beta), options);
+    const InfluenceMatrices kernel(circle, medium, time_step(beta), options);
     return scan_passivity(z_transform(kernel, 500), circle, medium,
                           kernel.time_step(), 100, 0.98);
   }
@@ -120,9 +121,9 @@ TEST(Passivity, agrees_with_dense_eigenvalues)
     // Elements of two lengths and corners.
     const Boundary boundary = Boundary::polygon(
         { { 0., 0. }, { 1., 0. }, { 1., 0.5 }, { 0., 0.6 } }, 0.13, true);
-    LagMatrices::Options options;
+    InfluenceMatrices::Options options;
     options.projection = projection;
-    const LagMatrices kernel(boundary, medium, 0.06, options);
+    const InfluenceMatrices kernel(boundary, medium, 0.06, options);
     const ZTransform transform = z_transform(kernel, 300);
     std::map<double, double> expected;
     const auto report = scan_passivity(

@@ -4,10 +4,11 @@
 #ifndef quoin_tests_tdbem_regular_polygon_h
 #define quoin_tests_tdbem_regular_polygon_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/convolution_quadrature.h>
 #include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/tdbem/influence_kernel.h>
 #include <quoin/tdbem/laplace_matrices.h>
 #include <quoin/tdbem/projection.h>
 
@@ -97,7 +98,7 @@ namespace quoin::test
      * Computes the lags 0 to @p n_lags - 1. Later ones continue the last one:
      * G^n like log((n + 1) / n) and H^n like n^-3, their leading terms.
      */
-    PolygonSymbol(const Boundary &polygon, const LagKernel &kernel,
+    PolygonSymbol(const Boundary &polygon, const InfluenceKernel &kernel,
                   const unsigned n_lags)
     {
       const ElementRange first{ 0, 1 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/influence_matrices.h>
 
 #include <gtest/gtest.h>
 
@@ -34,10 +34,10 @@ namespace
                               const double poisson, const bool exterior = true)
   {
     const Boundary boundary = polygon(exterior);
-    LagMatrices::Options options;
+    InfluenceMatrices::Options options;
     options.projection = projection;
-    const LagMatrices kernel(boundary, medium(poisson),
-                             time_step(beta, poisson), options);
+    const InfluenceMatrices kernel(boundary, medium(poisson),
+                                   time_step(beta, poisson), options);
     return count_unstable_roots(PolygonSymbol(boundary, kernel, 300), n_sides,
                                 0.9995, 100);
   }

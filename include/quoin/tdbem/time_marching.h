@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_tdbem_boundary_march_h
-#define quoin_tdbem_boundary_march_h
+#ifndef quoin_tdbem_time_marching_h
+#define quoin_tdbem_time_marching_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary_history.h>
-#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/tdbem/influence_kernel.h>
 
 #include <Eigen/Dense>
 
@@ -25,7 +26,7 @@ namespace quoin
    * (@cite JinWangZhang1998, Eqs. 14-16): unknowns whose displacement is given,
    * not beforehand but by what is on the other side. See condensed_matrix().
    */
-  class BoundaryMarch
+  class TimeMarching
   {
   public:
     /**
@@ -33,12 +34,12 @@ namespace quoin
      * unknown k. Kernel and history, which must be one of that kernel, must
      * outlive this object. Throws InputError if the equations are singular.
      */
-    BoundaryMarch(const LagKernel &kernel, BoundaryHistory &history,
-                  const std::vector<bool> &traction_is_given);
+    TimeMarching(const InfluenceKernel &kernel, BoundaryHistory &history,
+                 const std::vector<bool> &traction_is_given);
 
     /**
-     * Takes one step to values @p given of the given fields: displacements [m]
-     * or tractions [Pa] that are the kernel's of its step (see LagKernel).
+     * Takes one step to the boundary values @p given: displacements [m] or
+     * tractions [Pa] that are the kernel's of its step (see InfluenceKernel).
      */
     void step(const Eigen::VectorXd &given);
 
@@ -74,8 +75,8 @@ namespace quoin
 
     /**
      * The tractions [Pa] on the unknowns of @p interface in the step to come
-     * if their displacements in it are zero and all other given fields have
-     * the values @p given: C without the lengths. Takes no step.
+     * if their displacements in it are zero and all other boundary values are
+     * @p given: C without the lengths. Takes no step.
      */
     Eigen::VectorXd condensed_load(const std::vector<unsigned> &interface,
                                    const Eigen::VectorXd &given);

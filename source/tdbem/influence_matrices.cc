@@ -6,7 +6,7 @@
 #include <quoin/tdbem/cut_kernels.h>
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/graded_rule.h>
-#include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/influence_matrices.h>
 
 #include <algorithm>
 #include <cmath>
@@ -31,33 +31,35 @@ namespace quoin
     }
   } // namespace
 
-  LagMatrices::LagMatrices(const Boundary &boundary,
-                           const ElasticMedium &medium, const double time_step)
-    : LagMatrices(boundary, medium, time_step, Options())
+  InfluenceMatrices::InfluenceMatrices(const Boundary &boundary,
+                                       const ElasticMedium &medium,
+                                       const double time_step)
+    : InfluenceMatrices(boundary, medium, time_step, Options())
   {
   }
 
-  LagMatrices::LagMatrices(const Boundary &boundary,
-                           const ElasticMedium &medium, const double time_step,
-                           const Options &options)
+  InfluenceMatrices::InfluenceMatrices(const Boundary &boundary,
+                                       const ElasticMedium &medium,
+                                       const double time_step,
+                                       const Options &options)
     : boundary(boundary), medium(medium), dt(time_step), options(options)
   {
     for (const BoundaryElement &e : boundary.elements)
       elements.push_back({ e, e.a, e.b, e.tangent(), e.normal(), e.length() });
   }
 
-  unsigned LagMatrices::size() const
+  unsigned InfluenceMatrices::size() const
   {
     return 2 * elements.size();
   }
 
-  double LagMatrices::time_step() const
+  double InfluenceMatrices::time_step() const
   {
     return dt;
   }
 
-  void LagMatrices::lag(const unsigned n, Eigen::MatrixXd &G,
-                        Eigen::MatrixXd &H) const
+  void InfluenceMatrices::lag(const unsigned n, Eigen::MatrixXd &G,
+                              Eigen::MatrixXd &H) const
   {
     const Integrals &present = at_step(n);
     G                        = present.A;
@@ -81,7 +83,8 @@ namespace quoin
     }
   }
 
-  const LagMatrices::Integrals &LagMatrices::at_step(const unsigned step) const
+  const InfluenceMatrices::Integrals &
+  InfluenceMatrices::at_step(const unsigned step) const
   {
     Recent &entry = recent[step % recent.size()];
     if (!entry.integrals || entry.step != step)
@@ -90,7 +93,8 @@ namespace quoin
     return *entry.integrals;
   }
 
-  LagMatrices::Integrals LagMatrices::integrals(const double time) const
+  InfluenceMatrices::Integrals
+  InfluenceMatrices::integrals(const double time) const
   {
     Integrals result{ Eigen::MatrixXd::Zero(size(), size()),
                       Eigen::MatrixXd::Zero(size(), size()) };
@@ -109,10 +113,10 @@ namespace quoin
     return result;
   }
 
-  void LagMatrices::blocks(const ElementRange &rows,
-                           const ElementRange &columns, const unsigned begin,
-                           const unsigned end, Eigen::MatrixXd &G,
-                           Eigen::MatrixXd &H) const
+  void InfluenceMatrices::blocks(const ElementRange &rows,
+                                 const ElementRange &columns,
+                                 const unsigned begin, const unsigned end,
+                                 Eigen::MatrixXd &G, Eigen::MatrixXd &H) const
   {
     G.setZero(2 * rows.size(), 2 * columns.size() * (end - begin));
     H.setZero(2 * rows.size(), 2 * columns.size() * (end - begin));
@@ -144,29 +148,31 @@ namespace quoin
       }
   }
 
-  unsigned LagMatrices::first_lag(const ElementRange &, const ElementRange &,
-                                  const double distance) const
+  unsigned InfluenceMatrices::first_lag(const ElementRange &,
+                                        const ElementRange &,
+                                        const double distance) const
   {
     return unsigned(std::min(most_lags, distance / (medium.c1 * dt)));
   }
 
-  unsigned LagMatrices::first_decaying_lag(const double distance,
-                                           const double share) const
+  unsigned InfluenceMatrices::first_decaying_lag(const double distance,
+                                                 const double share) const
   {
     // The displacements' shape in time reaches one step back.
     return unsigned(std::min(
         most_lags, std::ceil((1. + share) * distance / (medium.c2 * dt)) + 1.));
   }
 
-  void LagMatrices::cut_blocks(const ElementRange &rows,
-                               const ElementRange &columns, const double lambda,
-                               Eigen::MatrixXd &G, Eigen::MatrixXd &H) const
+  void InfluenceMatrices::cut_blocks(const ElementRange &rows,
+                                     const ElementRange &columns,
+                                     const double lambda, Eigen::MatrixXd &G,
+                                     Eigen::MatrixXd &H) const
   {
     CutKernels(medium, lambda)
         .integrate(boundary, rows, columns, options.projection, G, H);
   }
 
-  DecayFactors LagMatrices::decay_factors(const double lambda) const
+  DecayFactors InfluenceMatrices::decay_factors(const double lambda) const
   {
     // Integrals over the step and over the hat function of two steps.
     const double x    = lambda * dt;
@@ -175,10 +181,10 @@ namespace quoin
              4. * half * half / (x * lambda) };
   }
 
-  TimeKernels LagMatrices::near_integral(const Element &outer,
-                                         const Element &inner,
-                                         const double time,
-                                         const bool close) const
+  TimeKernels InfluenceMatrices::near_integral(const Element &outer,
+                                               const Element &inner,
+                                               const double time,
+                                               const bool close) const
   {
     static const GaussRule graded        = graded_rule(16);
     static const GaussRule strong_graded = strongly_graded_rule(32);
@@ -239,7 +245,8 @@ namespace quoin
     return sum;
   }
 
-  LagMatrices::Pair LagMatrices::pair(const unsigned e, const unsigned f) const
+  InfluenceMatrices::Pair InfluenceMatrices::pair(const unsigned e,
+                                                  const unsigned f) const
   {
     const Element &E = elements[e], &F = elements[f];
     const double length = std::max(E.length, F.length);
@@ -258,8 +265,8 @@ namespace quoin
     return { E, F, nearest, farthest };
   }
 
-  LagMatrices::PairIntegrals LagMatrices::integrate(const Pair &pair,
-                                                    const double time) const
+  InfluenceMatrices::PairIntegrals
+  InfluenceMatrices::integrate(const Pair &pair, const double time) const
   {
     const Element &E = pair.e, &F = pair.f;
     PairIntegrals result{ Matrix2d::Zero(), Matrix2d::Zero(), Matrix2d::Zero(),
@@ -310,9 +317,9 @@ namespace quoin
     return result;
   }
 
-  LagMatrices::PairIntegrals
-  LagMatrices::far_integrals(const Pair &pair, const double time,
-                             const unsigned n_points) const
+  InfluenceMatrices::PairIntegrals
+  InfluenceMatrices::far_integrals(const Pair &pair, const double time,
+                                   const unsigned n_points) const
   {
     const GaussRule &rule = gauss_legendre(n_points);
     const Element &E = pair.e, &F = pair.f;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_tdbem_lag_kernel_h
-#define quoin_tdbem_lag_kernel_h
+#ifndef quoin_tdbem_influence_kernel_h
+#define quoin_tdbem_influence_kernel_h
 
-#include <Eigen/Core>
+#include <quoin/base/eigen_core.h>
 
 #include <limits>
 #include <vector>
 
 namespace quoin
 {
-  /** More lags than anybody can keep. */
+  /** A number of time lags that no memory can hold. */
   constexpr double most_lags = 1e9;
 
   /** Elements begin to end - 1 of a boundary. */
@@ -38,7 +38,8 @@ namespace quoin
   };
 
   /**
-   * Matrices of a time-stepping boundary element method, by time lag.
+   * Influence matrices of a time-stepping boundary element method, two for each
+   * time lag.
    *
    * Let u^m [m] be the displacements of all elements at the time t_m = m dt
    * and p^m [Pa] their tractions, at t_m or over the step that ends then,
@@ -48,10 +49,10 @@ namespace quoin
    * The free term of the integral equation, one half of the displacement on
    * a straight element, is part of H^0.
    */
-  class LagKernel
+  class InfluenceKernel
   {
   public:
-    virtual ~LagKernel() = default;
+    virtual ~InfluenceKernel() = default;
 
     /** Number of rows, two per element. */
     virtual unsigned size() const = 0;

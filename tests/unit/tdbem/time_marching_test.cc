@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/time_marching.h>
 #include <quoin/tdbem/direct_history.h>
-#include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/influence_matrices.h>
 
 #include <gtest/gtest.h>
 
@@ -21,14 +21,14 @@ namespace
 
   struct March
   {
-    LagMatrices kernel;
+    InfluenceMatrices kernel;
     DirectHistory history;
-    BoundaryMarch march;
+    TimeMarching marching;
 
     March(const Boundary &boundary, const double dt,
           const std::vector<bool> &traction_is_given)
       : kernel(boundary, medium, dt), history(kernel),
-        march(kernel, history, traction_is_given)
+        marching(kernel, history, traction_is_given)
     {
     }
   };
@@ -40,7 +40,7 @@ namespace
 } // namespace
 
 /** The wall of a cavity, with pressure given, against the closed form. */
-TEST(BoundaryMarch, pressurised_cavity)
+TEST(TimeMarching, pressurised_cavity)
 {
   const double bounds[2] = { 3e-3, 5e-4 };
   for (unsigned k = 0; k < 2; ++k)
@@ -52,9 +52,9 @@ TEST(BoundaryMarch, pressurised_cavity)
     double error     = 0.;
     for (unsigned step = 1; step * dt * medium.c1 < 20.; ++step)
     {
-      run.march.step(p);
+      run.marching.step(p);
       const double u = 2. * medium.mu()
-                       * test::radial_displacement(boundary, run.march.u());
+                       * test::radial_displacement(boundary, run.marching.u());
       error = std::max(
           error,
           std::abs(u - test::cavity_wall_displacement(medium, 1., step * dt)));
@@ -64,7 +64,7 @@ TEST(BoundaryMarch, pressurised_cavity)
 }
 
 /** Tractions from the motion that they made: any mixture of conditions. */
-TEST(BoundaryMarch, given_fields_can_be_exchanged)
+TEST(TimeMarching, given_fields_can_be_exchanged)
 {
   const Boundary boundary = Boundary::polygon(
       { { 0., 0. }, { 1., 0. }, { 1.2, 0.7 }, { 0.1, 0.6 } }, 0.25, true);
@@ -79,17 +79,17 @@ TEST(BoundaryMarch, given_fields_can_be_exchanged)
   {
     VectorXd given = VectorXd::Zero(n);
     given.head(4).setConstant(pulse(step * dt));
-    first.march.step(given);
+    first.marching.step(given);
     for (unsigned k = 0; k < n; ++k)
-      given(k) = some[k] ? first.march.p()(k) : first.march.u()(k);
-    second.march.step(given);
-    EXPECT_LT((first.march.u() - second.march.u()).norm(), 1e-8);
-    EXPECT_LT((first.march.p() - second.march.p()).norm(), 1e-8);
+      given(k) = some[k] ? first.marching.p()(k) : first.marching.u()(k);
+    second.marching.step(given);
+    EXPECT_LT((first.marching.u() - second.marching.u()).norm(), 1e-8);
+    EXPECT_LT((first.marching.p() - second.marching.p()).norm(), 1e-8);
   }
 }
 
 /** F = A u + C on the interface is what a step finds there. */
-TEST(BoundaryMarch, condensation)
+TEST(TimeMarching, condensation)
 {
   // Interface at the bottom, loaded at the right, free elsewhere.
   const Boundary boundary = Boundary::polygon(
@@ -103,24 +103,24 @@ TEST(BoundaryMarch, condensation)
     traction_is_given[k] = false;
   }
   March run(boundary, 0.2, traction_is_given);
-  const Eigen::MatrixXd A = run.march.condensed_matrix(interface);
+  const Eigen::MatrixXd A = run.marching.condensed_matrix(interface);
   EXPECT_EQ(A.rows(), 8);
   for (unsigned step = 1; step < 40; ++step)
   {
     const double t = 0.2 * step;
     VectorXd given = VectorXd::Zero(n);
     given.segment(8, 8).setConstant(0.1 * pulse(t - 1.));
-    const VectorXd C = run.march.condensed_load(interface, given);
+    const VectorXd C = run.marching.condensed_load(interface, given);
     for (unsigned k = 0; k < 8; ++k)
       given(k) = 0.01 * (k % 3) * pulse(t);
-    run.march.step(given);
+    run.marching.step(given);
     const VectorXd expected = A * given.head(8) + C;
-    EXPECT_LT((run.march.p().head(8) - expected).norm(), 1e-12 * A.norm());
+    EXPECT_LT((run.marching.p().head(8) - expected).norm(), 1e-12 * A.norm());
   }
 }
 
 /** A rigid interface with no mass: its stiffness is an impedance at first. */
-TEST(BoundaryMarch, instantaneous_impedance)
+TEST(TimeMarching, instantaneous_impedance)
 {
   // Normal to itself an element radiates P waves, along itself S waves.
   const Boundary boundary = Boundary::polygon(
@@ -131,7 +131,7 @@ TEST(BoundaryMarch, instantaneous_impedance)
   std::vector<unsigned> all(n);
   for (unsigned k = 0; k < n; ++k)
     all[k] = k;
-  const Eigen::MatrixXd Z      = dt * run.march.condensed_matrix(all);
+  const Eigen::MatrixXd Z      = dt * run.marching.condensed_matrix(all);
   const unsigned e             = 4; // in the middle of a side
   const Eigen::Vector2d normal = boundary.elements[e].normal();
   const Eigen::Matrix2d local  = Z.block<2, 2>(2 * e, 2 * e);

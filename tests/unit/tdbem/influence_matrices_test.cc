@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/element_integrals.h>
-#include <quoin/tdbem/lag_matrices.h>
+#include <quoin/tdbem/influence_matrices.h>
 #include <quoin/tdbem/static_kernels.h>
 
 #include <Eigen/Geometry>
@@ -28,10 +29,10 @@ namespace
         exterior);
   }
 
-  LagMatrices::Options options(const Projection projection,
-                               const double decay = 0.)
+  InfluenceMatrices::Options options(const Projection projection,
+                                     const double decay = 0.)
   {
-    LagMatrices::Options result;
+    InfluenceMatrices::Options result;
     result.projection = projection;
     result.decay      = decay;
     return result;
@@ -59,7 +60,7 @@ namespace
 } // namespace
 
 /** A rigid motion needs no tractions: inside, H u = 0; outside, H u = u. */
-TEST(LagMatrices, rigid_motions_in_the_static_limit)
+TEST(InfluenceMatrices, rigid_motions_in_the_static_limit)
 {
   const double time = 1e7;
   for (const Projection projection :
@@ -71,7 +72,8 @@ TEST(LagMatrices, rigid_motions_in_the_static_limit)
       for (const Boundary &boundary :
            { wedge(exterior), Boundary::circle({ 3., 1. }, 2., 24, exterior) })
       {
-        const LagMatrices matrices(boundary, medium, 1., options(projection));
+        const InfluenceMatrices matrices(boundary, medium, 1.,
+                                         options(projection));
         MatrixXd H = matrices.integrals(time).B / time;
         H.diagonal().array() += 0.5;
         EXPECT_LT(row_sum_error(H, exterior ? 1. : 0.), tolerance);
@@ -80,7 +82,7 @@ TEST(LagMatrices, rigid_motions_in_the_static_limit)
 }
 
 /** Both matrices against those of statics, which are exact. */
-TEST(LagMatrices, static_limit)
+TEST(InfluenceMatrices, static_limit)
 {
   const double time     = 1e7;
   const Boundary domain = wedge(false);
@@ -88,9 +90,9 @@ TEST(LagMatrices, static_limit)
        { Projection::galerkin, Projection::collocation })
   {
     const double tolerance = projection == Projection::galerkin ? 1e-6 : 1e-12;
-    const LagMatrices matrices(domain, medium, 1., options(projection));
-    LagMatrices::Integrals integrals = matrices.integrals(time);
-    MatrixXd H                       = integrals.B / time;
+    const InfluenceMatrices matrices(domain, medium, 1., options(projection));
+    InfluenceMatrices::Integrals integrals = matrices.integrals(time);
+    MatrixXd H                             = integrals.B / time;
     H.diagonal().array() += 0.5;
     const StaticMatrices exact = static_matrices(domain, medium, projection);
     EXPECT_LT(norm(H - exact.H), tolerance);
@@ -113,19 +115,20 @@ TEST(LagMatrices, static_limit)
 }
 
 /** Betti: the work of one element's tractions on another is mutual. */
-TEST(LagMatrices, A_is_symmetric)
+TEST(InfluenceMatrices, A_is_symmetric)
 {
-  const Boundary domain         = wedge(true);
-  LagMatrices::Options as_it_is = options(Projection::galerkin);
-  as_it_is.symmetrise           = false;
+  const Boundary domain               = wedge(true);
+  InfluenceMatrices::Options as_it_is = options(Projection::galerkin);
+  as_it_is.symmetrise                 = false;
   for (const double time : { 0.03, 0.1, 0.25, 0.6, 1.1, 5., 100. })
   {
-    MatrixXd A = LagMatrices(domain, medium, 1., as_it_is).integrals(time).A;
+    MatrixXd A
+        = InfluenceMatrices(domain, medium, 1., as_it_is).integrals(time).A;
     for (unsigned e = 0; e < domain.n_elements(); ++e)
       A.middleRows(2 * e, 2) *= domain.elements[e].length();
     EXPECT_LT(norm(A - A.transpose()), 1e-6 * norm(A)) << time;
 
-    MatrixXd S = LagMatrices(domain, medium, 1.).integrals(time).A;
+    MatrixXd S = InfluenceMatrices(domain, medium, 1.).integrals(time).A;
     for (unsigned e = 0; e < domain.n_elements(); ++e)
       S.middleRows(2 * e, 2) *= domain.elements[e].length();
     EXPECT_LT(norm(S - S.transpose()), 1e-15 * norm(S));
@@ -134,14 +137,14 @@ TEST(LagMatrices, A_is_symmetric)
 }
 
 /** The outer integral against adaptive quadrature of the inner one. */
-TEST(LagMatrices, outer_integrals)
+TEST(InfluenceMatrices, outer_integrals)
 {
   const Boundary domain = wedge(false);
-  const LagMatrices matrices(domain, medium, 1.);
+  const InfluenceMatrices matrices(domain, medium, 1.);
   double worst_A = 0., worst_B = 0.;
   for (const double time : { 0.04, 0.2, 0.45, 0.8, 3. })
   {
-    const LagMatrices::Integrals integrals = matrices.integrals(time);
+    const InfluenceMatrices::Integrals integrals = matrices.integrals(time);
     const double scale_A = norm(integrals.A), scale_B = norm(integrals.B);
     for (unsigned e = 0; e < domain.n_elements(); e += 2)
     {
@@ -172,12 +175,12 @@ TEST(LagMatrices, outer_integrals)
 }
 
 /** Elements that the P wave does not reach do not know of each other. */
-TEST(LagMatrices, causality)
+TEST(InfluenceMatrices, causality)
 {
   const unsigned n_elements = 40;
   const Boundary boundary = Boundary::circle({ 0., 0. }, 1., n_elements, true);
   const double dt         = 0.97 * boundary.elements[0].length() / medium.c1;
-  const LagMatrices matrices(boundary, medium, dt);
+  const InfluenceMatrices matrices(boundary, medium, dt);
   MatrixXd G, H;
   for (unsigned n = 0; n < 12; ++n)
   {
@@ -199,14 +202,14 @@ TEST(LagMatrices, causality)
 }
 
 /** In any order, against the differences of integrals. */
-TEST(LagMatrices, lags)
+TEST(InfluenceMatrices, lags)
 {
   const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 8, false);
   const double dt         = 0.5;
-  const LagMatrices matrices(boundary, medium, dt);
-  const LagMatrices decaying(boundary, medium, dt,
-                             options(Projection::galerkin, 0.3));
-  std::vector<LagMatrices::Integrals> at;
+  const InfluenceMatrices matrices(boundary, medium, dt);
+  const InfluenceMatrices decaying(boundary, medium, dt,
+                                   options(Projection::galerkin, 0.3));
+  std::vector<InfluenceMatrices::Integrals> at;
   for (unsigned n = 0; n < 8; ++n)
     at.push_back(matrices.integrals((n + 1) * dt));
   MatrixXd G, H, G_decaying, H_decaying;
@@ -234,11 +237,11 @@ TEST(LagMatrices, lags)
 }
 
 /** Of some elements and lags, against whole lags. */
-TEST(LagMatrices, blocks)
+TEST(InfluenceMatrices, blocks)
 {
   const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 8, false);
-  const LagMatrices matrices(boundary, medium, 0.5,
-                             options(Projection::galerkin, 0.3));
+  const InfluenceMatrices matrices(boundary, medium, 0.5,
+                                   options(Projection::galerkin, 0.3));
   const ElementRange rows{ 1, 4 }, columns{ 2, 7 };
   for (const unsigned begin : { 0, 1, 3 })
   {
@@ -260,18 +263,19 @@ TEST(LagMatrices, blocks)
 }
 
 /** On a regular polygon all elements see the same. */
-TEST(LagMatrices, regular_polygon)
+TEST(InfluenceMatrices, regular_polygon)
 {
   const unsigned n = 12;
   for (const Projection projection :
        { Projection::galerkin, Projection::collocation })
   {
-    const LagMatrices matrices(Boundary::circle({ 1., -2. }, 1.5, n, true),
-                               medium, 1., options(projection));
+    const InfluenceMatrices matrices(
+        Boundary::circle({ 1., -2. }, 1.5, n, true), medium, 1.,
+        options(projection));
     for (const double time : { 0.2, 1.3, 4. })
     {
-      const LagMatrices::Integrals integrals = matrices.integrals(time);
-      const auto check                       = [&](const MatrixXd &matrix)
+      const InfluenceMatrices::Integrals integrals = matrices.integrals(time);
+      const auto check                             = [&](const MatrixXd &matrix)
       {
         for (unsigned e = 0; e < n; ++e)
           for (unsigned f = 0; f < n; ++f)
@@ -292,11 +296,11 @@ TEST(LagMatrices, regular_polygon)
 }
 
 /** The second differences decay like n^-3 and keep their digits. */
-TEST(LagMatrices, late_lags)
+TEST(InfluenceMatrices, late_lags)
 {
   const Boundary boundary = Boundary::circle({ 0., 0. }, 1., 16, true);
   const double dt         = boundary.elements[0].length() / medium.c1;
-  const LagMatrices matrices(boundary, medium, dt);
+  const InfluenceMatrices matrices(boundary, medium, dt);
   MatrixXd G, H, G2, H2;
   matrices.lag(500, G, H);
   matrices.lag(1000, G2, H2);

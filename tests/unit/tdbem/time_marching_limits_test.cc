@@ -4,7 +4,7 @@
 // What every solution in time must satisfy whatever the formulation: its
 // static limit, the speed of the P wave, reciprocity, convergence at corners.
 
-#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/time_marching.h>
 #include <quoin/tdbem/formulation.h>
 #include <quoin/tdbem/static_solver.h>
 
@@ -48,7 +48,7 @@ namespace
                     [](const Vector2d &x) { return x.x() > 0.499 ? 1. : 0.; });
   }
 
-  /** A march and what it needs, its steps kept as columns. */
+  /** A marching and what it needs, its steps kept as columns. */
   class Solution
   {
   public:
@@ -61,8 +61,8 @@ namespace
       options.time_step   = beta * boundary.elements[0].length() / medium.c1;
       options.n_steps     = n_steps;
       kernel              = make_lag_kernel(boundary, medium, options);
-      history = make_history(*kernel, boundary, options, MPI_COMM_SELF);
-      march   = std::make_unique<BoundaryMarch>(
+      history  = make_history(*kernel, boundary, options, MPI_COMM_SELF);
+      marching = std::make_unique<TimeMarching>(
           *kernel, *history,
           std::vector<bool>(boundary.n_unknowns(), traction_given));
       u.resize(kernel->size(), n_steps);
@@ -75,9 +75,9 @@ namespace
     {
       for (unsigned step = 0; step < n_steps; ++step)
       {
-        march->step(value((step + 1) * time_step()) * shape);
-        u.col(step) = march->u();
-        p.col(step) = march->p();
+        marching->step(value((step + 1) * time_step()) * shape);
+        u.col(step) = marching->u();
+        p.col(step) = marching->p();
       }
     }
 
@@ -91,9 +91,9 @@ namespace
   private:
     unsigned n_steps;
     FormulationOptions options;
-    std::unique_ptr<LagKernel> kernel;
+    std::unique_ptr<InfluenceKernel> kernel;
     std::unique_ptr<BoundaryHistory> history;
-    std::unique_ptr<BoundaryMarch> march;
+    std::unique_ptr<TimeMarching> marching;
   };
 
   /** From 0 to 1 in @p duration, smoothly. */
@@ -195,7 +195,7 @@ TEST_P(StaticLimit, of_given_motion)
 }
 
 /** Nothing is faster than the P wave: exactly from one hole to another. */
-TEST(MarchLimits, causality)
+TEST(TimeMarchingLimits, causality)
 {
   Boundary boundary      = square_hole(5);
   const unsigned n_first = unsigned(boundary.n_unknowns());
@@ -228,7 +228,7 @@ TEST(MarchLimits, causality)
 }
 
 /** Around one hole but for the reach of an implicit step, a few elements. */
-TEST(MarchLimits, causality_along_a_boundary)
+TEST(TimeMarchingLimits, causality_along_a_boundary)
 {
   const Boundary boundary = square_hole(16);
   Solution run(boundary, 1., true, 40);
@@ -248,7 +248,7 @@ TEST(MarchLimits, causality_along_a_boundary)
  * Betti in time: the tractions of one state do as much work on the
  * displacements of the other, one of them reversed in time, as vice versa.
  */
-TEST(MarchLimits, reciprocity)
+TEST(TimeMarchingLimits, reciprocity)
 {
   const auto mismatch = [](const unsigned per_side, const bool traction_given)
   {
@@ -292,7 +292,7 @@ TEST(MarchLimits, reciprocity)
 }
 
 /** Tractions that jump at two corners, in motion and at rest. */
-TEST(MarchLimits, pressure_on_one_side)
+TEST(TimeMarchingLimits, pressure_on_one_side)
 {
   const auto solve = [](const unsigned per_side)
   {

@@ -1,32 +1,31 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_farfield_given_values_h
-#define quoin_farfield_given_values_h
+#ifndef quoin_farfield_boundary_values_h
+#define quoin_farfield_boundary_values_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/farfield/boundary_geometry.h>
-
-#include <Eigen/Core>
 
 #include <vector>
 
 namespace quoin
 {
   /**
-   * The given displacements and tractions of the boundary elements, in the
-   * mean over each element by three Gauss points. Displacements are those at
+   * Prescribed displacements and tractions of the boundary elements, as means
+   * over each element by three Gauss points. Displacements are those at
    * the end of a step. Tractions are means over it, by four Gauss points, so
    * that what is switched on where a step begins counts for all of it; or
    * those at its end, as convolution quadrature and statics need them.
    */
-  class GivenValues
+  class BoundaryValues
   {
   public:
     /** @p geometry and @p parameters must outlive this object. */
-    GivenValues(const BoundaryGeometry &geometry,
-                const BoundaryElementParameters &parameters);
+    BoundaryValues(const BoundaryGeometry &geometry,
+                   const BoundaryElementParameters &parameters);
 
-    /** Of each unknown: whether the traction is given. */
+    /** Whether the traction is prescribed, for each unknown. */
     const std::vector<bool> &traction_is_given() const
     {
       return is_traction;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_tdbem_lag_matrices_h
-#define quoin_tdbem_lag_matrices_h
+#ifndef quoin_tdbem_influence_matrices_h
+#define quoin_tdbem_influence_matrices_h
 
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/lag_kernel.h>
+#include <quoin/tdbem/influence_kernel.h>
 #include <quoin/tdbem/projection.h>
 #include <quoin/tdbem/time_kernels.h>
 
@@ -17,10 +17,10 @@
 namespace quoin
 {
   /**
-   * Lag matrices of the boundary integral equation of elastodynamics in the
-   * time domain (@cite JinWangZhang1998, Eqs. 2-10) on straight elements:
-   * tractions and velocities are constant on an element during a time step,
-   * and the equation holds at the end of each step.
+   * Influence matrices of each time lag, for the boundary integral equation of
+   * elastodynamics in the time domain (@cite JinWangZhang1998, Eqs. 2-10) on
+   * straight elements: tractions and velocities are constant on an element
+   * during a time step, and the equation holds at the end of each step.
    *
    * Let A_n and B_n be the integrals of the kernels of time_kernels.h over
    * the elements at the time (n + 1) dt, zero for n < 0. Then
@@ -44,7 +44,7 @@ namespace quoin
    * quadrature in both. Relative errors of A_n and B_n are below 1e-6 of their
    * greatest entries.
    */
-  class LagMatrices : public LagKernel
+  class InfluenceMatrices : public InfluenceKernel
   {
   public:
     struct Options
@@ -67,10 +67,10 @@ namespace quoin
     };
 
     /** @p time_step in seconds. */
-    LagMatrices(const Boundary &boundary, const ElasticMedium &medium,
-                double time_step);
-    LagMatrices(const Boundary &boundary, const ElasticMedium &medium,
-                double time_step, const Options &options);
+    InfluenceMatrices(const Boundary &boundary, const ElasticMedium &medium,
+                      double time_step);
+    InfluenceMatrices(const Boundary &boundary, const ElasticMedium &medium,
+                      double time_step, const Options &options);
 
     unsigned size() const override;
     double time_step() const override;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/farfield/given_values.h>
+#include <quoin/farfield/boundary_values.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/tdbem/gauss_legendre.h>
 
@@ -10,8 +10,8 @@
 
 namespace quoin
 {
-  GivenValues::GivenValues(const BoundaryGeometry &geometry,
-                           const BoundaryElementParameters &parameters)
+  BoundaryValues::BoundaryValues(const BoundaryGeometry &geometry,
+                                 const BoundaryElementParameters &parameters)
     : geometry(geometry), parameters(parameters),
       mean_of_tractions(!parameters.is_static
                         && parameters.formulation
@@ -37,9 +37,9 @@ namespace quoin
     }
   }
 
-  void GivenValues::update(Means &means, const unsigned int curve,
-                           const double begin, const double end,
-                           const bool mean_in_time) const
+  void BoundaryValues::update(Means &means, const unsigned int curve,
+                              const double begin, const double end,
+                              const bool mean_in_time) const
   {
     if (means.are_final)
       return;
@@ -74,18 +74,19 @@ namespace quoin
     }
   }
 
-  Eigen::VectorXd GivenValues::operator()(const double begin, const double end)
+  Eigen::VectorXd BoundaryValues::operator()(const double begin,
+                                             const double end)
   {
     return evaluate(begin, end, mean_of_tractions);
   }
 
-  Eigen::VectorXd GivenValues::at(const double time)
+  Eigen::VectorXd BoundaryValues::at(const double time)
   {
     return evaluate(time, time, false);
   }
 
-  Eigen::VectorXd GivenValues::evaluate(const double begin, const double end,
-                                        const bool mean)
+  Eigen::VectorXd BoundaryValues::evaluate(const double begin, const double end,
+                                           const bool mean)
   {
     Eigen::VectorXd result(geometry.boundary.n_unknowns());
     for (unsigned int k = 0; k < means.size(); ++k)
@@ -118,7 +119,7 @@ namespace quoin
     return result;
   }
 
-  void GivenValues::check_start()
+  void BoundaryValues::check_start()
   {
     const std::string names[] = { "Horizontal", "Vertical" };
     for (unsigned int k = 0; k < means.size(); ++k)

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/tdbem/boundary_march.h>
+#include <quoin/tdbem/time_marching.h>
 
 #include <quoin/base/exceptions.h>
 
 namespace quoin
 {
-  BoundaryMarch::BoundaryMarch(const LagKernel &kernel,
-                               BoundaryHistory &history,
-                               const std::vector<bool> &traction_is_given)
+  TimeMarching::TimeMarching(const InfluenceKernel &kernel,
+                             BoundaryHistory &history,
+                             const std::vector<bool> &traction_is_given)
     : history(history), traction_is_given(traction_is_given),
       displacement(Eigen::VectorXd::Zero(kernel.size())),
       traction(Eigen::VectorXd::Zero(kernel.size()))
@@ -26,7 +26,7 @@ namespace quoin
                        "singular. Look for elements that coincide.");
   }
 
-  Eigen::VectorXd BoundaryMarch::solve(const Eigen::VectorXd &given)
+  Eigen::VectorXd TimeMarching::solve(const Eigen::VectorXd &given)
   {
     if (!has_past)
       past = history.predict();
@@ -38,13 +38,13 @@ namespace quoin
     return solver.solve(past + G0 * p - H0 * u);
   }
 
-  void BoundaryMarch::step(const Eigen::VectorXd &given)
+  void TimeMarching::step(const Eigen::VectorXd &given)
   {
     begin_step(given);
     finish_step();
   }
 
-  void BoundaryMarch::begin_step(const Eigen::VectorXd &given)
+  void TimeMarching::begin_step(const Eigen::VectorXd &given)
   {
     const Eigen::VectorXd solution = solve(given);
     for (Eigen::Index k = 0; k < given.size(); ++k)
@@ -55,8 +55,8 @@ namespace quoin
     }
   }
 
-  void BoundaryMarch::finish_step(const std::vector<unsigned> &replaced,
-                                  const Eigen::VectorXd &values)
+  void TimeMarching::finish_step(const std::vector<unsigned> &replaced,
+                                 const Eigen::VectorXd &values)
   {
     traction(replaced) = values;
     history.push(displacement, traction);
@@ -64,15 +64,15 @@ namespace quoin
   }
 
   Eigen::MatrixXd
-  BoundaryMarch::condensed_matrix(const std::vector<unsigned> &interface) const
+  TimeMarching::condensed_matrix(const std::vector<unsigned> &interface) const
   {
     const Eigen::MatrixXd columns = H0(Eigen::all, interface);
     return -traction_scale * solver.solve(columns)(interface, Eigen::all);
   }
 
   Eigen::VectorXd
-  BoundaryMarch::condensed_load(const std::vector<unsigned> &interface,
-                                const Eigen::VectorXd &given)
+  TimeMarching::condensed_load(const std::vector<unsigned> &interface,
+                               const Eigen::VectorXd &given)
   {
     Eigen::VectorXd rest = given;
     rest(interface) = Eigen::VectorXd::Zero(Eigen::Index(interface.size()));
@@ -80,8 +80,7 @@ namespace quoin
     return traction_scale * solution(interface);
   }
 
-  void BoundaryMarch::restore(const Eigen::VectorXd &u,
-                              const Eigen::VectorXd &p)
+  void TimeMarching::restore(const Eigen::VectorXd &u, const Eigen::VectorXd &p)
   {
     displacement = u;
     traction     = p;
