@@ -21,8 +21,8 @@ namespace quoin
     }
   } // namespace
 
-  void BlockForces::prepare(const BlockForcesData &new_data,
-                            const BlockForcesOptions &options)
+  void BlockForces<2>::prepare(const BlockForcesData<2> &new_data,
+                               const BlockForcesOptions &options)
   {
     data    = new_data;
     n_lanes = options.n_lanes == 0 ? native_lanes : options.n_lanes;
@@ -38,7 +38,7 @@ namespace quoin
       make_runs(tile, options.max_run_cells);
   }
 
-  void BlockForces::make_tiles(const std::size_t tile_bytes)
+  void BlockForces<2>::make_tiles(const std::size_t tile_bytes)
   {
     // Node record, velocity, force, inverse mass.
     constexpr std::size_t node_bytes
@@ -69,7 +69,7 @@ namespace quoin
               "or cut the block.");
   }
 
-  void BlockForces::make_runs(Tile &tile, const std::size_t max_run_cells)
+  void BlockForces<2>::make_runs(Tile &tile, const std::size_t max_run_cells)
   {
     tile.begin_run = runs.size();
     std::vector<std::vector<unsigned int>> members(data.stiffness.size());
@@ -92,8 +92,8 @@ namespace quoin
     tile.end_run = runs.size();
   }
 
-  void BlockForces::append_run(const std::vector<StripEntry> &strips,
-                               const Tile &tile, const unsigned int s)
+  void BlockForces<2>::append_run(const std::vector<StripEntry> &strips,
+                                  const Tile &tile, const unsigned int s)
   {
     // Each lane takes an equal piece of the sequence, wherever that cuts a
     // strip, after the two nodes before the piece: all lanes end together.
@@ -153,10 +153,10 @@ namespace quoin
   }
 
   template <int lanes>
-  double BlockForces::add_forces_in_lanes(const Tile &tile,
-                                          const NodeRecord<2> *nodes,
-                                          PlasticHistory &history,
-                                          NodeVector<2> *force) const
+  double BlockForces<2>::add_forces_in_lanes(const Tile &tile,
+                                             const NodeRecord<2> *nodes,
+                                             PlasticHistory &history,
+                                             NodeVector<2> *force) const
   {
     double dissipated = 0.;
     for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
@@ -193,11 +193,10 @@ namespace quoin
   }
 
   template <int lanes>
-  void BlockForces::add_viscous_forces_in_lanes(const Tile &tile,
-                                                const NodeRecord<2> *nodes,
-                                                const NodeVector<2> *velocity,
-                                                const double beta,
-                                                NodeVector<2> *force) const
+  void BlockForces<2>::add_viscous_forces_in_lanes(
+      const Tile &tile, const NodeRecord<2> *nodes,
+      const NodeVector<2> *velocity, const double beta,
+      NodeVector<2> *force) const
   {
     for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
     {
@@ -210,10 +209,10 @@ namespace quoin
     }
   }
 
-  double BlockForces::add_forces(const unsigned int tile,
-                                 const NodeRecord<2> *nodes,
-                                 PlasticHistory &history,
-                                 NodeVector<2> *force) const
+  double BlockForces<2>::add_forces(const unsigned int tile,
+                                    const NodeRecord<2> *nodes,
+                                    PlasticHistory &history,
+                                    NodeVector<2> *force) const
   {
     if (is_plastic())
       for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
@@ -224,11 +223,11 @@ namespace quoin
                : add_forces_in_lanes<4>(tiles[tile], nodes, history, force);
   }
 
-  void BlockForces::add_viscous_forces(const unsigned int tile,
-                                       const NodeRecord<2> *nodes,
-                                       const NodeVector<2> *velocity,
-                                       const double beta,
-                                       NodeVector<2> *force) const
+  void BlockForces<2>::add_viscous_forces(const unsigned int tile,
+                                          const NodeRecord<2> *nodes,
+                                          const NodeVector<2> *velocity,
+                                          const double beta,
+                                          NodeVector<2> *force) const
   {
     if (n_lanes == 8)
       add_viscous_forces_in_lanes<8>(tiles[tile], nodes, velocity, beta, force);

@@ -7,9 +7,9 @@
 
 namespace quoin
 {
-  CorotatedStrain BlockForces::cell_strain(const NodeRecord<2> *nodes,
-                                           const std::size_t cell,
-                                           double *area) const
+  CorotatedStrain BlockForces<2>::cell_strain(const NodeRecord<2> *nodes,
+                                              const std::size_t cell,
+                                              double *area) const
   {
     if (data.quadratic)
     {
@@ -26,7 +26,7 @@ namespace quoin
         triangle.gradient(nodes[a].u, nodes[b].u, nodes[c].u));
   }
 
-  PlasticHistory BlockForces::initial_history() const
+  PlasticHistory BlockForces<2>::initial_history() const
   {
     PlasticHistory history;
     if (!is_plastic())
@@ -37,8 +37,8 @@ namespace quoin
     return history;
   }
 
-  void BlockForces::forget_history(const unsigned int cell,
-                                   PlasticHistory &history) const
+  void BlockForces<2>::forget_history(const unsigned int cell,
+                                      PlasticHistory &history) const
   {
     if (!is_plastic())
       return;
@@ -51,9 +51,9 @@ namespace quoin
     std::copy(s.begin(), s.end(), history.cells[cell].stress);
   }
 
-  double BlockForces::update_cell(const std::size_t cell,
-                                  const PlaneTensor &strain,
-                                  PlasticHistory &history) const
+  double BlockForces<2>::update_cell(const std::size_t cell,
+                                     const PlaneTensor &strain,
+                                     PlasticHistory &history) const
   {
     PlasticPoint point = plastic_point(history, cell);
     const double dissipated
@@ -62,9 +62,9 @@ namespace quoin
     return dissipated;
   }
 
-  PlasticPoint BlockForces::cell_history(const NodeRecord<2> *nodes,
-                                         const PlasticHistory &history,
-                                         const unsigned int cell) const
+  PlasticPoint BlockForces<2>::cell_history(const NodeRecord<2> *nodes,
+                                            const PlasticHistory &history,
+                                            const unsigned int cell) const
   {
     PlasticPoint point = plastic_point(history, cell);
     cell_law(cell)->update(point, cell_strain(nodes, cell).e,
@@ -72,8 +72,8 @@ namespace quoin
     return point;
   }
 
-  double BlockForces::update(const NodeRecord<2> *nodes,
-                             PlasticHistory &history) const
+  double BlockForces<2>::update(const NodeRecord<2> *nodes,
+                                PlasticHistory &history) const
   {
     double dissipated = 0.;
     if (!is_plastic())
@@ -88,10 +88,10 @@ namespace quoin
     return dissipated;
   }
 
-  double BlockForces::add_forces_by_cell(const unsigned int tile,
-                                         const NodeRecord<2> *nodes,
-                                         PlasticHistory &history,
-                                         NodeVector<2> *force) const
+  double BlockForces<2>::add_forces_by_cell(const unsigned int tile,
+                                            const NodeRecord<2> *nodes,
+                                            PlasticHistory &history,
+                                            NodeVector<2> *force) const
   {
     double dissipated = 0.;
     for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
@@ -117,11 +117,11 @@ namespace quoin
     return dissipated;
   }
 
-  void BlockForces::add_viscous_forces_by_cell(const unsigned int tile,
-                                               const NodeRecord<2> *nodes,
-                                               const NodeVector<2> *velocity,
-                                               const double beta,
-                                               NodeVector<2> *force) const
+  void BlockForces<2>::add_viscous_forces_by_cell(const unsigned int tile,
+                                                  const NodeRecord<2> *nodes,
+                                                  const NodeVector<2> *velocity,
+                                                  const double beta,
+                                                  NodeVector<2> *force) const
   {
     for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
          ++k)
@@ -145,8 +145,8 @@ namespace quoin
     }
   }
 
-  double BlockForces::strain_energy(const NodeRecord<2> *nodes,
-                                    const PlasticHistory &history) const
+  double BlockForces<2>::strain_energy(const NodeRecord<2> *nodes,
+                                       const PlasticHistory &history) const
   {
     double energy = 0.;
     for (std::size_t k = 0; k < data.cells.size(); ++k)
@@ -175,10 +175,9 @@ namespace quoin
     return energy;
   }
 
-  std::array<double, 4> BlockForces::cell_stress(const NodeRecord<2> *nodes,
-                                                 const PlasticHistory &history,
-                                                 const std::size_t cell,
-                                                 PlaneTensor *strain_out) const
+  std::array<double, 4> BlockForces<2>::cell_stress(
+      const NodeRecord<2> *nodes, const PlasticHistory &history,
+      const std::size_t cell, PlaneTensor *strain_out) const
   {
     const CorotatedStrain strain = cell_strain(nodes, cell);
     if (strain_out)
@@ -197,7 +196,7 @@ namespace quoin
     return { in_plane[0], in_plane[1], in_plane[2], s[3] };
   }
 
-  std::array<double, 4> BlockForces::stress_of_strain(
+  std::array<double, 4> BlockForces<2>::stress_of_strain(
       const NodeRecord<2> *nodes, const PlasticHistory &history,
       const std::size_t cell, const PlaneStiffness &stiffness,
       const MohrCoulomb *law) const
@@ -209,10 +208,10 @@ namespace quoin
     return { s[0], s[1], s[2], stiffness.zz_over_sum * (s[0] + s[1]) };
   }
 
-  void BlockForces::stresses(const NodeRecord<2> *nodes,
-                             const PlasticHistory &history,
-                             std::vector<std::array<double, 4>> &stress_out,
-                             std::vector<PlaneTensor> &strain_out) const
+  void BlockForces<2>::stresses(const NodeRecord<2> *nodes,
+                                const PlasticHistory &history,
+                                std::vector<std::array<double, 4>> &stress_out,
+                                std::vector<PlaneTensor> &strain_out) const
   {
     stress_out.resize(data.cells.size());
     strain_out.resize(data.cells.size());

@@ -8,7 +8,7 @@
 
 namespace quoin
 {
-  std::array<double, 4> BlockForces::CellPoint::displacement_gradient(
+  std::array<double, 4> BlockForces<2>::CellPoint::displacement_gradient(
       const NodeRecord<2> *records) const
   {
     // Differences, so that strains keep their digits under large motions.
@@ -24,8 +24,9 @@ namespace quoin
     return H;
   }
 
-  BlockForces::CellPoint BlockForces::cell_point(const NodeRecord<2> *nodes,
-                                                 const unsigned int cell) const
+  BlockForces<2>::CellPoint
+  BlockForces<2>::cell_point(const NodeRecord<2> *nodes,
+                             const unsigned int cell) const
   {
     std::array<unsigned int, 3> corners = data.cells[cell];
     const unsigned int first            = cell & ~3U; // of a quadratic one
@@ -71,11 +72,11 @@ namespace quoin
     return point;
   }
 
-  bool BlockForces::linearise(const unsigned int cell,
-                              const NodeRecord<2> *nodes,
-                              PlasticHistory &history,
-                              CellLinearisation &result,
-                              const bool with_stiffness) const
+  bool BlockForces<2>::linearise(const unsigned int cell,
+                                 const NodeRecord<2> *nodes,
+                                 PlasticHistory &history,
+                                 CellLinearisation &result,
+                                 const bool with_stiffness) const
   {
     const CellPoint point = cell_point(nodes, cell);
     const CorotatedStrain strain(point.displacement_gradient(nodes));

@@ -261,9 +261,9 @@ namespace quoin
                                       const StepContext &context,
                                       const Requests &requests)
   {
-    const BlockForces &blocks = model.blocks();
-    const bool viscous        = stage.stiffness_coefficient > 0.;
-    const bool damped         = stage.damping != DampingType::none;
+    const BlockForces<2> &blocks = model.blocks();
+    const bool viscous           = stage.stiffness_coefficient > 0.;
+    const bool damped            = stage.damping != DampingType::none;
     const DampingFactors factors{ context.local_damping, context.mass_damping,
                                   context.dt_before, context.dt_velocity };
 
@@ -273,8 +273,8 @@ namespace quoin
         applied_force += norm(force[i]);
 
     const auto advance = stage.damping == DampingType::adaptive
-                             ? advance_nodes_damped<true>
-                             : advance_nodes_damped<false>;
+                             ? advance_nodes_damped<true, 2>
+                             : advance_nodes_damped<false, 2>;
     DampingWork work;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
     {

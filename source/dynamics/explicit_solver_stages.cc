@@ -63,7 +63,7 @@ namespace quoin
         = model.stability().largest_eigenvalue(mass, rigid_stage.mass_factor);
     for (const NodeConstraint *constraint : constraints_on)
       eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
-    critical_step = StableTimeStep::critical(
+    critical_step = StableTimeStep<2>::critical(
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
     for (NodeConstraint *constraint : constraints_on)

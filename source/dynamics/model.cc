@@ -150,7 +150,7 @@ namespace quoin
 
   void Model::pack_blocks(const ConstructionState &construction)
   {
-    BlockForcesData data;
+    BlockForcesData<2> data;
     data.quadratic = block_mesh.quadratic;
     data.cells.assign(local_cells.begin(),
                       local_cells.begin() + n_deformable_cells());
@@ -217,7 +217,7 @@ namespace quoin
       rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
     std::fill(bound.begin() + n_deformable_nodes(), bound.end(),
               std::array<double, 3>{ { 0., 0., 0. } });
-    stable_step = std::make_unique<StableTimeStep>(bound);
+    stable_step = std::make_unique<StableTimeStep<2>>(bound);
     stable_step->set_rigid_blocks(rigid_bound);
   }
 
@@ -242,8 +242,8 @@ namespace quoin
         springs);
     std::vector<double> own(nodes->n_local(), 0.);
     for (unsigned int i = 0; i < n_deformable_nodes(); ++i)
-      own[i]
-          = StableTimeStep({ springs[i] }).largest_eigenvalue({ node_mass[i] });
+      own[i] = StableTimeStep<2>({ springs[i] })
+                   .largest_eigenvalue({ node_mass[i] });
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
       std::fill(own.begin() + rigid.block(b).begin,
                 own.begin() + rigid.block(b).end,

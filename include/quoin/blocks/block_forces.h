@@ -20,7 +20,16 @@
 namespace quoin
 {
   /** What the block kernel knows of a mesh; copied by prepare(). */
-  struct BlockForcesData
+  template <int dim>
+  struct BlockForcesData;
+
+  /** Internal forces of deformable blocks. */
+  template <int dim>
+  class BlockForces;
+
+  /** What the block kernel knows of a mesh of triangles. */
+  template <>
+  struct BlockForcesData<2>
   {
     /** Nodes of each cell, block-major. */
     std::vector<std::array<unsigned int, 3>> cells;
@@ -119,10 +128,11 @@ namespace quoin
    * plastic strain, compares the trial stress with the limits in lanes and
    * hands the triangles that exceed them to the law one by one.
    */
-  class BlockForces
+  template <>
+  class BlockForces<2>
   {
   public:
-    void prepare(const BlockForcesData &data,
+    void prepare(const BlockForcesData<2> &data,
                  const BlockForcesOptions &options = BlockForcesOptions());
 
     unsigned int n_tiles() const
@@ -330,7 +340,7 @@ namespace quoin
     double update_cell(std::size_t cell, const PlaneTensor &strain,
                        PlasticHistory &history) const;
 
-    BlockForcesData data;
+    BlockForcesData<2> data;
     unsigned int n_lanes = 0;
     std::vector<Tile> tiles;
     std::vector<Run> runs;

@@ -20,24 +20,33 @@ namespace quoin
    *
    * @p inverse_mass is 1/m [1/kg], zero where a node must keep its velocity.
    */
+  template <int dim>
   inline void advance_nodes(const std::size_t begin, const std::size_t end,
-                            NodeRecord<2> *__restrict nodes,
-                            NodeVector<2> *__restrict velocity,
-                            NodeVector<2> *__restrict force,
+                            NodeRecord<dim> *__restrict nodes,
+                            NodeVector<dim> *__restrict velocity,
+                            NodeVector<dim> *__restrict force,
                             const double *__restrict inverse_mass,
                             const double dt_velocity, const double dt)
   {
-    // Both components at once: compilers do not find this by themselves.
-    using Pair = double __attribute__((vector_size(16), may_alias));
+    // x and y at once: compilers do not find this by themselves.
+    using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
     for (std::size_t i = begin; i < end; ++i)
     {
-      Pair &f      = *reinterpret_cast<Pair *>(force[i].v);
-      Pair &v      = *reinterpret_cast<Pair *>(velocity[i].v);
-      Pair &u      = *reinterpret_cast<Pair *>(nodes[i].u);
-      const Pair w = v + inverse_mass[i] * dt_velocity * f;
-      v            = w;
+      Pair &f           = *reinterpret_cast<Pair *>(force[i].v);
+      Pair &v           = *reinterpret_cast<Pair *>(velocity[i].v);
+      Pair &u           = *reinterpret_cast<Pair *>(nodes[i].u);
+      const double gain = inverse_mass[i] * dt_velocity;
+      const Pair w      = v + gain * f;
+      v                 = w;
       u += dt * w;
       f = Pair{};
+      if constexpr (dim == 3)
+      {
+        const double wz  = velocity[i].v[2] + gain * force[i].v[2];
+        velocity[i].v[2] = wz;
+        nodes[i].u[2] += dt * wz;
+        force[i].v[2] = 0.;
+      }
     }
   }
 
@@ -72,11 +81,11 @@ namespace quoin
    * its own force; it is damped elsewhere. Power and change of kinetic energy
    * are found if @p adaptive.
    */
-  template <bool adaptive>
+  template <bool adaptive, int dim>
   inline DampingWork advance_nodes_damped(
       const std::size_t begin, const std::size_t end,
-      NodeRecord<2> *__restrict nodes, NodeVector<2> *__restrict velocity,
-      NodeVector<2> *__restrict force, NodeVector<2> *__restrict viscous,
+      NodeRecord<dim> *__restrict nodes, NodeVector<dim> *__restrict velocity,
+      NodeVector<dim> *__restrict force, NodeVector<dim> *__restrict viscous,
       const double *__restrict mass, const double *__restrict inverse_mass,
       const DampingFactors &damping, const double dt)
   {
@@ -85,13 +94,13 @@ namespace quoin
     const double push         = damping.dt_velocity / (1. + a);
     const double inverse_push = 1. / push;
     // Sums by component: half the length of each chain of additions.
-    double before[2]{}, after[2]{}, power[2]{}, change[2]{};
+    double before[dim]{}, after[dim]{}, power[dim]{}, change[dim]{};
     for (std::size_t i = begin; i < end; ++i)
     {
       const double m    = mass[i];
       const double gain = push * inverse_mass[i];
       const double keep = m > 0. ? decay : 1.;
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
       {
         const double v0 = velocity[i].v[d];
         const double f  = force[i].v[d];
@@ -116,9 +125,15 @@ namespace quoin
         viscous[i].v[d] = 0.;
       }
     }
-    return { 0.5 * damping.dt_before * (before[0] + before[1]),
-             0.5 * dt * (after[0] + after[1]), power[0] + power[1],
-             change[0] + change[1] };
+    for (unsigned int d = 1; d < dim; ++d)
+    {
+      before[0] += before[d];
+      after[0] += after[d];
+      power[0] += power[d];
+      change[0] += change[d];
+    }
+    return { 0.5 * damping.dt_before * before[0], 0.5 * dt * after[0], power[0],
+             change[0] };
   }
 } // namespace quoin
 

@@ -24,11 +24,15 @@ namespace quoin
    * The nodes of a rigid block have one matrix, that of its three freedoms
    * (RigidBlocks::largest_eigenvalue()); by themselves they count for nothing.
    */
+  template <int dim>
   class StableTimeStep
   {
   public:
-    /** @p bound: S_i as xx, yy, xy [N/m] of each owned node. */
-    explicit StableTimeStep(const std::vector<std::array<double, 3>> &bound);
+    /** Symmetric matrix: xx, yy, xy or xx, yy, zz, xy, xz, yz. */
+    using Bound = std::array<double, dim *(dim + 1) / 2>;
+
+    /** @p bound: S_i [N/m] of each owned node. */
+    explicit StableTimeStep(const std::vector<Bound> &bound);
 
     /** Adds rigid blocks with their omega^2 [1/s^2]. */
     void set_rigid_blocks(const std::vector<double> &eigenvalues)

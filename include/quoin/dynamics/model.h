@@ -116,7 +116,7 @@ namespace quoin
       return *nodes;
     }
     /** The deformable blocks: their nodes, cells and numbers come first. */
-    const BlockForces &blocks() const
+    const BlockForces<2> &blocks() const
     {
       return block_forces;
     }
@@ -149,7 +149,7 @@ namespace quoin
       return matched_joints;
     }
     /** Not of quadratic meshes: corners without mass have no stable step. */
-    const StableTimeStep &stability() const
+    const StableTimeStep<2> &stability() const
     {
       return *stable_step;
     }
@@ -255,10 +255,10 @@ namespace quoin
     std::vector<std::array<unsigned int, 3>> local_cells;
     std::vector<std::array<double, 4>> cell_stress;     /**< or empty */
     std::vector<MatchedJoints::FaceStress> face_stress; /**< or empty */
-    BlockForces block_forces;
+    BlockForces<2> block_forces;
     RigidBlocks rigid;
     MatchedJoints matched_joints;
-    std::unique_ptr<StableTimeStep> stable_step;
+    std::unique_ptr<StableTimeStep<2>> stable_step;
   };
 } // namespace quoin
 

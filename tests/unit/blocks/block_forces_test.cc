@@ -17,7 +17,7 @@ namespace
 {
   using Forces = AlignedArray<NodeVector<2>>;
 
-  Forces strip_forces(const BlockForces &blocks, const RandomBlocks &mesh)
+  Forces strip_forces(const BlockForces<2> &blocks, const RandomBlocks &mesh)
   {
     Forces force(mesh.nodes.size(), NodeVector<2>{ { 0., 0. } });
     PlasticHistory none;
@@ -26,7 +26,7 @@ namespace
     return force;
   }
 
-  Forces cell_forces(const BlockForces &blocks, const RandomBlocks &mesh)
+  Forces cell_forces(const BlockForces<2> &blocks, const RandomBlocks &mesh)
   {
     PlasticHistory none;
     Forces force(mesh.nodes.size(), NodeVector<2>{ { 0., 0. } });
@@ -35,7 +35,7 @@ namespace
     return force;
   }
 
-  Forces viscous_forces(const BlockForces &blocks, const RandomBlocks &mesh,
+  Forces viscous_forces(const BlockForces<2> &blocks, const RandomBlocks &mesh,
                         const Forces &velocity, const bool by_cell = false)
   {
     const double beta = 2e-5;
@@ -108,7 +108,7 @@ namespace
 TEST(BlockForces, RigidMotionMakesNoForce)
 {
   RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
-  BlockForces blocks;
+  BlockForces<2> blocks;
   blocks.prepare(mesh.data);
   for (const double angle : { 1e-6, 0.3, 1.5707, 3.1415926535897931, -2.5 })
   {
@@ -133,7 +133,7 @@ TEST(BlockForces, SmallStrainsKeepTheirDigits)
     node.u[0] = 1e-9 * (node.X[0] - 1e4);
     node.u[1] = -0.2e-9 * node.X[1];
   }
-  BlockForces blocks;
+  BlockForces<2> blocks;
   blocks.prepare(mesh.data);
   std::vector<std::array<double, 4>> stress;
   std::vector<PlaneTensor> strain;
@@ -163,7 +163,7 @@ TEST(BlockForces, UniformStrainPatch)
           u[0] = exx * x + exy * y;
           u[1] = exy * x + eyy * y;
         });
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(mesh.data);
     const Forces force = strip_forces(blocks, mesh);
 
@@ -232,7 +232,7 @@ TEST(BlockForces, StripsAgreeWithCells)
           BlockForcesOptions options = lanes(n_lanes);
           options.tile_bytes         = tile_bytes;
           options.max_run_cells      = tile_bytes == 1u ? 100 : 10000;
-          BlockForces blocks;
+          BlockForces<2> blocks;
           blocks.prepare(mesh.data, options);
           const Forces by_strip = strip_forces(blocks, mesh);
           const Forces by_cell  = cell_forces(blocks, mesh);
@@ -252,7 +252,7 @@ TEST(BlockForces, ForcesAddToWhatIsThere)
 {
   RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
   mesh.deform(0.01, 0.2);
-  BlockForces blocks;
+  BlockForces<2> blocks;
   blocks.prepare(mesh.data);
   Forces twice = strip_forces(blocks, mesh);
   PlasticHistory none;
@@ -271,7 +271,7 @@ TEST(BlockForces, TilesCoverTheBlocksOnce)
   {
     BlockForcesOptions options;
     options.tile_bytes = tile_bytes;
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(mesh.data, options);
     std::size_t node = 0, cell = 0;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
@@ -288,10 +288,10 @@ TEST(BlockForces, TilesCoverTheBlocksOnce)
 
 TEST(BlockForces, NothingToDo)
 {
-  BlockForcesData data;
+  BlockForcesData<2> data;
   data.block_first_cell = { 0 };
   data.block_first_node = { 0 };
-  BlockForces blocks;
+  BlockForces<2> blocks;
   blocks.prepare(data);
   EXPECT_EQ(blocks.n_tiles(), 0u);
   EXPECT_EQ(blocks.strain_energy(nullptr, {}), 0.);
@@ -309,7 +309,7 @@ TEST(BlockForces, AreMinusTheGradientOfTheEnergy)
     if (with_stress)
       mesh.add_initial_stress(1e9);
     mesh.deform(0.1, 0.9);
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(mesh.data);
     const Forces force = strip_forces(blocks, mesh);
     const double du    = 1e-5;
@@ -337,7 +337,7 @@ TEST(BlockForces, ForcesAndMomentsOfEachBlockSumToZero)
     if (with_stress)
       mesh.add_initial_stress(2e9);
     mesh.deform(0.1, -2.);
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(mesh.data);
     const Forces force    = strip_forces(blocks, mesh);
     const Forces velocity = mesh.random_velocity();
@@ -376,7 +376,7 @@ TEST(BlockForces, InitialStressTurnsWithTheBlock)
                                   { 3e6, -1e6, 5e5, 4e5 });
   const double angle = 0.6;
   mesh.move_rigidly(angle, 0., 0.);
-  BlockForces blocks;
+  BlockForces<2> blocks;
   blocks.prepare(mesh.data);
   std::vector<std::array<double, 4>> stress;
   std::vector<PlaneTensor> strain;
@@ -395,7 +395,7 @@ TEST(BlockForces, ViscousForcesAreLinearAndDissipative)
 {
   RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
   mesh.deform(0.05, 1.1);
-  BlockForces blocks;
+  BlockForces<2> blocks;
   blocks.prepare(mesh.data);
   const Forces a = mesh.random_velocity();
   const Forces b = mesh.random_velocity();
@@ -418,7 +418,7 @@ TEST(BlockForces, ViscousForcesIgnoreRigidMotion)
 {
   RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
   mesh.move_rigidly(1.2, 0.4, 0.1);
-  BlockForces blocks;
+  BlockForces<2> blocks;
   blocks.prepare(mesh.data);
   Forces velocity(mesh.nodes.size());
   for (std::size_t i = 0; i < velocity.size(); ++i)
@@ -438,7 +438,7 @@ TEST(BlockForces, ViscousForcesAreBetaTimesTheForceRate)
   mesh.add_block(6, 1.);
   mesh.data.stiffness
       = { plane_stiffness(stone, PlaneAssumption::plane_stress) };
-  BlockForces blocks;
+  BlockForces<2> blocks;
   blocks.prepare(mesh.data);
   const Forces velocity = mesh.random_velocity();
   const Forces viscous  = viscous_forces(blocks, mesh, velocity);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// Forces and stiffness of BlockForces::linearise(): against the kernels of the
-// explicit solver, differences, energies and integrals.
+// Forces and stiffness of BlockForces<2>::linearise(): against the kernels of
+// the explicit solver, differences, energies and integrals.
 
 #include "tangent_checks.h"
 
@@ -27,7 +27,7 @@ namespace
     return mesh;
   }
 
-  Vector lane_forces(const BlockForces &blocks,
+  Vector lane_forces(const BlockForces<2> &blocks,
                      const AlignedArray<NodeRecord<2>> &nodes,
                      PlasticHistory &history, double *dissipated = nullptr)
   {
@@ -96,7 +96,7 @@ TEST(BlockTangent, ForcesAreThoseOfTheLanes)
         RandomBlocks mesh = plastic ? plastic_block(plane, false, 0.)
                                     : elastic_block(plane, false, 7);
         mesh.add_initial_stress(5e5);
-        BlockForces blocks;
+        BlockForces<2> blocks;
         blocks.prepare(mesh.data);
         PlasticHistory a = blocks.initial_history(), b = a;
         for (const double strain : { 5e-4, 1.5e-3 })
@@ -125,7 +125,7 @@ TEST(BlockTangent, ElasticStiffnessIsTheDerivativeOfTheForces)
       {
         RandomBlocks mesh = elastic_block(plane, quadratic);
         mesh.add_initial_stress(2e9); // so that the geometric part counts
-        BlockForces blocks;
+        BlockForces<2> blocks;
         blocks.prepare(mesh.data);
         mesh.deform(0.08, angle);
         PlasticHistory none;
@@ -151,7 +151,7 @@ TEST(BlockTangent, ForcesAreMinusTheGradientOfTheEnergy)
     {
       RandomBlocks mesh = elastic_block(plane, quadratic);
       mesh.add_initial_stress(2e8);
-      BlockForces blocks;
+      BlockForces<2> blocks;
       blocks.prepare(mesh.data);
       mesh.deform(0.05, -2.4);
       PlasticHistory none;
@@ -176,7 +176,7 @@ TEST(BlockTangent, PlasticStiffnessIsTheDerivativeOfTheForces)
       {
         RandomBlocks mesh = plastic_block(plane, quadratic, dilation);
         mesh.add_initial_stress(5e5);
-        BlockForces blocks;
+        BlockForces<2> blocks;
         blocks.prepare(mesh.data);
         PlasticHistory history = blocks.initial_history();
         mesh.deform(1.2e-4, 1.9); // some cells have yielded before
@@ -217,7 +217,7 @@ TEST(BlockTangent, RigidMotionsMakeNoForce)
     {
       RandomBlocks mesh = plastic_block(PlaneAssumption::plane_strain,
                                         quadratic, 10. * degree);
-      BlockForces blocks;
+      BlockForces<2> blocks;
       blocks.prepare(mesh.data);
       PlasticHistory history = blocks.initial_history();
       mesh.move_rigidly(angle, 1.7, -2.3);
@@ -246,7 +246,7 @@ TEST(BlockTangent, ForcesTurnWithTheBody)
   {
     RandomBlocks mesh = elastic_block(PlaneAssumption::plane_stress, quadratic);
     mesh.add_initial_stress(1e9);
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(mesh.data);
     mesh.deform(0.04, 0.7);
     PlasticHistory none;

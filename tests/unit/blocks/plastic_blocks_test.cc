@@ -47,7 +47,7 @@ namespace
     return mesh;
   }
 
-  double add_forces(const BlockForces &blocks, const RandomBlocks &mesh,
+  double add_forces(const BlockForces<2> &blocks, const RandomBlocks &mesh,
                     PlasticHistory &history, Forces &force,
                     const bool by_cell = false)
   {
@@ -99,7 +99,7 @@ TEST(PlasticBlocks, StripsAgreeWithSingleCells)
         BlockForcesOptions options;
         options.n_lanes       = n_lanes;
         options.max_run_cells = 100;
-        BlockForces blocks;
+        BlockForces<2> blocks;
         blocks.prepare(mesh.data, options);
         PlasticHistory a = blocks.initial_history(), b = a;
         Forces force_a, force_b;
@@ -136,7 +136,7 @@ TEST(PlasticBlocks, BelowTheirStrengthTheyAreElastic)
   {
     RandomBlocks mesh = assorted_blocks(plane);
     mesh.deform(1e-6, 1.3);
-    BlockForces blocks, elastic;
+    BlockForces<2> blocks, elastic;
     blocks.prepare(mesh.data);
     mesh.data.laws.clear();
     elastic.prepare(mesh.data);
@@ -160,7 +160,7 @@ TEST(PlasticBlocks, WorkIsStoredOrDissipated)
   {
     RandomBlocks mesh = assorted_blocks(plane);
     add_modest_stress(mesh, plane);
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(mesh.data);
     PlasticHistory history = blocks.initial_history();
 
@@ -204,7 +204,7 @@ TEST(PlasticBlocks, WorkIsStoredOrDissipated)
 TEST(PlasticBlocks, TurnWithoutYielding)
 {
   RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
-  BlockForces blocks;
+  BlockForces<2> blocks;
   blocks.prepare(mesh.data);
   PlasticHistory history = blocks.initial_history();
   Forces force;
@@ -325,7 +325,7 @@ namespace
   struct Strained
   {
     RandomBlocks mesh{ 3 };
-    BlockForces blocks;
+    BlockForces<2> blocks;
     PlasticHistory history;
     double lost = 0.; /**< dissipated so far [J] */
 

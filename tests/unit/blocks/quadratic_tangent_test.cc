@@ -133,7 +133,7 @@ TEST(QuadraticTangent, QuadraticFieldsAreIntegratedExactly)
           u[0] = field.value(0, x, y);
           u[1] = field.value(1, x, y);
         });
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(mesh.data);
     PlasticHistory none;
     const Vector force   = linearised(blocks, mesh.nodes, none);
@@ -179,7 +179,7 @@ TEST(QuadraticTangent, LinearFieldsPullAtTheEdgesAlone)
           u[0] = c * a - s * b - x;
           u[1] = s * a + c * b - y;
         });
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(mesh.data);
     PlasticHistory none;
     const Vector force   = linearised(blocks, mesh.nodes, none);

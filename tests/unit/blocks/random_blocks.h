@@ -130,7 +130,7 @@ namespace quoin
       return std::uniform_real_distribution<double>(-1., 1.)(generator);
     }
 
-    BlockForcesData data;
+    BlockForcesData<2> data;
     AlignedArray<NodeRecord<2>> nodes;
 
   private:

@@ -91,15 +91,15 @@ namespace
 TEST(StableTimeStep, CriticalStep)
 {
   const double omega = 3e4;
-  EXPECT_DOUBLE_EQ(StableTimeStep::critical(omega * omega, 0.), 2. / omega);
+  EXPECT_DOUBLE_EQ(StableTimeStep<2>::critical(omega * omega, 0.), 2. / omega);
   for (const double beta : { 1e-6, 1e-4, 1e-2 })
   {
     const double xi = 0.5 * beta * omega;
-    EXPECT_NEAR(StableTimeStep::critical(omega * omega, beta),
+    EXPECT_NEAR(StableTimeStep<2>::critical(omega * omega, beta),
                 2. / omega * (std::sqrt(1. + xi * xi) - xi), 1e-9 / omega);
   }
   // All damping: 2 / (beta omega^2), which the difference above would lose.
-  EXPECT_NEAR(StableTimeStep::critical(omega * omega, 1e6)
+  EXPECT_NEAR(StableTimeStep<2>::critical(omega * omega, 1e6)
                   * (1e6 * omega * omega),
               2., 1e-12);
 }
@@ -108,7 +108,7 @@ TEST(StableTimeStep, CriticalStepOfTheDampedScheme)
 {
   // One freedom: v += -(omega^2 u + beta omega^2 v) dt, u += v dt.
   const double omega = 2., beta = 0.4;
-  const double critical = StableTimeStep::critical(omega * omega, beta);
+  const double critical = StableTimeStep<2>::critical(omega * omega, beta);
   const auto amplitude  = [&](const double dt)
   {
     double u = 1., v = 0.;
@@ -126,7 +126,7 @@ TEST(StableTimeStep, CriticalStepOfTheDampedScheme)
 TEST(StableTimeStep, LargestEigenvalueAndMassScaling)
 {
   // Eigenvalues 5 and 1, and 2 +- 3 of a shear-like bound.
-  const StableTimeStep bound({ { { 5., 1., 0. } }, { { 2., 2., 3. } } });
+  const StableTimeStep<2> bound({ { { 5., 1., 0. } }, { { 2., 2., 3. } } });
   EXPECT_DOUBLE_EQ(bound.largest_eigenvalue({ 1., 1. }), 5.);
   EXPECT_DOUBLE_EQ(bound.largest_eigenvalue({ 1., 0.5 }), 10.);
   EXPECT_DOUBLE_EQ(bound.largest_eigenvalue({ 0.1, 1. }), 50.);
@@ -134,7 +134,7 @@ TEST(StableTimeStep, LargestEigenvalueAndMassScaling)
   const double dt            = 0.3;
   const double omega_squared = bound.largest_eigenvalue(
       { bound.mass_for(0, dt), bound.mass_for(1, dt) });
-  EXPECT_DOUBLE_EQ(StableTimeStep::critical(omega_squared, 0.), dt);
+  EXPECT_DOUBLE_EQ(StableTimeStep<2>::critical(omega_squared, 0.), dt);
 }
 
 TEST(StableTimeStep, BoundsTheLargestFrequencyClosely)

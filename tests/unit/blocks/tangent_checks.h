@@ -73,7 +73,7 @@ namespace quoin::tangent_test
   }
 
   /** Forces on all nodes, x and y in turns; and the stiffness if asked for. */
-  inline Vector linearised(const BlockForces &blocks,
+  inline Vector linearised(const BlockForces<2> &blocks,
                            const AlignedArray<NodeRecord<2>> &nodes,
                            PlasticHistory &history, Matrix *stiffness = nullptr,
                            double *dissipated = nullptr)

@@ -22,7 +22,7 @@ namespace
    */
   double power_iteration(const RandomBlocks &mesh)
   {
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(mesh.data);
     std::vector<double> mass(mesh.nodes.size(), 0.);
     for (const auto &[a, b, c] : mesh.data.cells)

@@ -64,13 +64,13 @@ namespace quoin
 
     const LinearElastic rock{ 2500., 3e10, 0.3 };
     const auto stiffness = plane_stiffness(rock, PlaneAssumption::plane_strain);
-    BlockForcesData data;
+    BlockForcesData<2> data;
     data.cells            = mesh.cells;
     data.block_first_cell = mesh.block_first_cell;
     data.block_first_node = mesh.block_first_vertex;
     data.stiffness        = { stiffness };
     data.thickness        = 0.5;
-    BlockForces blocks;
+    BlockForces<2> blocks;
     blocks.prepare(data);
 
     // Displacements small enough for the rotation not to matter.
