@@ -214,7 +214,7 @@ namespace quoin
              [&, opening](const auto &law)
              {
                step      = advance_contact(law, point, opening, slip_now);
-               stiffness = stiffness_of(law, point.normal_traction);
+               stiffness = law.stiffness_at(point.normal_traction);
              });
     const double mean_area = 0.5 * (g.area[k] + point.area) * pair_share[i];
     losses.friction += mean_area * step.lost.friction;
@@ -378,6 +378,8 @@ namespace quoin
         && !vertex_is_inside(i, g, deeper))
       return false;
 
+    if (!is_heir)
+      with_law(set, [&](const auto &law) { begin_point(law, inherited); });
     pair.set         = set;
     pair.shift_start = inherited.slip_offset;
     for (unsigned int k = 0; k < 2; ++k)
@@ -479,8 +481,8 @@ namespace quoin
                  [&](const auto &law)
                  {
                    energy += pair_share[i] * point.area
-                             * energy_of(law, read_point(law, point),
-                                         openings[i][k]);
+                             * law.stored_energy(read_point(law, point),
+                                                 openings[i][k]);
                  });
       }
     }

@@ -36,22 +36,6 @@ namespace quoin
       return *middle;
     }
 
-    ContactLaw contact_law(const JointSetParameters &set)
-    {
-      return std::visit(
-          [&](const auto &law) -> ContactLaw
-          {
-            using Point = typename std::decay_t<decltype(law)>::Point;
-            if constexpr (std::is_same_v<Point, CompositePoint>)
-              throw InputError("section 'Joints/" + set.name
-                               + "': general contacts have no bond that could "
-                                 "soften. Take 'Law = Coulomb'.");
-            else
-              return law;
-          },
-          set.law);
-    }
-
     std::array<unsigned int, 2> key(const ContactPair &pair)
     {
       return { std::min(pair.lower, pair.upper),
@@ -82,7 +66,10 @@ namespace quoin
     dilates = false;
     for (const JointSetParameters &set : sets)
     {
-      laws.push_back(contact_law(set));
+      if (const std::string why = no_contacts(set.law); !why.empty())
+        throw InputError("section 'Joints/" + set.name + "': general contacts "
+                         + why + ". Take 'Law = Coulomb'.");
+      laws.push_back(set.law);
       dilates = dilates || can_dilate(set.law);
     }
   }
@@ -250,12 +237,9 @@ namespace quoin
         point.shear_traction  = state.joints.shear_traction[p];
         point.plastic_slip    = state.joints.plastic_slip[p];
         point.plastic_opening = state.joints.plastic_opening[p];
-        if (joints.can_wear())
-        {
-          point.worn_slip = state.joints.worn_slip[p];
-          point.dilated   = state.joints.dilated[p];
-          point.reload    = state.joints.reload[p];
-        }
+        for (unsigned int j = 0; j < state.joints.n_internal; ++j)
+          point.internal[j]
+              = state.joints.internal[p * state.joints.n_internal + j];
         point.state = state.joints.state[p];
         point.area  = segment.area[k];
         // The vertices that coincided; the upper edge runs backwards.

@@ -10,83 +10,76 @@
 
 namespace quoin
 {
+  template <typename Law>
+  PointOf<Law> read_point(const Law &, const ContactPoint &contact)
+  {
+    using Point = PointOf<Law>;
+    static_assert(Point::internal.size() <= ContactPoint::most_internal);
+    Point point;
+    point.normal_traction = contact.normal_traction;
+    point.shear_traction  = contact.shear_traction;
+    point.plastic_slip    = contact.plastic_slip;
+    point.plastic_opening = contact.plastic_opening;
+    point.state           = contact.state;
+    for (unsigned int i = 0; i < Point::internal.size(); ++i)
+      point.*Point::internal[i] = contact.internal[i];
+    return point;
+  }
+
+  template <typename Point>
+  void write_point(const Point &point, ContactPoint &contact)
+  {
+    contact.normal_traction = point.normal_traction;
+    contact.shear_traction  = point.shear_traction;
+    contact.plastic_slip    = point.plastic_slip;
+    contact.plastic_opening = point.plastic_opening;
+    contact.state           = point.state;
+    for (unsigned int i = 0; i < Point::internal.size(); ++i)
+      contact.internal[i] = point.*Point::internal[i];
+  }
+
   /** What an update of a contact leaves to its geometry and to the books. */
   struct ContactStep
   {
     JointDissipation lost;
-    bool flows = false; /**< it failed, slips or is open */
+    bool flows = false; /**< it fails, slips or is open */
     /** Energy per area [J/m^2] that a change of area takes along. */
     double carried = 0.;
   };
 
+  /** Brings @p contact to @p opening and @p slip [m]. */
   template <typename Law>
-  typename Law::Point read_point(const Law &, const ContactPoint &point)
-  {
-    if constexpr (is_rock_law<Law>)
-      return { point.normal_traction, point.shear_traction, point.plastic_slip,
-               point.plastic_opening, point.worn_slip,      point.dilated,
-               point.reload,          point.state };
-    else
-    {
-      static_assert(std::is_same_v<typename Law::Point, JointPoint>);
-      return { point.normal_traction, point.shear_traction, point.plastic_slip,
-               point.plastic_opening, point.state };
-    }
-  }
-
-  /** Brings @p point to @p opening and @p slip [m]. */
-  template <typename Law>
-  ContactStep advance_contact(const Law &law, ContactPoint &point,
+  ContactStep advance_contact(const Law &law, ContactPoint &contact,
                               const double opening, const double slip)
   {
-    auto joint = read_point(law, point);
+    const auto before = read_point(law, contact);
+    auto point        = before;
     ContactStep step;
-    if constexpr (is_rock_law<Law>)
-    {
-      step.carried = 0.5 * law.stored_energy(joint);
-      step.lost    = law.update(joint, opening, slip);
-      step.carried += 0.5 * law.stored_energy(joint);
-      step.flows = joint.state == JointState::slipping
-                   || joint.state == JointState::open;
-      point.plastic_slip    = joint.plastic_slip;
-      point.plastic_opening = joint.plastic_opening;
-      point.worn_slip       = joint.worn_slip;
-      point.dilated         = joint.dilated;
-      point.reload          = joint.reload;
-    }
-    else
-    {
-      step.flows = !law.update_elastic(joint, opening, slip);
-      if (step.flows)
-      {
-        step.lost             = law.update_failing(joint, opening, slip);
-        point.plastic_slip    = joint.plastic_slip;
-        point.plastic_opening = joint.plastic_opening;
-      }
-      step.carried = 0.5
-                     * (point.normal_traction * joint.normal_traction
-                            / law.normal_stiffness
-                        + point.shear_traction * joint.shear_traction
-                              / law.shear_stiffness);
-    }
-    point.normal_traction = joint.normal_traction;
-    point.shear_traction  = joint.shear_traction;
-    point.state           = joint.state;
+    if (!law.update_elastic(point, opening, slip))
+      step.lost = law.update_failing(point, opening, slip);
+    step.flows = point.state == JointState::slipping
+                 || point.state == JointState::open;
+    step.carried = law.carried_energy(before, point);
+    write_point(point, contact);
     return step;
   }
 
   /** Energy per area [J/m^2] that goes when the contact goes. */
   template <typename Law>
-  double released_energy(const Law &law, const ContactPoint &point)
+  double released_energy(const Law &law, const ContactPoint &contact)
   {
-    if constexpr (is_rock_law<Law>)
-      return law.stored_energy(read_point(law, point));
-    else
-      return 0.5
-             * (point.normal_traction * point.normal_traction
-                    / law.normal_stiffness
-                + point.shear_traction * point.shear_traction
-                      / law.shear_stiffness);
+    const auto point = read_point(law, contact);
+    return law.carried_energy(point, point);
+  }
+
+  /** A contact that comes up: without tractions, at its residual strength. */
+  template <typename Law>
+  void begin_point(const Law &law, ContactPoint &contact)
+  {
+    PointOf<Law> point;
+    point.state = JointState::slipped;
+    law.wear_out(point);
+    write_point(point, contact);
   }
 } // namespace quoin
 

@@ -7,83 +7,40 @@
 #include <quoin/base/state.h>
 #include <quoin/joints/joint_law.h>
 
-#include <array>
 #include <type_traits>
 
-// Points of all joint laws, from and to the arrays of the history, and what
-// the laws have in common.
+// Points of all joint laws, from and to the arrays of the history.
 
 namespace quoin
 {
   template <typename Law>
-  typename Law::Point read_point(const Law &, const JointHistory &history,
-                                 const unsigned int p)
+  using PointOf = typename std::decay_t<Law>::template Point<2>;
+
+  template <typename Law>
+  PointOf<Law> read_point(const Law &, const JointHistory &history,
+                          const unsigned int p)
   {
-    using Point = typename Law::Point;
-    if constexpr (std::is_same_v<Point, JointPoint>)
-      return { history.normal_traction[p], history.shear_traction[p],
-               history.plastic_slip[p], history.plastic_opening[p],
-               history.state[p] };
-    else if constexpr (std::is_same_v<Point, CompositePoint>)
-      return { history.normal_traction[p],
-               history.shear_traction[p],
-               history.plastic_slip[p],
-               history.plastic_opening[p],
-               history.bond[p],
-               history.crushing[p],
-               history.crack_opening[p],
-               history.state[p] };
-    else
-    {
-      static_assert(std::is_same_v<Point, RockPoint>);
-      return { history.normal_traction[p], history.shear_traction[p],
-               history.plastic_slip[p],    history.plastic_opening[p],
-               history.worn_slip[p],       history.dilated[p],
-               history.reload[p],          history.state[p] };
-    }
+    using Point = PointOf<Law>;
+    Point point;
+    point.normal_traction = history.normal_traction[p];
+    point.shear_traction  = history.shear_traction[p];
+    point.plastic_slip    = history.plastic_slip[p];
+    point.plastic_opening = history.plastic_opening[p];
+    point.state           = history.state[p];
+    for (unsigned int i = 0; i < Point::internal.size(); ++i)
+      point.*Point::internal[i] = history.internal[p * history.n_internal + i];
+    return point;
   }
 
   /** What only a failing update changes. */
-  inline void write_flow(const JointPoint &point, JointHistory &history,
-                         const unsigned int p)
+  template <typename Point>
+  void write_flow(const Point &point, JointHistory &history,
+                  const unsigned int p)
   {
     history.plastic_slip[p]    = point.plastic_slip;
     history.plastic_opening[p] = point.plastic_opening;
-  }
-
-  inline void write_flow(const CompositePoint &point, JointHistory &history,
-                         const unsigned int p)
-  {
-    history.plastic_slip[p]    = point.plastic_slip;
-    history.plastic_opening[p] = point.plastic_opening;
-    history.bond[p]            = point.bond;
-    history.crushing[p]        = point.crushing;
-    history.crack_opening[p]   = point.crack_opening;
-  }
-
-  inline void write_flow(const RockPoint &point, JointHistory &history,
-                         const unsigned int p)
-  {
-    history.plastic_slip[p]    = point.plastic_slip;
-    history.plastic_opening[p] = point.plastic_opening;
-    history.worn_slip[p]       = point.worn_slip;
-    history.dilated[p]         = point.dilated;
-    history.reload[p]          = point.reload;
-  }
-
-  inline void book(const JointDissipation &lost, const double weight,
-                   EnergyAccounts &energy)
-  {
-    energy.friction += weight * lost.friction;
-    energy.fracture += weight * lost.fracture;
-  }
-
-  inline void book(const CompositeDissipation &lost, const double weight,
-                   EnergyAccounts &energy)
-  {
-    energy.friction += weight * lost.friction;
-    energy.fracture += weight * (lost.tension + lost.shear);
-    energy.crushing += weight * lost.crushing;
+    for (unsigned int i = 0; i < Point::internal.size(); ++i)
+      history.internal[p * history.n_internal + i] = point.*Point::internal[i];
   }
 
   template <typename Point>
@@ -93,6 +50,22 @@ namespace quoin
     history.normal_traction[p] = point.normal_traction;
     history.shear_traction[p]  = point.shear_traction;
     history.state[p]           = point.state;
+  }
+
+  template <typename Point>
+  void write_point(const Point &point, JointHistory &history,
+                   const unsigned int p)
+  {
+    write_flow(point, history, p);
+    write_tractions(point, history, p);
+  }
+
+  inline void book(const JointDissipation &lost, const double weight,
+                   EnergyAccounts &energy)
+  {
+    energy.friction += weight * lost.friction;
+    energy.fracture += weight * lost.fracture;
+    energy.crushing += weight * lost.crushing;
   }
 
   /**
@@ -105,57 +78,13 @@ namespace quoin
                      const unsigned int p, EnergyAccounts &energy)
   {
     auto point = read_point(law, history, p);
-    if constexpr (is_rock_law<Law>)
-    {
-      book(law.update(point, opening, slip), weight, energy);
-      write_flow(point, history, p);
-    }
-    else if (!law.update_elastic(point, opening, slip))
+    if (!law.update_elastic(point, opening, slip))
     {
       book(law.update_failing(point, opening, slip), weight, energy);
       write_flow(point, history, p);
     }
     write_tractions(point, history, p);
     return point;
-  }
-
-  /** Sets point @p p to tractions [Pa] at rest, at zero opening and slip. */
-  template <typename Law>
-  void initialise_point(const Law &law, const double normal, const double shear,
-                        JointHistory &history, const unsigned int p)
-  {
-    auto point = read_point(law, history, p);
-    if constexpr (is_rock_law<Law>)
-      law.initialise(point, normal, shear);
-    else
-    {
-      point.normal_traction = normal;
-      point.shear_traction  = shear;
-      point.plastic_opening = -normal / law.normal_stiffness;
-      point.plastic_slip    = -shear / law.shear_stiffness;
-    }
-    write_flow(point, history, p);
-    write_tractions(point, history, p);
-  }
-
-  /** Recoverable energy per area [J/m^2]. */
-  template <typename Law, typename Point>
-  double energy_of(const Law &law, const Point &point, const double opening)
-  {
-    if constexpr (std::is_same_v<Point, JointPoint>)
-      return law.stored_energy(point, opening);
-    else
-      return law.stored_energy(point);
-  }
-
-  /** kn and ks [Pa/m] at the normal traction @p sigma [Pa]. */
-  template <typename Law>
-  std::array<double, 2> stiffness_of(const Law &law, const double sigma)
-  {
-    if constexpr (is_rock_law<Law>)
-      return { law.closure.stiffness(-sigma), law.shear_stiffness(-sigma) };
-    else
-      return { law.normal_stiffness, law.shear_stiffness };
   }
 } // namespace quoin
 

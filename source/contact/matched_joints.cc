@@ -205,7 +205,7 @@ namespace quoin
         with_law(segment.set,
                  [&](const auto &law) {
                    stiffness
-                       = stiffness_of(law, history.normal_traction[2 * i + k]);
+                       = law.stiffness_at(history.normal_traction[2 * i + k]);
                  });
         const double sigma = beta * stiffness[0] * opening_rate;
         const double tau   = beta * stiffness[1] * slip_rate;
@@ -236,11 +236,41 @@ namespace quoin
                  for (unsigned int k = 0; k < 2; ++k)
                    energy
                        += segment.area[k] * segment.share
-                          * energy_of(law, read_point(law, history, 2 * i + k),
-                                      gap[k][0]);
+                          * law.stored_energy(
+                              read_point(law, history, 2 * i + k), gap[k][0]);
                });
     }
     return energy;
+  }
+
+  std::vector<std::string> MatchedJoints::field_names() const
+  {
+    std::vector<std::string> names;
+    for (const JointLaw &law : laws)
+      std::visit(
+          [&](const auto &own)
+          {
+            for (const auto &field : own.template fields<2>())
+              if (std::find(names.begin(), names.end(), field.name)
+                  == names.end())
+                names.push_back(field.name);
+          },
+          law);
+    return names;
+  }
+
+  double MatchedJoints::field(const std::string &name, const unsigned int p,
+                              const JointHistory &history) const
+  {
+    double value = 0.;
+    with_law(segments[p / 2].set,
+             [&](const auto &law)
+             {
+               for (const auto &field : law.template fields<2>())
+                 if (field.name == name)
+                   value = field.value(read_point(law, history, p));
+             });
+    return value;
   }
 
   void MatchedJoints::add_stiffness_bound(

@@ -7,6 +7,8 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+
 #include "joint_frame.h"
 #include "joint_points.h"
 
@@ -19,22 +21,37 @@ namespace quoin
     void keep_traction(const Law &law, const std::array<double, 2> &gap,
                        JointHistory &history, const unsigned int p)
     {
-      const JointState state = history.state[p];
-      // What is open keeps what its opening counts from; a joint that softens
-      // may be open and bear tension.
-      if (state == JointState::open
-          && !std::is_same_v<typename Law::Point, CompositePoint>)
+      auto point = read_point(law, history, p);
+      // What is open keeps what its opening counts from, unless it may bear
+      // tension.
+      if (point.state == JointState::open && !Law::bridges)
         return;
-      const auto before = read_point(law, history, p);
-      initialise_point(law, before.normal_traction, before.shear_traction,
-                       history, p);
-      if constexpr (is_rock_law<Law>) // as worn as it was
-        history.worn_slip[p] = before.worn_slip;
-      history.state[p] = state;
-      history.plastic_opening[p] += gap[0];
-      history.plastic_slip[p] += gap[1];
+      auto at_rest = point;
+      law.initialise(at_rest, point.normal_traction, point.shear_traction);
+      point.normal_traction = at_rest.normal_traction;
+      point.shear_traction  = at_rest.shear_traction;
+      point.plastic_opening = at_rest.plastic_opening + gap[0];
+      point.plastic_slip    = at_rest.plastic_slip + gap[1];
+      write_point(point, history, p);
     }
   } // namespace
+
+  JointHistory MatchedJoints::make_history() const
+  {
+    unsigned int most = 0;
+    for (const JointLaw &law : laws)
+      most = std::max(most, n_internal(law));
+    JointHistory history;
+    history.resize(n_points(), most);
+    for (unsigned int i = 0; i < segments.size(); ++i)
+      with_law(segments[i].set,
+               [&](const auto &law)
+               {
+                 for (const unsigned int p : { 2 * i, 2 * i + 1 })
+                   write_point(PointOf<decltype(law)>(), history, p);
+               });
+    return history;
+  }
 
   void MatchedJoints::initialise(const std::vector<FaceStress> &face_stress,
                                  const State<2> &state,
@@ -51,8 +68,13 @@ namespace quoin
             = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
         const double normal = traction[0] * n[0] + traction[1] * n[1];
         const double shear  = traction[0] * s[0] + traction[1] * s[1];
-        with_law(segments[i].set, [&](const auto &law)
-                 { initialise_point(law, normal, shear, history, 2 * i + k); });
+        with_law(segments[i].set,
+                 [&](const auto &law)
+                 {
+                   auto point = read_point(law, history, 2 * i + k);
+                   law.initialise(point, normal, shear);
+                   write_point(point, history, 2 * i + k);
+                 });
       }
     }
   }
@@ -107,39 +129,24 @@ namespace quoin
   {
     history.handed_over[i] = 0;
     const auto gap         = gaps(nodes, i);
-    for (unsigned int k = 0; k < 2; ++k)
-    {
-      const unsigned int p       = 2 * i + k;
-      history.normal_traction[p] = history.shear_traction[p] = 0.;
-      history.plastic_opening[p]                             = gap[k][0];
-      history.plastic_slip[p]                                = gap[k][1];
-      history.state[p] = JointState::intact;
-      if (!history.bond.empty())
-      {
-        history.bond[p]     = 1.;
-        history.crushing[p] = history.crack_opening[p] = 0.;
-      }
-      if (!history.worn_slip.empty())
-        history.worn_slip[p] = history.dilated[p] = history.reload[p] = 0.;
-    }
+    with_law(segments[i].set,
+             [&](const auto &law)
+             {
+               for (unsigned int k = 0; k < 2; ++k)
+               {
+                 PointOf<decltype(law)> point;
+                 point.plastic_opening = gap[k][0];
+                 point.plastic_slip    = gap[k][1];
+                 write_point(point, history, 2 * i + k);
+               }
+             });
   }
 
   void MatchedJoints::set_laws(const std::vector<JointSetParameters> &sets)
   {
     laws.clear();
-    softens = wears = false;
     for (const auto &set : sets)
-    {
       laws.push_back(set.law);
-      std::visit(
-          [&](const auto &law)
-          {
-            using Point = typename std::decay_t<decltype(law)>::Point;
-            softens     = softens || std::is_same_v<Point, CompositePoint>;
-            wears       = wears || std::is_same_v<Point, RockPoint>;
-          },
-          set.law);
-    }
   }
 
   void MatchedJoints::keep_tractions(const NodeRecord<2> *nodes,

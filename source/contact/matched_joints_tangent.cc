@@ -17,48 +17,6 @@ namespace quoin
   {
     using Row = std::array<double, 8>;
 
-    JointDissipation update(const CoulombLaw &law, JointPoint &point,
-                            const double opening, const double slip,
-                            const bool may_break, JointTangent &tangent)
-    {
-      if (point.state != JointState::intact)
-        return law.update(point, opening, slip, tangent);
-      if (may_break)
-      {
-        // Its strength is the residual one from now on.
-        CoulombLaw weak = law;
-        weak.peak       = law.residual;
-        return weak.update(point, opening, slip, tangent);
-      }
-      tangent = { law.normal_stiffness, 0., 0., law.shear_stiffness };
-      point.normal_traction
-          = law.normal_stiffness * (opening - point.plastic_opening);
-      point.shear_traction = law.shear_stiffness * (slip - point.plastic_slip);
-      return {};
-    }
-
-    template <typename Law>
-    auto update(const Law &law, typename Law::Point &point,
-                const double opening, const double slip, bool,
-                JointTangent &tangent)
-    {
-      return law.update(point, opening, slip, tangent);
-    }
-
-    /** What elastic slip [m] changes by with the normal traction [m/Pa]. */
-    template <typename Law>
-    double slip_by_pressure(const Law &law, const double sigma,
-                            const double tau)
-    {
-      if constexpr (std::is_same_v<Law, ContinuouslyYieldingLaw>)
-      {
-        const DualNumber ks = law.stiffness.at(DualNumber(-sigma, -1., 0.));
-        return -tau * ks.by[0] / (ks.value * ks.value);
-      }
-      else
-        return 0.;
-    }
-
     /**
      * How an increment counts that adds to @p total: as more of it, so that
      * slip on the way back does not, or by its size where there is none yet.
@@ -73,9 +31,9 @@ namespace quoin
     /** A point brought to its gap, and the derivatives there. */
     struct Response
     {
-      JointTangent tangent;
+      JointTangent<2> tangent;
       std::array<double, 2> stiffness;      /**< kn, ks of the moment [Pa/m] */
-      double slip_by_pressure;              /**< see there [m/Pa] */
+      double slip_by_pressure;              /**< of the law [m/Pa] */
       double plastic_opening, plastic_slip; /**< what was added [m] */
       double opens, slips;                  /**< sign_of_growth() of these */
     };
@@ -91,16 +49,19 @@ namespace quoin
       const double total_opening = point.plastic_opening;
       const double total_slip    = point.plastic_slip;
       Response result;
-      book(update(law, point, opening, slip, may_break, result.tangent), weight,
-           energy);
-      write_flow(point, history, p);
-      write_tractions(point, history, p);
-      result.stiffness = stiffness_of(law, point.normal_traction);
-      result.slip_by_pressure
-          = slip_by_pressure(law, point.normal_traction, point.shear_traction);
-      result.plastic_opening = point.plastic_opening - total_opening;
-      result.plastic_slip    = point.plastic_slip - total_slip;
-      // An open Coulomb joint keeps the plastic opening that it had.
+      JointDissipation lost;
+      if constexpr (Law::is_brittle)
+        lost = law.update_waiting(point, opening, slip, may_break,
+                                  result.tangent);
+      else
+        lost = law.update(point, opening, slip, result.tangent);
+      book(lost, weight, energy);
+      write_point(point, history, p);
+      result.stiffness        = law.stiffness_at(point.normal_traction);
+      result.slip_by_pressure = law.slip_by_pressure(point);
+      result.plastic_opening  = point.plastic_opening - total_opening;
+      result.plastic_slip     = point.plastic_slip - total_slip;
+      // An open joint may keep the plastic opening that it had.
       result.opens
           = result.plastic_opening == 0.
                 ? 0.
@@ -187,7 +148,7 @@ namespace quoin
         result.force[lower + d] += area * traction;
         result.force[upper + d] -= area * traction;
       }
-      const JointTangent &tangent = point.tangent;
+      const JointTangent<2> &tangent = point.tangent;
       for (unsigned int j = 0; with_stiffness && j < 8; ++j)
       {
         const unsigned int d = j % 2;
@@ -220,16 +181,14 @@ namespace quoin
   double MatchedJoints::excess(const unsigned int p,
                                const JointHistory &history) const
   {
-    const Segment &segment = segments[p / 2];
-    const auto *brittle    = std::get_if<CoulombLaw>(&laws[segment.set]);
-    if (!brittle || history.state[p] != JointState::intact
-        || history.handed_over[p / 2] || !std::isfinite(brittle->peak.tension))
-      return 0.;
-    const JointStrength &peak = brittle->peak;
-    const double sigma        = history.normal_traction[p];
-    const double tau          = std::abs(history.shear_traction[p]);
-    const double shear        = tau + sigma * peak.friction - peak.cohesion;
-    const double size         = std::max(std::abs(sigma), tau);
-    return size > 0. ? std::max(sigma - peak.tension, shear) / size : 0.;
+    double excess = 0.;
+    if (!history.handed_over[p / 2])
+      with_law(segments[p / 2].set,
+               [&](const auto &law)
+               {
+                 if constexpr (std::decay_t<decltype(law)>::is_brittle)
+                   excess = law.excess(read_point(law, history, p));
+               });
+    return excess;
   }
 } // namespace quoin

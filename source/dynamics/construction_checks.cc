@@ -22,23 +22,6 @@ namespace quoin
                           [&](const T &item) { return item.name == name; })
              - items.begin();
     }
-
-    /** Laws of one kind remember the same of a joint. */
-    std::string kind_of_law(const JointLaw &law)
-    {
-      return std::visit(
-          [](const auto &own)
-          {
-            using Point = typename std::decay_t<decltype(own)>::Point;
-            if constexpr (std::is_same_v<Point, CompositePoint>)
-              return "a composite law";
-            else if constexpr (std::is_same_v<Point, RockPoint>)
-              return "a law of rock joints";
-            else
-              return "a Coulomb, elastic or no-tension law";
-          },
-          law);
-    }
   } // namespace
 
   std::vector<std::string>

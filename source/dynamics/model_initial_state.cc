@@ -110,8 +110,7 @@ namespace quoin
     }
     state.velocity.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
     state.plastic = block_forces.initial_history();
-    state.joints.resize(matched_joints.n_points(), matched_joints.can_soften(),
-                        matched_joints.can_wear());
+    state.joints  = matched_joints.make_history();
     if (!face_stress.empty())
       matched_joints.initialise(face_stress, state, state.joints);
     if (std::find(absent_group.begin(), absent_group.end(), true)

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/number_text.h>
 #include <quoin/joints/barton_bandis_law.h>
+#include <quoin/joints/law_entries.h>
 
 namespace quoin
 {
+  namespace
+  {
+    using constants::degree;
+
+    /** Where 'Largest normal stiffness = 0' puts the end of the hyperbola. */
+    constexpr double stiffening = 25.;
+  } // namespace
+
   HyperbolicClosure::HyperbolicClosure(const double first,
                                        const double largest_closure,
                                        const double largest)
@@ -37,6 +47,86 @@ namespace quoin
     const double beyond = (traction - curved) / largest;
     return first * limit * limit * (-v - std::log1p(-v))
            + 0.5 * (traction + curved) * beyond;
+  }
+
+  BartonBandisLaw BartonBandisLaw::read(LawEntries &entries)
+  {
+    refuse_bond(entries);
+    entries.ignore("Friction angle");
+    double first = 0., limit = 0., largest = 0.;
+    entries.positive("Normal stiffness", first, "kn of the unloaded joint",
+                     "Pa/m");
+    entries.positive("Largest closure", limit,
+                     "Vm, which the closure of the joint comes near to under "
+                     "high pressure",
+                     "m");
+    entries.nonnegative("Largest normal stiffness", largest,
+                        "where the slope of the closure has come to this it "
+                        "stays so; the time step allows for it. 0: 25 times "
+                        "'Normal stiffness'",
+                        "Pa/m");
+    if (largest == 0.)
+      largest = stiffening * first;
+    entries.check(largest >= first, "Largest normal stiffness",
+                  "must not be less than 'Normal stiffness', with which the "
+                  "joint begins; 0 takes 25 times that.");
+
+    BartonBandisLaw law{ {}, HyperbolicClosure(first, limit, largest) };
+    double roughness = 0., length = 0., samples = 0.;
+    entries.positive("Shear stiffness", law.stiffness, "ks", "Pa/m");
+    law.residual_angle = read_residual_angle(entries);
+    entries.within("Joint roughness", roughness, 0., 30.,
+                   "roughness coefficient JRC, 0 (smooth) to 20, at most 30",
+                   "-");
+    entries.positive("Joint wall strength", law.wall_strength,
+                     "compressive strength JCS of the rock beside the joint",
+                     "Pa");
+    entries.nonnegative("Peak slip", law.peak_slip,
+                        "slip at the peak of the shear strength; 0: "
+                        "(L/500)(JRC/L)^0.33 with 'Joint length' L in m",
+                        "m");
+    entries.nonnegative("Joint length", length,
+                        "length of the joint between others that cross it",
+                        "m");
+    entries.nonnegative("Laboratory length", samples,
+                        "length of the samples that JRC and JCS are from, to "
+                        "be corrected for 'Joint length'; 0: no correction",
+                        "m");
+    if (samples > 0.)
+    {
+      entries.check(length >= samples, "Joint length",
+                    "must be given, and not be less than 'Laboratory length', "
+                    "if roughness and wall strength are to be corrected for "
+                    "it.");
+      const double ratio = length / samples;
+      law.wall_strength *= std::pow(ratio, -0.03 * roughness);
+      roughness *= std::pow(ratio, -0.02 * roughness);
+    }
+    law.roughness = roughness * degree;
+    if (law.peak_slip == 0.)
+    {
+      entries.check(length > 0. && roughness > 0., "Peak slip",
+                    "must be given, or 'Joint length' and 'Joint roughness', "
+                    "from which it follows.");
+      law.peak_slip = length / 500. * std::pow(roughness / length, 0.33);
+    }
+    return law;
+  }
+
+  std::string BartonBandisLaw::text() const
+  {
+    return "Barton-Bandis, "
+           + named_number("residual friction angle", residual_angle / degree,
+                          "degrees")
+           + ", JRC " + number_text(roughness / degree) + ", "
+           + named_number("JCS", wall_strength, "Pa");
+  }
+
+  BartonBandisLaw BartonBandisLaw::reduced(const double factor) const
+  {
+    BartonBandisLaw weak = *this;
+    weak.divisor *= factor;
+    return weak;
   }
 
   void BartonBandisLaw::initialise(RockPoint &point, const double normal,

@@ -2,7 +2,10 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/eigen_core.h>
+#include <quoin/base/constants.h>
+#include <quoin/base/number_text.h>
 #include <quoin/joints/composite_return_map.h>
+#include <quoin/joints/law_entries.h>
 
 #include <Eigen/LU>
 
@@ -13,10 +16,11 @@ namespace quoin
   namespace
   {
     /** Takes @p point to the end of @p flow and books what that dissipated. */
-    CompositeDissipation accept(const CompositeReturnMap &map,
-                                const CompositeFlow &flow,
-                                const double direction, const double opening,
-                                const double slip, CompositePoint &point)
+    template <int dim>
+    CompositeDissipation
+    accept(const CompositeReturnMap &map, const CompositeFlow &flow,
+           const Slip<dim> &direction, const double opening,
+           const Slip<dim> &slip, CompositePoint<dim> &point)
     {
       const CompositeLaw &law = map.law;
       const double cohesion   = 0.5 * law.cohesion * (point.bond + flow.bond);
@@ -54,7 +58,8 @@ namespace quoin
      * Closes the crack of @p point as far as @p opening [m] asks for; returns
      * by how much [m]. One that does not close wholly carries nothing.
      */
-    double close_crack(const double opening, CompositePoint &point)
+    template <int dim>
+    double close_crack(const double opening, CompositePoint<dim> &point)
     {
       const double gap = point.plastic_opening - opening;
       if (!(gap > 0. && point.crack_opening > 0.))
@@ -142,38 +147,46 @@ namespace quoin
      * A step that is not elastic: the crack closes first, then the joint is
      * elastic or fails. @p tangent holds the elastic one.
      */
-    template <bool with_tangent>
-    CompositeDissipation advance(const CompositeLaw &law, CompositePoint &point,
-                                 const double opening, const double slip,
-                                 JointTangent &tangent)
+    template <bool with_tangent, int dim>
+    CompositeDissipation advance(const CompositeLaw &law,
+                                 CompositePoint<dim> &point,
+                                 const double opening, const Slip<dim> &slip,
+                                 JointTangent<dim> &tangent)
     {
       const double kn = law.normal_stiffness, ks = law.shear_stiffness;
       const double sigma_before = point.normal_traction;
       const double closed       = close_crack(opening, point);
 
       CompositeDissipation lost;
-      const double trial_tau = ks * (slip - point.plastic_slip);
+      const Slip<dim> trial_tau = ks * (slip - point.plastic_slip);
       if (closed == 0. || !law.update_elastic(point, opening, slip))
       {
-        const double direction = trial_tau < 0. ? -1. : 1.;
-        const CompositeReturnMap map(law, point,
+        const Slip<dim> direction = direction_of(trial_tau);
+        const CompositeReturnMap map(law, point.bond, point.crushing,
                                      kn * (opening - point.plastic_opening),
-                                     std::abs(trial_tau));
+                                     magnitude(trial_tau));
         const CompositeFlow flow = map.end();
         if (with_tangent)
         {
           const Eigen::Matrix2d D = differentiate(map, flow);
           tangent                 = { D(0, 0) * kn, D(0, 1) * ks * direction,
-                                      D(1, 0) * kn * direction, D(1, 1) * ks };
+                                      D(1, 0) * kn * direction,
+                                      D(1, 1) * ks * outer_product(direction, direction) };
+          if constexpr (dim == 3) // across the trial traction it turns
+            if (const double trial = magnitude(trial_tau); trial > 0.)
+              tangent.shear_slip += ks * flow.tau / trial
+                                    * (isotropic<dim>(1.)
+                                       - outer_product(direction, direction));
         }
-        lost = accept(map, flow, direction, opening, slip, point);
+        lost = accept<dim>(map, flow, direction, opening, slip, point);
       }
       if (closed > 0.)
         lost.tension -= 0.5 * (sigma_before + point.normal_traction) * closed;
       if (closed > 0. && point.crack_opening > 0.) // carries nothing
       {
         point.state            = JointState::open;
-        tangent.normal_opening = tangent.shear_opening = 0.;
+        tangent.normal_opening = 0.;
+        tangent.shear_opening  = Slip<dim>();
       }
       return lost;
     }
@@ -217,22 +230,138 @@ namespace quoin
            && (std::isinf(compression) || normal_stiffness > steepest_cap);
   }
 
-  CompositeDissipation CompositeLaw::update_failing(CompositePoint &point,
-                                                    const double opening,
-                                                    const double slip) const
+  CompositeLaw CompositeLaw::read(LawEntries &entries)
   {
-    JointTangent unused;
+    CompositeLaw law;
+    double angle = 0., dilation_angle = 0.;
+    entries.positive("Normal stiffness", law.normal_stiffness, "kn", "Pa/m");
+    entries.positive("Shear stiffness", law.shear_stiffness, "ks", "Pa/m");
+    entries.nonnegative("Tensile strength", law.tension, "ft", "Pa");
+    entries.positive_or_none("Tensile fracture energy", law.tension_energy,
+                             "mode I fracture energy GfI, or 'none': tension "
+                             "does not soften",
+                             "J/m^2");
+    entries.nonnegative("Cohesion", law.cohesion, "peak cohesion c", "Pa");
+    entries.positive_or_none("Shear fracture energy", law.shear_energy,
+                             "mode II fracture energy GfII, or 'none': "
+                             "cohesion does not soften",
+                             "J/m^2");
+    entries.within("Friction angle", angle, 0., 89., "phi", "deg");
+    double residual = angle;
+    entries.angle_or_same("Residual friction angle", residual,
+                          "friction angle once failed, or 'same'");
+    entries.check(residual >= 0. && residual <= 89., "Residual friction angle",
+                  "must lie between 0 and 89 degrees, or be 'same'.");
+    law.friction          = tangent_of_degrees(angle);
+    law.residual_friction = tangent_of_degrees(residual);
+    entries.check(law.tension * std::max(law.friction, law.residual_friction)
+                      <= law.cohesion,
+                  "Tensile strength",
+                  "must not exceed 'Cohesion' over the tangent of the friction "
+                  "angle, where shear strength ends.");
+
+    entries.within("Dilation angle", dilation_angle, 0.,
+                   std::min(angle, residual),
+                   "psi, at most the friction angle, once failed too", "deg");
+    law.dilation = tangent_of_degrees(dilation_angle);
+    entries.positive_or_none("Dilation pressure", law.dilation_pressure,
+                             "pressure under which the joint dilates no more, "
+                             "or 'none': any",
+                             "Pa");
+    entries.nonnegative("Dilation decay", law.dilation_decay,
+                        "how fast dilation wears off with slip, delta; not "
+                        "read without 'Cohesion' and 'Shear fracture energy'",
+                        "1/m");
+    entries.either("Cracks", law.cracks_close, "stay open", "close",
+                   "what unloading does to a crack that tension opened. stay "
+                   "open: unloading is elastic, compression comes back before "
+                   "the crack is closed, as published; close: it closes "
+                   "without resistance first, for cyclic loading");
+
+    entries.positive_or_none("Compressive strength", law.compression,
+                             "fm of the masonry, or 'none': no crushing", "Pa");
+    if (entries.reads() && std::isinf(law.compression))
+    {
+      entries.refuse_numbers({ "Compressive fracture energy", "Peak crushing" },
+                             "Compressive strength");
+      return law;
+    }
+    entries.positive("Compressive fracture energy", law.compression_energy,
+                     "Gfc", "J/m^2");
+    entries.positive("Peak crushing", law.peak_crushing,
+                     "plastic closing at fm, kappa_p", "m");
+    entries.positive("Cap shear", law.cap_shear,
+                     "weight Css of the shear traction in the cap", "-");
+    entries.positive("Cap normal", law.cap_normal,
+                     "weight Cnn of the normal traction in the cap", "-");
+    entries.nonnegative("Cap offset", law.cap_offset,
+                        "Cn of the cap, whose centre is at -Cn/(2 Cnn)", "Pa");
+    return law;
+  }
+
+  std::string CompositeLaw::text() const
+  {
+    return "composite, " + named_number("tensile strength", tension, "Pa")
+           + ", " + named_number("cohesion", cohesion, "Pa") + ", "
+           + named_number("friction angle",
+                          std::atan(friction) / constants::degree, "degrees")
+           + ", " + named_number("compressive strength", compression, "Pa");
+  }
+
+  std::string CompositeLaw::warning() const
+  {
+    if (softens_gently())
+      return "";
+    return "the joint drops by itself at failure and does not dissipate its "
+           "fracture energies. 'Normal stiffness' should be above ft^2 / GfI = "
+           + number_text(tension * tension / tension_energy)
+           + " Pa/m and above the slope of the cap, 'Shear stiffness' above "
+             "c^2 / GfII = "
+           + number_text(cohesion * cohesion / shear_energy) + " Pa/m.";
+  }
+
+  CompositeLaw CompositeLaw::reduced(const double factor) const
+  {
+    CompositeLaw weak = *this;
+    weak.tension /= factor;
+    weak.cohesion /= factor;
+    weak.friction /= factor;
+    weak.residual_friction /= factor;
+    weak.dilation
+        = std::min(dilation, std::min(weak.friction, weak.residual_friction));
+    return weak;
+  }
+
+  template <int dim>
+  CompositeDissipation CompositeLaw::update_failing(CompositePoint<dim> &point,
+                                                    const double opening,
+                                                    const Slip<dim> &slip) const
+  {
+    JointTangent<dim> unused;
     return advance<false>(*this, point, opening, slip, unused);
   }
 
-  CompositeDissipation CompositeLaw::update(CompositePoint &point,
-                                            const double opening,
-                                            const double slip,
-                                            JointTangent &tangent) const
+  template <int dim>
+  CompositeDissipation
+  CompositeLaw::update(CompositePoint<dim> &point, const double opening,
+                       const Slip<dim> &slip, JointTangent<dim> &tangent) const
   {
-    tangent = { normal_stiffness, 0., 0., shear_stiffness };
+    tangent = { normal_stiffness, {}, {}, isotropic<dim>(shear_stiffness) };
     return update_elastic(point, opening, slip)
                ? CompositeDissipation()
                : advance<true>(*this, point, opening, slip, tangent);
   }
+
+  template CompositeDissipation
+  CompositeLaw::update_failing(CompositePoint<2> &, double,
+                               const Slip<2> &) const;
+  template CompositeDissipation
+  CompositeLaw::update_failing(CompositePoint<3> &, double,
+                               const Slip<3> &) const;
+  template CompositeDissipation CompositeLaw::update(CompositePoint<2> &,
+                                                     double, const Slip<2> &,
+                                                     JointTangent<2> &) const;
+  template CompositeDissipation CompositeLaw::update(CompositePoint<3> &,
+                                                     double, const Slip<3> &,
+                                                     JointTangent<3> &) const;
 } // namespace quoin

@@ -117,13 +117,14 @@ namespace quoin
   } // namespace
 
   CompositeReturnMap::CompositeReturnMap(const CompositeLaw &law,
-                                         const CompositePoint &start,
+                                         const double bond_start,
+                                         const double crushing_start,
                                          const double sigma_trial,
                                          const double tau_trial)
     : law(law),
       fade(law.slip_softening() > 0. ? law.dilation_decay / law.slip_softening()
                                      : 0.),
-      bond_start(start.bond), crushing_start(start.crushing),
+      bond_start(bond_start), crushing_start(crushing_start),
       sigma_trial(sigma_trial), tau_trial(tau_trial)
   {
   }

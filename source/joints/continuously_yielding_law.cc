@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/constants.h>
+#include <quoin/base/number_text.h>
 #include <quoin/joints/continuously_yielding_law.h>
+#include <quoin/joints/law_entries.h>
 
 namespace quoin
 {
+  using constants::degree;
+
   PowerClosure::PowerClosure(const PowerStiffness &stiffness)
     : law(stiffness), low_stiffness(law.at(law.lowest)),
       high_stiffness(law.at(law.highest)),
@@ -39,6 +44,72 @@ namespace quoin
     return law.lowest * low_closure
                * (0.5 + (std::pow(curved / law.lowest, e) - 1.) / e)
            + (0.5 * beyond + curved) * beyond / high_stiffness;
+  }
+
+  ContinuouslyYieldingLaw ContinuouslyYieldingLaw::read(LawEntries &entries)
+  {
+    refuse_bond(entries);
+    PowerStiffness normal;
+    normal.reference_traction = 1e6;
+    normal.lowest             = 1e4;
+    normal.highest            = 1e8;
+    entries.positive("Reference stress", normal.reference_traction,
+                     "pressure at which the stiffnesses are 'Normal stiffness' "
+                     "and 'Shear stiffness'",
+                     "Pa");
+    entries.positive("Lowest stress", normal.lowest,
+                     "pressure below which the stiffnesses are constant", "Pa");
+    entries.positive("Highest stress", normal.highest,
+                     "pressure above which they are constant; the time step "
+                     "allows for this one",
+                     "Pa");
+    entries.check(normal.highest >= normal.lowest, "Highest stress",
+                  "must not be less than 'Lowest stress', below which "
+                  "stiffnesses are constant too.");
+    PowerStiffness shear = normal;
+    entries.positive("Normal stiffness", normal.reference,
+                     "kn at 'Reference stress'", "Pa/m");
+    entries.within("Normal exponent", normal.exponent, 0., 1.,
+                   "power of the pressure with which the normal stiffness "
+                   "grows, 0 to 1",
+                   "-");
+    entries.positive("Shear stiffness", shear.reference,
+                     "ks at 'Reference stress'", "Pa/m");
+    entries.within("Shear exponent", shear.exponent, 0., 1.,
+                   "the same of the shear stiffness", "-");
+
+    ContinuouslyYieldingLaw law{ {}, PowerClosure(normal), shear };
+    law.residual_angle = read_residual_angle(entries);
+    double angle       = 0.;
+    entries.within("Friction angle", angle, 0., 89., "that of the unworn joint",
+                   "deg");
+    law.initial_angle = angle * degree;
+    entries.check(law.initial_angle >= law.residual_angle, "Friction angle",
+                  "must not be less than 'Residual friction angle': it is that "
+                  "of the joint before it is worn.");
+    entries.positive("Roughness", law.roughness,
+                     "R, the inelastic slip over which the friction angle "
+                     "comes from 'Friction angle' near 'Residual friction "
+                     "angle'",
+                     "m");
+    return law;
+  }
+
+  std::string ContinuouslyYieldingLaw::text() const
+  {
+    return "continuously yielding, "
+           + named_number("friction angle from", initial_angle / degree,
+                          "degrees")
+           + " " + named_number("down to", residual_angle / degree, "degrees");
+  }
+
+  ContinuouslyYieldingLaw
+  ContinuouslyYieldingLaw::reduced(const double factor) const
+  {
+    ContinuouslyYieldingLaw weak = *this;
+    weak.initial_angle           = std::atan(std::tan(initial_angle) / factor);
+    weak.residual_angle          = std::atan(std::tan(residual_angle) / factor);
+    return weak;
   }
 
   void ContinuouslyYieldingLaw::initialise(RockPoint &point,

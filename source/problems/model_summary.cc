@@ -77,67 +77,6 @@ namespace quoin
       return boost::algorithm::join(words, ", ");
     }
 
-    /** "name 5 unit", or "name unlimited". */
-    std::string named(const std::string &name, const double value,
-                      const std::string &unit)
-    {
-      return name + " "
-             + (std::isfinite(value) ? number_text(value) + " " + unit
-                                     : std::string("unlimited"));
-    }
-
-    /** What of @p strength differs from @p other. */
-    std::string strength_text(const JointStrength &strength,
-                              const JointStrength &other)
-    {
-      std::vector<std::string> words;
-      if (strength.friction != other.friction)
-        words.push_back(named("friction angle",
-                              std::atan(strength.friction) / degree,
-                              "degrees"));
-      if (strength.cohesion != other.cohesion)
-        words.push_back(named("cohesion", strength.cohesion, "Pa"));
-      if (strength.tension != other.tension)
-        words.push_back(named("tensile strength", strength.tension, "Pa"));
-      return joined(words);
-    }
-
-    std::string law_text(const CoulombLaw &law)
-    {
-      if (!std::isfinite(law.peak.tension))
-        return "elastic";
-      constexpr double nan       = std::numeric_limits<double>::quiet_NaN();
-      const std::string residual = strength_text(law.residual, law.peak);
-      return "Coulomb, " + strength_text(law.peak, { nan, nan, nan })
-             + (residual.empty() ? "" : " (once failed " + residual + ")");
-    }
-
-    std::string law_text(const CompositeLaw &law)
-    {
-      return "composite, " + named("tensile strength", law.tension, "Pa") + ", "
-             + named("cohesion", law.cohesion, "Pa") + ", "
-             + named("friction angle", std::atan(law.friction) / degree,
-                     "degrees")
-             + ", " + named("compressive strength", law.compression, "Pa");
-    }
-
-    std::string law_text(const BartonBandisLaw &law)
-    {
-      return "Barton-Bandis, "
-             + named("residual friction angle", law.residual_angle / degree,
-                     "degrees")
-             + ", JRC " + number_text(law.roughness / degree) + ", "
-             + named("JCS", law.wall_strength, "Pa");
-    }
-
-    std::string law_text(const ContinuouslyYieldingLaw &law)
-    {
-      return "continuously yielding, "
-             + named("friction angle from", law.initial_angle / degree,
-                     "degrees")
-             + " " + named("down to", law.residual_angle / degree, "degrees");
-    }
-
     /** Names and units of the components of a load. */
     std::vector<std::array<std::string, 2>>
     component_names(const LoadParameters &load)
@@ -258,13 +197,14 @@ namespace quoin
     if (!material.strength)
       return text;
     const MohrCoulombStrength &strength = *material.strength;
-    return text + ", " + named("cohesion", strength.cohesion, "Pa") + ", "
-           + named("friction angle", strength.friction_angle / degree,
-                   "degrees")
+    return text + ", " + named_number("cohesion", strength.cohesion, "Pa")
            + ", "
-           + named("dilation angle", strength.dilation_angle / degree,
-                   "degrees")
-           + ", " + named("tensile strength", strength.tension, "Pa");
+           + named_number("friction angle", strength.friction_angle / degree,
+                          "degrees")
+           + ", "
+           + named_number("dilation angle", strength.dilation_angle / degree,
+                          "degrees")
+           + ", " + named_number("tensile strength", strength.tension, "Pa");
   }
 
   std::vector<std::string>
@@ -308,13 +248,12 @@ namespace quoin
       }
       const bool takes_new = set.all_new_contacts || !set.new_contacts.empty();
       const auto stiffness = stiffness_bound(set.law);
-      lines.push_back(
-          "joints " + set.name + ": " + number_text(length) + " m"
-          + (takes_new ? " and new contacts" : "") + "; "
-          + std::visit([](const auto &law) { return law_text(law); }, set.law)
-          + ", " + (stiffens(set.law) ? "up to " : "") + "kn "
-          + number_text(stiffness[0]) + " Pa/m, ks " + number_text(stiffness[1])
-          + " Pa/m");
+      lines.push_back("joints " + set.name + ": " + number_text(length) + " m"
+                      + (takes_new ? " and new contacts" : "") + "; "
+                      + law_text(set.law) + ", "
+                      + (stiffens(set.law) ? "up to " : "") + "kn "
+                      + number_text(stiffness[0]) + " Pa/m, ks "
+                      + number_text(stiffness[1]) + " Pa/m");
     }
     return lines;
   }

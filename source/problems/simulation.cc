@@ -10,7 +10,6 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
-#include <quoin/joints/composite_parameters.h>
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
@@ -166,9 +165,7 @@ namespace quoin
 
     for (const JointSetParameters &set : parameters.model.joints)
     {
-      const auto *composite = std::get_if<CompositeLaw>(&set.law);
-      const std::string warning
-          = composite ? snap_back_warning(*composite) : "";
+      const std::string warning = law_warning(set.law);
       if (!warning.empty())
         log.warning("section 'Joints/" + set.name + "': " + warning);
     }

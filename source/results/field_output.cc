@@ -58,6 +58,8 @@ namespace quoin
   JointFields joint_fields(const Model &model, const State<2> &state)
   {
     JointFields fields;
+    for (const std::string &name : model.joints().field_names())
+      fields.of_laws.push_back({ name, {} });
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
     {
       const auto &segment = model.joints().segment(i);
@@ -80,11 +82,8 @@ namespace quoin
         fields.slip.push_back(gaps[k][1]);
         fields.normal_traction.push_back(state.joints.normal_traction[p]);
         fields.shear_traction.push_back(state.joints.shear_traction[p]);
-        if (model.joints().can_soften())
-        {
-          fields.damage.push_back(1. - state.joints.bond[p]);
-          fields.crushing.push_back(state.joints.crushing[p]);
-        }
+        for (auto &[name, values] : fields.of_laws)
+          values.push_back(model.joints().field(name, p, state.joints));
         fields.state.push_back(state.joints.state[p]);
       }
     }

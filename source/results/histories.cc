@@ -329,10 +329,8 @@ namespace quoin
         return state.joints.shear_traction[p];
       if (wanted.component == 4)
         return static_cast<double>(state.joints.state[p]);
-      if (!model.joints().can_soften())
-        return 0.;
-      return wanted.component == 5 ? 1. - state.joints.bond[p]
-                                   : state.joints.crushing[p];
+      return model.joints().field(wanted.component == 5 ? "damage" : "crushing",
+                                  p, state.joints);
     }
     default:
       return 0.;

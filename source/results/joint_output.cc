@@ -74,11 +74,8 @@ namespace quoin
                         { "normal traction", 1, fields.normal_traction },
                         { "shear traction", 1, fields.shear_traction },
                         { "point state", 1, point_state } };
-    if (!fields.damage.empty())
-    {
-      grid.point_data.push_back({ "damage", 1, fields.damage });
-      grid.point_data.push_back({ "crushing", 1, fields.crushing });
-    }
+    for (const auto &[name, values] : fields.of_laws)
+      grid.point_data.push_back({ name, 1, values });
     grid.cell_data = { { "state", 1, face_state },
                        { "joint set", 1, fields.joint_set },
                        { "length", 1, length } };

@@ -4,6 +4,7 @@
 #ifndef quoin_base_number_text_h
 #define quoin_base_number_text_h
 
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -16,6 +17,15 @@ namespace quoin
     text.precision(4);
     text << value;
     return text.str();
+  }
+
+  /** "name 5 unit", or "name unlimited". */
+  inline std::string named_number(const std::string &name, const double value,
+                                  const std::string &unit)
+  {
+    return name + " "
+           + (std::isfinite(value) ? number_text(value) + " " + unit
+                                   : std::string("unlimited"));
   }
 } // namespace quoin
 

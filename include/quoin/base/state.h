@@ -86,33 +86,17 @@ namespace quoin
     AlignedArray<double> shear_traction;  /**< [Pa] */
     AlignedArray<double> plastic_slip;    /**< inelastic slip [m] */
     AlignedArray<double> plastic_opening; /**< dilation, offsets [m] */
-    AlignedArray<double> bond;            /**< share of ft, c left [-] */
-    AlignedArray<double> crushing;        /**< of the cap [m] */
-    AlignedArray<double> crack_opening;   /**< that may close again [m] */
-    AlignedArray<double> worn_slip;       /**< that wore the joint [m] */
-    AlignedArray<double> dilated;         /**< slip back takes it back [m] */
-    AlignedArray<double> reload;          /**< |tau|/strength [-] */
+    /** Of each point n_internal numbers, the internal variables of its law. */
+    AlignedArray<double> internal;
+    unsigned int n_internal = 0;
     AlignedArray<JointState> state;
     /** Of each segment, two points: it is a general contact by now. */
     AlignedArray<std::uint8_t> handed_over;
 
-    /** bond, crushing, crack_opening stay empty unless a law @p softens,
-        worn_slip, dilated, reload unless one @p wears. */
-    void resize(const std::size_t n, const bool softens = false,
-                const bool wears = false)
+    void resize(const std::size_t n, const unsigned int n_internal)
     {
-      if (wears)
-      {
-        worn_slip.resize(n, 0.);
-        dilated.resize(n, 0.);
-        reload.resize(n, 0.);
-      }
-      if (softens)
-      {
-        bond.resize(n, 1.);
-        crushing.resize(n, 0.);
-        crack_opening.resize(n, 0.);
-      }
+      this->n_internal = n_internal;
+      internal.resize(n * n_internal, 0.);
       normal_traction.resize(n, 0.);
       shear_traction.resize(n, 0.);
       plastic_slip.resize(n, 0.);
@@ -125,8 +109,7 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &normal_traction &shear_traction &plastic_slip &plastic_opening
-          &bond &crushing &crack_opening &worn_slip &dilated &reload &state
-              &handed_over;
+          &internal &n_internal &state &handed_over;
     }
   };
 
@@ -214,10 +197,9 @@ namespace quoin
     double anchor_lower    = 0.; /**< where on the edges, 0 to 1, slip is */
     double anchor_upper    = 0.; /**< counted from */
     double area            = 0.; /**< as last used [m^2] */
-    /** Contacts are born worn: with the residual strength. */
-    double worn_slip = std::numeric_limits<double>::infinity(); /**< [m] */
-    double dilated   = 0.;                                      /**< [m] */
-    double reload    = 0.;                                      /**< [-] */
+    /** Internal variables of its law; there is room for most_internal. */
+    static constexpr unsigned int most_internal = 4;
+    double internal[most_internal]{};
     JointState state = JointState::slipped;
   };
 

@@ -32,10 +32,6 @@ namespace quoin
     double thickness = 1.;      /**< [m] */
   };
 
-  /** The law of a general contact, which has no bond that could soften. */
-  using ContactLaw
-      = std::variant<CoulombLaw, BartonBandisLaw, ContinuouslyYieldingLaw>;
-
   /**
    * Contacts between the boundaries of blocks that move and rotate without
    * limit.
@@ -72,8 +68,8 @@ namespace quoin
   public:
     /**
      * Keeps references to @p mesh and @p exchange. Throws an InputError about
-     * materials that no set for new contacts covers, and about composite
-     * laws.
+     * materials that no set for new contacts covers, and about laws that are
+     * not for contacts.
      */
     BlockContacts(const BlockMesh<2> &mesh, const NodeExchange &exchange,
                   const ContactModel &model);
@@ -265,8 +261,8 @@ namespace quoin
     const ContactParameters parameters;
     const double thickness;
     double skin;
-    std::vector<ContactLaw> laws; /**< of each set */
-    bool dilates = false;         /**< a set does */
+    std::vector<JointLaw> laws; /**< of each set */
+    bool dilates = false;       /**< a set does */
     std::vector<std::string> materials;
     std::vector<unsigned int> material_of_group;
     std::vector<unsigned int> set_of_materials; /**< square table */

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <functional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -77,6 +78,9 @@ namespace quoin
     /** Stress xx, yy, xy [Pa] for both points of a joint face. */
     using FaceStress = std::array<std::array<double, 3>, 2>;
 
+    /** Intact points, free of traction. */
+    JointHistory make_history() const;
+
     /** Sets the tractions that balance an initial stress at rest. */
     void initialise(const std::vector<FaceStress> &face_stress,
                     const State<2> &state, JointHistory &history) const;
@@ -135,7 +139,7 @@ namespace quoin
      * and inelastic_gradient are not set. Books the dissipation.
      *
      * The tractions of a brittle joint jump when it breaks, which no Newton
-     * iteration survives. So intact points of a Coulomb law stay elastic here
+     * iteration survives. So intact points of a brittle law stay elastic here
      * beyond their strength unless @p broken, an entry for each point, says
      * that they break; see excess().
      */
@@ -205,17 +209,13 @@ namespace quoin
       return laws[set];
     }
 
-    /** Whether a set, of any rank, has a composite law. */
-    bool can_soften() const
-    {
-      return softens;
-    }
+    /** Names of the fields for results that laws of the sets have. */
+    std::vector<std::string> field_names() const;
 
-    /** Whether a set, of any rank, has a law of rock joints. */
-    bool can_wear() const
-    {
-      return wears;
-    }
+    /** The field @p name at entry @p point of @p history; 0 if the law there
+        has none. */
+    double field(const std::string &name, unsigned int point,
+                 const JointHistory &history) const;
 
   private:
     struct Frame
@@ -241,9 +241,8 @@ namespace quoin
                         const NodeRecord<2> *nodes, JointHistory &history,
                         EnergyAccounts &energy, NodeVector<2> *force) const;
 
-    std::vector<Segment> segments; /**< sorted by set */
-    std::vector<JointLaw> laws;    /**< of each set */
-    bool softens = false, wears = false;
+    std::vector<Segment> segments;       /**< sorted by set */
+    std::vector<JointLaw> laws;          /**< of each set */
     std::vector<unsigned int> set_begin; /**< first segment of each set */
   };
 } // namespace quoin

@@ -7,6 +7,8 @@
 #include <quoin/base/constants.h>
 #include <quoin/joints/rock_point.h>
 
+#include <string>
+
 namespace quoin
 {
   /**
@@ -85,9 +87,12 @@ namespace quoin
    * the angle i m/2; slip back closes the joint by that angle until it has
    * taken back what it had dilated. An open joint transfers nothing.
    */
-  struct BartonBandisLaw
+  struct BartonBandisLaw : RockLaw<BartonBandisLaw>
   {
-    using Point = RockPoint;
+    static constexpr std::array<LawName, 1> names
+        = { { { "Barton-Bandis",
+                "rock joint that closes along a hyperbola, whose roughness is "
+                "mobilised and worn by slip" } } };
 
     HyperbolicClosure closure;
     double stiffness      = 0.; /**< ks [Pa/m] */
@@ -100,26 +105,14 @@ namespace quoin
     /** phi_r + i of the peak is not above this [rad]. */
     static constexpr double largest_angle = 70. * constants::degree;
 
-    /** Brings @p point to @p opening and @p slip [m], overwriting it. */
-    JointDissipation update(RockPoint &point, const double opening,
-                            const double slip) const
-    {
-      return update_rock(*this, point, opening, slip);
-    }
+    /** The law of a set of joints, or its entries of the parameter file. */
+    static BartonBandisLaw read(LawEntries &entries);
 
-    /** The same with the consistent tangent, see CoulombLaw. */
-    JointDissipation update(RockPoint &point, const double opening,
-                            const double slip, JointTangent &tangent) const
-    {
-      return update_rock(*this, point, opening, slip, tangent);
-    }
+    /** What --check says of it. */
+    std::string text() const;
 
-    /** Recoverable energy per area [J/m^2]. */
-    double stored_energy(const RockPoint &point) const
-    {
-      return closure.energy(-point.normal_traction)
-             + 0.5 * point.shear_traction * point.shear_traction / stiffness;
-    }
+    /** With the shear strength divided by @p factor. */
+    BartonBandisLaw reduced(double factor) const;
 
     /** ks [Pa/m]. */
     double shear_stiffness(const double /*traction*/ = 0.) const

@@ -4,32 +4,27 @@
 #ifndef quoin_joints_composite_law_h
 #define quoin_joints_composite_law_h
 
-#include <quoin/base/state.h>
 #include <quoin/joints/coulomb_law.h>
-#include <quoin/joints/joint_tangent.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace quoin
 {
-  /**
-   * One point of a masonry joint: what the law reads and overwrites.
-   *
-   * The arrays of the same names in JointHistory; @p bond begins with 1, all
-   * others with 0.
-   */
-  struct CompositePoint
+  /** One point of a masonry joint, which remembers how far it softened. */
+  template <int dim>
+  struct CompositePoint : JointPoint<dim>
   {
-    double normal_traction = 0.; /**< sigma [Pa], tension positive */
-    double shear_traction  = 0.; /**< tau [Pa] */
-    double plastic_slip    = 0.; /**< p [m] */
-    double plastic_opening = 0.; /**< w [m]; negative once crushed */
-    double bond            = 1.; /**< ft/ft0 = c/c0 = exp(-k) [-] */
-    double crushing        = 0.; /**< k3 [m] */
+    double bond     = 1.; /**< ft/ft0 = c/c0 = exp(-k) [-] */
+    double crushing = 0.; /**< k3 [m] */
     /** Share of w that tension opened and closing takes back [m]. */
     double crack_opening = 0.;
-    JointState state     = JointState::intact;
+
+    static constexpr std::array<double CompositePoint::*, 3> internal
+        = { &CompositePoint::bond, &CompositePoint::crushing,
+            &CompositePoint::crack_opening };
   };
 
   /** Energy per area that an update dissipated [J/m^2]. */
@@ -43,6 +38,10 @@ namespace quoin
     double total() const
     {
       return tension + shear + friction + crushing;
+    }
+    operator JointDissipation() const
+    {
+      return { friction, tension + shear, crushing };
     }
   };
 
@@ -75,9 +74,18 @@ namespace quoin
    * work = change of stored_energy() + total() to rounding. An increment can
    * be negative only if the step jumps across the elastic range.
    */
-  struct CompositeLaw
+  struct CompositeLaw : JointLawDefaults
   {
-    using Point = CompositePoint;
+    template <int dim>
+    using Point = CompositePoint<dim>;
+
+    static constexpr const char *kind = "a composite law";
+    static constexpr std::array<LawName, 1> names
+        = { { { "composite",
+                "cohesion, friction and tension that soften with fracture "
+                "energies, and a cap that crushes, for masonry" } } };
+    static constexpr bool bridges            = true;
+    static constexpr const char *no_contacts = "have no bond that could soften";
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -104,6 +112,54 @@ namespace quoin
 
     bool cracks_close = false;
 
+    /** The law of a set of joints, or its entries of the parameter file. */
+    static CompositeLaw read(LawEntries &entries);
+
+    /** What --check says of it. */
+    std::string text() const;
+
+    /** What to say of a law that drops by itself; empty: it softens gently. */
+    std::string warning() const;
+
+    /** Strengths divided by @p factor, peak and residual, without the cap;
+        dilation is not above the friction that is left. */
+    CompositeLaw reduced(double factor) const;
+
+    std::string no_new_contacts() const
+    {
+      return "which hold nothing together";
+    }
+
+    /** kn and ks [Pa/m] at the normal traction @p sigma [Pa], and at most. */
+    std::array<double, 2> stiffness_at(double /*sigma*/) const
+    {
+      return { normal_stiffness, shear_stiffness };
+    }
+    std::array<double, 2> largest_stiffness() const
+    {
+      return { normal_stiffness, shear_stiffness };
+    }
+
+    /** Sets @p point to tractions [Pa] at rest, at zero opening and slip. */
+    template <int dim>
+    void initialise(CompositePoint<dim> &point, const double normal,
+                    const Slip<dim> &shear) const
+    {
+      point.normal_traction = normal;
+      point.shear_traction  = shear;
+      point.plastic_opening = -normal / normal_stiffness;
+      point.plastic_slip    = -shear / shear_stiffness;
+    }
+
+    /** Quantities of a point for results. */
+    template <int dim>
+    static std::array<JointField<CompositePoint<dim>>, 2> fields()
+    {
+      using Here = CompositePoint<dim>;
+      return { { { "damage", [](const Here &p) { return 1. - p.bond; } },
+                 { "crushing", [](const Here &p) { return p.crushing; } } } };
+    }
+
     /**
      * Whether no mode can snap back: GfI kn > ft0^2, GfII ks > c0^2 and kn
      * above the steepest slope of the cap. Otherwise the law drops at
@@ -114,28 +170,32 @@ namespace quoin
     bool softens_gently(double sigma = 0.) const;
 
     /** Brings @p point to @p opening and @p slip [m], overwriting it. */
-    CompositeDissipation update(CompositePoint &point, double opening,
-                                double slip) const;
+    template <int dim>
+    CompositeDissipation update(CompositePoint<dim> &point, double opening,
+                                const Slip<dim> &slip) const;
 
-    /**
-     * The same with the consistent tangent, for a Newton solver, which
-     * updates a copy of the point that it began with and keeps the last copy
-     * once it has converged.
-     */
-    CompositeDissipation update(CompositePoint &point, double opening,
-                                double slip, JointTangent &tangent) const;
+    /** The same with the consistent tangent, see CoulombLaw. */
+    template <int dim>
+    CompositeDissipation update(CompositePoint<dim> &point, double opening,
+                                const Slip<dim> &slip,
+                                JointTangent<dim> &tangent) const;
 
     /** The same, if the joint is elastic there and no crack closes; else
         false. */
-    bool update_elastic(CompositePoint &point, double opening,
-                        double slip) const;
+    template <int dim>
+    bool update_elastic(CompositePoint<dim> &point, double opening,
+                        const Slip<dim> &slip) const;
 
     /** The same for a joint that fails or closes. */
-    CompositeDissipation update_failing(CompositePoint &point, double opening,
-                                        double slip) const;
+    template <int dim>
+    CompositeDissipation update_failing(CompositePoint<dim> &point,
+                                        double opening,
+                                        const Slip<dim> &slip) const;
 
     /** Recoverable energy per area [J/m^2]. */
-    double stored_energy(const CompositePoint &point) const
+    template <int dim>
+    double stored_energy(const CompositePoint<dim> &point,
+                         double /*opening*/ = 0.) const
     {
       return 0.5 * point.normal_traction * point.normal_traction
                  / normal_stiffness
@@ -143,11 +203,24 @@ namespace quoin
                    / shear_stiffness;
     }
 
+    /** See CoulombLaw. */
+    template <int dim>
+    double carried_energy(const CompositePoint<dim> &before,
+                          const CompositePoint<dim> &after) const
+    {
+      return 0.5
+             * (before.normal_traction * after.normal_traction
+                    / normal_stiffness
+                + before.shear_traction * after.shear_traction
+                      / shear_stiffness);
+    }
+
     /** Whether @p point bears its tractions, if it is intact; the cap apart. */
-    bool holds(const CompositePoint &point) const
+    template <int dim>
+    bool holds(const CompositePoint<dim> &point) const
     {
       return JointStrength{ cohesion, friction, tension }.bears(
-          point.normal_traction, point.shear_traction);
+          point.normal_traction, magnitude(point.shear_traction));
     }
 
     /**
@@ -196,18 +269,19 @@ namespace quoin
     }
   };
 
-  inline bool CompositeLaw::update_elastic(CompositePoint &point,
+  template <int dim>
+  inline bool CompositeLaw::update_elastic(CompositePoint<dim> &point,
                                            const double opening,
-                                           const double slip) const
+                                           const Slip<dim> &slip) const
   {
-    const double sigma = normal_stiffness * (opening - point.plastic_opening);
-    const double tau   = shear_stiffness * (slip - point.plastic_slip);
-    const double load  = cap_load(sigma, tau);
+    const double sigma  = normal_stiffness * (opening - point.plastic_opening);
+    const Slip<dim> tau = shear_stiffness * (slip - point.plastic_slip);
+    const double size   = magnitude(tau);
+    const double load   = cap_load(sigma, size);
     if (sigma < 0. && point.crack_opening > 0.)
       return false;
     if (!(sigma <= tension * point.bond
-          && std::abs(tau)
-                 <= cohesion * point.bond - sigma * friction_at(point.bond)))
+          && size <= cohesion * point.bond - sigma * friction_at(point.bond)))
       return false;
     // The cap itself needs a root or an exponential: only near it.
     if (!(load <= lowest_cap_load()))
@@ -223,9 +297,10 @@ namespace quoin
     return true;
   }
 
-  inline CompositeDissipation CompositeLaw::update(CompositePoint &point,
+  template <int dim>
+  inline CompositeDissipation CompositeLaw::update(CompositePoint<dim> &point,
                                                    const double opening,
-                                                   const double slip) const
+                                                   const Slip<dim> &slip) const
   {
     return update_elastic(point, opening, slip)
                ? CompositeDissipation()

@@ -21,8 +21,8 @@ namespace quoin
   };
 
   /**
-   * Backward Euler for CompositeLaw from one point and given trial tractions
-   * [Pa], that of shear without its sign.
+   * Backward Euler for CompositeLaw from the bond and crushing of a point and
+   * given trial tractions [Pa], of shear the size: its direction stays.
    *
    * The usual increment is found by Newton's method for the surfaces that the
    * trial is beyond, and checked against the others. Failing that, and for all
@@ -36,8 +36,9 @@ namespace quoin
   class CompositeReturnMap
   {
   public:
-    CompositeReturnMap(const CompositeLaw &law, const CompositePoint &start,
-                       double sigma_trial, double tau_trial);
+    CompositeReturnMap(const CompositeLaw &law, double bond_start,
+                       double crushing_start, double sigma_trial,
+                       double tau_trial);
 
     /** The end of the increment. */
     CompositeFlow end() const;

@@ -6,6 +6,8 @@
 
 #include <quoin/joints/rock_point.h>
 
+#include <string>
+
 namespace quoin
 {
   /**
@@ -103,9 +105,11 @@ namespace quoin
    * what that changes of tau^2/(2 ks) is booked as friction, either way. An
    * open joint transfers nothing.
    */
-  struct ContinuouslyYieldingLaw
+  struct ContinuouslyYieldingLaw : RockLaw<ContinuouslyYieldingLaw>
   {
-    using Point = RockPoint;
+    static constexpr std::array<LawName, 1> names
+        = { { { "continuously yielding",
+                "rock joint that yields from the first slip on" } } };
 
     PowerClosure closure;
     PowerStiffness stiffness;   /**< ks */
@@ -116,27 +120,14 @@ namespace quoin
     /** r is not above this [-]. */
     static constexpr double largest_reload = 0.75;
 
-    /** Brings @p point to @p opening and @p slip [m], overwriting it. */
-    JointDissipation update(RockPoint &point, const double opening,
-                            const double slip) const
-    {
-      return update_rock(*this, point, opening, slip);
-    }
+    /** The law of a set of joints, or its entries of the parameter file. */
+    static ContinuouslyYieldingLaw read(LawEntries &entries);
 
-    /** The same with the consistent tangent, see CoulombLaw. */
-    JointDissipation update(RockPoint &point, const double opening,
-                            const double slip, JointTangent &tangent) const
-    {
-      return update_rock(*this, point, opening, slip, tangent);
-    }
+    /** What --check says of it. */
+    std::string text() const;
 
-    /** Recoverable energy per area [J/m^2]. */
-    double stored_energy(const RockPoint &point) const
-    {
-      return closure.energy(-point.normal_traction)
-             + 0.5 * point.shear_traction * point.shear_traction
-                   / shear_stiffness(-point.normal_traction);
-    }
+    /** With the tangents of both angles divided by @p factor. */
+    ContinuouslyYieldingLaw reduced(double factor) const;
 
     /** ks [Pa/m] at the traction s [Pa]. */
     double shear_stiffness(const double traction) const
@@ -146,6 +137,13 @@ namespace quoin
     double largest_shear_stiffness() const
     {
       return stiffness.at(stiffness.highest);
+    }
+
+    double slip_by_pressure(const RockPoint &point) const
+    {
+      const DualNumber ks
+          = stiffness.at(DualNumber(-point.normal_traction, -1., 0.));
+      return -point.shear_traction * ks.by[0] / (ks.value * ks.value);
     }
 
     /** See find_step(). */

@@ -4,15 +4,18 @@
 #ifndef quoin_joints_coulomb_law_h
 #define quoin_joints_coulomb_law_h
 
-#include <quoin/base/state.h>
-#include <quoin/joints/joint_tangent.h>
+#include <quoin/joints/joint_point.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace quoin
 {
+  class LawEntries;
+
   /**
    * Strength of a joint: cohesion [Pa], friction coefficient tan(phi) and
    * tensile strength [Pa].
@@ -32,23 +35,6 @@ namespace quoin
     }
   };
 
-  /** One joint point: what the law reads and overwrites. */
-  struct JointPoint
-  {
-    double normal_traction = 0.; /**< sigma [Pa], tension positive */
-    double shear_traction  = 0.; /**< tau [Pa] */
-    double plastic_slip    = 0.; /**< [m] */
-    double plastic_opening = 0.; /**< [m] */
-    JointState state       = JointState::intact;
-  };
-
-  /** Energy per area that an update dissipated [J/m^2]. */
-  struct JointDissipation
-  {
-    double friction = 0.;
-    double fracture = 0.;
-  };
-
   /**
    * The brittle Coulomb law with tension cut-off and dilation
    * (@cite ZhugeHunt2003, Eqs. 5-9).
@@ -59,7 +45,8 @@ namespace quoin
    * then on its strength is the residual one (by UDEC's rule zero cohesion
    * and tension unless given). While it slips, dw = +-tan(psi) |dp|, positive
    * when slip grows away from the origin and negative on the way back, as
-   * long as |u_s| is below the critical shear displacement. An open joint
+   * long as |u_s| is below the critical shear displacement; where slip is a
+   * vector, dw = tan(psi) times its component along u_s. An open joint
    * transfers no shear; it takes up shear afresh from where it closes.
    *
    * The elastic joint is this law with infinite strength, and the no-tension
@@ -67,9 +54,21 @@ namespace quoin
    * residual strength equal to the peak; of their equation we drop the
    * cohesive shear of an open joint.
    */
-  struct CoulombLaw
+  struct CoulombLaw : JointLawDefaults
   {
-    using Point = JointPoint;
+    template <int dim>
+    using Point = JointPoint<dim>;
+
+    static constexpr const char *kind = "a Coulomb, elastic or no-tension law";
+    static constexpr std::array<LawName, 3> names = {
+      { { "Coulomb",
+          "cohesion, friction and tension that drop to their residual values "
+          "at failure" },
+        { "elastic", "never fails" },
+        { "no tension",
+          "Coulomb without tension whose cohesion is never lost" } }
+    };
+    static constexpr bool is_brittle = true;
 
     double normal_stiffness = 0.; /**< kn [Pa/m] */
     double shear_stiffness  = 0.; /**< ks [Pa/m] */
@@ -79,12 +78,57 @@ namespace quoin
     double critical_shear_displacement
         = std::numeric_limits<double>::infinity(); /**< u_cs [m] */
 
+    /** The law of a set of joints, or its entries of the parameter file. */
+    static CoulombLaw read(LawEntries &entries);
+
+    /** What --check says of it. */
+    std::string text() const;
+
+    /** Strengths divided by @p factor, peak and residual; dilation is not
+        above the friction that is left. */
+    CoulombLaw reduced(double factor) const;
+
+    bool can_fail() const
+    {
+      return std::isfinite(peak.tension);
+    }
+    bool can_dilate() const
+    {
+      return dilation != 0.;
+    }
+    std::string no_new_contacts() const
+    {
+      return can_fail() ? "" : "which would then hold together for good";
+    }
+
+    /** kn and ks [Pa/m] at the normal traction @p sigma [Pa], and at most. */
+    std::array<double, 2> stiffness_at(double /*sigma*/) const
+    {
+      return { normal_stiffness, shear_stiffness };
+    }
+    std::array<double, 2> largest_stiffness() const
+    {
+      return { normal_stiffness, shear_stiffness };
+    }
+
+    /** Sets @p point to tractions [Pa] at rest, at zero opening and slip. */
+    template <int dim>
+    void initialise(JointPoint<dim> &point, const double normal,
+                    const Slip<dim> &shear) const
+    {
+      point.normal_traction = normal;
+      point.shear_traction  = shear;
+      point.plastic_opening = -normal / normal_stiffness;
+      point.plastic_slip    = -shear / shear_stiffness;
+    }
+
     /**
      * Brings @p point to the given @p opening and @p slip [m] and returns
      * what that dissipated, by the trapezoidal rule of the explicit scheme.
      */
-    JointDissipation update(JointPoint &point, const double opening,
-                            const double slip) const;
+    template <int dim>
+    JointDissipation update(JointPoint<dim> &point, const double opening,
+                            const Slip<dim> &slip) const;
 
     /**
      * The same with the consistent tangent, for a Newton solver, which
@@ -92,18 +136,40 @@ namespace quoin
      * once it has converged. Where a joint breaks its tractions jump; the
      * tangent is then that beyond the jump.
      */
-    JointDissipation update(JointPoint &point, const double opening,
-                            const double slip, JointTangent &tangent) const;
+    template <int dim>
+    JointDissipation update(JointPoint<dim> &point, const double opening,
+                            const Slip<dim> &slip,
+                            JointTangent<dim> &tangent) const;
+
+    /**
+     * The same, but an intact joint stays elastic beyond its strength unless
+     * it @p breaks: no Newton iteration survives the jump. See excess().
+     */
+    template <int dim>
+    JointDissipation update_waiting(JointPoint<dim> &point,
+                                    const double opening, const Slip<dim> &slip,
+                                    const bool breaks,
+                                    JointTangent<dim> &tangent) const;
+
+    /** By how much an intact @p point exceeds its strength, as a share of its
+        stress; zero or less: it holds. */
+    template <int dim>
+    double excess(const JointPoint<dim> &point) const;
 
     /** The same, if the joint neither fails, slips nor is open; else false. */
-    bool update_elastic(JointPoint &point, double opening, double slip) const;
+    template <int dim>
+    bool update_elastic(JointPoint<dim> &point, double opening,
+                        const Slip<dim> &slip) const;
 
     /** The same for a joint that fails, slips or is open. */
-    JointDissipation update_failing(JointPoint &point, double opening,
-                                    double slip) const;
+    template <int dim>
+    JointDissipation update_failing(JointPoint<dim> &point, double opening,
+                                    const Slip<dim> &slip) const;
 
     /** Recoverable energy per area [J/m^2] of @p point at @p opening [m]. */
-    double stored_energy(const JointPoint &point, const double opening) const
+    template <int dim>
+    double stored_energy(const JointPoint<dim> &point,
+                         const double opening) const
     {
       const double normal
           = point.state == JointState::open
@@ -116,27 +182,46 @@ namespace quoin
                    / shear_stiffness;
     }
 
-    /** Whether @p point bears its tractions, if it is intact. */
-    bool holds(const JointPoint &point) const
+    /** Energy per area [J/m^2] that a change of area takes along between two
+        updates: of springs what is left of their trapezoidal work. */
+    template <int dim>
+    double carried_energy(const JointPoint<dim> &before,
+                          const JointPoint<dim> &after) const
     {
-      return peak.bears(point.normal_traction, point.shear_traction);
+      return 0.5
+             * (before.normal_traction * after.normal_traction
+                    / normal_stiffness
+                + before.shear_traction * after.shear_traction
+                      / shear_stiffness);
+    }
+
+    /** Whether @p point bears its tractions, if it is intact. */
+    template <int dim>
+    bool holds(const JointPoint<dim> &point) const
+    {
+      return peak.bears(point.normal_traction, magnitude(point.shear_traction));
     }
 
   private:
     /** What drives a failed joint to slip beyond its trial tractions. */
-    struct Slip
+    template <int dim>
+    struct Drive
     {
-      double direction; /**< of tau, 1 or -1 */
-      double psi;       /**< dw by |dp|, negative on the way back */
-      double excess;    /**< of |tau| above the strength [Pa] */
-      double stiffness; /**< by which |dp| lowers it [Pa/m] */
+      Slip<dim> direction; /**< of tau */
+      double psi;          /**< dw by |dp|, negative on the way back */
+      double excess;       /**< of |tau| above the strength [Pa] */
+      double stiffness;    /**< by which |dp| lowers it [Pa/m] */
     };
     /** At trial tractions [Pa] and the @p slip [m]. */
-    Slip trial_slip(double sigma, double tau, double slip) const;
+    template <int dim>
+    Drive<dim> drive(double sigma, const Slip<dim> &tau,
+                     const Slip<dim> &slip) const;
 
     /** Derivative [Pa/m] of update_failing(), at the point as it was before. */
-    JointTangent failing_tangent(const JointPoint &point, double opening,
-                                 double slip) const;
+    template <int dim>
+    JointTangent<dim> failing_tangent(const JointPoint<dim> &point,
+                                      double opening,
+                                      const Slip<dim> &slip) const;
 
     /** Of a failed joint, whose traction is cut off at the residual one. */
     double normal_energy(const double sigma_trial) const
@@ -146,18 +231,19 @@ namespace quoin
     }
   };
 
-  inline bool CoulombLaw::update_elastic(JointPoint &point,
+  template <int dim>
+  inline bool CoulombLaw::update_elastic(JointPoint<dim> &point,
                                          const double opening,
-                                         const double slip) const
+                                         const Slip<dim> &slip) const
   {
     const bool intact             = point.state == JointState::intact;
     const JointStrength &strength = intact ? peak : residual;
 
-    const double sigma = normal_stiffness * (opening - point.plastic_opening);
-    const double tau   = shear_stiffness * (slip - point.plastic_slip);
+    const double sigma  = normal_stiffness * (opening - point.plastic_opening);
+    const Slip<dim> tau = shear_stiffness * (slip - point.plastic_slip);
     if (!(sigma <= strength.tension
-          && std::abs(tau) <= std::max(0., strength.cohesion
-                                               - sigma * strength.friction)))
+          && magnitude(tau) <= std::max(0., strength.cohesion
+                                                - sigma * strength.friction)))
       return false;
     point.normal_traction = sigma;
     point.shear_traction  = tau;
@@ -166,26 +252,28 @@ namespace quoin
     return true;
   }
 
-  inline JointDissipation CoulombLaw::update(JointPoint &point,
+  template <int dim>
+  inline JointDissipation CoulombLaw::update(JointPoint<dim> &point,
                                              const double opening,
-                                             const double slip) const
+                                             const Slip<dim> &slip) const
   {
     return update_elastic(point, opening, slip)
                ? JointDissipation()
                : update_failing(point, opening, slip);
   }
 
-  inline CoulombLaw::Slip CoulombLaw::trial_slip(const double sigma,
-                                                 const double tau,
-                                                 const double slip) const
+  template <int dim>
+  inline CoulombLaw::Drive<dim> CoulombLaw::drive(const double sigma,
+                                                  const Slip<dim> &tau,
+                                                  const Slip<dim> &slip) const
   {
-    Slip result;
-    result.direction = tau < 0. ? -1. : 1.;
-    result.psi       = std::abs(slip) < critical_shear_displacement
-                           ? (result.direction * slip >= 0. ? dilation : -dilation)
+    Drive<dim> result;
+    result.direction = direction_of(tau);
+    result.psi       = magnitude(slip) < critical_shear_displacement
+                           ? dilation * cosine(result.direction, slip)
                            : 0.;
     result.excess
-        = std::abs(tau) - residual.cohesion + sigma * residual.friction;
+        = magnitude(tau) - residual.cohesion + sigma * residual.friction;
     const double stiffness
         = shear_stiffness + normal_stiffness * result.psi * residual.friction;
     result.stiffness
@@ -193,17 +281,18 @@ namespace quoin
     return result;
   }
 
-  inline JointDissipation CoulombLaw::update_failing(JointPoint &point,
-                                                     const double opening,
-                                                     const double slip) const
+  template <int dim>
+  inline JointDissipation
+  CoulombLaw::update_failing(JointPoint<dim> &point, const double opening,
+                             const Slip<dim> &slip) const
   {
     const double kn = normal_stiffness, ks = shear_stiffness;
-    const double sigma_old = point.normal_traction;
-    const double tau_old   = point.shear_traction;
-    const bool intact      = point.state == JointState::intact;
+    const double sigma_old  = point.normal_traction;
+    const Slip<dim> tau_old = point.shear_traction;
+    const bool intact       = point.state == JointState::intact;
 
-    const double sigma_trial = kn * (opening - point.plastic_opening);
-    const double tau_trial   = ks * (slip - point.plastic_slip);
+    const double sigma_trial  = kn * (opening - point.plastic_opening);
+    const Slip<dim> tau_trial = ks * (slip - point.plastic_slip);
 
     JointDissipation dissipation;
     if (sigma_trial > residual.tension)
@@ -220,7 +309,7 @@ namespace quoin
       (intact ? dissipation.fracture : dissipation.friction) += shear_loss;
 
       point.normal_traction = sigma;
-      point.shear_traction  = 0.;
+      point.shear_traction  = Slip<dim>();
       point.plastic_slip    = slip;
       point.state           = JointState::open;
       return dissipation;
@@ -228,13 +317,13 @@ namespace quoin
 
     // Slip: implicit in sigma, because dilation presses the joint together.
     const auto [direction, psi, excess, stiffness]
-        = trial_slip(sigma_trial, tau_trial, slip);
+        = drive<dim>(sigma_trial, tau_trial, slip);
     double dp = std::max(0., excess) / stiffness;
     // Friction cannot turn the shear traction round.
-    dp = std::min(dp, std::abs(tau_trial) / ks);
+    dp = std::min(dp, magnitude(tau_trial) / ks);
 
-    const double sigma = sigma_trial - kn * psi * dp;
-    const double tau   = tau_trial - direction * ks * dp;
+    const double sigma  = sigma_trial - kn * psi * dp;
+    const Slip<dim> tau = tau_trial - direction * ks * dp;
     dissipation.friction
         = 0.5 * ((tau_old + tau) * direction + (sigma_old + sigma) * psi) * dp;
 
@@ -246,43 +335,98 @@ namespace quoin
     return dissipation;
   }
 
-  inline JointDissipation CoulombLaw::update(JointPoint &point,
-                                             const double opening,
-                                             const double slip,
-                                             JointTangent &tangent) const
+  template <int dim>
+  inline JointDissipation
+  CoulombLaw::update(JointPoint<dim> &point, const double opening,
+                     const Slip<dim> &slip, JointTangent<dim> &tangent) const
   {
-    const JointPoint before = point;
+    const JointPoint<dim> before = point;
     if (update_elastic(point, opening, slip))
     {
-      tangent = { normal_stiffness, 0., 0., shear_stiffness };
+      tangent = { normal_stiffness, {}, {}, isotropic<dim>(shear_stiffness) };
       return {};
     }
     tangent = failing_tangent(before, opening, slip);
     return update_failing(point, opening, slip);
   }
 
-  inline JointTangent CoulombLaw::failing_tangent(const JointPoint &point,
-                                                  const double opening,
-                                                  const double slip) const
+  template <int dim>
+  inline JointDissipation
+  CoulombLaw::update_waiting(JointPoint<dim> &point, const double opening,
+                             const Slip<dim> &slip, const bool breaks,
+                             JointTangent<dim> &tangent) const
+  {
+    if (point.state != JointState::intact)
+      return update(point, opening, slip, tangent);
+    // Its strength is the residual one from now on, or none limits it.
+    CoulombLaw law = *this;
+    law.peak       = breaks ? residual : JointStrength();
+    return law.update(point, opening, slip, tangent);
+  }
+
+  template <int dim>
+  inline double CoulombLaw::excess(const JointPoint<dim> &point) const
+  {
+    if (point.state != JointState::intact || !can_fail())
+      return 0.;
+    const double sigma = point.normal_traction;
+    const double tau   = magnitude(point.shear_traction);
+    const double shear = tau + sigma * peak.friction - peak.cohesion;
+    const double size  = std::max(std::abs(sigma), tau);
+    return size > 0. ? std::max(sigma - peak.tension, shear) / size : 0.;
+  }
+
+  template <int dim>
+  inline JointTangent<dim>
+  CoulombLaw::failing_tangent(const JointPoint<dim> &point,
+                              const double opening, const Slip<dim> &slip) const
   {
     const double kn = normal_stiffness, ks = shear_stiffness;
-    const double sigma_trial = kn * (opening - point.plastic_opening);
-    const double tau_trial   = ks * (slip - point.plastic_slip);
+    const double sigma_trial  = kn * (opening - point.plastic_opening);
+    const Slip<dim> tau_trial = ks * (slip - point.plastic_slip);
     if (sigma_trial > residual.tension)
       return {}; // open: the residual tension, no shear
 
     const auto [direction, psi, excess, stiffness]
-        = trial_slip(sigma_trial, tau_trial, slip);
+        = drive<dim>(sigma_trial, tau_trial, slip);
     if (excess <= 0.) // the residual strength is above the peak's
-      return { kn, 0., 0., ks };
+      return { kn, {}, {}, isotropic<dim>(ks) };
 
     // Of the plastic slip dp by opening and slip; all of it at the bound.
-    const bool is_bounded = excess / stiffness > std::abs(tau_trial) / ks;
+    const double largest  = magnitude(tau_trial) / ks;
+    const bool is_bounded = excess / stiffness > largest;
     const double by_opening
         = is_bounded ? 0. : kn * residual.friction / stiffness;
-    const double by_slip = direction * (is_bounded ? 1. : ks / stiffness);
-    return { kn - kn * psi * by_opening, -kn * psi * by_slip,
-             -direction * ks * by_opening, ks - direction * ks * by_slip };
+    Slip<dim> by_slip = direction * (is_bounded ? 1. : ks / stiffness);
+    JointTangent<dim> tangent;
+    if constexpr (dim == 3)
+    {
+      // Where slip turns, so do its direction and the share that dilates.
+      const double dp   = is_bounded ? largest : excess / stiffness;
+      const double size = magnitude(slip);
+      const double turn = dp / largest;
+      Slip<dim> psi_by_slip;
+      if (size > 0. && size < critical_shear_displacement)
+      {
+        const Slip<dim> along = slip / size;
+        const double c        = direction * along;
+        psi_by_slip           = dilation
+                      * ((along - c * direction) / largest
+                         + (direction - c * along) / size);
+      }
+      if (!is_bounded && stiffness != ks)
+        by_slip -= dp / stiffness * kn * residual.friction * psi_by_slip;
+      tangent.normal_slip = -kn * dp * psi_by_slip;
+      tangent.shear_slip
+          = -ks * turn
+            * (isotropic<dim>(1.) - outer_product(direction, direction));
+    }
+    tangent.normal_opening = kn - kn * psi * by_opening;
+    tangent.normal_slip += -kn * psi * by_slip;
+    tangent.shear_opening = -direction * ks * by_opening;
+    tangent.shear_slip
+        += isotropic<dim>(ks) - ks * outer_product(direction, by_slip);
+    return tangent;
   }
 } // namespace quoin
 

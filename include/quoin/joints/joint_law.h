@@ -9,21 +9,33 @@
 #include <quoin/joints/continuously_yielding_law.h>
 #include <quoin/joints/coulomb_law.h>
 
+#include <algorithm>
 #include <array>
-#include <type_traits>
+#include <string>
 #include <variant>
 
 namespace quoin
 {
   /**
-   * The law of a set of joints. Every law has
+   * The law of a set of joints: all laws there are. This list is all that
+   * knows of them; in the parameter file they stand in its order.
    *
-   * - Point, what it reads and overwrites: JointPoint, CompositePoint or
-   *   RockPoint, which also says what the joint remembers (JointHistory);
-   * - update(point, opening, slip), with a JointTangent as fourth argument
-   *   too, and, but for laws of rock joints, its parts update_elastic() and
-   *   update_failing();
-   * - stored_energy() and holds().
+   * A law derives from JointLawDefaults, which has what it may leave as it is,
+   * and has
+   *
+   * - names, the words for it in the parameter file, and kind: laws of one
+   *   kind remember the same of a joint, so that stages may exchange them;
+   * - read(entries), its parameters (law_entries.h), text() for --check and
+   *   reduced(factor), the law with its strength divided by a factor;
+   * - Point<dim>, what it reads and overwrites: JointPoint or derived from it;
+   *   initialise(point, normal, shear), tractions at rest, and holds(point),
+   *   whether it bears them; wear_out(point), fields() for results;
+   * - update_elastic(point, opening, slip), false where the joint fails, slips
+   *   or is open, and update_failing() for the rest, which returns what it
+   *   dissipated; update(point, opening, slip, tangent), both with the
+   *   consistent tangent; update_waiting() and excess() if it is_brittle;
+   * - stored_energy(point, opening), carried_energy(before, after),
+   *   stiffness_at(sigma) and largest_stiffness().
    *
    * Operators visit the variant once for a set, or for a point where no time
    * is lost by it, and are templates of the law below that.
@@ -31,9 +43,17 @@ namespace quoin
   using JointLaw = std::variant<CoulombLaw, CompositeLaw, BartonBandisLaw,
                                 ContinuouslyYieldingLaw>;
 
-  /** Whether @p Law is one of rock joints (rock_point.h). */
-  template <typename Law>
-  constexpr bool is_rock_law = std::is_same_v<typename Law::Point, RockPoint>;
+  /** Calls @p use with a null pointer to each law of JointLaw, in order. */
+  template <typename Use, typename... Laws>
+  void for_each_law(const Use &use, const std::variant<Laws...> *)
+  {
+    (use(static_cast<const Laws *>(nullptr)), ...);
+  }
+  template <typename Use>
+  void for_each_law(const Use &use)
+  {
+    for_each_law(use, static_cast<const JointLaw *>(nullptr));
+  }
 
   /** The largest kn and ks [Pa/m] that a joint can come to. */
   std::array<double, 2> stiffness_bound(const JointLaw &law);
@@ -47,13 +67,24 @@ namespace quoin
   /** Whether slip may open the joint. */
   bool can_dilate(const JointLaw &law);
 
+  /** Laws of one kind remember the same of a joint. */
+  std::string kind_of_law(const JointLaw &law);
+
+  /** Why the law is not for general contacts, which ...; empty: it is. */
+  std::string no_contacts(const JointLaw &law);
+
+  /** What --check says of the law. */
+  std::string law_text(const JointLaw &law);
+
+  /** What a user should know of its parameters; or empty. */
+  std::string law_warning(const JointLaw &law);
+
+  /** Numbers that a joint point remembers beside those of JointPoint. */
+  unsigned int n_internal(const JointLaw &law);
+
   /**
-   * The law with its strength divided by @p factor, for factors of safety:
-   * cohesion, tensile strength and tan of the friction angle, peak and
-   * residual; of Barton-Bandis the shear strength, of continuously yielding
-   * the tangents of both angles. A dilation angle is not above the reduced
-   * friction angle. Stiffnesses, fracture energies, the cap of the composite
-   * law and slips stay.
+   * The law with its strength divided by @p factor, for factors of safety.
+   * Stiffnesses, fracture energies and slips stay.
    */
   JointLaw reduced(const JointLaw &law, double factor);
 } // namespace quoin

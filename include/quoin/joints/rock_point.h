@@ -4,35 +4,32 @@
 #ifndef quoin_joints_rock_point_h
 #define quoin_joints_rock_point_h
 
-#include <quoin/base/state.h>
-#include <quoin/joints/coulomb_law.h>
 #include <quoin/joints/dual_number.h>
-#include <quoin/joints/joint_tangent.h>
+#include <quoin/joints/joint_point.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace quoin
 {
+  class LawEntries;
+
   /**
-   * One point of a rock joint, as BartonBandisLaw and ContinuouslyYieldingLaw
-   * read and overwrite it: the arrays of the same names in JointHistory, all of
-   * which begin with 0.
-   *
-   * The joint is closed by V = plastic_opening - opening, from which the
-   * normal traction follows; the shear traction is ks (slip - plastic_slip).
+   * One point of a rock joint in two dimensions. It is closed by V =
+   * plastic_opening - opening, from which the normal traction follows, never
+   * tension; the shear traction is ks (slip - plastic_slip).
    */
-  struct RockPoint
+  struct RockPoint : JointPoint<2>
   {
-    double normal_traction = 0.; /**< sigma [Pa], tension positive, never so */
-    double shear_traction  = 0.; /**< tau [Pa] */
-    double plastic_slip    = 0.; /**< p [m] */
-    double plastic_opening = 0.; /**< w [m]: dilation and offset */
-    double worn_slip       = 0.; /**< sum of |dp| while closed [m] */
-    double dilated         = 0.; /**< of w, what slip back takes back [m] */
+    double worn_slip = 0.; /**< sum of |dp| while closed [m] */
+    double dilated   = 0.; /**< of w, what slip back takes back [m] */
     double reload    = 0.; /**< |tau|/strength where loading began anew [-] */
-    JointState state = JointState::intact;
+
+    static constexpr std::array<double RockPoint::*, 3> internal
+        = { &RockPoint::worn_slip, &RockPoint::dilated, &RockPoint::reload };
   };
 
   /** What slip does to a point whose closure is known. */
@@ -64,7 +61,7 @@ namespace quoin
    * slipping back loses strength, and so much of it that there may be no
    * root nearby, if kn is far above ks: then it flows at V0.
    *
-   * @p Law: BartonBandisLaw or ContinuouslyYieldingLaw.
+   * @p Law: see RockLaw.
    */
   template <typename Law>
   RockStep<double> find_step(const Law &law, const RockPoint &point,
@@ -178,30 +175,103 @@ namespace quoin
     return lost;
   }
 
+  /**
+   * What the laws of rock joints have in common, @p Law deriving from
+   * RockLaw<Law>. It has
+   *
+   * - closure: traction(V), closure(s), stiffness(s) and energy(s) of the
+   *   pressure s [Pa] and the closure V [m], and largest_stiffness();
+   * - flow(), see find_step(), for doubles and for DualNumber;
+   * - shear_stiffness(s), ks [Pa/m], and largest_shear_stiffness();
+   * - initialise() and holds().
+   */
   template <typename Law>
-  JointDissipation update_rock(const Law &law, RockPoint &point,
-                               const double opening, const double slip)
+  struct RockLaw : JointLawDefaults
   {
-    return take_step(law, point, slip, find_step(law, point, opening, slip));
-  }
+    template <int dim>
+    using Point = std::enable_if_t<dim == 2, RockPoint>;
 
-  /** The same with the consistent tangent. */
-  template <typename Law>
-  JointDissipation update_rock(const Law &law, RockPoint &point,
-                               const double opening, const double slip,
-                               JointTangent &tangent)
-  {
-    const RockStep<double> step = find_step(law, point, opening, slip);
-    tangent                     = {};
-    if (step.closure >= 0.)
+    static constexpr const char *kind = "a law of rock joints";
+    static constexpr bool stiffens    = true;
+
+    /** Brings @p point to @p opening and @p slip [m], overwriting it. */
+    JointDissipation update(RockPoint &point, const double opening,
+                            const double slip) const
     {
-      const auto slopes      = differentiate(law, point, opening, slip, step);
-      const DualNumber sigma = -law.closure.traction(slopes.closure);
-      const DualNumber tau   = slopes.flow.shear_traction;
-      tangent = { sigma.by[0], sigma.by[1], tau.by[0], tau.by[1] };
+      return take_step(own(), point, slip,
+                       find_step(own(), point, opening, slip));
     }
-    return take_step(law, point, slip, step);
-  }
+
+    /** The same with the consistent tangent, see CoulombLaw. */
+    JointDissipation update(RockPoint &point, const double opening,
+                            const double slip, JointTangent<2> &tangent) const
+    {
+      const RockStep<double> step = find_step(own(), point, opening, slip);
+      tangent                     = {};
+      if (step.closure >= 0.)
+      {
+        const auto slopes = differentiate(own(), point, opening, slip, step);
+        const DualNumber sigma = -own().closure.traction(slopes.closure);
+        const DualNumber tau   = slopes.flow.shear_traction;
+        tangent = { sigma.by[0], sigma.by[1], tau.by[0], tau.by[1] };
+      }
+      return take_step(own(), point, slip, step);
+    }
+
+    /** All of it is done by update_failing(). */
+    bool update_elastic(RockPoint &, double, double) const
+    {
+      return false;
+    }
+    JointDissipation update_failing(RockPoint &point, const double opening,
+                                    const double slip) const
+    {
+      return update(point, opening, slip);
+    }
+
+    /** Recoverable energy per area [J/m^2]. */
+    double stored_energy(const RockPoint &point, double /*opening*/ = 0.) const
+    {
+      return own().closure.energy(-point.normal_traction)
+             + 0.5 * point.shear_traction * point.shear_traction
+                   / own().shear_stiffness(-point.normal_traction);
+    }
+
+    /** See CoulombLaw. */
+    double carried_energy(const RockPoint &before, const RockPoint &after) const
+    {
+      return 0.5 * stored_energy(before) + 0.5 * stored_energy(after);
+    }
+
+    /** kn and ks [Pa/m] at the normal traction @p sigma [Pa], and at most. */
+    std::array<double, 2> stiffness_at(const double sigma) const
+    {
+      return { own().closure.stiffness(-sigma), own().shear_stiffness(-sigma) };
+    }
+    std::array<double, 2> largest_stiffness() const
+    {
+      return { own().closure.largest_stiffness(),
+               own().largest_shear_stiffness() };
+    }
+
+    /** Contacts that come up are as smooth as any slip makes them. */
+    void wear_out(RockPoint &point) const
+    {
+      point.worn_slip = std::numeric_limits<double>::infinity();
+    }
+
+  private:
+    const Law &own() const
+    {
+      return static_cast<const Law &>(*this);
+    }
+  };
+
+  /** phi_r [rad], which must be given. */
+  double read_residual_angle(LawEntries &entries);
+
+  /** Refuses cohesion, tension and dilation, which follow from the rest. */
+  void refuse_bond(LawEntries &entries);
 } // namespace quoin
 
 #endif

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace quoin
@@ -28,8 +29,8 @@ namespace quoin
     std::vector<double> slip;            /**< [m] */
     std::vector<double> normal_traction; /**< [Pa] */
     std::vector<double> shear_traction;  /**< [Pa] */
-    std::vector<double> damage;          /**< 0 to 1, or empty [-] */
-    std::vector<double> crushing;        /**< of the cap, or empty [m] */
+    /** Fields of the joint laws, by name: JointField. */
+    std::vector<std::pair<std::string, std::vector<double>>> of_laws;
     std::vector<JointState> state;
     std::vector<std::int32_t> joint_set; /**< of each face */
   };

@@ -94,10 +94,9 @@ namespace
           0, mesh.n_vertices(), mesh.n_vertices(), std::vector<unsigned int>(),
           MPI_COMM_SELF);
       joints.prepare(mesh, *exchange, sets, thickness);
-      contacts = std::make_unique<BlockContacts>(mesh, *exchange,
+      contacts     = std::make_unique<BlockContacts>(mesh, *exchange,
                                                  contact_model(sets));
-      state.joints.resize(joints.n_points(), joints.can_soften(),
-                          joints.can_wear());
+      state.joints = joints.make_history();
       for (const auto &p : mesh.vertices)
         state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
       state.velocity.assign(mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
@@ -435,12 +434,12 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
             matched.joints.normal_traction[p] = point.normal_traction;
             matched.joints.shear_traction[p]  = point.shear_traction;
             matched.joints.state[p]           = point.state;
-            if (matched.joints.worn_slip.empty())
-              continue;
-            EXPECT_TRUE(std::isfinite(point.worn_slip));
-            matched.joints.worn_slip[p] = point.worn_slip;
-            matched.joints.dilated[p]   = point.dilated;
-            matched.joints.reload[p]    = point.reload;
+            const unsigned int n              = matched.joints.n_internal;
+            for (unsigned int i = 0; i < n; ++i)
+            {
+              EXPECT_TRUE(std::isfinite(point.internal[i]));
+              matched.joints.internal[p * n + i] = point.internal[i];
+            }
           }
       }
       scene.force.assign(scene.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });

@@ -35,7 +35,7 @@ namespace
                      NodeExchange(0, mesh.n_vertices(), mesh.n_vertices(), {},
                                   MPI_COMM_SELF),
                      { set }, thickness);
-      history.resize(joints.n_points(), joints.can_soften(), joints.can_wear());
+      history = joints.make_history();
       for (const auto &p : mesh.vertices)
         nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
     }
@@ -118,11 +118,8 @@ namespace
     return std::visit(
         [](const auto &own)
         {
-          if constexpr (is_rock_law<std::decay_t<decltype(own)>>)
-            return std::max(own.closure.stiffness(1e7),
-                            own.shear_stiffness(1e7));
-          else
-            return std::max(own.normal_stiffness, own.shear_stiffness);
+          const auto stiffness = own.stiffness_at(-1e7);
+          return std::max(stiffness[0], stiffness[1]);
         },
         law);
   }
@@ -257,8 +254,10 @@ TEST(JointTangent, CompositeJointsInAllBranches)
       Joint joint(joint_of(law));
       const double size = seed % 2 == 0 ? 2e-5 : 1.2e-4;
       walk(joint, seed, 20, size, size, 1e-12 + 1e-6 * size, errors, visits);
-      bond     = std::min(bond, joint.history.bond[0]);
-      crushing = std::max(crushing, joint.history.crushing[0]);
+      bond
+          = std::min(bond, 1. - joint.joints.field("damage", 0, joint.history));
+      crushing = std::max(crushing,
+                          joint.joints.field("crushing", 0, joint.history));
     }
     EXPECT_LT(errors.stiffness, 1e-4);
     EXPECT_LT(errors.gradient, 1e-4);
@@ -285,7 +284,7 @@ TEST(JointTangent, RockJointsInAllBranches)
       // Slips of either size against the peak slip
       const double size = seed % 2 == 0 ? 5e-5 : 5e-4;
       walk(joint, seed, 20, size, 2e-4, 1e-11, errors, visits);
-      worn = std::max(worn, joint.history.worn_slip[0]);
+      worn = std::max(worn, joint.history.internal[0]);
     }
     EXPECT_LT(errors.stiffness, 1e-4);
     EXPECT_LT(errors.gradient, 2e-4);
@@ -345,12 +344,11 @@ TEST(JointTangent, ForcesAreThoseOfTheExplicitSolver)
         EXPECT_NEAR(end.shear_traction[p], joint.history.shear_traction[p],
                     1e-3);
       }
-      EXPECT_EQ(end.bond.size(), joint.history.bond.size());
-      for (unsigned int p = 0; p < end.bond.size(); ++p)
-      {
-        EXPECT_NEAR(end.bond[p], joint.history.bond[p], 1e-9);
-        EXPECT_NEAR(end.crushing[p], joint.history.crushing[p], 1e-15);
-      }
+      for (const std::string &name : joint.joints.field_names())
+        for (unsigned int p = 0; p < 2; ++p)
+          EXPECT_NEAR(joint.joints.field(name, p, end),
+                      joint.joints.field(name, p, joint.history),
+                      name == "damage" ? 1e-9 : 1e-15);
     }
   }
 }

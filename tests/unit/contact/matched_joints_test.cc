@@ -34,8 +34,7 @@ namespace
       for (auto &p : mesh.vertices)
         p = { c * p[0] - s * p[1], s * p[0] + c * p[1] };
       joints.prepare(mesh, exchange(), { set }, thickness);
-      state.joints.resize(joints.n_points(), joints.can_soften(),
-                          joints.can_wear());
+      state.joints = joints.make_history();
       for (const auto &p : mesh.vertices)
         state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
     }
@@ -351,10 +350,9 @@ TEST(MatchedJoints, InitialStressOfRockJoints)
     std::visit(
         [&](const auto &law)
         {
-          if constexpr (is_rock_law<std::decay_t<decltype(law)>>)
-            stack.expect_on_lower(
-                area * xy, area * (yy - law.closure.stiffness(-yy) * more),
-                1e-3 * area * law.closure.stiffness(-yy) * more);
+          const double kn = law.stiffness_at(yy)[0];
+          stack.expect_on_lower(area * xy, area * (yy - kn * more),
+                                1e-3 * area * kn * more);
         },
         set.law);
   }

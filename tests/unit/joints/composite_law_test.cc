@@ -9,7 +9,7 @@ using namespace quoin::composite_test;
 TEST(CompositeLaw, ElasticInsideItsSurfaces)
 {
   const CompositeLaw law = wall();
-  CompositePoint point;
+  CompositePoint<2> point;
   for (const double sigma : { 0.249e6, -1e6, -3.4e6, 0. })
     for (const double tau : { 0.15e6, -0.1e6, 0. })
     {
@@ -92,8 +92,8 @@ TEST(CompositeLaw, TensionAndShearSoftenTogether)
   walk.go(walk.point.plastic_opening - 0.5e6 / 82e9, 0., 100);
   EXPECT_NEAR(walk.point.normal_traction, -0.5e6, 1.);
   EXPECT_EQ(walk.point.state, JointState::slipped);
-  const double strength = 0.175e6 + 0.75 * 0.5e6;
-  CompositePoint point  = walk.point;
+  const double strength   = 0.175e6 + 0.75 * 0.5e6;
+  CompositePoint<2> point = walk.point;
   walk.law.update(point, walk.opening, 0.999 * strength / 36e9);
   EXPECT_EQ(point.state, JointState::slipped);
   walk.law.update(point, walk.opening, 1.001 * strength / 36e9);
@@ -103,7 +103,7 @@ TEST(CompositeLaw, TensionAndShearSoftenTogether)
   Walk slid = begin(wall());
   slid.go(0., 125. / 0.35e6 * std::log(2.) + 0.175e6 / 36e9, 1000);
   EXPECT_NEAR(slid.point.shear_traction, 0.175e6, 1.);
-  CompositePoint pulled = slid.point;
+  CompositePoint<2> pulled = slid.point;
   slid.law.update(pulled, 0.12499e6 / 82e9, slid.slip - 0.175e6 / 36e9);
   EXPECT_NE(pulled.bond, 1.);
   EXPECT_NEAR(pulled.normal_traction, 0.12499e6, 1e-3);
@@ -267,12 +267,12 @@ TEST(CompositeLaw, TangentOfACrackThatCloses)
                                        std::array<double, 2>{ -1e-5, 3e-6 },
                                        std::array<double, 2>{ -1e-5, 9e-5 } })
   {
-    CompositePoint end = walk.point;
-    JointTangent tangent;
+    CompositePoint<2> end = walk.point;
+    JointTangent<2> tangent;
     law.update(end, opening, slip, tangent);
     const auto moved = [&](const double du, const double dv)
     {
-      CompositePoint point = walk.point;
+      CompositePoint<2> point = walk.point;
       law.update(point, opening + du, slip + dv);
       return std::array<double, 2>{ point.normal_traction,
                                     point.shear_traction };
@@ -300,7 +300,7 @@ TEST(CompositeLaw, WithoutSofteningOrCapOrTension)
   CompositeLaw law   = wall();
   law.tension_energy = law.shear_energy = CompositeLaw::infinity;
   law.compression                       = CompositeLaw::infinity;
-  CompositePoint point;
+  CompositePoint<2> point;
   law.update(point, 1., 0.);
   EXPECT_NEAR(point.normal_traction, 0.25e6, 1e-6);
   law.update(point, 2., 1.);
@@ -314,7 +314,7 @@ TEST(CompositeLaw, WithoutSofteningOrCapOrTension)
 
   // No tension, but cohesion that opening does not take.
   law.tension = 0.;
-  point       = CompositePoint();
+  point       = CompositePoint<2>();
   law.update(point, 1e-3, 0.);
   EXPECT_EQ(point.normal_traction, 0.);
   EXPECT_EQ(point.bond, 1.);
@@ -323,7 +323,7 @@ TEST(CompositeLaw, WithoutSofteningOrCapOrTension)
 
   // Dry friction.
   law.cohesion = 0.;
-  point        = CompositePoint();
+  point        = CompositePoint<2>();
   law.update(point, -1e-6, 1e-3);
   EXPECT_NEAR(point.shear_traction, 0.75 * 82e3, 1e-6);
   law.update(point, 1e-6, 2e-3);

@@ -3,7 +3,6 @@
 
 #include "../base/section_text.h"
 
-#include <quoin/joints/composite_parameters.h>
 #include <quoin/joints/joint_parameters.h>
 
 using namespace quoin;
@@ -23,12 +22,9 @@ namespace
 
   CompositeLaw read(const std::string &text)
   {
-    const auto declare = [](dealii::ParameterHandler &prm)
-    {
-      JointSetParameters::declare(prm);
-      declare_composite_law(prm);
-    };
-    return read_section("bed", text, declare, read_composite_law);
+    return std::get<CompositeLaw>(read_named_section<JointSetParameters>(
+                                      "bed", "set Law = composite\n" + text)
+                                      .law);
   }
 
   void expect_refused(const std::string &text, const std::string &setting,
@@ -83,9 +79,9 @@ TEST(CompositeParameters, NoneIsInfinite)
 
 TEST(CompositeParameters, WarnsOfALawThatSnapsBack)
 {
-  EXPECT_EQ(snap_back_warning(read(wall)), "");
+  EXPECT_EQ(read(wall).warning(), "");
   const std::string warning
-      = snap_back_warning(read(wall + "set Tensile fracture energy = 0.5\n"));
+      = read(wall + "set Tensile fracture energy = 0.5\n").warning();
   EXPECT_NE(warning.find("ft^2 / GfI = 1.25e+11 Pa/m"), std::string::npos)
       << warning;
 }

@@ -29,7 +29,7 @@ TEST(CompositeReturnMap, Corners)
     for (const double sense : { 1., -1. })
     {
       // Tension and shear: both softening laws at once.
-      CompositePoint point;
+      CompositePoint<2> point;
       auto lost = law.update(point, 1e-5, sense * 2e-5);
       EXPECT_NEAR(opening_excess(law, point), 0., 1e-6);
       EXPECT_NEAR(slip_excess(law, point), 0., 1e-6);
@@ -44,7 +44,7 @@ TEST(CompositeReturnMap, Corners)
       EXPECT_NEAR(point.bond, std::exp(-k2), 1e-9);
 
       // Shear and cap.
-      point = CompositePoint();
+      point = CompositePoint<2>();
       lost  = law.update(point, -3e-5, sense * 4e-4);
       EXPECT_NEAR(cap_excess(law, point), 0., 1e-5);
       EXPECT_NEAR(slip_excess(law, point), 0., 1e-5);
@@ -57,7 +57,7 @@ TEST(CompositeReturnMap, Corners)
   const CompositeLaw law = weak();
   for (const double slip : { 1e-6, 1e-5 })
   {
-    CompositePoint point;
+    CompositePoint<2> point;
     law.update(point, 2e-5, slip);
     EXPECT_GT(point.crushing, 0.);
     EXPECT_NEAR(opening_excess(law, point), 0., 1e-6);
@@ -176,17 +176,17 @@ TEST(CompositeReturnMap, TellsSnapBack)
 namespace
 {
   /** The error of a tangent against central differences, by the stiffness. */
-  double tangent_error(const CompositeLaw &law, const CompositePoint &start,
+  double tangent_error(const CompositeLaw &law, const CompositePoint<2> &start,
                        const double opening, const double slip)
   {
     const auto tractions = [&](const double u, const double v)
     {
-      CompositePoint point = start;
+      CompositePoint<2> point = start;
       law.update(point, u, v);
       return point;
     };
-    CompositePoint point = start;
-    JointTangent tangent;
+    CompositePoint<2> point = start;
+    JointTangent<2> tangent;
     law.update(point, opening, slip, tangent);
     const double h      = 1e-9;
     const auto by_u     = tractions(opening + h, slip);
@@ -209,7 +209,8 @@ namespace
 
   /** What flowed from @p start to @p point: 1 opening, 2 slip, 4 cap. */
   unsigned int active(const CompositeDissipation &lost,
-                      const CompositePoint &start, const CompositePoint &point)
+                      const CompositePoint<2> &start,
+                      const CompositePoint<2> &point)
   {
     return (lost.tension != 0.) + 2 * (lost.shear + lost.friction != 0.)
            + 4 * (point.crushing > start.crushing);
@@ -233,7 +234,7 @@ TEST(CompositeReturnMap, TangentIsTheDerivative)
   for (const CompositeLaw &law : { wall(), dilatant() })
     for (const Case &c : cases)
     {
-      CompositePoint fresh, end;
+      CompositePoint<2> fresh, end;
       const auto lost = law.update(end, c.opening, c.slip);
       EXPECT_EQ(active(lost, fresh, end), c.active)
           << c.opening << " " << c.slip;
@@ -246,7 +247,7 @@ TEST(CompositeReturnMap, TangentIsTheDerivative)
     }
   for (const double slip : { 1e-6, -1e-6, 1e-5, -1e-5 })
   {
-    const CompositePoint fresh;
+    const CompositePoint<2> fresh;
     EXPECT_LT(tangent_error(weak(), fresh, 2e-5, slip), 1e-6) << slip;
   }
 }
@@ -269,8 +270,8 @@ TEST(CompositeReturnMap, NewtonConvergesQuadratically)
       std::vector<double> residuals;
       for (unsigned int i = 0; i < 30; ++i)
       {
-        CompositePoint point;
-        JointTangent d;
+        CompositePoint<2> point;
+        JointTangent<2> d;
         law.update(point, u, v, d);
         const double r = kn * (target[0] - u) - point.normal_traction;
         const double s = ks * (target[1] - v) - point.shear_traction;
@@ -332,7 +333,7 @@ TEST(CompositeReturnMap, AnyIncrementHasAnAdmissibleEnd)
     ASSERT_LE(law.tension * law.friction, law.cohesion * (1. + 1e-12));
     const double largest = run % 4 == 0 ? 3. : -3.;
 
-    CompositePoint point;
+    CompositePoint<2> point;
     double opening = 0., slip = 0.;
     for (unsigned int i = 0; i < 250; ++i)
     {
@@ -340,8 +341,8 @@ TEST(CompositeReturnMap, AnyIncrementHasAnAdmissibleEnd)
       slip += sense() * power(-9., largest);
       if (uniform(random) < 0.2)
         opening = point.plastic_opening;
-      const CompositePoint start = point;
-      const auto lost            = law.update(point, opening, slip);
+      const CompositePoint<2> start = point;
+      const auto lost               = law.update(point, opening, slip);
       ASSERT_TRUE(std::isfinite(lost.total()));
       ASSERT_TRUE(std::isfinite(point.plastic_opening + point.plastic_slip));
       ASSERT_GE(point.bond, 0.);

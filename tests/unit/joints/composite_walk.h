@@ -45,26 +45,26 @@ namespace quoin
     }
 
     inline double cohesion_at(const CompositeLaw &law,
-                              const CompositePoint &point)
+                              const CompositePoint<2> &point)
     {
       return law.cohesion * point.bond;
     }
 
     /** f1, f2 and f3, the last as a traction [Pa]. */
     inline double opening_excess(const CompositeLaw &law,
-                                 const CompositePoint &point)
+                                 const CompositePoint<2> &point)
     {
       return point.normal_traction - law.tension * point.bond;
     }
     inline double slip_excess(const CompositeLaw &law,
-                              const CompositePoint &point)
+                              const CompositePoint<2> &point)
     {
       return std::abs(point.shear_traction)
              + point.normal_traction * law.friction_at(point.bond)
              - cohesion_at(law, point);
     }
     inline double cap_excess(const CompositeLaw &law,
-                             const CompositePoint &point)
+                             const CompositePoint<2> &point)
     {
       if (std::isinf(law.compression))
         return -1.;
@@ -77,7 +77,7 @@ namespace quoin
     struct Walk
     {
       CompositeLaw law;
-      CompositePoint point;
+      CompositePoint<2> point;
       double opening = 0., slip = 0.;
       double work = 0., turnover = 0.;
       CompositeDissipation lost;
@@ -118,8 +118,8 @@ namespace quoin
         double next = opening;
         for (unsigned int i = 0; i < 30; ++i)
         {
-          CompositePoint trial = point;
-          JointTangent tangent;
+          CompositePoint<2> trial = point;
+          JointTangent<2> tangent;
           law.update(trial, next, new_slip, tangent);
           const double rest = sigma - trial.normal_traction;
           if (std::abs(rest) < 1e-9 * std::abs(sigma))

@@ -17,7 +17,7 @@ namespace
   constexpr double mu       = 0.75;
   constexpr double ft       = 0.4e6;
 
-  JointPoint fresh()
+  JointPoint<2> fresh()
   {
     return { 0., 0., 0., 0., JointState::intact };
   }
@@ -34,9 +34,9 @@ namespace
   }
 
   /** A joint that has slipped back and forth and is closed without shear. */
-  JointPoint failed(const CoulombLaw &law)
+  JointPoint<2> failed(const CoulombLaw &law)
   {
-    JointPoint point = fresh();
+    JointPoint<2> point = fresh();
     law.update(point, -1e6 / kn, 2e6 / ks);
     EXPECT_EQ(point.state, JointState::slipping);
     return point;
@@ -48,7 +48,7 @@ namespace
     double work = 0., turnover = 0., friction = 0., fracture = 0.;
     double opening = 0., slip = 0.;
 
-    JointDissipation move(const CoulombLaw &law, JointPoint &point,
+    JointDissipation move(const CoulombLaw &law, JointPoint<2> &point,
                           const double new_opening, const double new_slip)
     {
       const double sigma = point.normal_traction;
@@ -71,7 +71,7 @@ namespace
 TEST(CoulombLaw, ElasticBelowItsStrength)
 {
   const CoulombLaw law = brittle();
-  JointPoint point     = fresh();
+  JointPoint<2> point  = fresh();
   for (const double opening : { 0.9 * ft / kn, -3e-4, 0. })
     for (const double slip : { 0.2e6 / ks, -0.1e6 / ks, 0. })
     {
@@ -95,7 +95,7 @@ TEST(CoulombLaw, ShearPeakThenResidualAtOnce)
   const double peak  = cohesion - sigma * mu;
   for (const double sense : { 1., -1. })
   {
-    JointPoint point = fresh();
+    JointPoint<2> point = fresh();
     law.update(point, sigma / kn, sense * 0.999999 * peak / ks);
     EXPECT_EQ(point.state, JointState::intact);
     EXPECT_DOUBLE_EQ(point.shear_traction, sense * 0.999999 * peak);
@@ -118,7 +118,7 @@ TEST(CoulombLaw, ShearPeakThenResidualAtOnce)
 TEST(CoulombLaw, ShearFailureTakesTensionToo)
 {
   const CoulombLaw law = brittle();
-  JointPoint point     = failed(law);
+  JointPoint<2> point  = failed(law);
   law.update(point, 0.01 * ft / kn, 2e6 / ks);
   EXPECT_EQ(point.state, JointState::open);
   EXPECT_EQ(point.normal_traction, 0.);
@@ -128,7 +128,7 @@ TEST(CoulombLaw, ShearFailureTakesTensionToo)
 TEST(CoulombLaw, TensionFailureTakesCohesionToo)
 {
   const CoulombLaw law = brittle();
-  JointPoint point     = fresh();
+  JointPoint<2> point  = fresh();
   law.update(point, 1.001 * ft / kn, 0.);
   EXPECT_EQ(point.state, JointState::open);
 
@@ -142,7 +142,7 @@ TEST(CoulombLaw, TensionFailureTakesCohesionToo)
 TEST(CoulombLaw, TensionCutOff)
 {
   const CoulombLaw law = brittle();
-  JointPoint point     = fresh();
+  JointPoint<2> point  = fresh();
   law.update(point, ft * (1. - 1e-12) / kn, 0.);
   EXPECT_EQ(point.state, JointState::intact);
   EXPECT_NEAR(point.normal_traction, ft, 1e-9 * ft);
@@ -157,7 +157,7 @@ TEST(CoulombLaw, TensionBeyondTheApexOfTheConeLeavesNoShear)
   CoulombLaw law = brittle();
   law.peak       = { 0.1e6, 1., ft };
   law.residual   = law.peak;
-  JointPoint point{ 0., 0., 0., 0., JointState::slipped };
+  JointPoint<2> point{ 0., 0., 0., 0., JointState::slipped };
   law.update(point, 0.5 * ft / kn, 0.3e6 / ks);
   EXPECT_EQ(point.state, JointState::slipping);
   EXPECT_DOUBLE_EQ(point.normal_traction, 0.5 * ft);
@@ -168,7 +168,7 @@ TEST(CoulombLaw, ResidualTensionIsAPlateau)
 {
   CoulombLaw law       = brittle();
   law.residual.tension = 0.25 * ft;
-  JointPoint point     = fresh();
+  JointPoint<2> point  = fresh();
   law.update(point, 1.1 * ft / kn, 0.);
   EXPECT_EQ(point.state, JointState::open);
   for (const double factor : { 2., 50., 3. })
@@ -191,7 +191,7 @@ TEST(CoulombLaw, ResidualTensionIsAPlateau)
 TEST(CoulombLaw, ClosesAtZeroGapAndTakesUpShearAfresh)
 {
   const CoulombLaw law = brittle();
-  JointPoint point     = fresh();
+  JointPoint<2> point  = fresh();
   law.update(point, 1e-4, 0.05e6 / ks);
   law.update(point, 2e-4, 5e-3);
   EXPECT_EQ(point.state, JointState::open);
@@ -217,7 +217,7 @@ TEST(CoulombLaw, DilationIsSolvedWithTheNormalTraction)
   law.residual             = { 0.2e6, 0.6, 0. };
   const double opening     = -0.5e6 / kn;
   double previous_traction = -0.5e6, previous_opening = 0.;
-  JointPoint point = fresh();
+  JointPoint<2> point = fresh();
   for (const double slip : { 1e-3, 1.2e-3, 1.9e-3, 5e-3 })
   {
     const double slip_before = point.plastic_slip;
@@ -240,9 +240,9 @@ TEST(CoulombLaw, DilationIsSolvedWithTheNormalTraction)
 
 TEST(CoulombLaw, DilationInEitherSense)
 {
-  CoulombLaw law   = brittle();
-  law.dilation     = 0.3;
-  JointPoint forth = fresh(), back = fresh();
+  CoulombLaw law      = brittle();
+  law.dilation        = 0.3;
+  JointPoint<2> forth = fresh(), back = fresh();
   law.update(forth, -1e-4, 2e-3);
   law.update(back, -1e-4, -2e-3);
   EXPECT_GT(forth.plastic_opening, 0.);
@@ -255,7 +255,7 @@ TEST(CoulombLaw, DilationStopsAtTheCriticalShearDisplacement)
   CoulombLaw law                  = brittle();
   law.dilation                    = 0.3;
   law.critical_shear_displacement = 2e-3;
-  JointPoint point                = fresh();
+  JointPoint<2> point             = fresh();
   law.update(point, -1e-4, 1.5e-3);
   const double below = point.plastic_opening;
   EXPECT_GT(below, 0.);
@@ -277,7 +277,7 @@ TEST(CoulombLaw, DilationDecreasesOnReturn)
   law.dilation   = 0.2;
   // Softer than the shear stiffness, so that the way back stays solvable.
   law.normal_stiffness = 1e9;
-  JointPoint point     = fresh();
+  JointPoint<2> point  = fresh();
   law.update(point, -1e-3, 4e-3);
   const double top = point.plastic_opening;
   EXPECT_NEAR(top, 0.2 * point.plastic_slip, 1e-15);
@@ -293,10 +293,10 @@ TEST(CoulombLaw, DilationDecreasesOnReturn)
 
 TEST(CoulombLaw, NoTensionKeepsCohesion)
 {
-  CoulombLaw law   = brittle();
-  law.peak.tension = 0.;
-  law.residual     = law.peak;
-  JointPoint point = fresh();
+  CoulombLaw law      = brittle();
+  law.peak.tension    = 0.;
+  law.residual        = law.peak;
+  JointPoint<2> point = fresh();
   law.update(point, 1e-3, 2e-3);
   EXPECT_EQ(point.state, JointState::open);
   EXPECT_EQ(point.normal_traction, 0.);
@@ -315,7 +315,7 @@ TEST(CoulombLaw, ElasticNeverFails)
   CoulombLaw law;
   law.normal_stiffness = kn;
   law.shear_stiffness  = ks;
-  JointPoint point     = fresh();
+  JointPoint<2> point  = fresh();
   for (const double size : { 1., -1., 1e6 })
   {
     const auto lost = law.update(point, size, -2. * size);
@@ -340,7 +340,7 @@ TEST(CoulombLaw, WorkOnClosedPathsIsStoredOrDissipated)
       law.residual.cohesion           = residual_cohesion;
       law.dilation                    = dilation;
       law.critical_shear_displacement = 5e-3;
-      JointPoint point
+      JointPoint<2> point
           = { -0.7e6, 0.2e6, -0.2e6 / ks, 0.7e6 / kn, JointState::intact };
       Ledger ledger;
       const double stored  = law.stored_energy(point, 0.);
@@ -372,7 +372,7 @@ TEST(CoulombLaw, SlipWithoutDilationNeverGainsEnergy)
   const CoulombLaw law = brittle();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1., 1.);
-  JointPoint point = fresh();
+  JointPoint<2> point = fresh();
   Ledger ledger;
   double slip = 0.;
   for (unsigned int i = 0; i < 20000; ++i)
@@ -394,7 +394,7 @@ TEST(CoulombLaw, BreakingInTensionTakesItsStoredEnergy)
   for (const unsigned int n : { 10, 100, 1000, 10000 })
   {
     // In steps that never meet the strength exactly.
-    JointPoint point = fresh();
+    JointPoint<2> point = fresh();
     Ledger ledger;
     for (unsigned int i = 1; i <= 2 * n; ++i)
       ledger.move(law, point, (i - 0.5) / n * ft / kn, 0.);
@@ -413,7 +413,7 @@ TEST(CoulombLaw, BreakingInTensionUnderShearTakesBothEnergies)
   CoulombLaw law       = brittle();
   law.residual.tension = 0.2 * ft;
   const double shear   = 0.5 * cohesion;
-  JointPoint point     = fresh();
+  JointPoint<2> point  = fresh();
   Ledger ledger;
   ledger.move(law, point, 0., shear / ks);
   const unsigned int n = 1000;
@@ -435,7 +435,7 @@ TEST(CoulombLaw, BreakingInTensionUnderShearTakesBothEnergies)
 TEST(CoulombLaw, OpeningAfterSlipTakesTheShearEnergy)
 {
   const CoulombLaw law = brittle();
-  JointPoint point     = failed(law);
+  JointPoint<2> point  = failed(law);
   const double slip    = 2e6 / ks;
   const double stored  = law.stored_energy(point, -1e6 / kn);
   Ledger ledger;

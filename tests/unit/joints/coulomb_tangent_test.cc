@@ -21,7 +21,7 @@ namespace
   constexpr double mu       = 0.75;
   constexpr double ft       = 0.4e6;
 
-  const JointPoint fresh = { 0., 0., 0., 0., JointState::intact };
+  const JointPoint<2> fresh = { 0., 0., 0., 0., JointState::intact };
 
   /** Elastic; open; slips without dilation, away from the origin, back; slip
       bounded by the shear traction; residual strength above the peak's. */
@@ -38,8 +38,8 @@ namespace
   };
 
   /** The one that took @p before to @p after at this slip. */
-  Branch branch_of(const CoulombLaw &law, const JointPoint &before,
-                   const JointPoint &after, const double slip)
+  Branch branch_of(const CoulombLaw &law, const JointPoint<2> &before,
+                   const JointPoint<2> &after, const double slip)
   {
     if (after.state == JointState::open)
       return opens;
@@ -57,17 +57,17 @@ namespace
 
   /** Of the tangent from central differences, by the normal stiffness; the
       differences stay in one branch or the point is passed over. */
-  double tangent_error(const CoulombLaw &law, const JointPoint &start,
+  double tangent_error(const CoulombLaw &law, const JointPoint<2> &start,
                        const double opening, const double slip,
                        std::array<unsigned int, n_branches> &seen)
   {
     constexpr double h  = 1e-9;
-    JointPoint end      = start;
-    JointTangent d      = { NAN, NAN, NAN, NAN };
+    JointPoint<2> end   = start;
+    JointTangent<2> d   = { NAN, NAN, NAN, NAN };
     const auto lost     = law.update(end, opening, slip, d);
     const Branch branch = branch_of(law, start, end, slip);
 
-    JointPoint same      = start;
+    JointPoint<2> same   = start;
     const auto same_lost = law.update(same, opening, slip);
     // Up to how the compiler rounds two copies of the same formula.
     EXPECT_NEAR(same.normal_traction, end.normal_traction, 1e-9 * cohesion);
@@ -81,7 +81,7 @@ namespace
     bool is_smooth   = true;
     const auto moved = [&](const double du, const double dv)
     {
-      JointPoint point = start;
+      JointPoint<2> point = start;
       law.update(point, opening + du, slip + dv);
       is_smooth &= branch_of(law, start, point, slip + dv) == branch;
       return point;
@@ -132,7 +132,7 @@ TEST(CoulombTangent, IsTheDerivative)
   std::array<unsigned int, n_branches> seen{};
   for (const CoulombLaw &law : laws_with_tangents())
   {
-    JointPoint point = fresh;
+    JointPoint<2> point = fresh;
     for (unsigned int i = 0; i < 5000; ++i)
     {
       if (i % 50 == 0)
@@ -156,8 +156,8 @@ TEST(CoulombTangent, OfAnElasticJoint)
   CoulombLaw law;
   law.normal_stiffness = kn;
   law.shear_stiffness  = ks;
-  JointPoint point     = fresh;
-  JointTangent tangent;
+  JointPoint<2> point  = fresh;
+  JointTangent<2> tangent;
   law.update(point, 1., -2., tangent);
   EXPECT_EQ(tangent.normal_opening, kn);
   EXPECT_EQ(tangent.normal_slip, 0.);

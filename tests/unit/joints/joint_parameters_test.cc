@@ -72,7 +72,7 @@ TEST(JointParameters, OwnNameSameFrictionAndNoResidualByDefault)
 TEST(JointParameters, Elastic)
 {
   const auto set = read(stiffnesses + "set Law = elastic\n");
-  JointPoint point;
+  JointPoint<2> point;
   std::get<CoulombLaw>(set.law).update(point, 1., 1.);
   EXPECT_EQ(point.state, JointState::intact);
   EXPECT_EQ(point.normal_traction, 82e9);

@@ -20,7 +20,7 @@ namespace quoin
     /** A rough joint in granite. */
     inline BartonBandisLaw rough()
     {
-      BartonBandisLaw law{ HyperbolicClosure(10e9, 0.3e-3, 250e9) };
+      BartonBandisLaw law{ {}, HyperbolicClosure(10e9, 0.3e-3, 250e9) };
       law.stiffness      = 5e9;
       law.residual_angle = 28. * degree;
       law.roughness      = 10. * degree;
@@ -33,7 +33,9 @@ namespace quoin
     {
       const PowerStiffness normal{ 20e9, 0.5, 1e6, 1e4, 1e8 };
       const PowerStiffness shear{ 8e9, shear_exponent, 1e6, 1e4, 1e8 };
-      return { PowerClosure(normal), shear, 50. * degree, 30. * degree, 1e-3 };
+      return {
+        {}, PowerClosure(normal), shear, 50. * degree, 30. * degree, 1e-3
+      };
     }
 
     /** Moves a point and keeps the books, by the trapezoidal rule. */
@@ -85,7 +87,7 @@ namespace quoin
           for (unsigned int i = 0; i < 50; ++i)
           {
             RockPoint trial = point;
-            JointTangent tangent;
+            JointTangent<2> tangent;
             law.update(trial, next, there, tangent);
             const double rest = sigma - trial.normal_traction;
             if (std::abs(rest) < 1e-9 * std::abs(sigma))
@@ -153,7 +155,7 @@ namespace quoin
               = point.dilated - 2.5e-4 * uniform(random) + 0.3e-4;
           const double slip = reach * (2. * uniform(random) - 1.);
           RockPoint here    = point;
-          JointTangent tangent;
+          JointTangent<2> tangent;
           law.update(here, opening, slip, tangent);
           const auto difference = [&](const double du, const double dv)
           {

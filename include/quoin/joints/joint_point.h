@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joints_joint_point_h
+#define quoin_joints_joint_point_h
+
+#include <quoin/base/state.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+namespace quoin
+{
+  /**
+   * Slip [m] or shear traction [Pa] along a joint of bodies in @p dim
+   * dimensions: the dim - 1 components along its tangents. A number with a
+   * sign in two dimensions, so that laws read the same in two and three: sums,
+   * products with numbers and scalar products are those of either type.
+   */
+  template <int dim>
+  using Slip = std::conditional_t<dim == 2, double, dealii::Tensor<1, dim - 1>>;
+
+  /** Derivative of a Slip by another. */
+  template <int dim>
+  using SlipGradient
+      = std::conditional_t<dim == 2, double, dealii::Tensor<2, dim - 1>>;
+
+  /** Length of a slip or size of a shear traction. */
+  inline double magnitude(const double slip)
+  {
+    return std::abs(slip);
+  }
+  template <int n>
+  double magnitude(const dealii::Tensor<1, n> &slip)
+  {
+    return slip.norm();
+  }
+
+  /** Unit vector along @p slip; any if that is zero. */
+  inline double direction_of(const double slip)
+  {
+    return slip < 0. ? -1. : 1.;
+  }
+  template <int n>
+  dealii::Tensor<1, n> direction_of(const dealii::Tensor<1, n> &slip)
+  {
+    const double size = slip.norm();
+    dealii::Tensor<1, n> direction;
+    if (size > 0.)
+      direction = slip / size;
+    else
+      direction[0] = 1.;
+    return direction;
+  }
+
+  /** Cosine of the angle between the unit vector @p direction and @p slip; 1
+      if there is no slip yet. */
+  inline double cosine(const double direction, const double slip)
+  {
+    return direction * slip >= 0. ? 1. : -1.;
+  }
+  template <int n>
+  double cosine(const dealii::Tensor<1, n> &direction,
+                const dealii::Tensor<1, n> &slip)
+  {
+    const double size = slip.norm();
+    return size > 0. ? direction * slip / size : 1.;
+  }
+
+  /** The product a b^T. */
+  inline double outer_product(const double a, const double b)
+  {
+    return a * b;
+  }
+  template <int n>
+  dealii::Tensor<2, n> outer_product(const dealii::Tensor<1, n> &a,
+                                     const dealii::Tensor<1, n> &b)
+  {
+    return dealii::outer_product(a, b);
+  }
+
+  /** @p factor times the identity. */
+  template <int dim>
+  SlipGradient<dim> isotropic(const double factor)
+  {
+    if constexpr (dim == 2)
+      return factor;
+    else
+    {
+      SlipGradient<dim> result;
+      for (unsigned int d = 0; d < dim - 1; ++d)
+        result[d][d] = factor;
+      return result;
+    }
+  }
+
+  /**
+   * One joint point: what a law reads and overwrites. Laws that remember more
+   * derive their own from it, which begins as its defaults say and lists what
+   * it has beside these, its internal variables, in @p internal.
+   */
+  template <int dim>
+  struct JointPoint
+  {
+    double normal_traction = 0.; /**< sigma [Pa], tension positive */
+    Slip<dim> shear_traction{};  /**< tau [Pa] */
+    Slip<dim> plastic_slip{};    /**< p [m] */
+    double plastic_opening = 0.; /**< w [m] */
+    JointState state       = JointState::intact;
+
+    static constexpr std::array<double JointPoint::*, 0> internal{};
+  };
+
+  /** Derivative of a joint's tractions by opening and slip [Pa/m]. */
+  template <int dim>
+  struct JointTangent
+  {
+    double normal_opening = 0.;
+    Slip<dim> normal_slip{};
+    Slip<dim> shear_opening{};
+    SlipGradient<dim> shear_slip{}; /**< row: of tau, column: by slip */
+  };
+
+  /** Energy per area that an update dissipated [J/m^2]. */
+  struct JointDissipation
+  {
+    double friction = 0.; /**< in slip and dilation */
+    double fracture = 0.; /**< as the joint breaks */
+    double crushing = 0.;
+  };
+
+  /** A quantity of a joint point for results, beside tractions and gaps. */
+  template <typename Point>
+  struct JointField
+  {
+    const char *name;
+    double (*value)(const Point &point);
+  };
+
+  /** A word for 'Law' in the parameter file and what to say of it there. */
+  struct LawName
+  {
+    const char *word, *sentence;
+  };
+
+  /** What most joint laws do alike; a law hides what it does otherwise. See
+      joint_law.h. */
+  struct JointLawDefaults
+  {
+    /** Whether its tractions drop at failure, see CoulombLaw::update_waiting().
+     */
+    static constexpr bool is_brittle = false;
+    /** Whether stiffnesses grow with the pressure, from less than the bound. */
+    static constexpr bool stiffens = false;
+    /** Whether a joint that is open may bear tension. */
+    static constexpr bool bridges = false;
+    /** Why it is not for general contacts, which ...; empty: it is. */
+    static constexpr const char *no_contacts = "";
+
+    /** Why it is not for contacts that come up, "which ..."; empty: it is. */
+    std::string no_new_contacts() const
+    {
+      return "";
+    }
+    /** What a user should know of its parameters, a sentence; or empty. */
+    std::string warning() const
+    {
+      return "";
+    }
+    /** Whether the joint may open or slip. */
+    bool can_fail() const
+    {
+      return true;
+    }
+    /** Whether slip may open the joint. */
+    bool can_dilate() const
+    {
+      return true;
+    }
+    /** Gives @p point the internal variables of a contact that comes up: that
+        of a joint with no more than its residual strength. */
+    template <typename Point>
+    void wear_out(Point &) const
+    {
+    }
+    /** Quantities of a point for results. */
+    template <int dim>
+    static std::array<JointField<JointPoint<dim>>, 0> fields()
+    {
+      return {};
+    }
+    /** What the elastic slip of @p point changes by with its normal traction
+        at the same shear traction [m/Pa]. */
+    template <typename Point>
+    double slip_by_pressure(const Point &) const
+    {
+      return 0.;
+    }
+  };
+} // namespace quoin
+
+#endif
