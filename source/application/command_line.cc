@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/problems/boundary_simulation.h>
 #include <quoin/application/command_line.h>
+#include <quoin/application/run.h>
 #include <quoin/problems/parameters.h>
-#include <quoin/problems/simulation.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
 #include <quoin/results/collective.h>
@@ -157,10 +156,7 @@ namespace quoin
         throw InputError(message);
       if (!arguments.output.empty())
         parameters.output_directory = arguments.output;
-      if (parameters.is_boundary_model)
-        BoundarySimulation(parameters, arguments.run, MPI_COMM_WORLD).run();
-      else
-        Simulation(parameters, arguments.run, MPI_COMM_WORLD).run();
+      Run(parameters, arguments.run, MPI_COMM_WORLD).run();
       return 0;
     }
     catch (const InputError &error)

@@ -4,6 +4,8 @@
 #include <quoin/problems/boundary_report.h>
 #include <quoin/base/number_text.h>
 
+#include <algorithm>
+
 namespace quoin
 {
   double wanted_time_step(const BoundaryElementParameters &parameters,
@@ -13,6 +15,35 @@ namespace quoin
                ? parameters.time_step
                : parameters.step_ratio * boundary.lengths().minCoeff()
                      / medium.c1;
+  }
+
+  std::vector<std::string>
+  boundary_lengths(const BoundaryElementParameters &settings,
+                   const BoundaryGeometry &geometry)
+  {
+    std::vector<std::string> lines;
+    const Eigen::VectorXd lengths = geometry.boundary.lengths();
+    for (unsigned int k = 0; k < settings.boundaries.size(); ++k)
+    {
+      unsigned int n = 0;
+      double total = 0., least = 1e300, most = 0.;
+      for (unsigned int e = 0; e < geometry.owner.size(); ++e)
+        if (geometry.owner[e] == k)
+        {
+          ++n;
+          total += lengths[e];
+          least = std::min(least, lengths[e]);
+          most  = std::max(most, lengths[e]);
+        }
+      lines.push_back(
+          "boundary " + settings.boundaries[k].name + ": " + std::to_string(n)
+          + " elements over " + number_text(total) + " m, "
+          + (most - least < 1e-6 * most
+                 ? "each " + number_text(most)
+                 : "from " + number_text(least) + " to " + number_text(most))
+          + " m");
+    }
+    return lines;
   }
 
   std::string step_ratio_text(const Boundary &boundary,

@@ -15,8 +15,7 @@
 #include "mutations.h"
 
 #include <quoin/problems/parameters.h>
-#include <quoin/problems/simulation.h>
-#include <quoin/problems/boundary_simulation.h>
+#include <quoin/application/run.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
 #include <quoin/loads/record.h>
@@ -195,10 +194,7 @@ namespace
       if (curve.n_elements > 100
           || (curve.element_length > 0. && curve.element_length < 0.05))
         return;
-    if (parameters.is_boundary_model)
-      BoundarySimulation(parameters, check, MPI_COMM_SELF).run();
-    else
-      Simulation(parameters, check, MPI_COMM_SELF).run();
+    Run(parameters, check, MPI_COMM_SELF).run();
   }
 
   void try_mesh(const Input &input, Mutator &mutator)

@@ -4,6 +4,7 @@
 #ifndef quoin_problems_boundary_report_h
 #define quoin_problems_boundary_report_h
 
+#include <quoin/farfield/boundary_geometry.h>
 #include <quoin/farfield/boundary_parameters.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/elastic_medium.h>
@@ -14,6 +15,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 // What runs of boundary elements, alone or beyond blocks, choose and say alike.
 
@@ -23,6 +25,11 @@ namespace quoin
   double wanted_time_step(const BoundaryElementParameters &parameters,
                           const Boundary &boundary,
                           const ElasticMedium &medium);
+
+  /** Number and lengths of the elements of each boundary, a line each. */
+  std::vector<std::string>
+  boundary_lengths(const BoundaryElementParameters &settings,
+                   const BoundaryGeometry &geometry);
 
   /** "c1 dt / L from 0.8 to 1.2", of a time step [s]. */
   std::string step_ratio_text(const Boundary &boundary,

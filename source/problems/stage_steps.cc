@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/problems/boundary_report.h>
-#include <quoin/results/field_output.h>
-#include <quoin/problems/simulation.h>
-#include <quoin/problems/step_count.h>
-#include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
-#include <quoin/results/collective.h>
+#include <quoin/problems/boundary_report.h>
+#include <quoin/problems/problem.h>
+#include <quoin/problems/stage_steps.h>
+#include <quoin/problems/step_count.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,20 +15,71 @@ namespace quoin
   namespace
   {
     /**
-     * By what went through the model. No domain that was at rest gives energy;
-     * the first moments of a pulse, too short for the elements, may look so by
-     * a tenth. Modes that grow soon owe all they have to the boundary elements.
+     * Largest share of the critical step where modes must turn by less than
+     * about 60 degrees a step. Local damping needs it for its sense of
+     * direction: beyond, fast modes keep ringing and hold up the slow ones.
+     * Joints that open and close need it, because the kink in their law falls
+     * between two steps: beyond, stiff joints that chatter create energy.
      */
-    constexpr double largest_created_share = 0.5;
-    /** No run of so many comes to its end; nor does one with so many steps of
-        blocks in each. */
+    constexpr double cautious_share = 0.5;
+
+    /** No run of so many steps comes to its end. */
+    constexpr double most_steps = 1e12;
+    /** No run of so many steps of boundary elements comes to its end; nor does
+        one with so many steps of blocks in each. */
     constexpr double most_boundary_steps = 1e9;
   } // namespace
 
-  double Simulation::choose_far_field_step(const StageParameters &stage,
+  StageSteps::StageSteps(BlockSystem &system, Log &log)
+    : system(system), parameters(system.parameters), log(log)
+  {
+  }
+
+  void StageSteps::choose(const StageParameters &stage)
+  {
+    const double critical = system.explicit_solver->critical_time_step();
+    double dt             = parameters.time_step;
+    if (dt > critical)
+      throw InputError(parameters.file
+                       + ", section 'Time stepping': 'Time step = "
+                       + number_text(dt) + "' is above the critical time step "
+                       + number_text(critical) + " s of stage '" + stage.name
+                       + "'. Give a smaller one, or 0 for an automatic one.");
+    if (dt == 0. && !std::isfinite(critical))
+      throw InputError(parameters.file
+                       + ", section 'Time stepping': 'Time step = 0' asks for "
+                         "a share of the critical step, but in stage '"
+                       + stage.name
+                       + "' rigid blocks move freely, without joints, and any "
+                         "step is stable. Give one.");
+    if (dt == 0.)
+      dt = critical
+           * (stage.damping == DampingType::local
+                      || system.model->joints().can_fail()
+                      || system.model->large_displacements()
+                  ? std::min(parameters.share_of_critical_step, cautious_share)
+                  : parameters.share_of_critical_step);
+    steps_of_stage = 0;
+    if (system.solver->far_field_acts())
+      dt = choose_far_field_step(stage, dt);
+    else if (stage.end == StageEnd::time)
+    {
+      // The stage ends at a step, not near one.
+      steps_of_stage = std::uint64_t(count_steps(
+          stage.duration, dt, most_steps,
+          parameters.file + ", section 'Stages/" + stage.name
+              + "': 'Duration = " + number_text(stage.duration) + "'",
+          "Give a larger 'Time step' in section 'Time stepping', or a shorter "
+          "duration."));
+      dt             = stage.duration / double(steps_of_stage);
+    }
+    system.explicit_solver->set_time_step(dt);
+  }
+
+  double StageSteps::choose_far_field_step(const StageParameters &stage,
                                            const double dt)
   {
-    FarField &far                             = *solver->far_field();
+    FarField &far                             = *system.solver->far_field();
     const BoundaryElementParameters &settings = parameters.boundary;
     const std::string section
         = parameters.file + ", section 'Boundary elements': ";
@@ -78,9 +127,9 @@ namespace quoin
     return step / n_substeps;
   }
 
-  void Simulation::make_waves(const double step)
+  void StageSteps::make_waves(const double step)
   {
-    FarField &far   = *solver->far_field();
+    FarField &far   = *system.solver->far_field();
     double duration = 0.;
     for (const StageParameters &stage : parameters.stages)
       if (stage.end == StageEnd::time && names_load(stage, far.name()))
@@ -96,9 +145,9 @@ namespace quoin
       log.message(text);
   }
 
-  void Simulation::report_far_field()
+  void StageSteps::report_far_field()
   {
-    const FarField &far    = *solver->far_field();
+    const FarField &far    = *system.solver->far_field();
     const Boundary &domain = far.domain().boundary;
     const auto lengths     = domain.lengths();
     log.message(
@@ -112,51 +161,18 @@ namespace quoin
         "boundary elements: time step " + number_text(far.time_step()) + " s, "
         + std::to_string(far.n_substeps()) + " block steps, "
         + step_ratio_text(domain, far.domain().medium, far.time_step()));
+<<<<<<< HEAD:source/problems/simulation_far_field.cc
     passivity = passivity_of(far.influence_kernel(), far.boundary_history(),
                              domain, far.domain().medium,
                              far.domain().formulation, far.time_step(),
                              parameters.boundary.n_frequencies, communicator);
+=======
+    const auto passivity = passivity_of(
+        far.influence_kernel(), far.boundary_history(), domain, far.domain().medium,
+        far.domain().formulation, far.time_step(),
+        parameters.boundary.n_frequencies, system.communicator);
+>>>>>>> 1337f44:source/problems/stage_steps.cc
     if (passivity)
       log.message(passivity->advice());
-  }
-
-  void Simulation::write_far_field_row()
-  {
-    const FarField *far = solver->far_field();
-    if (!far)
-      return;
-    const FarField::Ledger ledger = far->ledger(record.state);
-    const double taken            = ledger.radiated + ledger.given;
-    record.largest_throughput
-        = std::max({ record.largest_throughput, std::abs(ledger.radiated),
-                     std::abs(ledger.given), solver->energies().throughput() });
-    if (taken < -largest_created_share * record.largest_throughput)
-      throw RunError("the boundary elements have created energy, "
-                     + number_text(-taken) + " J of "
-                     + number_text(record.largest_throughput)
-                     + " J that went through the model: their discrete "
-                       "impedance is not passive. Change 'Step ratio' or "
-                       "'Formulation' in section 'Boundary elements' until the "
-                       "passivity scan finds nothing, or damp the blocks.");
-    record.far_field_table.add_row(
-        { record.state.time, double(record.state.far_field.n_steps),
-          ledger.radiated, ledger.substeps, ledger.incident, ledger.given,
-          ledger.mismatch });
-  }
-
-  void Simulation::write_boundary()
-  {
-    const FarField &far = *solver->far_field();
-    if (!solver->far_field_acts() || !record.state.far_field.active)
-      return;
-    const BoundaryState fields = boundary_state(far, record.state);
-    all_or_none<RunError>(communicator,
-                          [&]()
-                          {
-                            if (is_first_rank)
-                              record.boundary_output.write(
-                                  record.state.time,
-                                  boundary_fields(boundary_geometry, fields));
-                          });
   }
 } // namespace quoin

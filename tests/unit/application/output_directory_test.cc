@@ -3,7 +3,7 @@
 
 #include "../results/temporary_directory.h"
 
-#include <quoin/problems/open_log.h>
+#include <quoin/application/output_directory.h>
 
 #include <set>
 

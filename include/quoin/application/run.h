@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_application_run_h
+#define quoin_application_run_h
+
+#include <quoin/problems/parameters.h>
+#include <quoin/problems/problem.h>
+#include <quoin/results/checkpoint_clock.h>
+#include <quoin/results/output_lock.h>
+
+#include <memory>
+#include <string>
+
+namespace quoin
+{
+  /**
+   * One run: takes a problem through its stages and keeps log, lock, tables,
+   * checkpoints and summary in the output directory.
+   */
+  class Run
+  {
+  public:
+    Run(const Parameters &parameters, const RunOptions &options,
+        MPI_Comm communicator);
+
+    /** Throws InputError or RunError. */
+    void run();
+
+  private:
+    void open_outputs();
+    void run_stage();
+    void take_step();
+    void write_summary();
+    void save_checkpoint();
+    bool is_over() const;
+
+    /** Archives how far run, tables and problem are. */
+    template <typename Archive>
+    void archive_progress(Archive &archive);
+
+    const Parameters parameters;
+    const RunOptions options;
+    const MPI_Comm communicator;
+    const std::string output;
+
+    OutputLock lock;
+    Log log;
+    Progress progress;
+    TableSet tables;
+    const RunContext context;
+    CheckpointClock checkpoint_clock;
+    std::unique_ptr<Problem> problem;
+
+    unsigned int stage = 0; /**< the one under way or to come */
+    bool stage_begun   = false;
+    double wall_time   = 0.; /**< of all steps [s] */
+    double seconds     = 0.; /**< of the steps of this process [s] */
+  };
+} // namespace quoin
+
+#endif

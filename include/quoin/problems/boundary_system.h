@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_problems_boundary_system_h
+#define quoin_problems_boundary_system_h
+
+#include <quoin/farfield/boundary_geometry.h>
+#include <quoin/farfield/boundary_values.h>
+#include <quoin/farfield/incident_waves.h>
+#include <quoin/problems/domain_points.h>
+#include <quoin/problems/parameters.h>
+#include <quoin/results/boundary_histories.h>
+#include <quoin/results/log.h>
+#include <quoin/tdbem/boundary_history.h>
+#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/tdbem/interior_points.h>
+#include <quoin/tdbem/passivity.h>
+#include <quoin/tdbem/static_solver.h>
+#include <quoin/tdbem/tangential_stress.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * Boundary, medium, what is given and the operators of a problem of boundary
+   * elements alone. The equations are solved for the scattered field, that is,
+   * the total one without the incident waves; given values and results are
+   * those of the total field.
+   */
+  class BoundarySystem
+  {
+  public:
+    /**
+     * @p parameters must outlive this object. Collective. Throws an InputError
+     * that begins with the file.
+     */
+    BoundarySystem(const Parameters &parameters, MPI_Comm communicator);
+
+    /** Influence matrices and history of the time marching; collective. */
+    void make_operators(Log &log);
+
+    /** What is given in a step, without what incident waves have of it. */
+    Eigen::VectorXd scattered_values(double begin, double end,
+                                     const Eigen::VectorXd &u_incident,
+                                     const Eigen::VectorXd &p_incident);
+    StaticSolution solve_static();
+
+    /** Of histories and the sampled field. */
+    std::vector<Eigen::Vector2d> points_in_domain() const;
+    /** Whether results in the domain need the record of the boundary. */
+    bool needs_record() const;
+    /** Of points in the domain at the ends of some steps, total field [m];
+        collective. */
+    Eigen::MatrixXd
+    domain_displacements(const BoundaryRecord &all,
+                         const std::vector<Eigen::Vector2d> &points,
+                         const std::vector<unsigned int> &steps) const;
+
+    const Parameters &parameters;
+    const BoundaryElementParameters &settings;
+    const MPI_Comm communicator;
+    std::string fingerprint; /**< see run_fingerprint() */
+    ElasticMedium medium{};
+    BoundaryGeometry geometry;
+    double dt             = 0.; /**< time step [s] */
+    std::uint64_t n_steps = 0;
+    std::unique_ptr<BoundaryHistories> histories;
+    std::unique_ptr<TangentialStress> hoop_stress;
+    std::unique_ptr<BoundaryValues> given;
+    DomainPoints sampled; /**< of the sampled field */
+    std::unique_ptr<IncidentWaves> waves;
+    std::unique_ptr<InfluenceKernel> kernel;
+    std::unique_ptr<BoundaryHistory> history;
+    std::unique_ptr<PassivityReport> passivity; /**< or null */
+
+  private:
+    void choose_time_step();
+    void report_stability(Log &log) const;
+    /** Also a half-plane, whose surface is discretised to a distance. */
+    bool is_bounded() const;
+  };
+} // namespace quoin
+
+#endif

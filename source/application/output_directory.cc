@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/application/output_directory.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/results/checkpoint.h>
+#include <quoin/results/vtu_series.h>
+
+#include <filesystem>
+
+namespace quoin
+{
+  void take_output(const std::string &output, const bool resume,
+                   OutputLock &lock)
+  {
+    namespace fs = std::filesystem;
+    std::error_code error;
+    fs::create_directories(output, error);
+    std::error_code ignored;
+    if (!fs::is_directory(output, ignored))
+      throw InputError(
+          "the output directory '" + output + "' cannot be made: "
+          + (error ? error.message() : "there is a file of this name")
+          + ". Choose another with 'Output directory' or --output.");
+    lock.take(output);
+    if (resume)
+      return;
+    remove_checkpoint(output);
+    for (const char *name :
+         { "summary.json", "histories.csv", "energies.csv", "safety.csv",
+           "convergence.csv", "far_field.csv", "rock_statistics.csv" })
+      fs::remove(output + "/" + name, error);
+    remove_series(output);
+    remove_series(output + "/mechanism");
+  }
+} // namespace quoin

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/application/output_directory.h>
+#include <quoin/application/run.h>
+#include <quoin/base/number_text.h>
+#include <quoin/base/wall_clock.h>
+#include <quoin/problems/block_problem.h>
+#include <quoin/problems/boundary_problem.h>
+#include <quoin/results/atomic_file.h>
+#include <quoin/results/checkpoint.h>
+#include <quoin/results/json_file.h>
+
+#include <nlohmann/json.hpp>
+
+namespace quoin
+{
+  Run::Run(const Parameters &parameters, const RunOptions &options,
+           const MPI_Comm communicator)
+    : parameters(parameters), options(options), communicator(communicator),
+      output(parameters.output_directory),
+      log(dealii::Utilities::MPI::this_mpi_process(communicator) == 0,
+          options.quiet),
+      progress(log),
+      tables(output, communicator), context{ options, communicator, output,
+                                             log,     progress,     tables },
+      checkpoint_clock(parameters.checkpoint_interval, communicator)
+  {
+  }
+
+  void Run::run()
+  {
+    if (parameters.is_boundary_model)
+      problem = std::make_unique<BoundaryProblem>(parameters, context);
+    else
+      problem = std::make_unique<BlockProblem>(parameters, context);
+    problem->report();
+    if (options.check)
+      return;
+    open_outputs();
+    if (is_over())
+    {
+      log.message("the run had finished: nothing is left to do");
+      return;
+    }
+    checkpoint_clock.restart();
+    if (options.resume)
+      problem->resume(stage, stage_begun);
+    while (!is_over())
+      run_stage();
+  }
+
+  void Run::open_outputs()
+  {
+    all_or_none<InputError>(communicator,
+                            [&]()
+                            {
+                              if (context.is_first_rank())
+                                take_output(output, options.resume, lock);
+                            });
+    CheckpointInfo info;
+    if (options.resume)
+      info = load_checkpoint_archives(
+          output, communicator, QUOIN_VERSION, problem->fingerprint(),
+          [&](std::streambuf &buffer)
+          {
+            boost::archive::binary_iarchive archive(buffer);
+            archive_progress(archive);
+            problem->load(archive);
+          });
+    all_or_none<RunError>(communicator, [&]()
+                          { log.open(output + "/log.txt", options.resume); });
+    if (options.resume)
+      log.message("resumed at time " + number_text(info.time) + " s, step "
+                  + std::to_string(info.step));
+    tables.open(options.resume);
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (context.is_first_rank())
+                              write_text(output + "/used_parameters.prm",
+                                         parameters.effective);
+                          });
+    problem->open_outputs();
+  }
+
+  bool Run::is_over() const
+  {
+    return stage == problem->n_stages();
+  }
+
+  void Run::run_stage()
+  {
+    if (!stage_begun)
+      problem->begin_stage(stage);
+    stage_begun = true;
+    progress.start(problem->progress_figures());
+    while (!problem->stage_is_over())
+      take_step();
+    progress.finish(problem->progress_figures());
+    problem->end_stage();
+    stage_begun = false;
+    ++stage;
+    // Before the checkpoint, after which there is nothing to resume.
+    write_summary();
+    save_checkpoint();
+  }
+
+  void Run::take_step()
+  {
+    const auto start = WallClock::now();
+    const auto count = [&]()
+    {
+      const double passed = seconds_since(start);
+      wall_time += passed;
+      seconds += passed;
+    };
+    Problem::Checkpoint checkpoint{};
+    try
+    {
+      checkpoint = problem->take_step();
+    }
+    catch (const FailedStep &)
+    {
+      count();
+      write_summary();
+      save_checkpoint();
+      throw;
+    }
+    count();
+    if (progress.due())
+      progress.update(problem->progress_figures());
+    if (checkpoint == Problem::Checkpoint::wanted
+        || (checkpoint == Problem::Checkpoint::possible
+            && checkpoint_clock.is_due()))
+      save_checkpoint();
+  }
+
+  void Run::write_summary()
+  {
+    nlohmann::json summary
+        = { { "title", parameters.title },
+            { "version", QUOIN_VERSION },
+            { "finished", is_over() },
+            { "ranks", dealii::Utilities::MPI::n_mpi_processes(communicator) },
+            { "wall time [s]", wall_time } };
+    problem->summarise(summary, seconds);
+    all_or_none<RunError>(communicator,
+                          [&]()
+                          {
+                            if (context.is_first_rank())
+                              write_json(output + "/summary.json", summary);
+                          });
+    if (is_over())
+      problem->report_end(summary);
+  }
+
+  template <typename Archive>
+  void Run::archive_progress(Archive &archive)
+  {
+    archive &stage &stage_begun &wall_time &tables;
+  }
+
+  void Run::save_checkpoint()
+  {
+    problem->complete_state();
+    tables.sync();
+    const ProgressFigures figures = problem->progress_figures();
+    save_checkpoint_archives(
+        output, communicator,
+        { figures.step, figures.time, QUOIN_VERSION, problem->fingerprint() },
+        [&](std::streambuf &buffer)
+        {
+          boost::archive::binary_oarchive archive(buffer);
+          archive_progress(archive);
+          problem->save(archive);
+        });
+    checkpoint_clock.restart();
+  }
+} // namespace quoin

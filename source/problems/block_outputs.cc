@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/number_text.h>
+#include <quoin/mesh/gmsh_reader.h>
+#include <quoin/problems/block_outputs.h>
+#include <quoin/results/atomic_file.h>
+#include <quoin/results/collective.h>
+#include <quoin/results/field_output.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    /**
+     * Energy that boundary elements may seem to have created, by what went
+     * through the model. No domain that was at rest gives energy; the first
+     * moments of a pulse, too short for the elements, may look so by a tenth.
+     * Modes that grow soon owe all they have to the boundary elements.
+     */
+    constexpr double largest_created_share = 0.5;
+
+    const std::vector<std::string> energy_columns
+        = { "time [s]",      "kinetic [J]",  "strain [J]",   "joint [J]",
+            "friction [J]",  "fracture [J]", "crushing [J]", "plastic [J]",
+            "damping [J]",   "viscous [J]",  "contact [J]",  "radiated [J]",
+            "far field [J]", "external [J]", "residual [J]" };
+
+    Histories make_histories(const BlockSystem &system)
+    {
+      const Parameters &parameters = system.parameters;
+      try
+      {
+        return Histories(parameters.histories, *system.model, *system.solver,
+                         system.boundary_geometry, parameters.boundary,
+                         system.construction->absent_in_the_end());
+      }
+      catch (const InputError &error)
+      {
+        throw InputError(parameters.file + ", " + error.what());
+      }
+    }
+  } // namespace
+
+  BlockOutputs::BlockOutputs(BlockSystem &system, const RunContext &context)
+    : system(system), context(context), histories(make_histories(system)),
+      history_control(system.parameters.history_interval),
+      field_control(system.parameters.field_interval > 0.
+                        ? system.parameters.field_interval
+                        : -1.),
+      history_table(
+          context.tables.add("histories.csv", histories.column_names())),
+      energy_table(context.tables.add("energies.csv", energy_columns)),
+      blocks(context.output, context.communicator),
+      joints(context.output, context.communicator),
+      contacts(context.output, context.communicator, "contacts"),
+      boundary(context.output, MPI_COMM_SELF)
+  {
+    if (system.solver->far_field())
+      far_field_table = &context.tables.add(
+          "far_field.csv",
+          { "time [s]", "steps [-]", "radiated [J]", "substeps [J]",
+            "incident [J]", "given [J]", "mismatch [-]" });
+    if (system.implicit_solver)
+      convergence_table = &context.tables.add(
+          "convergence.csv", { "step [-]", "attempt [-]", "iteration [-]",
+                               "load time [s]", "unbalanced ratio [-]",
+                               "line search [-]", "linear iterations [-]" });
+  }
+
+  void BlockOutputs::open()
+  {
+    all_or_none<RunError>(context.communicator,
+                          [&]()
+                          {
+                            if (!context.is_first_rank())
+                              return;
+                            if (system.solver->far_field())
+                              boundary.start();
+                            if (!context.options.resume)
+                              write_generated_geometry();
+                          });
+    blocks.start();
+    joints.start();
+    if (system.solver->contacts())
+      contacts.start();
+  }
+
+  void BlockOutputs::write_generated_geometry() const
+  {
+    const GeneratedGeometry &made = system.parameters.generated;
+    if (made.geometry.empty())
+      return;
+    const std::string begin = context.output + "/" + made.name;
+    write_text(begin + ".geo", made.geometry);
+    if (!made.statistics.empty())
+      write_text(begin + "_statistics.csv", made.statistics);
+    write_gmsh_mesh(begin + ".geo", begin + ".msh",
+                    system.parameters.triangles);
+  }
+
+  std::size_t BlockOutputs::n_columns() const
+  {
+    return energy_columns.size() + histories.column_names().size();
+  }
+
+  void BlockOutputs::write_row(const State<2> &state)
+  {
+    const auto row = histories.after_step(state);
+    write_energies(row.front());
+    history_table.add_row(row);
+    if (far_field_table)
+      write_far_field_row(state);
+  }
+
+  void BlockOutputs::write_energies(const double time)
+  {
+    const Energies &energies       = system.solver->energies();
+    const EnergyAccounts &accounts = energies.accounts;
+    most_residual = std::max(most_residual, std::abs(energies.residual()));
+    energy_table.add_row({ time, energies.kinetic, energies.strain,
+                           energies.joint, accounts.friction, accounts.fracture,
+                           accounts.crushing, accounts.plastic,
+                           accounts.damping, accounts.viscous, accounts.contact,
+                           accounts.radiated, energies.far_field,
+                           accounts.external, energies.residual() });
+  }
+
+  void BlockOutputs::write_far_field_row(const State<2> &state)
+  {
+    const FarField::Ledger ledger = system.solver->far_field()->ledger(state);
+    const double taken            = ledger.radiated + ledger.given;
+    largest_throughput            = std::max(
+                   { largest_throughput, std::abs(ledger.radiated), std::abs(ledger.given),
+                     system.solver->energies().throughput() });
+    if (taken < -largest_created_share * largest_throughput)
+      throw RunError("the boundary elements have created energy, "
+                     + number_text(-taken) + " J of "
+                     + number_text(largest_throughput)
+                     + " J that went through the model: their discrete "
+                       "impedance is not passive. Change 'Step ratio' or "
+                       "'Formulation' in section 'Boundary elements' until the "
+                       "passivity scan finds nothing, or damp the blocks.");
+    far_field_table->add_row(
+        { state.time, double(state.far_field.n_steps), ledger.radiated,
+          ledger.substeps, ledger.incident, ledger.given, ledger.mismatch });
+  }
+
+  void BlockOutputs::write_iterations()
+  {
+    for (const IterationReport &report : system.implicit_solver->take_reports())
+      convergence_table->add_row({ double(report.step), double(report.attempt),
+                                   double(report.iteration), report.load_time,
+                                   report.unbalanced_ratio, report.line_search,
+                                   report.linear_iterations });
+  }
+
+  void BlockOutputs::write_fields(const State<2> &state)
+  {
+    if (state.time == fields_time)
+      return;
+    fields_time = state.time;
+    // Histories are those of the step before.
+    State<2> now = state;
+    system.solver->update_histories(now);
+    blocks.write(state.time, block_fields(*system.model, now));
+    joints.write(state.time, joint_fields(*system.model, now));
+    if (const BlockContacts *all = system.solver->contacts())
+      contacts.write(state.time, contact_fields(*all, now));
+    if (system.solver->far_field())
+      write_boundary(state);
+    context.tables.flush();
+  }
+
+  void BlockOutputs::write_boundary(const State<2> &state)
+  {
+    if (!system.solver->far_field_acts() || !state.far_field.active)
+      return;
+    const BoundaryState fields
+        = boundary_state(*system.solver->far_field(), state);
+    all_or_none<RunError>(
+        context.communicator,
+        [&]()
+        {
+          if (context.is_first_rank())
+            boundary.write(state.time,
+                           boundary_fields(system.boundary_geometry, fields));
+        });
+  }
+
+  void BlockOutputs::write_mechanism(const State<2> &state,
+                                     const State<2> &base, const double factor)
+  {
+    State<2> now = state;
+    system.solver->update_histories(now);
+    BlockFields fields = block_fields(*system.model, now);
+    // Of the blocks that are left.
+    State<2> begin          = base;
+    begin.block_marks       = now.block_marks;
+    const BlockFields start = block_fields(*system.model, begin);
+    for (std::size_t i = 0; i < fields.position.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        fields.position[i][d] += start.displacement[i][d];
+        fields.displacement[i][d] -= start.displacement[i][d];
+      }
+    const std::string folder = context.output + "/mechanism";
+    BlockOutput block_series(folder, context.communicator);
+    block_series.start();
+    block_series.write(factor, fields);
+    JointOutput joint_series(folder, context.communicator);
+    joint_series.start();
+    joint_series.write(factor, joint_fields(*system.model, now));
+    if (const BlockContacts *all = system.solver->contacts())
+    {
+      JointOutput contact_series(folder, context.communicator, "contacts");
+      contact_series.start();
+      contact_series.write(factor, contact_fields(*all, now));
+    }
+  }
+} // namespace quoin
