@@ -41,9 +41,9 @@ namespace quoin
     prm.declare_entry("New contacts between", "", Anything(),
                       "Pairs a:b of materials between which contacts that "
                       "come up while blocks move follow this set, or 'all': "
-                      "the pairs that no other set names. They are born "
-                      "failed, that is with the residual strength. For large "
-                      "displacements; such a set needs no curve.");
+                      "the pairs that no other set names. They start at "
+                      "residual strength. For large displacements; such a "
+                      "set needs no curve.");
     LawEntries::all().declare(prm);
   }
 

@@ -198,8 +198,8 @@ namespace quoin
               bytes
               / dealii::Utilities::MPI::n_mpi_processes(run.communicator)),
           run.communicator);
-      const double used = rate(bytes * double(context.n_done));
-      summary["memory bandwidth [B/s]"]    = measured;
+      const double used                 = rate(bytes * double(context.n_done));
+      summary["memory bandwidth [B/s]"] = measured;
       summary["share of memory bandwidth"] = used / measured;
     }
   }

@@ -27,7 +27,7 @@ namespace quoin
     double seconds_of_march(BoundarySystem &system)
     {
       TimeMarching trial(*system.kernel, *system.history,
-                          system.given->traction_is_given());
+                         system.given->traction_is_given());
       std::uint64_t step = 0;
       return double(system.n_steps)
              * seconds_per_call(

@@ -228,7 +228,7 @@ namespace quoin
   {
     const std::size_t size = system.geometry.boundary.n_unknowns();
     march = std::make_unique<TimeMarching>(*system.kernel, *system.history,
-                                            system.given->traction_is_given());
+                                           system.given->traction_is_given());
     if (state.step > 0)
     {
       system.history->restore(state.history);

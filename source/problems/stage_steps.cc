@@ -161,17 +161,10 @@ namespace quoin
         "boundary elements: time step " + number_text(far.time_step()) + " s, "
         + std::to_string(far.n_substeps()) + " block steps, "
         + step_ratio_text(domain, far.domain().medium, far.time_step()));
-<<<<<<< HEAD:source/problems/simulation_far_field.cc
-    passivity = passivity_of(far.influence_kernel(), far.boundary_history(),
-                             domain, far.domain().medium,
-                             far.domain().formulation, far.time_step(),
-                             parameters.boundary.n_frequencies, communicator);
-=======
     const auto passivity = passivity_of(
-        far.influence_kernel(), far.boundary_history(), domain, far.domain().medium,
-        far.domain().formulation, far.time_step(),
+        far.influence_kernel(), far.boundary_history(), domain,
+        far.domain().medium, far.domain().formulation, far.time_step(),
         parameters.boundary.n_frequencies, system.communicator);
->>>>>>> 1337f44:source/problems/stage_steps.cc
     if (passivity)
       log.message(passivity->advice());
   }

@@ -93,7 +93,7 @@ namespace quoin
     /** Of each segment, two points: it is a general contact by now. */
     AlignedArray<std::uint8_t> handed_over;
 
-    void resize(const std::size_t n, const unsigned int n_internal)
+    void resize(const std::size_t n, const unsigned int n_internal = 0)
     {
       this->n_internal = n_internal;
       internal.resize(n * n_internal, 0.);

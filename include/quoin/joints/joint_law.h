@@ -8,6 +8,7 @@
 #include <quoin/joints/composite_law.h>
 #include <quoin/joints/continuously_yielding_law.h>
 #include <quoin/joints/coulomb_law.h>
+#include <quoin/joints/slip_weakening_law.h>
 
 #include <algorithm>
 #include <array>
@@ -41,7 +42,7 @@ namespace quoin
    * is lost by it, and are templates of the law below that.
    */
   using JointLaw = std::variant<CoulombLaw, CompositeLaw, BartonBandisLaw,
-                                ContinuouslyYieldingLaw>;
+                                ContinuouslyYieldingLaw, SlipWeakeningLaw>;
 
   /** Calls @p use with a null pointer to each law of JointLaw, in order. */
   template <typename Use, typename... Laws>

@@ -7,6 +7,7 @@
 
 #include <quoin/joints/composite_law.h>
 #include <quoin/joints/coulomb_law.h>
+#include <quoin/joints/slip_weakening_law.h>
 
 #include <gtest/gtest.h>
 
@@ -60,6 +61,19 @@ namespace
     CompositeLaw closing = composite_test::dilatant();
     closing.cracks_close = true;
     return { composite_test::wall(), composite_test::dilatant(), closing };
+  }
+
+  SlipWeakeningLaw fault()
+  {
+    SlipWeakeningLaw law;
+    law.normal_stiffness  = 8e9;
+    law.shear_stiffness   = 3e9;
+    law.cohesion          = 0.5e6;
+    law.residual_cohesion = 0.1e6;
+    law.friction          = 0.7;
+    law.residual_friction = 0.4;
+    law.weakening_slip    = 5e-3;
+    return law;
   }
 
   double total(const JointDissipation &lost)
@@ -262,6 +276,7 @@ namespace
 TEST(SlipVector, IsotropicLaws)
 {
   expect_isotropic(dilatant_coulomb(), random_path(-1e-3, 1e-4, 4e-3));
+  expect_isotropic(fault(), random_path(-1e-3, 1e-4, 4e-3));
   for (const CompositeLaw &law : composite_laws())
     expect_isotropic(law, random_path(-1e-4, 2e-5, 2e-4));
 }
@@ -270,15 +285,17 @@ TEST(SlipVector, StraightPathsAreThoseOfTwoDimensions)
 {
   expect_as_in_two_dimensions(dilatant_coulomb(),
                               random_path(-1e-3, 1e-4, 4e-3));
+  expect_as_in_two_dimensions(fault(), random_path(-1e-3, 1e-4, 4e-3));
   for (const CompositeLaw &law : composite_laws())
     expect_as_in_two_dimensions(law, random_path(-1e-4, 2e-5, 2e-4));
 }
 
 TEST(SlipVector, EnergyAlongARandomPath)
 {
-  // Closed all the way: what a step makes of the kink where a Coulomb joint
-  // opens is left to the residual.
+  // Closed all the way: what a step makes of the kink where a joint opens is
+  // left to the residual.
   expect_balance(dilatant_coulomb(), random_path(-1e-3, -5e-4, 4e-3), 1e-12);
+  expect_balance(fault(), random_path(-1e-3, -1e-4, 4e-3), 1e-12);
   for (const CompositeLaw &law : composite_laws())
     expect_balance(law, random_path(-1e-4, 2e-5, 2e-4), 1e-6);
 }
@@ -286,6 +303,10 @@ TEST(SlipVector, EnergyAlongARandomPath)
 TEST(SlipVector, TangentIsTheDerivative)
 {
   expect_consistent_tangent(dilatant_coulomb(), random_path(-1e-3, 1e-4, 4e-3));
+  SlipWeakeningLaw slow = fault(); // weakens all the way
+  slow.weakening_slip   = 1.;
+  for (const SlipWeakeningLaw &law : { fault(), slow })
+    expect_consistent_tangent(law, random_path(-1e-3, 1e-4, 4e-3));
   for (const CompositeLaw &law : composite_laws())
     expect_consistent_tangent(law, random_path(-1e-4, 2e-5, 2e-4));
 }
