@@ -515,9 +515,7 @@ namespace quoin
       result.position[k]
           = { 0.5 * (a.x + la * a.tangent[0] + b.x + lb * b.tangent[0]),
               0.5 * (a.y + la * a.tangent[1] + b.y + lb * b.tangent[1]) };
-      const auto &nodes   = edges[pair.lower].nodes;
-      const auto &p       = mesh.vertices[nodes[0]];
-      const auto &q       = mesh.vertices[nodes[1]];
+      const auto &[p, q]  = edges[pair.lower].points;
       result.reference[k] = { p[0] + g.lower[k] * (q[0] - p[0]),
                               p[1] + g.lower[k] * (q[1] - p[1]) };
       result.opening[k]   = g.opening[k];

@@ -43,10 +43,9 @@ namespace quoin
     }
   } // namespace
 
-  BlockContacts::BlockContacts(const BlockMesh<2> &mesh,
-                               const NodeExchange &exchange,
+  BlockContacts::BlockContacts(const NodeMap<2> &node_map,
                                const ContactModel &model)
-    : mesh(mesh), exchange(exchange), edges(mesh, model.is_rigid),
+    : node_map(node_map), exchange(node_map.exchange()), edges(node_map),
       parameters(model.parameters), thickness(model.thickness),
       skin(model.parameters.skin), materials(model.materials),
       material_of_group(model.material_of_group)
@@ -191,7 +190,7 @@ namespace quoin
   {
     ContactState &contacts = state.contacts;
     const auto interface   = [&](const unsigned int segment)
-    { return edges.interface_of_face(joints.segment(segment).face); };
+    { return edges.interface_of_face(joint_number(joints, segment)); };
 
     bool changed = false;
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
@@ -203,7 +202,7 @@ namespace quoin
         continue;
       const double limit
           = parameters.handover
-            * edges[edges.edges_of_face(joints.segment(i).face)[0]].length;
+            * edges[edges.edges_of_face(joint_number(joints, i))[0]].length;
       const auto gaps = joints.gaps(state.nodes.data(), i);
       for (const auto &[opening, slip] : gaps)
         if (opening > limit || std::abs(slip) > limit)
@@ -222,8 +221,8 @@ namespace quoin
       const auto &segment = joints.segment(i);
       const auto gaps     = joints.gaps(state.nodes.data(), i);
       ContactPair pair;
-      pair.lower       = edges.edges_of_face(segment.face)[0];
-      pair.upper       = edges.edges_of_face(segment.face)[1];
+      pair.lower       = edges.edges_of_face(joint_number(joints, i))[0];
+      pair.upper       = edges.edges_of_face(joint_number(joints, i))[1];
       pair.set         = segment.set;
       pair.active      = 1;
       pair.was_joint   = 1;
@@ -298,11 +297,11 @@ namespace quoin
   void BlockContacts::search(State<2> &state)
   {
     ContactState &contacts = state.contacts;
-    AlignedArray<std::uint8_t> left_out(mesh.n_blocks());
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+    AlignedArray<std::uint8_t> left_out(node_map.table().n_blocks());
+    for (unsigned int b = 0; b < left_out.size(); ++b)
       left_out[b] = state.is_absent(b);
-    const auto ends = edges_within_reach(mesh, edges, exchange,
-                                         state.nodes.data(), left_out, skin);
+    const auto ends = edges_within_reach(node_map, edges, state.nodes.data(),
+                                         left_out, skin);
 
     std::sort(contacts.pairs.begin(), contacts.pairs.end(),
               [](const ContactPair &a, const ContactPair &b)
@@ -491,7 +490,7 @@ namespace quoin
       std::sort(list->begin(), list->end());
       list->erase(std::unique(list->begin(), list->end()), list->end());
     }
-    reach = std::make_unique<NodeExchange>(exchange.with_ghosts(ghosts));
+    reach = std::make_unique<NodeExchange>(exchange.with_partners(ghosts));
     const auto compact = [&](const unsigned int v) -> unsigned int
     {
       return exchange.owns(v)
@@ -590,21 +589,20 @@ namespace quoin
   void BlockContacts::refuse_speed(const State<2> &state, const double speed,
                                    const double dt) const
   {
-    constexpr unsigned int nowhere = -1;
-    unsigned int first             = nowhere;
+    unsigned int fast = NodeMap<2>::none;
     for (const unsigned int i : boundary_nodes)
     {
       const double *v = state.velocity[i].v;
       if (std::sqrt(v[0] * v[0] + v[1] * v[1]) >= speed)
-        first = std::min(first, exchange.global(i));
+        fast = std::min(fast, i);
     }
-    first = dealii::Utilities::MPI::min(first, exchange.communicator());
-    if (first == nowhere) // the root was rounded otherwise than here
-      first = 0;
-    const auto &p = mesh.vertices[first];
+    dealii::Point<2> p;
+    unsigned int block = 0;
+    if (!node_map.first_point(fast, p, &block)) // the root was rounded
+      p = node_map.point_of_block(block);       // otherwise than here
     std::ostringstream message;
-    message << "block " << mesh.block_of_vertex(first) << ", at rest at ("
-            << p[0] << ", " << p[1] << ") m, moves at " << speed
+    message << "block " << block << ", at rest at (" << p[0] << ", " << p[1]
+            << ") m, moves at " << speed
             << " m/s, that is " << speed * dt << " m a step at time "
             << state.time << " s, step " << state.step
             << ": so fast that it would pass through others, whose skin is "

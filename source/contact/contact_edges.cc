@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
+#include <unordered_map>
 
 namespace quoin
 {
@@ -16,94 +18,143 @@ namespace quoin
     constexpr double straight = 0.1, corner = 0.3;
     /** Sine of the turn below which sides of rigid blocks are straight. */
     constexpr double collinear = 1e-6;
-  } // namespace
 
-  ContactEdges::ContactEdges(const BlockMesh<2> &mesh,
-                             const std::vector<bool> &is_rigid)
-  {
-    const auto add = [&](const unsigned int v0, const unsigned int v1,
-                         const unsigned int cell, const unsigned int interface)
+    /** An edge on the boundary of a block, as its rank knows it. */
+    struct Side
     {
-      ContactEdge edge;
-      edge.nodes     = { v0, v1 };
-      edge.block     = mesh.block_of_cell(cell);
-      edge.group     = mesh.cell_group[cell];
-      edge.previous  = none;
-      edge.next      = none;
-      edge.interface = interface;
-      edge.length    = mesh.vertices[v0].distance(mesh.vertices[v1]);
-      const auto &c  = mesh.cells[cell];
-      const auto e1  = mesh.vertices[c[1]] - mesh.vertices[c[0]];
-      const auto e2  = mesh.vertices[c[2]] - mesh.vertices[c[0]];
-      edge.height    = (e1[0] * e2[1] - e1[1] * e2[0]) / edge.length;
-      edges.push_back(edge);
+      std::array<unsigned int, 2> nodes; /**< global */
+      std::array<dealii::Point<2>, 2> points;
+      unsigned int block, group;
+      double twice_the_area; /**< of the cell behind it [m^2] */
+      unsigned int joint;    /**< JointNodes::number, or none */
+      unsigned int side;     /**< of the joint: 0 lower, 1 upper */
+
+      template <typename Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &nodes &points &block &group &twice_the_area &joint &side;
+      }
     };
 
-    std::map<std::array<unsigned int, 2>, unsigned int> interface_of_blocks;
-    for (const JointFace &face : mesh.joint_faces)
+    std::unordered_map<unsigned int, unsigned int>
+    edges_by_first_node(const std::vector<ContactEdge> &edges)
     {
-      std::array<unsigned int, 2> blocks
-          = { mesh.block_of_cell(face.cells[0]),
-              mesh.block_of_cell(face.cells[1]) };
+      std::unordered_map<unsigned int, unsigned int> result;
+      result.reserve(edges.size());
+      for (unsigned int e = 0; e < edges.size(); ++e)
+        result.emplace(edges[e].nodes[0], e);
+      return result;
+    }
+  } // namespace
+
+  ContactEdges::ContactEdges(const NodeMap<2> &nodes)
+  {
+    // Each rank has the sides of its own cells.
+    std::vector<Side> own;
+    const auto add = [&](const unsigned int a, const unsigned int b,
+                         const unsigned int cell, const unsigned int joint,
+                         const unsigned int side)
+    {
+      const auto &c = nodes.cell(cell);
+      const auto e1 = nodes.point(c[1]) - nodes.point(c[0]);
+      const auto e2 = nodes.point(c[2]) - nodes.point(c[0]);
+      own.push_back({ { nodes.exchange().global(a), nodes.exchange().global(b) },
+                      { nodes.point(a), nodes.point(b) },
+                      nodes.block_of_cell(cell),
+                      nodes.group_of_cell(cell),
+                      e1[0] * e2[1] - e1[1] * e2[0],
+                      joint,
+                      side });
+    };
+    for (const JointNodes<2> &face : nodes.joint_faces())
+    {
+      if (face.is_own[0])
+        add(face.lower[0], face.lower[1], face.cells[0], face.number, 0);
+      if (face.is_own[1])
+        add(face.upper[1], face.upper[0], face.cells[1], face.number, 1);
+    }
+    for (const OuterFace<2> &face : nodes.outer_faces())
+      add(face.nodes[0], face.nodes[1], face.cell, none, 0);
+    std::vector<Side> sides;
+    for (const auto &part :
+         dealii::Utilities::MPI::all_gather(nodes.communicator(), own))
+      sides.insert(sides.end(), part.begin(), part.end());
+
+    // Interfaces are numbered by their first joint.
+    std::vector<std::array<const Side *, 2>> joints(nodes.n_joint_faces());
+    for (const Side &side : sides)
+      if (side.joint != none)
+        joints[side.joint][side.side] = &side;
+    std::map<std::array<unsigned int, 2>, unsigned int> interface_of_blocks;
+    for (const auto &[lower, upper] : joints)
+    {
+      std::array<unsigned int, 2> blocks = { lower->block, upper->block };
       std::sort(blocks.begin(), blocks.end());
       const auto [entry, is_new]
           = interface_of_blocks.emplace(blocks, joint_interfaces.size());
       if (is_new)
         joint_interfaces.push_back({ blocks, false });
       JointInterface &interface = joint_interfaces[entry->second];
-      for (unsigned int k = 0; k < 2; ++k)
-        interface.has_tip = interface.has_tip || face.lower[k] == face.upper[k];
+      // The upper side runs the other way.
+      interface.has_tip = interface.has_tip
+                          || lower->nodes[0] == upper->nodes[1]
+                          || lower->nodes[1] == upper->nodes[0];
       face_interface.push_back(entry->second);
-      add(face.lower[0], face.lower[1], face.cells[0], entry->second);
-      add(face.upper[1], face.upper[0], face.cells[1], entry->second);
     }
-    for (const BlockFace &face : mesh.boundary_faces)
-      add(face.vertices[0], face.vertices[1], face.cell, none);
 
+    for (const Side &side : sides)
+    {
+      ContactEdge edge;
+      edge.nodes    = side.nodes;
+      edge.points   = side.points;
+      edge.block    = side.block;
+      edge.group    = side.group;
+      edge.previous = none;
+      edge.next     = none;
+      edge.interface = side.joint == none ? none : face_interface[side.joint];
+      edge.length   = side.points[0].distance(side.points[1]);
+      edge.height   = side.twice_the_area / edge.length;
+      edges.push_back(edge);
+    }
     std::sort(edges.begin(), edges.end(),
               [](const ContactEdge &a, const ContactEdge &b)
-              { return a.nodes[0] < b.nodes[0]; });
-    link(mesh.n_vertices());
-    if (!is_rigid.empty())
-      merge_straight_sides(mesh, is_rigid);
-    find_corners(mesh);
+              {
+                return std::tie(a.block, a.nodes[0])
+                       < std::tie(b.block, b.nodes[0]);
+              });
+    link();
+    merge_straight_sides(nodes.table().is_rigid);
+    find_corners();
 
-    for (unsigned int b = 0; b <= mesh.n_blocks(); ++b)
+    for (unsigned int b = 0; b <= nodes.table().n_blocks(); ++b)
       block_first_edge.push_back(
           std::partition_point(edges.begin(), edges.end(),
                                [b](const ContactEdge &edge)
                                { return edge.block < b; })
           - edges.begin());
 
-    std::vector<unsigned int> edge_from(mesh.n_vertices(), none);
-    for (unsigned int e = 0; e < edges.size(); ++e)
-      edge_from[edges[e].nodes[0]] = e;
-    for (const JointFace &face : mesh.joint_faces)
+    const auto edge_from = edges_by_first_node(edges);
+    for (const auto &[lower, upper] : joints)
       face_edges.push_back(
-          { edge_from[face.lower[0]], edge_from[face.upper[1]] });
+          { edge_from.at(lower->nodes[0]), edge_from.at(upper->nodes[0]) });
   }
 
-  void ContactEdges::link(const unsigned int n_vertices)
+  void ContactEdges::link()
   {
-    std::vector<unsigned int> edge_from(n_vertices, none);
-    for (unsigned int e = 0; e < edges.size(); ++e)
-      edge_from[edges[e].nodes[0]] = e;
+    const auto edge_from = edges_by_first_node(edges);
     for (unsigned int e = 0; e < edges.size(); ++e)
     {
-      edges[e].next = edge_from[edges[e].nodes[1]];
+      const auto next = edge_from.find(edges[e].nodes[1]);
+      edges[e].next   = next == edge_from.end() ? none : next->second;
       if (edges[e].next != none)
         edges[edges[e].next].previous = e;
     }
   }
 
-  void ContactEdges::merge_straight_sides(const BlockMesh<2> &mesh,
-                                          const std::vector<bool> &is_rigid)
+  void ContactEdges::merge_straight_sides(const std::vector<bool> &is_rigid)
   {
-    const auto direction = [&](const ContactEdge &edge)
-    {
-      return (mesh.vertices[edge.nodes[1]] - mesh.vertices[edge.nodes[0]])
-             / edge.length;
-    };
+    const auto direction = [](const ContactEdge &edge)
+    { return (edge.points[1] - edge.points[0]) / edge.length; };
     const auto goes_on = [&](const ContactEdge &edge)
     {
       if (edge.previous == none || edge.interface != none
@@ -125,16 +176,17 @@ namespace quoin
         const ContactEdge &part = edges[side.next];
         side.length += part.length;
         side.height   = std::min(side.height, part.height);
-        side.nodes[1] = part.nodes[1];
+        side.nodes[1]  = part.nodes[1];
+        side.points[1] = part.points[1];
         side.next     = part.next;
       }
       merged.push_back(side);
     }
     edges = std::move(merged);
-    link(mesh.n_vertices());
+    link();
   }
 
-  void ContactEdges::find_corners(const BlockMesh<2> &mesh)
+  void ContactEdges::find_corners()
   {
     for (ContactEdge &edge : edges)
       for (unsigned int k = 0; k < 2; ++k)
@@ -143,10 +195,8 @@ namespace quoin
         edge.corner[k]           = 1.;
         if (other == none)
           continue;
-        const auto t
-            = mesh.vertices[edge.nodes[1]] - mesh.vertices[edge.nodes[0]];
-        const auto s = mesh.vertices[edges[other].nodes[1]]
-                       - mesh.vertices[edges[other].nodes[0]];
+        const auto t = edge.points[1] - edge.points[0];
+        const auto s = edges[other].points[1] - edges[other].points[0];
         const double turn
             = std::abs(std::atan2(t[0] * s[1] - t[1] * s[0], t * s));
         edge.corner[k]

@@ -59,68 +59,62 @@ namespace quoin
              <= facing_cosine * std::hypot(ax, ay) * std::hypot(bx, by);
     }
 
-    /** xmin, ymin, xmax, ymax of this rank's blocks, of all ranks in turn. */
+    /** xmin, ymin, xmax, ymax of all blocks. */
     std::vector<std::array<double, 4>>
-    boxes_of_blocks(const BlockMesh<2> &mesh, const ContactEdges &edges,
-                    const NodeExchange &exchange, const NodeRecord<2> *nodes)
+    boxes_of_blocks(const NodeMap<2> &node_map, const ContactEdges &edges,
+                    const NodeRecord<2> *nodes)
     {
+      // Upper corners with the other sign: one minimum finds both.
       constexpr double far = std::numeric_limits<double>::max();
-      std::vector<double> own;
-      for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+      std::vector<std::array<double, 4>> boxes(node_map.table().n_blocks(),
+                                               { { far, far, far, far } });
+      for (const BlockPart &part : node_map.block_parts())
       {
-        if (!exchange.owns(mesh.block_first_vertex[b]))
-          continue;
-        std::array<double, 4> box = { far, far, -far, -far };
+        const unsigned int b = part.number;
         for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1);
              ++e)
         {
-          const NodeRecord<2> &node = nodes[exchange.local(edges[e].nodes[0])];
+          const NodeRecord<2> &node
+              = nodes[node_map.exchange().local(edges[e].nodes[0])];
           for (unsigned int d = 0; d < 2; ++d)
           {
-            const double x = node.X[d] + node.u[d];
-            box[d]         = std::min(box[d], x);
-            box[2 + d]     = std::max(box[2 + d], x);
+            const double x  = node.X[d] + node.u[d];
+            boxes[b][d]     = std::min(boxes[b][d], x);
+            boxes[b][2 + d] = std::min(boxes[b][2 + d], -x);
           }
         }
-        own.insert(own.end(), box.begin(), box.end());
       }
-      const MPI_Comm communicator = exchange.communicator();
-      std::vector<int> counts(
-          dealii::Utilities::MPI::n_mpi_processes(communicator));
-      const int count = own.size();
-      MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT,
-                    communicator);
-      std::vector<int> begins(1, 0);
-      for (const int n : counts)
-        begins.push_back(begins.back() + n);
-      std::vector<std::array<double, 4>> all(begins.back() / 4);
-      MPI_Allgatherv(own.data(), count, MPI_DOUBLE, all.data(), counts.data(),
-                     begins.data(), MPI_DOUBLE, communicator);
-      return all;
+      MPI_Allreduce(MPI_IN_PLACE, boxes.data(), 4 * boxes.size(), MPI_DOUBLE,
+                    MPI_MIN, node_map.communicator());
+      for (auto &box : boxes)
+        for (unsigned int d = 2; d < 4; ++d)
+          box[d] = -box[d];
+      return boxes;
     }
 
     /** Blocks of other ranks near those of this one, ascending. */
     std::vector<unsigned int> blocks_within_reach(
-        const BlockMesh<2> &mesh, const ContactEdges &edges,
-        const NodeExchange &exchange, const NodeRecord<2> *nodes,
-        const AlignedArray<std::uint8_t> &left_out, const double skin)
+        const NodeMap<2> &node_map, const ContactEdges &edges,
+        const NodeRecord<2> *nodes, const AlignedArray<std::uint8_t> &left_out, const double skin)
     {
-      const auto boxes  = boxes_of_blocks(mesh, edges, exchange, nodes);
+      const auto boxes  = boxes_of_blocks(node_map, edges, nodes);
       const auto box_of = [&](const unsigned int b, const double margin)
       {
         return Box(Point(boxes[b][0] - margin, boxes[b][1] - margin),
                    Point(boxes[b][2] + margin, boxes[b][3] + margin));
       };
-      const auto is_own = [&](const unsigned int b)
-      { return exchange.owns(mesh.block_first_vertex[b]); };
+      const unsigned int n_blocks = node_map.table().n_blocks();
+      std::vector<bool> is_own(n_blocks, false);
+      for (const BlockPart &part : node_map.block_parts())
+        is_own[part.number] = true;
       std::vector<Entry> entries;
-      for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
-        if (is_own(b) && !left_out[b])
+      for (unsigned int b = 0; b < n_blocks; ++b)
+        if (is_own[b] && !left_out[b])
           entries.emplace_back(box_of(b, skin), b);
       const Tree tree(entries);
       std::vector<unsigned int> result;
-      for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
-        if (!is_own(b) && !left_out[b]
+      for (unsigned int b = 0; b < n_blocks; ++b)
+        if (!is_own[b] && !left_out[b]
             && tree.qbegin(bgi::intersects(box_of(b, 0.))) != tree.qend())
           result.push_back(b);
       return result;
@@ -140,29 +134,28 @@ namespace quoin
   }
 
   std::vector<EdgeEnds>
-  edges_within_reach(const BlockMesh<2> &mesh, const ContactEdges &edges,
-                     const NodeExchange &exchange, const NodeRecord<2> *nodes,
+  edges_within_reach(const NodeMap<2> &node_map, const ContactEdges &edges,
+                     const NodeRecord<2> *nodes,
                      const AlignedArray<std::uint8_t> &left_out,
                      const double skin)
   {
     std::vector<unsigned int> blocks;
     std::vector<unsigned int> ghosts;
-    if (dealii::Utilities::MPI::n_mpi_processes(exchange.communicator()) > 1)
+    if (dealii::Utilities::MPI::n_mpi_processes(node_map.communicator()) > 1)
     {
-      blocks
-          = blocks_within_reach(mesh, edges, exchange, nodes, left_out, skin);
+      blocks = blocks_within_reach(node_map, edges, nodes, left_out, skin);
       for (const unsigned int b : blocks)
         for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1);
              ++e)
           ghosts.push_back(edges[e].nodes[0]);
       std::sort(ghosts.begin(), ghosts.end());
     }
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
-      if (exchange.owns(mesh.block_first_vertex[b]) && !left_out[b])
-        blocks.push_back(b);
+    for (const BlockPart &part : node_map.block_parts())
+      if (!left_out[part.number])
+        blocks.push_back(part.number);
     std::sort(blocks.begin(), blocks.end());
 
-    const NodeExchange reach = exchange.with_ghosts(ghosts);
+    const NodeExchange reach = node_map.exchange().with_partners(ghosts);
     std::vector<NodeRecord<2>> ghost_nodes(ghosts.size());
     reach.update_ghosts(nodes, ghost_nodes.data());
 

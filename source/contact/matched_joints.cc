@@ -18,22 +18,22 @@ namespace quoin
 
     /** The joint set of each line name of the mesh. */
     std::vector<unsigned int>
-    sets_of_lines(const BlockMesh<2> &mesh,
+    sets_of_lines(const std::vector<std::string> &names,
                   const std::vector<JointSetParameters> &sets)
     {
-      std::vector<unsigned int> set_of_line(mesh.line_names.size(), no_set);
+      std::vector<unsigned int> set_of_line(names.size(), no_set);
       for (unsigned int s = 0; s < sets.size(); ++s)
         for (const std::string &curve : sets[s].curves)
         {
           const std::string name = curve == "unnamed" ? "" : curve;
           const auto line
-              = std::find(mesh.line_names.begin(), mesh.line_names.end(), name);
-          if (line == mesh.line_names.end())
+              = std::find(names.begin(), names.end(), name);
+          if (line == names.end())
             throw InputError("section 'Joints/" + sets[s].name
                              + "': the mesh has no physical curve '" + curve
-                             + "'. It has: " + known_names(mesh.line_names)
+                             + "'. It has: " + known_names(names)
                              + ". Correct 'Curves'.");
-          auto &set = set_of_line[line - mesh.line_names.begin()];
+          auto &set = set_of_line[line - names.begin()];
           if (set != no_set)
             throw InputError("section 'Joints/" + sets[s].name + "': curve '"
                              + curve + "' belongs to the set '" + sets[set].name
@@ -42,50 +42,66 @@ namespace quoin
         }
       return set_of_line;
     }
+
+    /** Throws an InputError if a joint face is on a line without set; @p number:
+        the first of this rank. Collective. */
+    void refuse_without_set(const NodeMap<2> &nodes, const unsigned int number)
+    {
+      const unsigned int first
+          = dealii::Utilities::MPI::min(number, nodes.communicator());
+      if (first == nodes.n_joint_faces())
+        return;
+      // Both ranks of a face know the same of it.
+      std::vector<unsigned int> known(3, 0);
+      for (const JointNodes<2> &face : nodes.joint_faces())
+        if (face.number == first)
+          known = { face.name, face.groups[0], face.groups[1] };
+      dealii::Utilities::MPI::max(known, nodes.communicator(), known);
+      const auto &groups = nodes.table().group_names;
+      const std::string line
+          = "'" + nodes.table().face_names[known[0]] + "'";
+      throw InputError(
+          (known[0] == 0 ? std::string("a joint on no named curve")
+                         : "the joint on curve " + line)
+          + " between groups '" + groups[known[1]] + "' and '"
+          + groups[known[2]] + "' belongs to no joint set. Add "
+          + (known[0] == 0 ? "'unnamed'" : line)
+          + " to the 'Curves' of a set in section 'Joints'.");
+    }
   } // namespace
 
-  void MatchedJoints::prepare(const BlockMesh<2> &mesh,
-                              const NodeExchange &exchange,
+  void MatchedJoints::prepare(const NodeMap<2> &nodes,
                               const std::vector<JointSetParameters> &sets,
                               const double thickness)
   {
     set_laws(sets);
     segments.clear();
-    const auto set_of_line = sets_of_lines(mesh, sets);
-    for (unsigned int f = 0; f < mesh.joint_faces.size(); ++f)
+    const BlockTable<2> &table = nodes.table();
+    const auto set_of_line     = sets_of_lines(table.face_names, sets);
+    // The first face without set of all ranks is the one that is named.
+    unsigned int without_set = nodes.n_joint_faces();
+    for (unsigned int f = 0; f < nodes.joint_faces().size(); ++f)
     {
-      const JointFace &face  = mesh.joint_faces[f];
-      const unsigned int set = set_of_line[face.name];
+      const JointNodes<2> &face = nodes.joint_faces()[f];
+      const unsigned int set    = set_of_line[face.name];
       if (set == no_set)
-        throw InputError(
-            (face.name == 0
-                 ? std::string("a joint on no named curve")
-                 : "the joint on curve '" + mesh.line_names[face.name] + "'")
-            + " between groups '" + mesh.group_names[face.groups[0]] + "' and '"
-            + mesh.group_names[face.groups[1]]
-            + "' belongs to no joint set. Add "
-            + (face.name == 0 ? "'unnamed'"
-                              : "'" + mesh.line_names[face.name] + "'")
-            + " to the 'Curves' of a set in section 'Joints'.");
-
-      const int sides
-          = exchange.owns(face.lower[0]) + exchange.owns(face.upper[0]);
-      if (sides == 0)
+      {
+        without_set = std::min(without_set, face.number);
         continue;
+      }
       Segment segment;
       for (unsigned int k = 0; k < 2; ++k)
-      {
-        segment.lower[k] = exchange.local(face.lower[k]);
-        segment.upper[k] = exchange.local(face.upper[k]);
-        segment.area[k]  = mesh.edge_share(face.lower[k]) * thickness
-                          * mesh.vertices[face.lower[0]].distance(
-                              mesh.vertices[face.lower[1]]);
-      }
-      segment.share = 0.5f * sides;
+        segment.area[k]
+            = nodes.face_share(face.lower[k]) * thickness
+              * nodes.point(face.lower[0]).distance(nodes.point(face.lower[1]));
+      segment.lower = face.lower;
+      segment.upper = face.upper;
+      segment.share = 0.5f * (face.is_own[0] + face.is_own[1]);
       segment.set   = set;
       segment.face  = f;
       segments.push_back(segment);
     }
+    refuse_without_set(nodes, without_set);
     std::stable_sort(segments.begin(), segments.end(),
                      [](const Segment &a, const Segment &b)
                      { return a.set < b.set; });

@@ -95,24 +95,22 @@ namespace quoin
   Construction::own_blocks(const std::vector<bool> &groups) const
   {
     std::vector<unsigned int> result;
-    for (unsigned int b = model.first_block();
-         b < model.first_block() + model.n_blocks(); ++b)
-      if (is_in(b, groups))
-        result.push_back(b);
+    for (const BlockPart &part : model.nodes().block_parts())
+      if (is_in(part.number, groups))
+        result.push_back(part.number);
     return result;
   }
 
   bool Construction::is_in(const unsigned int block,
                            const std::vector<bool> &groups) const
   {
-    const BlockMesh<2> &mesh = model.mesh();
-    return groups[mesh.cell_group[mesh.block_first_cell[block]]];
+    return groups[model.table().group[block]];
   }
 
   void Construction::take_away(const Step &step, Solver &solver,
                                State<2> &state) const
   {
-    const BlockMesh<2> &mesh    = model.mesh();
+    const unsigned int n_blocks = model.table().n_blocks();
     const MatchedJoints &joints = model.joints();
     AlignedArray<NodeVector<2>> held(state.nodes.size(),
                                      NodeVector<2>{ { 0., 0. } });
@@ -121,7 +119,8 @@ namespace quoin
     {
       if (model.is_at_absent_block(i, state))
         continue;
-      const JointFace &face = mesh.joint_faces[joints.segment(i).face];
+      const JointNodes<2> &face
+          = model.nodes().joint_faces()[joints.segment(i).face];
       const bool lower      = step.excavate[face.groups[0]];
       const bool upper      = step.excavate[face.groups[1]];
       if (!lower && !upper)
@@ -139,8 +138,8 @@ namespace quoin
                                  * (held[i].v[d] + lost[i].v[d])
                                  * state.velocity[i].v[d];
 
-    state.block_marks.resize(mesh.n_blocks(), block_mark::present);
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+    state.block_marks.resize(n_blocks, block_mark::present);
+    for (unsigned int b = 0; b < n_blocks; ++b)
       if (is_in(b, step.excavate))
         state.block_marks[b] = block_mark::absent;
     const auto blocks = own_blocks(step.excavate);
@@ -165,7 +164,7 @@ namespace quoin
   {
     const MatchedJoints &joints = model.joints();
     const auto blocks           = own_blocks(step.fill);
-    for (unsigned int b = 0; b < model.mesh().n_blocks(); ++b)
+    for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
       if (is_in(b, step.fill))
         state.block_marks[b] = block_mark::present;
     model.forget_initial_stress(step.fill, state.construction);
@@ -175,7 +174,8 @@ namespace quoin
     model.exchange().update_ghosts(state.nodes.data());
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
-      const JointFace &face = model.mesh().joint_faces[joints.segment(i).face];
+      const JointNodes<2> &face
+          = model.nodes().joint_faces()[joints.segment(i).face];
       if ((step.fill[face.groups[0]] || step.fill[face.groups[1]])
           && !model.is_at_absent_block(i, state))
         joints.begin_anew(i, state.nodes.data(), state.joints);

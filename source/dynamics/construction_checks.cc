@@ -42,17 +42,24 @@ namespace quoin
                                    const std::vector<bool> &groups,
                                    const std::string &parameter) const
   {
-    const BlockMesh<2> &mesh = model.mesh();
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
-      for (unsigned int c = mesh.block_first_cell[b];
-           c < mesh.block_first_cell[b + 1]; ++c)
-      {
-        const unsigned int one   = mesh.cell_group[mesh.block_first_cell[b]];
-        const unsigned int other = mesh.cell_group[c];
-        if (groups[one] == groups[other])
-          continue;
-        const std::string &taken = mesh.group_names[groups[one] ? one : other];
-        const std::string &stays = mesh.group_names[groups[one] ? other : one];
+    // The first cell of all ranks that does not go with its block.
+    const NodeMap<2> &nodes         = model.nodes();
+    const BlockTable<2> &table      = model.table();
+    const unsigned int n_groups     = table.group_names.size();
+    std::array<unsigned int, 2> met = { { n_groups, n_groups } };
+    for (unsigned int c = 0; c < nodes.n_cells() && met[0] == n_groups; ++c)
+    {
+      const unsigned int one   = table.group[nodes.block_of_cell(c)];
+      const unsigned int other = nodes.group_of_cell(c);
+      if (groups[one] != groups[other])
+        met = { { groups[one] ? one : other, groups[one] ? other : one } };
+    }
+    met[0] = dealii::Utilities::MPI::min(met[0], nodes.communicator());
+    met[1] = dealii::Utilities::MPI::min(met[1], nodes.communicator());
+    if (met[0] == n_groups)
+      return;
+    const std::string &taken = table.group_names[met[0]];
+    const std::string &stays = table.group_names[met[1]];
         throw InputError(step.where + ": '" + parameter + "' names '" + taken
                          + "', which has no joint to '" + stays
                          + "' beside it: only whole blocks can come and go. "
@@ -60,12 +67,11 @@ namespace quoin
                          + taken + ":" + stays
                          + " to 'Joints between' in section 'Mesh', and their "
                            "joint to a set of section 'Joints'.");
-      }
   }
 
   void Construction::check_presence()
   {
-    const auto &group_names   = model.mesh().group_names;
+    const auto &group_names   = model.table().group_names;
     std::vector<bool> present = model.groups_present_at_start();
     for (Step &step : steps)
     {

@@ -32,7 +32,7 @@ namespace quoin
   {
     const NodeExchange &exchange = model.exchange();
     if (model.large_displacements())
-      block_contacts = std::make_unique<BlockContacts>(model.mesh(), exchange,
+      block_contacts = std::make_unique<BlockContacts>(model.nodes(),
                                                        model.contact_model());
     force.assign(exchange.n_local(), NodeVector<2>{ { 0., 0. } });
     viscous_force.assign(exchange.n_local(), NodeVector<2>{ { 0., 0. } });
@@ -211,7 +211,9 @@ namespace quoin
     state.energy.external
         += 0.5 * context.dt_before
            * release.power(state.load_time, state.velocity.data());
-    for (unsigned int i = model.exchange().n_owned();
+    // What acts on partners is their owners' affair.
+    for (unsigned int i
+         = model.exchange().n_owned() + model.exchange().n_shared();
          i < model.exchange().n_local(); ++i)
       force[i] = viscous_force[i] = NodeVector<2>{ { 0., 0. } };
     for (const NodeRange &range : removed_nodes)
@@ -243,6 +245,7 @@ namespace quoin
                               unused.data());
     state.energy.plastic
         += model.blocks().update(state.nodes.data(), state.plastic);
+    model.exchange().update_ghosts(state.velocity.data());
   }
 
   void ExplicitSolver::capture(CapturedNode &node, const State<2> &state) const
@@ -257,6 +260,22 @@ namespace quoin
     node.velocity = state.velocity[node.node];
   }
 
+  void ExplicitSolver::add_shared_forces(AlignedArray<NodeVector<2>> &values)
+  {
+    const NodeExchange &exchange = model.exchange();
+    exchange.add_to_owners(values.data());
+    const auto begin = values.begin() + exchange.n_owned();
+    std::fill(begin, begin + exchange.n_shared(), NodeVector<2>{ { 0., 0. } });
+  }
+
+  void ExplicitSolver::find_applied_force()
+  {
+    AlignedArray<NodeVector<2>> total = force;
+    model.exchange().add_to_owners(total.data());
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      applied_force += norm(total[i]);
+  }
+
   void ExplicitSolver::advance_blocks(State<2> &state,
                                       const StepContext &context,
                                       const Requests &requests)
@@ -269,46 +288,55 @@ namespace quoin
 
     applied_force = unbalanced_force = 0.;
     if (requests.balance)
-      for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
-        applied_force += norm(force[i]);
+      find_applied_force();
 
     const auto advance = stage.damping == DampingType::adaptive
                              ? advance_nodes_damped<true, 2>
                              : advance_nodes_damped<false, 2>;
     DampingWork work;
+    const auto advance_range
+        = [&](const NodeRange &range, const unsigned int first_captured,
+              const unsigned int last_captured)
+    {
+      for (unsigned int c = first_captured; c < last_captured; ++c)
+        capture(captured[c], state);
+      if (requests.balance)
+        for (std::size_t i = range.begin; i < range.end; ++i)
+          if (inverse_mass[i] > 0.)
+            unbalanced_force += norm(force[i]);
+      if (!damped)
+        return advance_nodes(
+            range.begin, range.end, state.nodes.data(), state.velocity.data(),
+            force.data(), inverse_mass.data(), context.dt_velocity, context.dt);
+      const DampingWork w = advance(range.begin, range.end, state.nodes.data(),
+                                    state.velocity.data(), force.data(),
+                                    viscous_force.data(), moving_mass.data(),
+                                    inverse_mass.data(), factors, context.dt);
+      work.before += w.before;
+      work.after += w.after;
+      work.mass_power += w.mass_power;
+      work.kinetic_change += w.kinetic_change;
+    };
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
     {
-      const NodeRange range = blocks.tile_nodes(tile);
       state.energy.plastic += blocks.add_forces(tile, state.nodes.data(),
                                                 state.plastic, force.data());
       if (viscous)
         blocks.add_viscous_forces(
             tile, state.nodes.data(), state.velocity.data(),
             stage.stiffness_coefficient, viscous_force.data());
-      for (unsigned int c = captured_begin[tile]; c < captured_begin[tile + 1];
-           ++c)
-        capture(captured[c], state);
-      if (requests.balance)
-        for (std::size_t i = range.begin; i < range.end; ++i)
-          if (inverse_mass[i] > 0.)
-            unbalanced_force += norm(force[i]);
-
-      if (damped)
-      {
-        const DampingWork w = advance(
-            range.begin, range.end, state.nodes.data(), state.velocity.data(),
-            force.data(), viscous_force.data(), moving_mass.data(),
-            inverse_mass.data(), factors, context.dt);
-        work.before += w.before;
-        work.after += w.after;
-        work.mass_power += w.mass_power;
-        work.kinetic_change += w.kinetic_change;
-      }
-      else
-        advance_nodes(range.begin, range.end, state.nodes.data(),
-                      state.velocity.data(), force.data(), inverse_mass.data(),
-                      context.dt_velocity, context.dt);
+      advance_range(blocks.tile_nodes(tile), captured_begin[tile],
+                    captured_begin[tile + 1]);
     }
+
+    // Nodes of blocks that are distributed over ranks, once all forces on them
+    // are there.
+    add_shared_forces(force);
+    if (viscous)
+      add_shared_forces(viscous_force);
+    advance_range(
+        { model.nodes().first_shared_node(), model.n_deformable_nodes() },
+        captured_begin[blocks.n_tiles()], captured_begin[blocks.n_tiles() + 1]);
 
     for (unsigned int c = captured_begin.back(); c < captured.size(); ++c)
       capture(captured[c], state);

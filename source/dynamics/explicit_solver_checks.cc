@@ -18,12 +18,11 @@ namespace quoin
       for (const auto &constraint : all_constraints)
         if (names_load(all_stages[i], constraint->name()))
           moving.push_back(constraint.get());
-    moved_blocks.assign(model.n_blocks(), false);
+    const NodeMap<2> &nodes = model.nodes();
+    moved_blocks.assign(nodes.block_parts().size(), false);
     for (const NodeConstraint *constraint : moving)
       for (const unsigned int node : constraint->nodes())
-        moved_blocks[model.mesh().block_of_vertex(model.exchange().global(node))
-                     - model.first_block()]
-            = true;
+        moved_blocks[nodes.find_part(nodes.block_of_node(node))] = true;
   }
 
   void ExplicitSolver::hold_removed_blocks(const State<2> &state)
@@ -31,11 +30,11 @@ namespace quoin
     removed_nodes.clear();
     if (state.block_marks.empty())
       return;
-    const unsigned int n_deformable
-        = model.n_blocks() - model.rigid_blocks().n_blocks();
-    for (unsigned int i = 0; i < model.n_blocks(); ++i)
+    const auto &parts               = model.nodes().block_parts();
+    const unsigned int n_deformable = model.nodes().n_deformable_block_parts();
+    for (unsigned int i = 0; i < parts.size(); ++i)
     {
-      const unsigned int b = model.first_block() + i;
+      const unsigned int b = parts[i].number;
       if (!state.is_absent(b))
         continue;
       removed_nodes.push_back(model.block_nodes(b));
@@ -75,8 +74,7 @@ namespace quoin
         model.joints().let_go(i, state.joints);
     std::vector<unsigned int> blocks;
     for (const BlockOutside &block : found)
-      if (block.removed && block.block >= model.first_block()
-          && block.block < model.first_block() + model.n_blocks())
+      if (block.removed && model.block_nodes(block.block).size() > 0)
         blocks.push_back(block.block);
     energy += stop_blocks(blocks, state);
     for (const unsigned int block : blocks)
@@ -104,7 +102,7 @@ namespace quoin
     for (const unsigned int block : blocks)
     {
       const NodeRange range = model.block_nodes(block);
-      const bool is_rigid   = model.is_rigid()[block];
+      const bool is_rigid   = model.table().is_rigid[block];
       for (std::size_t i = range.begin; i < range.end; ++i)
         for (unsigned int d = 0; d < 2; ++d)
         {
@@ -114,11 +112,7 @@ namespace quoin
           v = 0.;
         }
       if (is_rigid)
-        std::fill_n(state
-                        .rigid_blocks[block - model.first_block()
-                                      - (model.n_blocks() - rigid.n_blocks())]
-                        .velocity,
-                    3, 0.);
+        std::fill_n(state.rigid_blocks[model.rigid_number(block)].velocity, 3, 0.);
     }
     std::fill(force.begin(), force.end(), NodeVector<2>{ { 0., 0. } });
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);

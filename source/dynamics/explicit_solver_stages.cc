@@ -7,7 +7,6 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
-#include <quoin/mesh/mesh_size.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,9 +132,10 @@ namespace quoin
           std::lower_bound(nodes.begin(), nodes.end(),
                            model.blocks().tile_nodes(tile).begin)
           - nodes.begin());
-    captured_begin.push_back(
-        std::lower_bound(nodes.begin(), nodes.end(), model.n_deformable_nodes())
-        - nodes.begin());
+    for (const unsigned int first :
+         { model.nodes().first_shared_node(), model.n_deformable_nodes() })
+      captured_begin.push_back(
+          std::lower_bound(nodes.begin(), nodes.end(), first) - nodes.begin());
 
     moving_mass = mass;
     inverse_mass.resize(mass.size());
@@ -167,7 +167,7 @@ namespace quoin
                          "rigid. Give a time in which forces may be let go "
                          "without shaking the blocks.");
     // Masses that are added slow waves down.
-    return 2. * diagonal(model.mesh()) / slowest * std::sqrt(1. + added_mass);
+    return 2. * model.nodes().diagonal() / slowest * std::sqrt(1. + added_mass);
   }
 
   void ExplicitSolver::begin_stage(const StageParameters &new_stage,

@@ -12,16 +12,15 @@ namespace quoin
 {
   void ExplicitSolver::account_for_initial_motion(State<2> &state) const
   {
-    unsigned int moved = -1;
+    unsigned int moved = NodeMap<2>::none;
     for (unsigned int i = model.n_deformable_nodes();
-         i < model.exchange().n_owned() && moved == -1U; ++i)
+         i < model.exchange().n_owned() && moved == NodeMap<2>::none; ++i)
       for (unsigned int d = 0; d < 2; ++d)
         if (state.nodes[i].u[d] != 0. || state.velocity[i].v[d] != 0.)
-          moved = model.exchange().global(i);
-    moved = dealii::Utilities::MPI::min(moved, communicator);
-    if (moved != -1U)
+          moved = i;
+    dealii::Point<2> p;
+    if (model.nodes().first_point(moved, p))
     {
-      const auto &p = model.mesh().vertices[moved];
       std::ostringstream message;
       message << "section 'Initial motion': it moves the rigid block at ("
               << p[0] << ", " << p[1]

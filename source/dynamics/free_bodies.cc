@@ -4,7 +4,6 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/free_bodies.h>
 #include <quoin/loads/platen.h>
-#include <quoin/mesh/mesh_size.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -84,8 +83,7 @@ namespace quoin
               += gram[Gram::unrolled_to_component_indices(k)];
       }
 
-      const BlockMesh<2> &mesh;
-      const NodeExchange &exchange;
+      const NodeMap<2> &nodes;
       const unsigned int n;
       const dealii::Point<2> origin;
       const double size;
@@ -98,8 +96,8 @@ namespace quoin
     Bodies::Bodies(const Model &model,
                    const std::vector<NodeConstraint *> &constraints,
                    const State<2> &state, const bool with_drag)
-      : mesh(model.mesh()), exchange(model.exchange()), n(mesh.n_blocks()),
-        origin(mesh.vertices[0]), size(size_from_first_vertex(mesh)),
+      : nodes(model.nodes()), n(nodes.table().n_blocks()),
+        origin(nodes.table().box[0]), size(nodes.diagonal()),
         entries(6 * n, 0.), rank(n), parent(n),
         sets(rank.data(), parent.data()), grams(n)
     {
@@ -115,7 +113,7 @@ namespace quoin
         if (constraint->is_global())
           add_platen(*constraint, holds);
       }
-      dealii::Utilities::MPI::sum(entries, exchange.communicator(), entries);
+      dealii::Utilities::MPI::sum(entries, nodes.communicator(), entries);
       add_joints(state);
       for (unsigned int b = 0; b < n; ++b)
         for (unsigned int k = 0; k < 6; ++k)
@@ -138,8 +136,7 @@ namespace quoin
     {
       for (const unsigned int node : constraint.nodes())
       {
-        const unsigned int v = exchange.global(node);
-        const auto r         = arm(mesh.vertices[v]);
+        const auto r = arm(nodes.point(node));
         Gram gram;
         if (holds[0])
           add_row(gram, 1., 0., -r[1]);
@@ -147,7 +144,7 @@ namespace quoin
           add_row(gram, 0., 1., r[0]);
         if (holds[2])
           add_row(gram, 0., 0., 1.);
-        add(mesh.block_of_vertex(v), gram);
+        add(nodes.block_of_node(node), gram);
       }
     }
 
@@ -156,13 +153,13 @@ namespace quoin
     {
       std::set<unsigned int> blocks;
       for (const unsigned int node : constraint.nodes())
-        blocks.insert(mesh.block_of_vertex(exchange.global(node)));
+        blocks.insert(nodes.block_of_node(node));
       const unsigned int first = dealii::Utilities::MPI::min(
-          blocks.empty() ? n : *blocks.begin(), exchange.communicator());
+          blocks.empty() ? n : *blocks.begin(), nodes.communicator());
       std::vector<unsigned int> member(n, 0);
       for (const unsigned int block : blocks)
         member[block] = 1;
-      dealii::Utilities::MPI::max(member, exchange.communicator(), member);
+      dealii::Utilities::MPI::max(member, nodes.communicator(), member);
       for (unsigned int block = 0; block < n; ++block)
         if (member[block])
           sets.union_set(block, first);
@@ -170,7 +167,7 @@ namespace quoin
         return;
       Gram gram;
       const auto r
-          = arm(mesh.vertices[exchange.global(constraint.nodes().front())]);
+          = arm(nodes.point(constraint.nodes().front()));
       if (holds[0])
         add_row(gram, 1., 0., -r[1]);
       if (holds[1])
@@ -180,13 +177,9 @@ namespace quoin
 
     void Bodies::add_joints(const State<2> &state)
     {
-      for (const JointFace &face : mesh.joint_faces)
-      {
-        const unsigned int a = mesh.block_of_vertex(face.lower[0]);
-        const unsigned int b = mesh.block_of_vertex(face.upper[0]);
+      for (const auto &[a, b] : nodes.table().joined)
         if (!state.is_absent(a) && !state.is_absent(b))
           sets.union_set(a, b);
-      }
     }
 
     /** Force x, y [N] and moment over the size [N], and all forces [N]. */
@@ -203,7 +196,6 @@ namespace quoin
                     std::vector<NodeVector<2>> &force,
                     std::vector<double> &sums)
     {
-      const BlockMesh<2> &mesh     = model.mesh();
       const NodeExchange &exchange = model.exchange();
       const unsigned int n         = dealii::Utilities::MPI::sum(
                   unsigned(platen.nodes().size()), exchange.communicator());
@@ -216,7 +208,7 @@ namespace quoin
         for (unsigned int d = 0; d < 2; ++d)
           force[i].v[d] += part[d];
         double *sum
-            = &sums[4 * bodies.body(mesh.block_of_vertex(exchange.global(i)))];
+            = &sums[4 * bodies.body(model.nodes().block_of_node(i))];
         sum[2] += part[2] / bodies.length();
         sum[3] += std::abs(part[2]) / bodies.length();
       }
@@ -227,30 +219,30 @@ namespace quoin
                              const std::vector<const NodalLoad *> &loads,
                              const TimePoint &time)
     {
-      const BlockMesh<2> &mesh     = model.mesh();
+      const NodeMap<2> &nodes      = model.nodes();
+      const unsigned int n_blocks  = nodes.table().n_blocks();
       const NodeExchange &exchange = model.exchange();
       std::vector<NodeVector<2>> force(exchange.n_local(),
                                        NodeVector<2>{ { 0., 0. } });
       for (const NodalLoad *load : loads)
         load->add_forces(time, force.data());
-      std::vector<double> sums(4 * mesh.n_blocks(), 0.);
+      std::vector<double> sums(4 * n_blocks, 0.);
       for (const NodeConstraint *constraint : constraints)
         if (const auto *platen = dynamic_cast<const Platen *>(constraint))
           add_platen(*platen, time, model, bodies, force, sums);
       for (unsigned int i = 0; i < exchange.n_owned(); ++i)
       {
-        const unsigned int v = exchange.global(i);
-        const auto r         = bodies.arm(mesh.vertices[v]);
-        const double *f      = force[i].v;
-        double *sum          = &sums[4 * bodies.body(mesh.block_of_vertex(v))];
+        const auto r    = bodies.arm(nodes.point(i));
+        const double *f = force[i].v;
+        double *sum     = &sums[4 * bodies.body(nodes.block_of_node(i))];
         sum[0] += f[0];
         sum[1] += f[1];
         sum[2] += r[0] * f[1] - r[1] * f[0];
         sum[3] += std::hypot(f[0], f[1]);
       }
       dealii::Utilities::MPI::sum(sums, exchange.communicator(), sums);
-      std::vector<Push> result(mesh.n_blocks());
-      for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+      std::vector<Push> result(n_blocks);
+      for (unsigned int b = 0; b < n_blocks; ++b)
         result[b] = { { { sums[4 * b], sums[4 * b + 1], sums[4 * b + 2] } },
                       sums[4 * b + 3] };
       return result;
@@ -283,35 +275,19 @@ namespace quoin
         along += push.resultant[d] * motion[d];
       return std::abs(along) > least_push * push.total;
     }
-
-    dealii::Point<2> centre_of_block(const BlockMesh<2> &mesh,
-                                     const unsigned int block)
-    {
-      dealii::Point<2> low  = mesh.vertices[mesh.block_first_vertex[block]];
-      dealii::Point<2> high = low;
-      for (unsigned int v = mesh.block_first_vertex[block];
-           v < mesh.block_first_vertex[block + 1]; ++v)
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          low[d]  = std::min(low[d], mesh.vertices[v][d]);
-          high[d] = std::max(high[d], mesh.vertices[v][d]);
-        }
-      return low + 0.5 * (high - low);
-    }
   } // namespace
 
   void check_no_free_bodies(const Model &model,
                             const std::vector<NodeConstraint *> &constraints,
                             const std::string &stage, const State<2> &state)
   {
-    const BlockMesh<2> &mesh = model.mesh();
     Bodies bodies(model, constraints, state, false);
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+    for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
     {
       const auto values = dealii::eigenvalues(bodies.gram(b)); // descending
       if (state.is_absent(b) || values[2] > not_held * values[0])
         continue;
-      const auto &p = mesh.vertices[mesh.block_first_vertex[b]];
+      const auto p = model.nodes().point_of_block(b);
       std::ostringstream message;
       message << "section 'Stages/" << stage << "': block " << b << " at ("
               << p[0] << ", " << p[1]
@@ -329,20 +305,20 @@ namespace quoin
                      const std::vector<const NodalLoad *> &loads,
                      const std::vector<TimePoint> &times, const State<2> &state)
   {
-    const BlockMesh<2> &mesh = model.mesh();
     Bodies bodies(model, constraints, state, true);
-    std::vector<unsigned int> n_blocks(mesh.n_blocks(), 0);
+    std::vector<unsigned int> n_blocks(model.table().n_blocks(), 0);
     std::vector<PushedBody> found;
     std::vector<std::vector<dealii::Tensor<1, 3>>> motions;
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+    for (unsigned int b = 0; b < n_blocks.size(); ++b)
     {
       if (state.is_absent(b) || n_blocks[bodies.body(b)]++ > 0)
         continue;
       const auto motions_of_body = free_motions(bodies.gram(b));
       if (motions_of_body.empty())
         continue;
+      const auto [low, high] = model.nodes().box_of_block(b);
       found.push_back(
-          { b, 0, centre_of_block(mesh, b), motions_of_body.size() == 3 });
+          { b, 0, low + 0.5 * (high - low), motions_of_body.size() == 3 });
       motions.push_back(motions_of_body);
     }
     std::vector<bool> is_pushed(found.size(), false);

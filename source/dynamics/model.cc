@@ -19,50 +19,46 @@ namespace quoin
       return { { p[0], p[1] }, { 0., 0. } };
     }
 
-    Triangle triangle(const BlockMesh<2> &mesh,
-                      const std::array<unsigned int, 3> &cell)
+    Triangle triangle(const NodeMap<2> &nodes, const unsigned int cell)
     {
-      return { at_rest(mesh.vertices[cell[0]]), at_rest(mesh.vertices[cell[1]]),
-               at_rest(mesh.vertices[cell[2]]) };
+      const auto &[i, j, k] = nodes.cell(cell);
+      return { at_rest(nodes.point(i)), at_rest(nodes.point(j)),
+               at_rest(nodes.point(k)) };
     }
   } // namespace
 
-  Model::Model(const BlockMesh<2> &mesh,
-               const std::vector<unsigned int> &rank_of_block,
-               const ModelParameters &parameters, const MPI_Comm communicator)
-    : block_mesh(mesh),
+  Model::Model(const NodeMap<2> &nodes, const ModelParameters &parameters)
+    : node_map(nodes),
       parameters(parameters), now{ parameters.materials, {}, parameters.joints }
   {
     find_materials();
     absent_group = find_groups(parameters.absent_groups, "section 'Stages'");
-    rigid_block  = find_rigid_blocks(mesh, parameters.materials);
-    find_blocks(rank_of_block, communicator);
     find_masses();
     find_initial_stress();
     pack_blocks({});
-    matched_joints.prepare(mesh, *nodes, now.joints, parameters.thickness);
-    if (!mesh.quadratic)
+    matched_joints.prepare(nodes, now.joints, parameters.thickness);
+    if (!table().is_quadratic)
       find_stable_step();
   }
 
   void Model::find_materials()
   {
     constexpr unsigned int none = -1;
-    now.material_of_group.assign(block_mesh.group_names.size(), none);
+    now.material_of_group.assign(table().group_names.size(), none);
     for (unsigned int m = 0; m < now.materials.size(); ++m)
     {
       const auto &material = now.materials[m];
       for (const auto &group : material.groups)
       {
-        const auto found = std::find(block_mesh.group_names.begin(),
-                                     block_mesh.group_names.end(), group);
-        if (found == block_mesh.group_names.end())
+        const auto found = std::find(table().group_names.begin(),
+                                     table().group_names.end(), group);
+        if (found == table().group_names.end())
           throw InputError("section 'Materials/" + material.name
                            + "': the mesh has no physical surface '" + group
-                           + "'. It has: " + known_names(block_mesh.group_names)
+                           + "'. It has: " + known_names(table().group_names)
                            + ". Correct 'Groups'.");
         unsigned int &owner
-            = now.material_of_group[found - block_mesh.group_names.begin()];
+            = now.material_of_group[found - table().group_names.begin()];
         if (owner != none)
           throw InputError("section 'Materials/" + material.name
                            + "': physical surface '" + group + "' is made of '"
@@ -75,7 +71,7 @@ namespace quoin
     {
       if (now.material_of_group[g] == none)
         throw InputError("section 'Materials': physical surface '"
-                         + block_mesh.group_names[g]
+                         + table().group_names[g]
                          + "' has no material. Add it to the 'Groups' of "
                            "one.");
       group_impedance.push_back(impedance_of(
@@ -83,85 +79,42 @@ namespace quoin
     }
   }
 
-  void Model::find_blocks(const std::vector<unsigned int> &rank_of_block,
-                          const MPI_Comm communicator)
-  {
-    const unsigned int rank
-        = dealii::Utilities::MPI::this_mpi_process(communicator);
-    const auto range
-        = std::equal_range(rank_of_block.begin(), rank_of_block.end(), rank);
-    block_begin = range.first - rank_of_block.begin();
-    block_end   = range.second - rank_of_block.begin();
-    rigid_begin = std::find(rigid_block.begin() + block_begin,
-                            rigid_block.begin() + block_end, true)
-                  - rigid_block.begin();
-    AssertThrow(std::find(rigid_block.begin() + rigid_begin,
-                          rigid_block.begin() + block_end, false)
-                    == rigid_block.begin() + block_end,
-                dealii::ExcMessage("Rigid blocks must come last."));
-
-    const unsigned int first = block_mesh.block_first_vertex[block_begin];
-    const unsigned int last  = block_mesh.block_first_vertex[block_end];
-    const auto owned
-        = [&](const unsigned int v) { return v >= first && v < last; };
-
-    std::vector<unsigned int> ghosts;
-    for (const JointFace &face : block_mesh.joint_faces)
-      if (owned(face.lower[0]) != owned(face.upper[0]))
-        for (unsigned int k = 0; k < 2; ++k)
-          ghosts.push_back(owned(face.lower[k]) ? face.upper[k]
-                                                : face.lower[k]);
-    std::sort(ghosts.begin(), ghosts.end());
-    ghosts.erase(std::unique(ghosts.begin(), ghosts.end()), ghosts.end());
-    nodes = std::make_unique<NodeExchange>(first, last, block_mesh.n_vertices(),
-                                           ghosts, communicator);
-
-    for (unsigned int c = block_mesh.block_first_cell[block_begin];
-         c < block_mesh.block_first_cell[block_end]; ++c)
-    {
-      local_cells.push_back(block_mesh.cells[c]);
-      for (unsigned int &v : local_cells.back())
-        v -= first;
-    }
-  }
-
   void Model::find_masses()
   {
-    node_mass.clear();
-    std::vector<double> mass(block_mesh.n_vertices(), 0.);
-    for (unsigned int c = 0; c < block_mesh.n_cells(); ++c)
+    std::vector<NodeVector<2>> mass(node_map.n_local());
+    for (unsigned int c = 0; c < node_map.n_cells(); ++c)
     {
-      const double third = triangle(block_mesh, block_mesh.cells[c]).area()
-                           * parameters.thickness
+      const double third = triangle(node_map, c).area() * parameters.thickness
                            * now.materials[material_of_cell(c)].elastic.density
                            / 3.;
-      for (const unsigned int v : block_mesh.mass_vertices(c))
-        mass[v] += third;
+      for (const unsigned int node : node_map.mass_nodes(c))
+        mass[node].v[0] += third;
     }
-    for (unsigned int i = 0; i < nodes->n_local(); ++i)
-      node_mass.push_back(mass[nodes->global(i)]);
+    exchange().add_to_owners(mass.data());
+    exchange().update_ghosts(mass.data());
+    node_mass.clear();
+    for (const NodeVector<2> &m : mass)
+      node_mass.push_back(m.v[0]);
 
     std::vector<double> density;
     for (const unsigned int material : now.material_of_group)
       density.push_back(now.materials[material].elastic.density);
-    rigid.prepare(block_mesh, rigid_begin, block_end, n_deformable_nodes(),
-                  density, parameters.thickness);
+    rigid.prepare(node_map, density, parameters.thickness);
   }
 
   void Model::pack_blocks(const ConstructionState &construction)
   {
     BlockForcesData<2> data;
-    data.quadratic = block_mesh.quadratic;
-    data.cells.assign(local_cells.begin(),
-                      local_cells.begin() + n_deformable_cells());
-    data.thickness            = parameters.thickness;
-    const unsigned int cell_0 = first_cell();
-    const unsigned int node_0 = block_mesh.block_first_vertex[block_begin];
-    for (unsigned int b = block_begin; b <= rigid_begin; ++b)
+    data.quadratic = table().is_quadratic;
+    data.cells.assign(node_map.all_cells().begin(),
+                      node_map.all_cells().begin() + n_deformable_cells());
+    data.thickness        = parameters.thickness;
+    data.block_first_cell = { 0 };
+    data.block_first_node = { 0 };
+    for (unsigned int b = 0; b < node_map.n_deformable_block_parts(); ++b)
     {
-      data.block_first_cell.push_back(block_mesh.block_first_cell[b] - cell_0);
-      data.block_first_node.push_back(block_mesh.block_first_vertex[b]
-                                      - node_0);
+      data.block_first_cell.push_back(node_map.block_parts()[b].cells[1]);
+      data.block_first_node.push_back(node_map.block_parts()[b].nodes[1]);
     }
     for (const MaterialParameters &material : now.materials)
     {
@@ -174,7 +127,7 @@ namespace quoin
     }
     for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
-      data.cell_stiffness.push_back(material_of_cell(cell_0 + c));
+      data.cell_stiffness.push_back(material_of_cell(c));
     }
     const AlignedArray<double> stress = construction.initial_stress.empty()
                                             ? packed_initial_stress()
@@ -188,20 +141,19 @@ namespace quoin
 
   void Model::find_stable_step()
   {
-    std::vector<std::array<double, 3>> bound(nodes->n_local(),
+    std::vector<std::array<double, 3>> bound(node_map.n_local(),
                                              { { 0., 0., 0. } });
     for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
-      const unsigned int cell = first_cell() + c;
       const LinearElastic &material
-          = now.materials[material_of_cell(cell)].elastic;
-      const Triangle element = triangle(block_mesh, block_mesh.cells[cell]);
+          = now.materials[material_of_cell(c)].elastic;
+      const Triangle element = triangle(node_map, c);
       const double share
           = largest_eigenvalue_squared_frequency(
                 element, plane_stiffness(material, parameters.plane),
                 material.density)
             * material.density * element.area() * parameters.thickness / 3.;
-      for (const unsigned int v : local_cells[c])
+      for (const unsigned int v : node_map.cell(c))
       {
         bound[v][0] += share;
         bound[v][1] += share;
@@ -211,7 +163,8 @@ namespace quoin
       add_contact_bound(bound);
     else
       add_joint_bound(bound);
-    bound.resize(nodes->n_owned());
+    exchange().add_to_owners(bound.data());
+    bound.resize(node_map.n_owned());
     std::vector<double> rigid_bound;
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
       rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
@@ -224,8 +177,8 @@ namespace quoin
   void Model::add_joint_bound(std::vector<std::array<double, 3>> &bound) const
   {
     const State<2> state = initial_state();
-    const auto none = std::find(rigid_block.begin(), rigid_block.end(), true);
-    if (none == rigid_block.end())
+    const auto &is_rigid = table().is_rigid;
+    if (std::find(is_rigid.begin(), is_rigid.end(), true) == is_rigid.end())
     {
       matched_joints.add_stiffness_bound(state.nodes.data(), node_mass, bound);
       return;
@@ -235,12 +188,12 @@ namespace quoin
     // side of its joints were fixed. In the ratio of these the springs'
     // shares are best divided, because a rigid block may have any number of
     // them: no bound is above the sum of two bodies' own.
-    std::vector<std::array<double, 3>> springs(nodes->n_local(),
+    std::vector<std::array<double, 3>> springs(node_map.n_local(),
                                                { { 0., 0., 0. } });
     matched_joints.add_stiffness_bound(
         state.nodes.data(), [](unsigned int, unsigned int) { return 0.; },
         springs);
-    std::vector<double> own(nodes->n_local(), 0.);
+    std::vector<double> own(node_map.n_local(), 0.);
     for (unsigned int i = 0; i < n_deformable_nodes(); ++i)
       own[i] = StableTimeStep<2>({ springs[i] })
                    .largest_eigenvalue({ node_mass[i] });
@@ -248,10 +201,10 @@ namespace quoin
       std::fill(own.begin() + rigid.block(b).begin,
                 own.begin() + rigid.block(b).end,
                 rigid.largest_eigenvalue(b, springs));
-    nodes->update_ghosts(own.data());
+    exchange().update_ghosts(own.data());
 
     const auto is_rigid_node = [&](const unsigned int i)
-    { return rigid_block[block_mesh.block_of_vertex(nodes->global(i))]; };
+    { return is_rigid[node_map.block_of_node(i)]; };
     matched_joints.add_stiffness_bound(
         state.nodes.data(),
         [&](const unsigned int a, const unsigned int b)
@@ -272,21 +225,20 @@ namespace quoin
         stiffness = std::max(stiffness, largest);
     const auto add_edge = [&](const std::array<unsigned int, 2> &edge)
     {
-      const double tributary = 0.5
-                               * block_mesh.vertices[edge[0]].distance(
-                                   block_mesh.vertices[edge[1]]);
-      for (const unsigned int v : edge)
-        if (nodes->owns(v))
-          for (unsigned int c = 0; c < 2; ++c)
-            bound[nodes->local(v)][c]
-                += 2. * stiffness * tributary * parameters.thickness;
+      const double tributary
+          = 0.5 * node_map.point(edge[0]).distance(node_map.point(edge[1]));
+      for (const unsigned int node : edge)
+        for (unsigned int c = 0; c < 2; ++c)
+          bound[node][c] += 2. * stiffness * tributary * parameters.thickness;
     };
-    for (const BlockFace &face : block_mesh.boundary_faces)
-      add_edge(face.vertices);
-    for (const JointFace &face : block_mesh.joint_faces)
+    for (const OuterFace<2> &face : node_map.outer_faces())
+      add_edge(face.nodes);
+    for (const JointNodes<2> &face : node_map.joint_faces())
     {
-      add_edge(face.lower);
-      add_edge(face.upper);
+      if (face.is_own[0])
+        add_edge(face.lower);
+      if (face.is_own[1])
+        add_edge(face.upper);
     }
   }
 
@@ -346,7 +298,6 @@ namespace quoin
     for (const MaterialParameters &material : now.materials)
       result.materials.push_back(material.name);
     result.material_of_group = now.material_of_group;
-    result.is_rigid          = rigid_block;
     result.thickness         = parameters.thickness;
     return result;
   }

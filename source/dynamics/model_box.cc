@@ -38,19 +38,21 @@ namespace quoin
   {
     if (!is_given())
       return;
-    const BlockMesh<2> &mesh = model.mesh();
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
+    const NodeMap<2> &nodes = model.nodes();
+    std::vector<std::uint8_t> is_in(model.table().n_blocks(), 0);
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      if (is_inside(parameters.box, nodes.point(i)[0], nodes.point(i)[1]))
+        is_in[nodes.block_of_node(i)] = 1;
+    reduce(is_in, nodes.communicator());
+    for (unsigned int b = 0; b < is_in.size(); ++b)
     {
-      const auto first = mesh.vertices.begin() + mesh.block_first_vertex[b];
-      const auto last  = mesh.vertices.begin() + mesh.block_first_vertex[b + 1];
-      if (std::any_of(first, last,
-                      [&](const auto &p)
-                      { return is_inside(parameters.box, p[0], p[1]); }))
+      if (is_in[b])
         continue;
+      const dealii::Point<2> first = nodes.point_of_block(b);
       std::ostringstream message;
       message << "section 'Contact': " << text(parameters.box)
-              << ", but before anything moves the block at (" << (*first)[0]
-              << ", " << (*first)[1]
+              << ", but before anything moves the block at (" << first[0]
+              << ", " << first[1]
               << ") m is outside. Give a box around the whole model, in "
                  "metres.";
       throw InputError(message.str());
@@ -75,7 +77,7 @@ namespace quoin
   {
     using Outside               = ContactParameters::Outside;
     const MPI_Comm communicator = model.exchange().communicator();
-    const unsigned int n        = model.mesh().n_blocks();
+    const unsigned int n        = model.table().n_blocks();
     const bool removes          = parameters.outside == Outside::remove;
     auto &marks                 = state.block_marks;
     marks.resize(n, 0);
@@ -83,9 +85,10 @@ namespace quoin
     // Blocks that are reported may be free to go only later.
     std::vector<std::uint8_t> outside(n, 0), stays(n, 0);
     bool is_news = false;
-    for (unsigned int i = 0; i < model.n_blocks(); ++i)
+    const auto &parts = model.nodes().block_parts();
+    for (unsigned int i = 0; i < parts.size(); ++i)
     {
-      const unsigned int b = model.first_block() + i;
+      const unsigned int b = parts[i].number;
       outside[b]           = !state.is_absent(b) && is_outside(b, state);
       stays[b]             = !outside[b] || !removes || moved[i];
       is_news |= outside[b] && (marks[b] == 0 || !stays[b]);
@@ -124,16 +127,12 @@ namespace quoin
   void ModelBox::spread_along_joints(std::vector<std::uint8_t> &stays,
                                      const State<2> &state) const
   {
-    const BlockMesh<2> &mesh    = model.mesh();
     const MatchedJoints &joints = model.joints();
     std::vector<std::array<unsigned int, 2>> tied;
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
       if (!state.joints.handed_over[i])
-      {
-        const JointFace &face = mesh.joint_faces[joints.segment(i).face];
-        tied.push_back({ { mesh.block_of_vertex(face.lower[0]),
-                           mesh.block_of_vertex(face.upper[0]) } });
-      }
+        tied.push_back(
+            model.nodes().joint_faces()[joints.segment(i).face].blocks);
     std::sort(tied.begin(), tied.end());
     tied.erase(std::unique(tied.begin(), tied.end()), tied.end());
 
@@ -158,11 +157,7 @@ namespace quoin
     std::vector<double> sums(2 * found.size(), 0.);
     for (unsigned int k = 0; k < found.size(); ++k)
     {
-      const unsigned int b = found[k].block;
-      if (b < model.first_block()
-          || b >= model.first_block() + model.n_blocks())
-        continue;
-      const NodeRange range = model.block_nodes(b);
+      const NodeRange range = model.block_nodes(found[k].block);
       for (std::size_t i = range.begin; i < range.end; ++i)
         for (unsigned int d = 0; d < 2; ++d)
           sums[2 * k + d]

@@ -14,27 +14,27 @@ namespace quoin
   std::vector<bool> Model::find_groups(const std::vector<std::string> &names,
                                        const std::string &where) const
   {
-    std::vector<bool> result(block_mesh.group_names.size(), false);
+    std::vector<bool> result(table().group_names.size(), false);
     for (const std::string &name : names)
     {
-      const auto found = std::find(block_mesh.group_names.begin(),
-                                   block_mesh.group_names.end(), name);
-      if (found == block_mesh.group_names.end())
+      const auto found = std::find(table().group_names.begin(),
+                                   table().group_names.end(), name);
+      if (found == table().group_names.end())
         throw InputError(where + ": the mesh has no physical surface '" + name
-                         + "'. It has: " + known_names(block_mesh.group_names)
+                         + "'. It has: " + known_names(table().group_names)
                          + ". Name one of these.");
-      result[found - block_mesh.group_names.begin()] = true;
+      result[found - table().group_names.begin()] = true;
     }
     return result;
   }
 
   std::vector<bool> Model::absent_nodes(const State<2> &state) const
   {
-    std::vector<bool> result(nodes->n_local(), false);
+    std::vector<bool> result(node_map.n_local(), false);
     if (!state.block_marks.empty())
       for (unsigned int i = 0; i < result.size(); ++i)
         result[i]
-            = state.is_absent(block_mesh.block_of_vertex(nodes->global(i)));
+            = state.is_absent(node_map.block_of_node(i));
     return result;
   }
 
@@ -50,9 +50,10 @@ namespace quoin
     const NodeRange range = block_nodes(block);
     for (std::size_t i = range.begin; i < range.end; ++i)
       state.velocity[i] = NodeVector<2>{ { 0., 0. } };
-    if (rigid_block[block])
+    if (table().is_rigid[block])
     {
-      std::fill_n(state.rigid_blocks[block - rigid_begin].velocity, 3, 0.);
+      if (range.size() > 0)
+        std::fill_n(state.rigid_blocks[rigid_number(block)].velocity, 3, 0.);
       return;
     }
     double mean[2]{};
@@ -70,17 +71,16 @@ namespace quoin
     const NodeRange range = block_nodes(block);
     for (std::size_t i = range.begin; i < range.end; ++i)
       std::fill_n(state.nodes[i].u, 2, 0.);
-    if (rigid_block[block])
-      state.rigid_blocks[block - rigid_begin] = RigidBlockState();
+    if (table().is_rigid[block] && range.size() > 0)
+      state.rigid_blocks[rigid_number(block)] = RigidBlockState();
   }
 
   bool Model::is_at_absent_block(const unsigned int segment,
                                  const State<2> &state) const
   {
-    const JointFace &face
-        = block_mesh.joint_faces[matched_joints.segment(segment).face];
-    return state.is_absent(block_mesh.block_of_vertex(face.lower[0]))
-           || state.is_absent(block_mesh.block_of_vertex(face.upper[0]));
+    const JointNodes<2> &face
+        = node_map.joint_faces()[matched_joints.segment(segment).face];
+    return state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]);
   }
 
   AlignedArray<double> Model::packed_initial_stress() const
@@ -88,7 +88,7 @@ namespace quoin
     AlignedArray<double> result;
     for (unsigned int c = 0; c < n_deformable_cells() && !cell_stress.empty();
          ++c)
-      for (const double stress : cell_stress[first_cell() + c])
+      for (const double stress : cell_stress[c])
         result.push_back(stress);
     return result;
   }
@@ -100,7 +100,7 @@ namespace quoin
     find_masses();
     pack_blocks(construction);
     matched_joints.set_laws(now.joints);
-    if (!block_mesh.quadratic)
+    if (!table().is_quadratic)
       find_stable_step();
   }
 
@@ -111,7 +111,7 @@ namespace quoin
       construction.initial_stress = packed_initial_stress();
     auto &stress = construction.initial_stress;
     for (unsigned int c = 0; 4 * c < stress.size(); ++c)
-      if (groups[block_mesh.cell_group[first_cell() + c]])
+      if (groups[node_map.group_of_cell(c)])
         std::fill_n(&stress[4 * c], 4, 0.);
   }
 
@@ -132,8 +132,7 @@ namespace quoin
     for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
       const unsigned int m
-          = properties
-                .material_of_group[block_mesh.cell_group[first_cell() + c]];
+          = properties.material_of_group[node_map.group_of_cell(c)];
       const MohrCoulomb *law = laws[m] ? &*laws[m] : nullptr;
       const auto before      = block_forces.stress_of_strain(
                state.nodes.data(), state.plastic, c, block_forces.cell_stiffness(c),

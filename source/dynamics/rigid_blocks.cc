@@ -55,40 +55,37 @@ namespace quoin
     return rigid;
   }
 
-  void RigidBlocks::prepare(const BlockMesh<2> &mesh, const unsigned int first,
-                            const unsigned int last,
-                            const unsigned int first_node,
+  void RigidBlocks::prepare(const NodeMap<2> &nodes,
                             const std::vector<double> &density,
                             const double thickness)
   {
-    node_begin = first_node;
+    node_begin = nodes.n_deformable_nodes();
     blocks.clear();
     arms.clear();
-    for (unsigned int b = first; b < last; ++b)
+    for (unsigned int b = nodes.n_deformable_block_parts();
+         b < nodes.block_parts().size(); ++b)
     {
-      const unsigned int first_cell   = mesh.block_first_cell[b];
-      const unsigned int last_cell    = mesh.block_first_cell[b + 1];
-      const unsigned int first_vertex = mesh.block_first_vertex[b];
-      const unsigned int n_nodes
-          = mesh.block_first_vertex[b + 1] - first_vertex;
+      const auto [first_cell, last_cell] = nodes.block_parts()[b].cells;
+      const auto [first_node, last_node] = nodes.block_parts()[b].nodes;
+      const unsigned int n_nodes         = last_node - first_node;
 
-      // Positions count from a vertex, to keep digits far from the origin.
-      const auto origin = mesh.vertices[first_vertex];
+      // Positions count from a node, to keep digits far from the origin.
+      const auto origin = nodes.point(first_node);
       std::vector<double> cell_mass, node_mass(n_nodes, 0.);
       dealii::Point<2> centre;
       double mass = 0.;
       for (unsigned int c = first_cell; c < last_cell; ++c)
       {
-        const auto &[i, j, k] = mesh.cells[c];
-        const auto e1         = mesh.vertices[j] - mesh.vertices[i];
-        const auto e2         = mesh.vertices[k] - mesh.vertices[i];
+        const auto &[i, j, k] = nodes.cell(c);
+        const auto e1         = nodes.point(j) - nodes.point(i);
+        const auto e2         = nodes.point(k) - nodes.point(i);
         cell_mass.push_back(0.5 * std::abs(e1[0] * e2[1] - e1[1] * e2[0])
-                            * thickness * density[mesh.cell_group[c]]);
+                            * thickness * density[nodes.group_of_cell(c)]);
         mass += cell_mass.back();
-        for (const unsigned int v : mesh.cells[c])
-          centre += cell_mass.back() / 3. * (mesh.vertices[v] - origin);
-        for (const unsigned int v : mesh.mass_vertices(c))
-          node_mass[v - first_vertex] += cell_mass.back() / 3.;
+        for (const unsigned int node : nodes.cell(c))
+          centre += cell_mass.back() / 3. * (nodes.point(node) - origin);
+        for (const unsigned int node : nodes.mass_nodes(c))
+          node_mass[node - first_node] += cell_mass.back() / 3.;
       }
       centre /= mass;
 
@@ -99,8 +96,8 @@ namespace quoin
         dealii::Tensor<1, 2> mean;
         for (unsigned int k = 0; k < 3; ++k)
         {
-          const auto &p = mesh.vertices[mesh.cells[c][k]];
-          own += p.distance_square(mesh.vertices[mesh.cells[c][(k + 1) % 3]]);
+          const auto &p = nodes.point(nodes.cell(c)[k]);
+          own += p.distance_square(nodes.point(nodes.cell(c)[(k + 1) % 3]));
           mean += (p - origin - centre) / 3.;
         }
         inertia += cell_mass[c - first_cell] * (own / 36. + mean.norm_square());
@@ -110,7 +107,7 @@ namespace quoin
       double lumped            = 0.;
       for (unsigned int v = 0; v < n_nodes; ++v)
       {
-        const auto arm = mesh.vertices[first_vertex + v] - origin - centre;
+        const auto arm = nodes.point(first_node + v) - origin - centre;
         arms.push_back({ arm[0], arm[1], node_mass[v] / mass });
         lumped += node_mass[v] * arm.norm_square();
       }

@@ -36,8 +36,7 @@ namespace quoin
                  std::unique_ptr<StaticFarField> static_field)
     : model(model), communicator(model.exchange().communicator())
   {
-    const auto &mesh       = model.mesh();
-    const auto &exchange   = model.exchange();
+    const auto &nodes      = model.nodes();
     unsigned int n_platens = 0, n_viscous = 0;
     for (const LoadParameters &load : loads)
     {
@@ -46,21 +45,20 @@ namespace quoin
       {
       case LoadType::viscous_boundary:
         all_constraints.push_back(std::make_unique<ViscousBoundary>(
-            load, n_viscous++, mesh, exchange, model.impedance_beyond(load),
+            load, n_viscous++, nodes, model.impedance_beyond(load),
             model.thickness()));
         break;
       case LoadType::prescribed_motion:
         all_constraints.push_back(
-            std::make_unique<PrescribedMotion>(load, mesh, exchange));
+            std::make_unique<PrescribedMotion>(load, nodes));
         break;
       case LoadType::platen:
         all_constraints.push_back(
-            std::make_unique<Platen>(load, n_platens++, mesh, exchange));
+            std::make_unique<Platen>(load, n_platens++, nodes));
         break;
       case LoadType::traction:
       case LoadType::gravity:
-        all_loads.emplace_back(load, mesh, exchange, model.mass(),
-                               model.thickness());
+        all_loads.emplace_back(load, nodes, model.mass(), model.thickness());
         break;
       case LoadType::boundary_elements:
         far = far_field.get();
@@ -103,7 +101,7 @@ namespace quoin
                            "model, of type 'viscous boundary' or 'prescribed "
                            "motion'.");
       all_constraints.push_back(std::make_unique<FreeFieldBoundary>(
-          load, n++, model.mesh(), model.exchange(), model.free_field_ground(),
+          load, n++, model.nodes(), model.free_field_ground(),
           FreeFieldBase{ *base, model.impedance_beyond(*base) }));
     }
   }
@@ -189,20 +187,18 @@ namespace quoin
 
   void Solver::refuse_absent_nodes(const State<2> &state) const
   {
-    constexpr unsigned int none = -1;
-    const auto absent           = model.absent_nodes(state);
+    const auto absent = model.absent_nodes(state);
     for (const NodeConstraint *constraint : constraints_on)
     {
       if (dynamic_cast<const PrescribedMotion *>(constraint))
         continue;
-      unsigned int first = none;
+      unsigned int first = NodeMap<2>::none;
       for (const unsigned int node : constraint->nodes())
         if (absent[node])
-          first = std::min(first, model.exchange().global(node));
-      first = dealii::Utilities::MPI::min(first, communicator);
-      if (first == none)
+          first = std::min(first, node);
+      dealii::Point<2> p;
+      if (!model.nodes().first_point(first, p))
         continue;
-      const auto &p = model.mesh().vertices[first];
       std::ostringstream message;
       message << "section 'Stages/" << stage.name << "': the load '"
               << constraint->name() << "' moves the node at (" << p[0] << ", "
@@ -217,7 +213,7 @@ namespace quoin
 
   std::vector<bool> Solver::find_held_blocks() const
   {
-    constexpr unsigned int none = -1;
+    constexpr unsigned int none = NodeMap<2>::none;
     const RigidBlocks &rigid    = model.rigid_blocks();
     std::vector<bool> held(rigid.n_blocks(), false);
     for (const NodeConstraint *constraint : constraints_on)
@@ -235,12 +231,11 @@ namespace quoin
         if (constraint->is_global() && last - first == block.end - block.begin)
           held[b] = true;
         else if (wrong == none)
-          wrong = model.exchange().global(*first);
+          wrong = *first;
       }
-      wrong = dealii::Utilities::MPI::min(wrong, communicator);
-      if (wrong == none)
+      dealii::Point<2> p;
+      if (!model.nodes().first_point(wrong, p))
         continue;
-      const auto &p = model.mesh().vertices[wrong];
       std::ostringstream message;
       message << "section 'Stages/" << stage.name << "': the load '"
               << constraint->name() << "' moves the node at (" << p[0] << ", "
@@ -255,7 +250,6 @@ namespace quoin
 
   void Solver::refuse_shared_platens() const
   {
-    constexpr unsigned int none = -1;
     for (const NodeConstraint *a : constraints_on)
       for (const NodeConstraint *b : constraints_on)
       {
@@ -265,12 +259,10 @@ namespace quoin
         std::set_intersection(a->nodes().begin(), a->nodes().end(),
                               b->nodes().begin(), b->nodes().end(),
                               std::back_inserter(shared));
-        const unsigned int first = dealii::Utilities::MPI::min(
-            shared.empty() ? none : model.exchange().global(shared.front()),
-            communicator);
-        if (first == none)
+        dealii::Point<2> p;
+        if (!model.nodes().first_point(
+                shared.empty() ? NodeMap<2>::none : shared.front(), p))
           continue;
-        const auto &p = model.mesh().vertices[first];
         std::ostringstream message;
         message << "section 'Stages/" << stage.name << "': the platens '"
                 << a->name() << "' and '" << b->name()

@@ -29,22 +29,21 @@ namespace quoin
 
   void Solver::check_finite(const State<2> &state) const
   {
-    unsigned int bad     = -1;
+    unsigned int bad     = NodeMap<2>::none;
     const unsigned int n = model.exchange().n_owned();
-    for (unsigned int i = 0; i < n && bad == -1U; ++i)
+    for (unsigned int i = 0; i < n && bad == NodeMap<2>::none; ++i)
       // A comparison with NaN is false.
       if (!(std::abs(state.nodes[i].u[0]) < 1e100
             && std::abs(state.nodes[i].u[1]) < 1e100))
         bad = i;
-    const unsigned int first = dealii::Utilities::MPI::min(
-        bad == -1U ? bad : model.exchange().global(bad), communicator);
-    if (first == -1U)
+    dealii::Point<2> p;
+    unsigned int block = 0;
+    if (!model.nodes().first_point(bad, p, &block))
       return;
     check_loads(state, state.load_time);
-    const auto &p = model.mesh().vertices[first];
     std::ostringstream message;
-    message << "the motion is no longer finite in block "
-            << model.mesh().block_of_vertex(first) << " at (" << p[0] << ", "
+    message << "the motion is no longer finite in block " << block << " at ("
+            << p[0] << ", "
             << p[1] << ") m, found at time " << state.time << " s, step "
             << state.step << ". The usual causes are a load that grows "
             << "without bound, a value that is not a number in a function of "
@@ -76,13 +75,13 @@ namespace quoin
 
   double Solver::largest_slip_share(const State<2> &state) const
   {
-    const BlockMesh<2> &mesh    = model.mesh();
+    const NodeMap<2> &nodes     = model.nodes();
     const MatchedJoints &joints = model.joints();
     double largest              = 0.;
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
-      const auto &[a, b]  = mesh.joint_faces[joints.segment(i).face].lower;
-      const double length = mesh.vertices[a].distance(mesh.vertices[b]);
+      const auto &[a, b]  = joints.segment(i).lower;
+      const double length = nodes.point(a).distance(nodes.point(b));
       const auto gaps     = joints.gaps(state.nodes.data(), i);
       for (unsigned int k = 0; k < 2; ++k)
         if (state.joints.normal_traction[2 * i + k] < 0.)
@@ -93,11 +92,9 @@ namespace quoin
 
   void Solver::check_cells(const State<2> &state) const
   {
-    constexpr unsigned int none = -1;
-    const BlockMesh<2> &mesh    = model.mesh();
-    const auto twice_the_area   = [&](const unsigned int cell)
+    const auto twice_the_area = [&](const unsigned int cell)
     {
-      const auto &[a, b, c] = model.cells()[cell];
+      const auto &[a, b, c] = model.nodes().cell(cell);
       const auto edge       = [&](const unsigned int to, const unsigned int d)
       {
         return state.nodes[to].X[d] - state.nodes[a].X[d]
@@ -105,32 +102,34 @@ namespace quoin
       };
       return edge(b, 0) * edge(c, 1) - edge(b, 1) * edge(c, 0);
     };
-    unsigned int bad     = none;
     const unsigned int n = model.n_deformable_cells();
-    for (unsigned int cell = 0; cell < n && bad == none; ++cell)
-      if (!(twice_the_area(cell) > 0.)) // cells run anticlockwise
-        bad = model.first_cell() + cell;
-    const unsigned int first = dealii::Utilities::MPI::min(bad, communicator);
-    if (first == none)
+    unsigned int bad     = 0;
+    while (bad < n && twice_the_area(bad) > 0.) // cells run anticlockwise
+      ++bad;
+    const unsigned int n_ranks
+        = dealii::Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int teller = dealii::Utilities::MPI::min(
+        bad < n ? dealii::Utilities::MPI::this_mpi_process(communicator)
+                : n_ranks,
+        communicator);
+    if (teller == n_ranks)
       return;
 
-    // The rank that has the cell tells where it is now.
-    double at[4]{};
-    for (const unsigned int v : mesh.cells[first])
+    // The rank that has the cell tells where it was and is now.
+    std::array<double, 5> at{};
+    if (bad < n)
     {
-      const bool is_own = model.exchange().owns(v);
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        at[d] += mesh.vertices[v][d] / 3.;
-        if (is_own)
-          at[2 + d] += (mesh.vertices[v][d]
-                        + state.nodes[model.exchange().local(v)].u[d])
-                       / 3.;
-      }
+      at[4] = model.nodes().block_of_cell(bad);
+      for (const unsigned int node : model.nodes().cell(bad))
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          at[d] += state.nodes[node].X[d] / 3.;
+          at[2 + d] += (state.nodes[node].X[d] + state.nodes[node].u[d]) / 3.;
+        }
     }
-    MPI_Allreduce(MPI_IN_PLACE, at + 2, 2, MPI_DOUBLE, MPI_SUM, communicator);
+    MPI_Bcast(at.data(), at.size(), MPI_DOUBLE, teller, communicator);
     std::ostringstream message;
-    message << "a cell of block " << mesh.block_of_vertex(mesh.cells[first][0])
+    message << "a cell of block " << at[4]
             << " has turned inside out; it was at (" << at[0] << ", " << at[1]
             << ") m and is now at (" << at[2] << ", " << at[3]
             << ") m, found at time " << state.time << " s, step " << state.step

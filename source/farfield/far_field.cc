@@ -41,14 +41,12 @@ namespace quoin
   } // namespace
 
   FarField::FarField(const std::string &name, FarFieldDomain domain,
-                     const BlockMesh<2> &mesh,
-                     const std::vector<unsigned int> &faces,
-                     const NodeExchange &exchange, const double thickness)
+                     const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces, const double thickness)
     : problem(std::move(domain)),
-      transfer(problem.boundary, problem.interface, mesh, faces, exchange),
-      thickness(thickness), communicator(exchange.communicator()),
+      transfer(problem.boundary, problem.interface, node_map, faces),
+      thickness(thickness), communicator(node_map.communicator()),
       is_first_rank(
-          dealii::Utilities::MPI::this_mpi_process(exchange.communicator())
+          dealii::Utilities::MPI::this_mpi_process(node_map.communicator())
           == 0)
   {
     load_name = name;

@@ -46,17 +46,14 @@ namespace quoin
 
   InterfaceTransfer::InterfaceTransfer(
       const Boundary &boundary, const std::vector<unsigned int> &elements,
-      const BlockMesh<2> &mesh, const std::vector<unsigned int> &faces,
-      const NodeExchange &exchange)
-    : communicator(exchange.communicator())
+      const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces)
+    : communicator(node_map.communicator())
   {
     std::vector<double> covered(elements.size(), 0.);
     std::map<unsigned int, std::vector<Entry>> rows; // of all nodes
-    for (const unsigned int f : faces)
+    for (const BoundaryFace<2> &face : faces)
     {
-      const BlockFace &face = mesh.boundary_faces[f];
-      const auto &p         = mesh.vertices[face.vertices[0]],
-                 &q         = mesh.vertices[face.vertices[1]];
+      const auto &[p, q] = face.points;
       const Vector2d a(p[0], p[1]), b(q[0], q[1]);
       const double size = (b - a).norm();
       double found      = 0.;
@@ -76,8 +73,8 @@ namespace quoin
         covered[e] += share * size;
         // Integrals of the edge's linear functions over the part.
         const double mean = 0.5 * (part.begin + part.end);
-        rows[face.vertices[0]].push_back({ e, share * size * (1. - mean) });
-        rows[face.vertices[1]].push_back({ e, share * size * mean });
+        rows[face.nodes[0]].push_back({ e, share * size * (1. - mean) });
+        rows[face.nodes[1]].push_back({ e, share * size * mean });
       }
       if (std::abs(found - 1.) > 1e-3)
         throw InputError("the edge of a block at " + place(0.5 * (a + b))
@@ -100,9 +97,9 @@ namespace quoin
     row_begin = { 0 };
     for (auto &[vertex, row] : rows)
     {
-      if (!exchange.owns(vertex))
+      if (!node_map.exchange().owns(vertex))
         continue;
-      node_list.push_back(exchange.local(vertex));
+      node_list.push_back(node_map.exchange().local(vertex));
       std::sort(row.begin(), row.end(),
                 [](const Entry &x, const Entry &y)
                 { return x.element < y.element; });

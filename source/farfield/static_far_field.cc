@@ -21,14 +21,12 @@ namespace quoin
 
   StaticFarField::StaticFarField(const std::string &name,
                                  const FarFieldDomain &domain,
-                                 const BlockMesh<2> &mesh,
-                                 const std::vector<unsigned int> &faces,
-                                 const NodeExchange &exchange,
+                                 const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces,
                                  const double thickness)
-    : transfer(domain.boundary, domain.interface, mesh, faces, exchange),
+    : transfer(domain.boundary, domain.interface, node_map, faces),
       thickness(thickness),
       is_first_rank(
-          dealii::Utilities::MPI::this_mpi_process(exchange.communicator())
+          dealii::Utilities::MPI::this_mpi_process(node_map.communicator())
           == 0)
   {
     load_name                           = name;

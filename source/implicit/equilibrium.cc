@@ -2,7 +2,6 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/implicit/equilibrium.h>
-#include <quoin/mesh/mesh_size.h>
 
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
@@ -111,10 +110,10 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     const double stiffness
         = sums[2] > 0. ? sums[0] / sums[2] : joint_stiffness();
-    const unsigned int n_vertices = model.mesh().n_vertices();
-    least_applied = least_motion * size_from_first_vertex(model.mesh())
-                    * stiffness * n_vertices;
-    const double by_mass = stiffness / (sums[1] / n_vertices);
+    const unsigned int n_nodes = model.nodes().n_global();
+    least_applied
+        = least_motion * model.nodes().diagonal() * stiffness * n_nodes;
+    const double by_mass = stiffness / (sums[1] / n_nodes);
     for (const double mass : model.mass())
       drag_stiffness.push_back(by_mass * mass);
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
@@ -258,7 +257,7 @@ namespace quoin
         configuration.nodes.data(), committed.static_far_field, force.data());
     for (const unsigned int node : nodes)
     {
-      const auto &X = model.mesh().vertices[model.exchange().global(node)];
+      const auto &X = model.nodes().point(node);
       for (unsigned int d = 0; d < 2; ++d)
       {
         const double by_far_field = force[node].v[d];
@@ -379,7 +378,7 @@ namespace quoin
     CellLinearisation cell;
     for (unsigned int c = 0; c < model.blocks().n_cells(); ++c)
     {
-      if (freedoms.is_absent(model.cells()[c][0])
+      if (freedoms.is_absent(model.nodes().cell(c)[0])
           || !model.blocks().linearise(c, nodes, balance.plastic, cell,
                                        with_derivatives))
         continue;

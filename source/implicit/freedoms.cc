@@ -117,7 +117,7 @@ namespace quoin
       std::copy(block.centre, block.centre + 2, body.centre);
       for (unsigned int i = block.begin; i < block.end; ++i)
       {
-        const auto &X = model.mesh().vertices[model.exchange().global(i)];
+        const auto &X = model.nodes().point(i);
         body.nodes.push_back(i);
         body.arms.push_back(X[0] - block.centre[0]);
         body.arms.push_back(X[1] - block.centre[1]);
@@ -130,7 +130,7 @@ namespace quoin
   void Freedoms::number()
   {
     const NodeExchange &exchange = model.exchange();
-    const unsigned int n_nodes   = model.mesh().n_vertices();
+    const unsigned int n_nodes   = model.nodes().n_global();
     const unsigned int n_own     = body_list.size() - n_platens;
     const auto n_of_rank
         = dealii::Utilities::MPI::all_gather(communicator, n_own);

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/implicit/implicit_solver.h>
-#include <quoin/mesh/mesh_size.h>
 
 #include <algorithm>
 #include <cmath>
@@ -328,7 +327,7 @@ namespace quoin
         moved = std::max(moved, std::abs(state.nodes[i].u[d]
                                          - last_equilibrium.nodes[i].u[d]));
     return dealii::Utilities::MPI::max(moved, communicator)
-           > collapse_share * size_from_first_vertex(model.mesh());
+           > collapse_share * model.nodes().diagonal();
   }
 
   void ImplicitSolver::give_up(State<2> &state)

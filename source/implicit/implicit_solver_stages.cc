@@ -155,10 +155,9 @@ namespace quoin
 
   void ImplicitSolver::hold_absent_blocks(const State<2> &state)
   {
-    const unsigned int first = model.first_block() + model.n_blocks()
-                               - model.rigid_blocks().n_blocks();
+    const unsigned int first = model.nodes().n_deformable_block_parts();
     for (unsigned int b = 0; b < held_blocks.size(); ++b)
-      if (state.is_absent(first + b))
+      if (state.is_absent(model.nodes().block_parts()[first + b].number))
         held_blocks[b] = true;
   }
 
@@ -362,8 +361,7 @@ namespace quoin
       {
         if (given.part != &motion->parts()[given.component])
           continue;
-        const auto &X
-            = model.mesh().vertices[model.exchange().global(given.node)];
+        const auto &X      = model.nodes().point(given.node);
         const double force = -balance.force[given.node].v[given.component];
         result[given.component] += force;
         result[2] += given.component == 0 ? -X[1] * force : X[0] * force;
@@ -452,21 +450,19 @@ namespace quoin
 
   std::string ImplicitSolver::describe_node(const unsigned int node) const
   {
-    const BlockMesh<2> &mesh = model.mesh();
-    const unsigned int v     = model.exchange().global(node);
+    const NodeMap<2> &nodes = model.nodes();
     std::ostringstream text;
-    text << "in block " << mesh.block_of_vertex(v) << " at ("
-         << mesh.vertices[v][0] << ", " << mesh.vertices[v][1] << ") m";
+    text << "in block " << nodes.block_of_node(node) << " at ("
+         << nodes.point(node)[0] << ", " << nodes.point(node)[1] << ") m";
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
     {
       const auto &segment = model.joints().segment(i);
       for (unsigned int k = 0; k < 2; ++k)
         if (segment.lower[k] == node || segment.upper[k] == node)
         {
-          const JointFace &face = mesh.joint_faces[segment.face];
+          const auto &[a, b] = nodes.joint_faces()[segment.face].blocks;
           text << ", at a joint of the set '" << set_names[segment.set]
-               << "' between the blocks " << mesh.block_of_vertex(face.lower[k])
-               << " and " << mesh.block_of_vertex(face.upper[k]);
+               << "' between the blocks " << a << " and " << b;
           return text.str();
         }
     }

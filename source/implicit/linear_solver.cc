@@ -2,7 +2,6 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/implicit/linear_solver.h>
-#include <quoin/mesh/mesh_size.h>
 
 #include <Teuchos_ParameterList.hpp>
 
@@ -78,10 +77,9 @@ namespace quoin
           static_cast<int>(unknown));
       (*rigid_motions)[mode][row] = value;
     };
-    // About the first node, in units of the model's size.
-    const auto &mesh  = model.mesh();
-    const auto origin = mesh.vertices[0];
-    const double size = size_from_first_vertex(mesh);
+    // About a corner of the model, in units of its size.
+    const auto origin = model.table().box[0];
+    const double size = model.nodes().diagonal();
     const auto place  = [&](const Freedoms::Index first, const double x,
                            const double y, const bool(&free)[2])
     {

@@ -27,28 +27,27 @@ namespace quoin
 
   FreeFieldBoundary::FreeFieldBoundary(const LoadParameters &parameters,
                                        const unsigned int index,
-                                       const BlockMesh<2> &mesh,
-                                       const NodeExchange &exchange,
+                                       const NodeMap<2> &node_map,
                                        const FreeFieldGround &ground,
                                        const FreeFieldBase &given)
     : index(index)
   {
     load_name        = parameters.name;
-    const auto faces = faces_of_curves(mesh, parameters.boundaries, load_name);
-    node_list        = nodes_of_faces(mesh, exchange, faces);
-    make_column(mesh, faces, ground);
-    make_shares(mesh, exchange, faces, ground.thickness);
-    const auto base_faces = make_foot(mesh, given);
+    const auto faces = faces_of_curves(node_map, parameters.boundaries, load_name);
+    node_list        = nodes_of_faces(node_map, faces);
+    make_column(faces, ground);
+    make_shares(node_map, faces, ground.thickness);
+    const auto base_faces = make_foot(node_map, given);
 
     std::vector<Impedance> impedance;
     for (const LinearElastic &material : ground.materials)
       impedance.push_back(impedance_of(material, ground.plane));
     side_dashpots.resize(node_list.size());
     base_dashpots.resize(node_list.size());
-    add_dashpots(mesh, exchange, faces, impedance, ground.thickness, node_list,
+    add_dashpots(node_map, faces, impedance, ground.thickness, node_list,
                  side_dashpots);
     if (!base.is_prescribed)
-      add_dashpots(mesh, exchange, base_faces, given.impedance,
+      add_dashpots(node_map, base_faces, given.impedance,
                    ground.thickness, node_list, base_dashpots);
     damping.resize(node_list.size());
     pull.resize(node_list.size());
@@ -70,8 +69,7 @@ namespace quoin
 
   // -- what is constant ------------------------------------------------------
 
-  void FreeFieldBoundary::make_column(const BlockMesh<2> &mesh,
-                                      const std::vector<unsigned int> &faces,
+  void FreeFieldBoundary::make_column(const std::vector<BoundaryFace<2>> &faces,
                                       const FreeFieldGround &ground)
   {
     // Edges run up where the cells are on the left of the side.
@@ -81,11 +79,10 @@ namespace quoin
       unsigned int group;
     };
     std::vector<Edge> edges;
-    for (const unsigned int f : faces)
+    for (const BoundaryFace<2> &face : faces)
     {
-      const BlockFace &face = mesh.boundary_faces[f];
-      const auto &a         = mesh.vertices[face.vertices[0]];
-      const auto &b         = mesh.vertices[face.vertices[1]];
+      const auto &a         = face.points[0];
+      const auto &b         = face.points[1];
       const double n        = b[1] > a[1] ? 1. : -1.;
       if (edges.empty())
       {
@@ -101,7 +98,7 @@ namespace quoin
                  + " that is not upright, not in line with the first one or on "
                    "the other side of its block. Give each side a load of its "
                    "own.");
-      const unsigned int group = mesh.cell_group[face.cell];
+      const unsigned int group = face.group;
       if (ground.is_rigid[group])
         fail("Boundary", "meets a rigid block at " + at(a[0], a[1])
                              + ", in which no waves run: make it deformable.");
@@ -148,49 +145,47 @@ namespace quoin
                : above;
   }
 
-  void FreeFieldBoundary::make_shares(const BlockMesh<2> &mesh,
-                                      const NodeExchange &exchange,
-                                      const std::vector<unsigned int> &faces,
+  void FreeFieldBoundary::make_shares(const NodeMap<2> &node_map,
+                                      const std::vector<BoundaryFace<2>> &faces,
                                       const double thickness)
   {
     column_node.resize(node_list.size());
-    for (const unsigned int f : faces)
+    for (const BoundaryFace<2> &face : faces)
     {
-      const BlockFace &face    = mesh.boundary_faces[f];
-      const double bottom      = std::min(mesh.vertices[face.vertices[0]][1],
-                                          mesh.vertices[face.vertices[1]][1]);
+      const double bottom      = std::min(face.points[0][1],
+                                          face.points[1][1]);
       const unsigned int layer = node_at(bottom);
-      for (const unsigned int v : face.vertices)
+      for (unsigned int k = 0; k < 2; ++k)
       {
-        if (!exchange.owns(v))
+        const unsigned int v = face.nodes[k];
+        if (!node_map.exchange().owns(v))
           continue;
         const unsigned int node
             = std::lower_bound(node_list.begin(), node_list.end(),
-                               exchange.local(v))
+                               node_map.exchange().local(v))
               - node_list.begin();
-        column_node[node] = node_at(mesh.vertices[v][1]);
+        column_node[node] = node_at(face.points[k][1]);
         shares.push_back(
             { node, layer, 0.5 * outward * layers[layer].height * thickness });
       }
     }
   }
 
-  std::vector<unsigned int>
-  FreeFieldBoundary::make_foot(const BlockMesh<2> &mesh,
+  std::vector<BoundaryFace<2>>
+  FreeFieldBoundary::make_foot(const NodeMap<2> &node_map,
                                const FreeFieldBase &given)
   {
     base.name          = given.load.name;
     base.is_prescribed = given.load.type == LoadType::prescribed_motion;
     base.components    = given.load.components;
     const auto faces
-        = faces_of_curves(mesh, given.load.boundaries, given.load.name);
+        = faces_of_curves(node_map, given.load.boundaries, given.load.name);
     const double foot = node_height.front();
     const double near = same_share * layers.front().height;
-    for (const unsigned int f : faces)
+    for (const BoundaryFace<2> &face : faces)
     {
-      const BlockFace &face = mesh.boundary_faces[f];
-      const auto &a         = mesh.vertices[face.vertices[0]];
-      const auto &b         = mesh.vertices[face.vertices[1]];
+      const auto &a         = face.points[0];
+      const auto &b         = face.points[1];
       for (const auto &p : { a, b })
       {
         if (std::abs(p[0] - x) > near || std::abs(p[1] - foot) > near)
@@ -199,7 +194,7 @@ namespace quoin
           fail("Base", "is '" + base.name + "', which is not level at "
                            + at(x, foot)
                            + ": waves would not run upright from it.");
-        const Impedance &z = given.impedance[mesh.cell_group[face.cell]];
+        const Impedance &z = given.impedance[face.group];
         base.impedance     = { { z.shear, z.normal } };
         return faces;
       }

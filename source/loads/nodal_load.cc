@@ -26,12 +26,13 @@ namespace quoin
     }
   } // namespace
 
-  std::vector<unsigned int>
-  faces_of_curves(const BlockMesh<2> &mesh,
+  std::vector<BoundaryFace<2>>
+  faces_of_curves(const NodeMap<2> &node_map,
                   const std::vector<std::string> &names,
                   const std::string &load)
   {
-    std::vector<unsigned int> faces;
+    const auto &face_names = node_map.table().face_names;
+    std::vector<BoundaryFace<2>> faces;
     for (const auto &name : names)
     {
       if (std::count(names.begin(), names.end(), name) > 1)
@@ -40,12 +41,12 @@ namespace quoin
                          + "' twice, and the load would act on it twice. Name "
                            "it once.");
       const unsigned int line
-          = position(mesh.line_names, name, load, "Boundary", "physical curve");
-      const auto n_before = faces.size();
-      for (unsigned int f = 0; f < mesh.boundary_faces.size(); ++f)
-        if (mesh.boundary_faces[f].name == line)
-          faces.push_back(f);
-      if (faces.size() == n_before)
+          = position(face_names, name, load, "Boundary", "physical curve");
+      std::vector<bool> wanted(face_names.size(), false);
+      wanted[line]     = true;
+      const auto found = node_map.gather_faces(wanted);
+      faces.insert(faces.end(), found.begin(), found.end());
+      if (found.empty())
         throw InputError("section 'Loads/" + load + "': 'Boundary = " + name
                          + "' has no edge on the outer boundary of a block. "
                            "Name a boundary curve.");
@@ -54,19 +55,19 @@ namespace quoin
   }
 
   std::vector<unsigned int>
-  groups_of_names(const BlockMesh<2> &mesh,
+  groups_of_names(const NodeMap<2> &node_map,
                   const std::vector<std::string> &names,
                   const std::string &load)
   {
     std::vector<unsigned int> groups;
     for (const auto &name : names)
       groups.push_back(
-          position(mesh.group_names, name, load, "Group", "physical surface"));
+          position(node_map.table().group_names, name, load, "Group", "physical surface"));
     return groups;
   }
 
   NodalLoad::NodalLoad(const LoadParameters &parameters,
-                       const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                       const NodeMap<2> &node_map,
                        const std::vector<double> &mass, const double thickness)
     : load_name(parameters.name),
       is_gravity(parameters.type == LoadType::gravity),
@@ -74,7 +75,7 @@ namespace quoin
   {
     if (is_gravity)
     {
-      for (unsigned int i = 0; i < exchange.n_owned(); ++i)
+      for (unsigned int i = 0; i < node_map.n_owned(); ++i)
         nodes.push_back(i);
       weights.resize(nodes.size());
       set_mass(mass);
@@ -82,18 +83,16 @@ namespace quoin
     }
     std::map<unsigned int, double> area;
     std::map<unsigned int, NodeVector<2>> inward_area;
-    for (const unsigned int f :
-         faces_of_curves(mesh, parameters.boundaries, parameters.name))
+    for (const BoundaryFace<2> &face :
+         faces_of_curves(node_map, parameters.boundaries, parameters.name))
     {
-      const BlockFace &face = mesh.boundary_faces[f];
       // The block is on the left of an edge.
-      const auto edge
-          = mesh.vertices[face.vertices[1]] - mesh.vertices[face.vertices[0]];
-      for (const unsigned int v : face.vertices)
-        if (exchange.owns(v))
+      const auto edge = face.points[1] - face.points[0];
+      for (unsigned int k = 0; k < 2; ++k)
+        if (node_map.exchange().owns(face.nodes[k]))
         {
-          const unsigned int node = exchange.local(v);
-          const double share      = mesh.edge_share(v);
+          const unsigned int node = node_map.exchange().local(face.nodes[k]);
+          const double share      = face.shares[k];
           area[node] += share * edge.norm() * thickness;
           inward_area[node].v[0] -= share * edge[1] * thickness;
           inward_area[node].v[1] += share * edge[0] * thickness;

@@ -15,18 +15,21 @@ namespace quoin
   namespace
   {
     std::vector<unsigned int>
-    nodes_of_groups(const BlockMesh<2> &mesh, const NodeExchange &exchange,
+    nodes_of_groups(const NodeMap<2> &node_map,
                     const std::vector<unsigned int> &groups)
     {
-      std::vector<unsigned int> nodes;
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        if (std::find(groups.begin(), groups.end(), mesh.cell_group[c])
+      // Another rank may have the cells of an owned node.
+      std::vector<NodeVector<2>> is_in(node_map.n_local());
+      for (unsigned int c = 0; c < node_map.n_cells(); ++c)
+        if (std::find(groups.begin(), groups.end(), node_map.group_of_cell(c))
             != groups.end())
-          for (const unsigned int v : mesh.cells[c])
-            if (exchange.owns(v))
-              nodes.push_back(exchange.local(v));
-      std::sort(nodes.begin(), nodes.end());
-      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+          for (const unsigned int node : node_map.cell(c))
+            is_in[node].v[0] = 1.;
+      node_map.exchange().add_to_owners(is_in.data());
+      std::vector<unsigned int> nodes;
+      for (unsigned int i = 0; i < node_map.n_owned(); ++i)
+        if (is_in[i].v[0] > 0.)
+          nodes.push_back(i);
       return nodes;
     }
 
@@ -41,18 +44,18 @@ namespace quoin
   } // namespace
 
   Platen::Platen(const LoadParameters &parameters, const unsigned int index,
-                 const BlockMesh<2> &mesh, const NodeExchange &exchange)
+                 const NodeMap<2> &node_map)
     : components(parameters.components), platen_index(index),
-      communicator(exchange.communicator())
+      communicator(node_map.communicator())
   {
     load_name = parameters.name;
     node_list = parameters.groups.empty()
                     ? nodes_of_faces(
-                        mesh, exchange,
-                        faces_of_curves(mesh, parameters.boundaries, load_name))
+                        node_map,
+                        faces_of_curves(node_map, parameters.boundaries, load_name))
                     : nodes_of_groups(
-                        mesh, exchange,
-                        groups_of_names(mesh, parameters.groups, load_name));
+                        node_map,
+                        groups_of_names(node_map, parameters.groups, load_name));
   }
 
   void Platen::set_mass(const std::vector<double> &mass,

@@ -9,28 +9,27 @@
 namespace quoin
 {
   std::vector<unsigned int>
-  nodes_of_faces(const BlockMesh<2> &mesh, const NodeExchange &exchange,
-                 const std::vector<unsigned int> &faces)
+  nodes_of_faces(const NodeMap<2> &node_map,
+                 const std::vector<BoundaryFace<2>> &faces)
   {
     std::vector<unsigned int> nodes;
-    for (const unsigned int f : faces)
-      for (const unsigned int v : mesh.boundary_faces[f].vertices)
-        if (exchange.owns(v))
-          nodes.push_back(exchange.local(v));
+    for (const BoundaryFace<2> &face : faces)
+      for (const unsigned int v : face.nodes)
+        if (node_map.exchange().owns(v))
+          nodes.push_back(node_map.exchange().local(v));
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     return nodes;
   }
 
   PrescribedMotion::PrescribedMotion(const LoadParameters &parameters,
-                                     const BlockMesh<2> &mesh,
-                                     const NodeExchange &exchange)
+                                     const NodeMap<2> &node_map)
     : components(parameters.components)
   {
     load_name = parameters.name;
     node_list = nodes_of_faces(
-        mesh, exchange,
-        faces_of_curves(mesh, parameters.boundaries, parameters.name));
+        node_map,
+        faces_of_curves(node_map, parameters.boundaries, parameters.name));
   }
 
   void PrescribedMotion::correct(const StepContext &step,

@@ -18,29 +18,28 @@ namespace quoin
              std::sqrt(material.density * stiffness.c33) };
   }
 
-  void add_dashpots(const BlockMesh<2> &mesh, const NodeExchange &exchange,
-                    const std::vector<unsigned int> &faces,
+  void add_dashpots(const NodeMap<2> &node_map,
+                    const std::vector<BoundaryFace<2>> &faces,
                     const std::vector<Impedance> &impedance,
                     const double thickness,
                     const std::vector<unsigned int> &nodes,
                     std::vector<Dashpot> &dashpots)
   {
-    for (const unsigned int f : faces)
+    for (const BoundaryFace<2> &face : faces)
     {
-      const BlockFace &face = mesh.boundary_faces[f];
       const auto edge
-          = mesh.vertices[face.vertices[1]] - mesh.vertices[face.vertices[0]];
+          = face.points[1] - face.points[0];
       const double half_area = 0.5 * edge.norm() * thickness;
       const auto t           = edge / edge.norm();
       const double n[2]      = { t[1], -t[0] }; // outward
-      const Impedance &z     = impedance[mesh.cell_group[face.cell]];
-      for (const unsigned int v : face.vertices)
+      const Impedance &z     = impedance[face.group];
+      for (const unsigned int v : face.nodes)
       {
-        if (!exchange.owns(v))
+        if (!node_map.exchange().owns(v))
           continue;
         const auto found
-            = std::lower_bound(nodes.begin(), nodes.end(), exchange.local(v));
-        if (found == nodes.end() || *found != exchange.local(v))
+            = std::lower_bound(nodes.begin(), nodes.end(), node_map.exchange().local(v));
+        if (found == nodes.end() || *found != node_map.exchange().local(v))
           continue;
         Dashpot &dashpot = dashpots[found - nodes.begin()];
         const double zn = z.normal * half_area, zs = z.shear * half_area;
@@ -113,17 +112,16 @@ namespace quoin
 
   ViscousBoundary::ViscousBoundary(const LoadParameters &parameters,
                                    const unsigned int index,
-                                   const BlockMesh<2> &mesh,
-                                   const NodeExchange &exchange,
+                                   const NodeMap<2> &node_map,
                                    const std::vector<Impedance> &impedance,
                                    const double thickness)
     : index(index), components(parameters.components)
   {
     load_name        = parameters.name;
-    const auto faces = faces_of_curves(mesh, parameters.boundaries, load_name);
-    node_list        = nodes_of_faces(mesh, exchange, faces);
+    const auto faces = faces_of_curves(node_map, parameters.boundaries, load_name);
+    node_list        = nodes_of_faces(node_map, faces);
     dashpots.resize(node_list.size());
-    add_dashpots(mesh, exchange, faces, impedance, thickness, node_list,
+    add_dashpots(node_map, faces, impedance, thickness, node_list,
                  dashpots);
   }
 

@@ -5,9 +5,6 @@
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -52,21 +49,19 @@ namespace quoin
       const std::vector<unsigned int> new_vertex
           = inverse_permutation(vertex_order);
 
-      mesh.vertices = permuted(mesh.vertices, vertex_order);
-      if (mesh.quadratic)
-        mesh.is_midside = permuted(mesh.is_midside, vertex_order);
+      mesh.vertices   = permuted(mesh.vertices, vertex_order);
       mesh.cells      = permuted(mesh.cells, cell_order);
       mesh.cell_group = permuted(mesh.cell_group, cell_order);
       for (auto &cell : mesh.cells)
         for (unsigned int &v : cell)
           v = new_vertex[v];
-      for (BlockFace &face : mesh.boundary_faces)
+      for (BlockFace<2> &face : mesh.boundary_faces)
       {
         face.cell = new_cell[face.cell];
         for (unsigned int &v : face.vertices)
           v = new_vertex[v];
       }
-      for (JointFace &face : mesh.joint_faces)
+      for (JointFace<2> &face : mesh.joint_faces)
         for (unsigned int k = 0; k < 2; ++k)
         {
           face.cells[k] = new_cell[face.cells[k]];
@@ -76,29 +71,26 @@ namespace quoin
 
       // No two faces start at the same vertex, see next_on_boundary().
       std::sort(mesh.boundary_faces.begin(), mesh.boundary_faces.end(),
-                [](const BlockFace &a, const BlockFace &b)
+                [](const BlockFace<2> &a, const BlockFace<2> &b)
                 { return a.vertices[0] < b.vertices[0]; });
       std::sort(mesh.joint_faces.begin(), mesh.joint_faces.end(),
-                [](const JointFace &a, const JointFace &b)
+                [](const JointFace<2> &a, const JointFace<2> &b)
                 { return a.lower[0] < b.lower[0]; });
     }
 
     /**
-     * Cells by block, within a block along a Hilbert curve; the four of a
-     * quadratic triangle stay together.
+     * Cells by block, within a block along a Hilbert curve.
      */
     std::vector<unsigned int>
     order_cells(const BlockMesh<2> &mesh,
                 const std::vector<unsigned int> &block_of_cell)
     {
-      constexpr int bits            = 31;
-      const unsigned int n_together = mesh.quadratic ? 4 : 1;
-      const unsigned int n          = mesh.n_cells() / n_together;
+      constexpr int bits   = 31;
+      const unsigned int n = mesh.n_cells();
       std::vector<dealii::Point<2>> centres(n);
       for (unsigned int i = 0; i < n; ++i)
       {
-        // The last of four is in the middle.
-        const auto &cell = mesh.cells[n_together * i + n_together - 1];
+        const auto &cell = mesh.cells[i];
         centres[i]       = (mesh.vertices[cell[0]] + mesh.vertices[cell[1]]
                       + mesh.vertices[cell[2]])
                      / 3.;
@@ -110,24 +102,23 @@ namespace quoin
       struct Entry
       {
         unsigned int block;
-        unsigned int first_cell;
+        unsigned int cell;
         std::uint64_t place;
       };
       std::vector<Entry> entries(n);
       for (unsigned int i = 0; i < n; ++i)
-        entries[i] = { block_of_cell[n_together * i], n_together * i,
+        entries[i] = { block_of_cell[i], i,
                        dealii::Utilities::pack_integers<2>(places[i], bits) };
       std::sort(entries.begin(), entries.end(),
                 [](const Entry &a, const Entry &b)
                 {
-                  return std::tie(a.block, a.place, a.first_cell)
-                         < std::tie(b.block, b.place, b.first_cell);
+                  return std::tie(a.block, a.place, a.cell)
+                         < std::tie(b.block, b.place, b.cell);
                 });
       std::vector<unsigned int> order;
-      order.reserve(mesh.n_cells());
+      order.reserve(n);
       for (const Entry &entry : entries)
-        for (unsigned int k = 0; k < n_together; ++k)
-          order.push_back(entry.first_cell + k);
+        order.push_back(entry.cell);
       return order;
     }
 
@@ -140,9 +131,9 @@ namespace quoin
     std::vector<unsigned int> next_on_boundary(const BlockMesh<2> &mesh)
     {
       std::vector<unsigned int> next(mesh.n_vertices(), none);
-      for (const BlockFace &face : mesh.boundary_faces)
+      for (const BlockFace<2> &face : mesh.boundary_faces)
         next[face.vertices[0]] = face.vertices[1];
-      for (const JointFace &face : mesh.joint_faces)
+      for (const JointFace<2> &face : mesh.joint_faces)
       {
         next[face.lower[0]] = face.lower[1];
         next[face.upper[1]] = face.upper[0];
@@ -235,88 +226,12 @@ namespace quoin
     permute(mesh, cell_order, vertex_order);
   }
 
-  namespace
+  std::vector<unsigned int> order_rigid_last(const std::vector<bool> &is_rigid)
   {
-    /** Largest block first, each to the part with the fewest cells so far. */
-    std::vector<unsigned int>
-    deal_out_blocks(const std::vector<unsigned int> &n_cells_of_block,
-                    const unsigned int n_parts)
-    {
-      std::vector<unsigned int> order(n_cells_of_block.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::stable_sort(order.begin(), order.end(),
-                       [&](const unsigned int a, const unsigned int b)
-                       { return n_cells_of_block[a] > n_cells_of_block[b]; });
-      std::vector<unsigned int> part(order.size()), load(n_parts, 0);
-      for (const unsigned int b : order)
-      {
-        part[b] = std::min_element(load.begin(), load.end()) - load.begin();
-        load[part[b]] += n_cells_of_block[b];
-      }
-      return part;
-    }
-
-    unsigned int largest_load(const std::vector<unsigned int> &part,
-                              const std::vector<unsigned int> &n_cells_of_block,
-                              const unsigned int n_parts)
-    {
-      std::vector<unsigned int> load(n_parts, 0);
-      for (unsigned int b = 0; b < part.size(); ++b)
-        load[part[b]] += n_cells_of_block[b];
-      return *std::max_element(load.begin(), load.end());
-    }
-  } // namespace
-
-  std::vector<unsigned int> partition_blocks(const BlockMesh<2> &mesh,
-                                             const unsigned int n_parts)
-  {
-    const unsigned int n_blocks = mesh.n_blocks();
-    std::vector<unsigned int> part(n_blocks, 0);
-    if (n_parts <= 1)
-      return part;
-    if (n_parts >= n_blocks)
-    {
-      std::iota(part.begin(), part.end(), 0);
-      return part;
-    }
-
-    std::vector<unsigned int> n_cells(n_blocks);
-    for (unsigned int b = 0; b < n_blocks; ++b)
-      n_cells[b] = mesh.block_first_cell[b + 1] - mesh.block_first_cell[b];
-    const std::vector<unsigned int> by_size = deal_out_blocks(n_cells, n_parts);
-
-#ifdef DEAL_II_WITH_METIS
-    dealii::DynamicSparsityPattern graph(n_blocks, n_blocks);
-    for (const JointFace &face : mesh.joint_faces)
-    {
-      const unsigned int lower = mesh.block_of_cell(face.cells[0]);
-      const unsigned int upper = mesh.block_of_cell(face.cells[1]);
-      graph.add(lower, upper);
-      graph.add(upper, lower);
-    }
-    for (unsigned int b = 0; b < n_blocks; ++b)
-      graph.add(b, b);
-    dealii::SparsityPattern pattern;
-    pattern.copy_from(graph);
-    dealii::SparsityTools::partition(pattern, n_cells, n_parts, part);
-    if (largest_load(part, n_cells, n_parts)
-        <= 1.1 * largest_load(by_size, n_cells, n_parts))
-      return part;
-#endif
-    return by_size;
-  }
-
-  std::vector<unsigned int>
-  order_by_part(const std::vector<unsigned int> &part_of_block,
-                const std::vector<bool> &behind)
-  {
-    const auto place = [&](const unsigned int b)
-    { return std::make_pair(part_of_block[b], !behind.empty() && behind[b]); };
-    std::vector<unsigned int> order(part_of_block.size());
+    std::vector<unsigned int> order(is_rigid.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](const unsigned int a, const unsigned int b)
-                     { return place(a) < place(b); });
+    std::stable_partition(order.begin(), order.end(),
+                          [&](const unsigned int b) { return !is_rigid[b]; });
     return order;
   }
 } // namespace quoin

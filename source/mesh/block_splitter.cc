@@ -269,11 +269,6 @@ namespace quoin
       mesh.cell_group = data.triangle_group;
 
       mesh.quadratic = data.quadratic;
-      mesh.is_midside.assign(data.quadratic ? n_vertices : 0, false);
-      if (mesh.quadratic)
-        for (unsigned int c = 3; c < mesh.n_cells(); c += 4)
-          for (const unsigned int v : mesh.cells[c])
-            mesh.is_midside[v] = true;
     }
 
     void Splitter::check_joint_ends() const
@@ -308,8 +303,6 @@ namespace quoin
         if (neighbour[h] == none)
           outer.push_back(h);
       }
-      if (data.quadratic) // an edge of a triangle is two half as long
-        shortest *= 2.;
       const double tolerance = options.coincidence_tolerance * shortest;
       const double width     = std::max(shortest, 4. * tolerance);
 

@@ -5,7 +5,6 @@
 #include <quoin/mesh/crossed_triangles.h>
 #include <quoin/mesh/gmsh_process.h>
 #include <quoin/mesh/gmsh_reader.h>
-#include <quoin/mesh/quadratic_triangles.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -80,8 +79,7 @@ namespace quoin
           { std::move(read.quadrangles), std::move(read.quadrangle_group) },
           mesh);
       orient_triangles(mesh);
-      if (kind == TriangleKind::quadratic)
-        cut_into_quadratic_triangles(mesh);
+      mesh.quadratic = kind == TriangleKind::quadratic;
       return mesh;
     }
   } // namespace
@@ -95,34 +93,34 @@ namespace quoin
 
   namespace
   {
-    /** What @p read gives on the first rank, on all of them. */
+    /** What @p read gives on the first rank, there. */
     template <typename Read>
-    MeshData read_and_send(const MPI_Comm &communicator, const Read &read)
+    MeshData read_on_first_rank(const MPI_Comm &communicator, const Read &read)
     {
       // The others must hear of an error, too, or they wait forever.
-      std::pair<MeshData, std::string> mesh_and_error;
+      MeshData mesh;
+      std::string message;
       if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
         try
         {
-          mesh_and_error.first = read();
+          mesh = read();
         }
         catch (const std::exception &error)
         {
-          mesh_and_error.second = error.what();
+          message = error.what();
         }
-      mesh_and_error
-          = dealii::Utilities::MPI::broadcast(communicator, mesh_and_error);
-      if (!mesh_and_error.second.empty())
-        throw InputError(mesh_and_error.second);
-      return std::move(mesh_and_error.first);
+      message = dealii::Utilities::MPI::broadcast(communicator, message);
+      if (!message.empty())
+        throw InputError(message);
+      return mesh;
     }
   } // namespace
 
   MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator,
                      const TriangleKind kind)
   {
-    return read_and_send(communicator,
-                         [&]() { return read_gmsh(filename, kind); });
+    return read_on_first_rank(communicator,
+                              [&]() { return read_gmsh(filename, kind); });
   }
 
   MeshData mesh_gmsh_geometry(const std::string &geometry,
@@ -130,13 +128,13 @@ namespace quoin
                               const MPI_Comm &communicator,
                               const TriangleKind kind)
   {
-    return read_and_send(communicator,
-                         [&]()
-                         {
-                           return read("/dev/stdin", geometry, maker,
-                                       "Change the parameters of that section.",
-                                       kind);
-                         });
+    return read_on_first_rank(
+        communicator,
+        [&]()
+        {
+          return read("/dev/stdin", geometry, maker,
+                      "Change the parameters of that section.", kind);
+        });
   }
 
   void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file,

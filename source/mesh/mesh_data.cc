@@ -40,4 +40,29 @@ namespace quoin
       }
     }
   }
+
+  MeshData curves_of(const MeshData &mesh)
+  {
+    constexpr unsigned int none = -1;
+    MeshData curves;
+    curves.group_names = mesh.group_names;
+    curves.line_names  = mesh.line_names;
+    curves.line_name   = mesh.line_name;
+    curves.source      = mesh.source;
+    std::vector<unsigned int> number(mesh.vertices.size(), none);
+    for (auto line : mesh.lines)
+    {
+      for (unsigned int &v : line)
+      {
+        if (number[v] == none)
+        {
+          number[v] = curves.vertices.size();
+          curves.vertices.push_back(mesh.vertices[v]);
+        }
+        v = number[v];
+      }
+      curves.lines.push_back(line);
+    }
+    return curves;
+  }
 } // namespace quoin

@@ -41,12 +41,6 @@ namespace quoin
           largest_cosine
               = std::max(largest_cosine, a * b / (length * b.norm()));
         }
-      // A quadratic triangle is its cells at twice the size.
-      if (mesh.quadratic)
-      {
-        report.shortest_edge *= 2.;
-        report.longest_edge *= 2.;
-      }
       report.smallest_angle
           = std::acos(std::min(1., largest_cosine)) / constants::degree;
 
@@ -57,7 +51,7 @@ namespace quoin
     void add_joints(const BlockMesh<2> &mesh, MeshReport &report)
     {
       std::set<unsigned int> ends;
-      for (const JointFace &face : mesh.joint_faces)
+      for (const JointFace<2> &face : mesh.joint_faces)
       {
         const double length = mesh.vertices[face.lower[0]].distance(
             mesh.vertices[face.lower[1]]);
@@ -242,7 +236,7 @@ namespace quoin
     MeshReport report;
     report.n_blocks           = mesh.n_blocks();
     report.n_cells            = mesh.n_cells();
-    report.n_vertices         = mesh.n_vertices();
+    report.n_nodes            = mesh.n_vertices();
     report.n_joint_faces      = mesh.joint_faces.size();
     report.quadratic          = mesh.quadratic;
     report.n_reoriented_cells = mesh.n_reoriented_cells;
@@ -250,6 +244,12 @@ namespace quoin
       return report;
     add_quality(mesh, report);
     add_joints(mesh, report);
+    // A node in the middle of each edge, of which inner ones have two cells.
+    if (mesh.quadratic)
+      report.n_nodes += (3 * mesh.n_cells() + mesh.boundary_faces.size()
+                         + 2 * mesh.joint_faces.size())
+                            / 2
+                        - report.n_tied_joint_faces;
     const double tolerance = 1e-3 * report.shortest_edge;
     OuterEdges edges(mesh, tolerance);
     add_unmatched_edges(edges, tolerance, report);
@@ -260,14 +260,13 @@ namespace quoin
   std::string MeshReport::to_text() const
   {
     std::ostringstream text;
-    text << n_blocks << " blocks, " << n_cells / (quadratic ? 4 : 1)
-         << (quadratic ? " quadratic" : "") << " triangles, " << n_vertices
+    text << n_blocks << " blocks, " << n_cells
+         << (quadratic ? " quadratic" : "") << " triangles, " << n_nodes
          << " nodes; x " << lower_left[0] << " to " << upper_right[0]
          << " m, y " << lower_left[1] << " to " << upper_right[1] << " m\n"
          << "edges " << shortest_edge << " to " << longest_edge
          << " m, smallest angle " << smallest_angle << " degrees\n"
-         << n_joint_faces / (quadratic ? 2 : 1) << " joint faces, "
-         << total_joint_length << " m";
+         << n_joint_faces << " joint faces, " << total_joint_length << " m";
     const char *separator = ": ";
     for (const auto &[name, length] : joint_length)
     {

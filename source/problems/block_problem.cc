@@ -146,17 +146,16 @@ namespace quoin
   void BlockProblem::summarise(nlohmann::json &summary,
                                const double seconds) const
   {
-    const BlockMesh<2> &mesh = system.mesh;
     const MeshReport &report = system.mesh_report;
     const Energies &energies = system.solver->energies();
     const auto rate
         = [&](const double n) { return seconds > 0. ? n / seconds : 0.; };
     summary.update(
-        { { "blocks", mesh.n_blocks() },
+        { { "blocks", report.n_blocks },
           { "rigid blocks", system.n_rigid_blocks() },
-          { "cells", mesh.n_cells() },
-          { "nodes", mesh.n_vertices() },
-          { "joint faces", mesh.joint_faces.size() },
+          { "cells", report.n_cells },
+          { "nodes", report.n_nodes },
+          { "joint faces", report.n_joint_faces },
           { "joint length [m]", report.total_joint_length },
           { "shortest edge [m]", report.shortest_edge },
           { "smallest angle [deg]", report.smallest_angle },
@@ -174,7 +173,7 @@ namespace quoin
             { "critical time step [s]", solver->critical_time_step() },
             { "added mass share", solver->added_mass_share() },
             { "element updates per second",
-              rate(double(mesh.n_cells()) * double(context.n_done)) } });
+              rate(double(report.n_cells) * double(context.n_done)) } });
     if (const ImplicitSolver *solver = system.implicit_solver)
       summary.update({ { "unknowns", solver->n_unknowns() },
                        { "iterations", context.iterations },
@@ -192,7 +191,7 @@ namespace quoin
       summarise_contacts(summary, seconds);
     if (summary["finished"] && parameters.measure_bandwidth)
     {
-      const double bytes    = step_bytes(mesh.n_vertices(), mesh.n_cells());
+      const double bytes    = step_bytes(report.n_nodes, report.n_cells);
       const double measured = dealii::Utilities::MPI::sum(
           memory_bandwidth(
               bytes

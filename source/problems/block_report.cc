@@ -66,9 +66,10 @@ namespace quoin
                     + (n_rigid == 1 ? "is rigid" : "are rigid"));
       const unsigned int n_ranks
           = dealii::Utilities::MPI::n_mpi_processes(system.communicator);
-      if (n_ranks > system.mesh.n_blocks())
-        log.warning("the model has " + std::to_string(system.mesh.n_blocks())
-                    + (system.mesh.n_blocks() == 1 ? " block" : " blocks")
+      if (n_ranks > system.mesh_report.n_blocks)
+        log.warning("the model has "
+                    + std::to_string(system.mesh_report.n_blocks)
+                    + (system.mesh_report.n_blocks == 1 ? " block" : " blocks")
                     + " and the run " + std::to_string(n_ranks)
                     + " MPI ranks, to which whole blocks are dealt: some have "
                       "none. Fewer ranks would be as fast, but for boundary "
@@ -88,7 +89,7 @@ namespace quoin
       if (n > 0.)
         log.warning(
             number_text(n) + " of "
-            + std::to_string(2 * system.mesh.joint_faces.size())
+            + std::to_string(2 * system.nodes->n_joint_faces())
             + " joint points begin with tractions beyond their strength: "
               "they yield in the first stage. Check the initial stress "
               "and the strength of these joints.");
@@ -100,10 +101,10 @@ namespace quoin
       const Parameters &parameters = system.parameters;
       Log &log                     = context.run.log;
       for (const auto &lines :
-           { material_lines(parameters, system.mesh,
+           { material_lines(parameters, *system.nodes,
                             system.model->properties().material_of_group),
              joint_lines(parameters, system.mesh_report),
-             load_lines(parameters, system.mesh),
+             load_lines(parameters, *system.nodes),
              boundary_lines(
                  parameters.boundary, system.boundary_geometry,
                  start_of_stage(parameters.stages, parameters.stages.size())) })

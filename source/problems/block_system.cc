@@ -4,6 +4,7 @@
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/mesh/partition.h>
 #include <quoin/problems/block_system.h>
 #include <quoin/problems/far_field_setup.h>
 #include <quoin/problems/problem.h>
@@ -30,40 +31,79 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    /** Contacts, equilibrium and construction want whole blocks. */
+    bool may_divide_blocks(const Parameters &parameters)
+    {
+      return !parameters.is_implicit && !parameters.model.large_displacements
+             && std::none_of(parameters.stages.begin(), parameters.stages.end(),
+                             [](const StageParameters &stage) {
+                               return !stage.excavate.empty()
+                                      || !stage.fill.empty();
+                             });
+    }
+  } // namespace
+
   BlockSystem::BlockSystem(const Parameters &parameters,
                            const MPI_Comm communicator)
     : parameters(parameters), communicator(communicator)
   {
-    const MeshData as_read = read_mesh_data(parameters, communicator);
-    fingerprint            = run_fingerprint(parameters, as_read);
-    split_into_blocks(as_read, parameters.split, mesh);
-    mesh_report = make_mesh_report(mesh);
+    MeshData as_read = read_mesh_data(parameters, communicator);
+    const MeshData curves
+        = dealii::Utilities::MPI::broadcast(communicator, curves_of(as_read));
+    make_mesh(std::move(as_read));
     naming(parameters.file,
            [&]()
            {
-             make_model();
+             model = std::make_unique<Model>(*nodes, parameters.model);
              construction
                  = std::make_unique<Construction>(*model, parameters.stages);
-             make_solver(as_read);
+             make_solver(curves);
            });
   }
 
-  void BlockSystem::make_model()
+  void BlockSystem::make_mesh(MeshData as_read)
   {
-    // Whole blocks to ranks: blocks share no nodes, only joints cross ranks.
-    auto rank_of_block = partition_blocks(
-        mesh, dealii::Utilities::MPI::n_mpi_processes(communicator));
-    renumber_blocks(mesh, order_by_part(rank_of_block,
-                                        find_rigid_blocks(
-                                            mesh, parameters.model.materials)));
-    std::sort(rank_of_block.begin(), rank_of_block.end());
-    model = std::make_unique<Model>(mesh, rank_of_block, parameters.model,
-                                    communicator);
+    using dealii::Utilities::MPI::broadcast;
+    using dealii::Utilities::MPI::n_mpi_processes;
+    using dealii::Utilities::MPI::this_mpi_process;
+    // The first rank alone has the whole mesh, until it is distributed.
+    BlockMesh<2> mesh;
+    std::vector<bool> is_rigid;
+    std::vector<unsigned int> rank_of_cell;
+    all_or_none<InputError>(
+        communicator,
+        [&]()
+        {
+          if (this_mpi_process(communicator) != 0)
+            return;
+          fingerprint = run_fingerprint(parameters, as_read);
+          split_into_blocks(as_read, parameters.split, mesh);
+          as_read     = MeshData();
+          mesh_report = make_mesh_report(mesh);
+          naming(parameters.file,
+                 [&]()
+                 {
+                   const auto &materials = parameters.model.materials;
+                   renumber_blocks(mesh, order_rigid_last(find_rigid_blocks(
+                                             mesh, materials)));
+                   is_rigid = find_rigid_blocks(mesh, materials);
+                 });
+          rank_of_cell
+              = partition_cells(mesh, is_rigid, n_mpi_processes(communicator),
+                                may_divide_blocks(parameters));
+        });
+    fingerprint = broadcast(communicator, fingerprint);
+    mesh_report = broadcast(communicator, mesh_report);
+    blocks      = std::make_unique<BlockTriangulation<2>>(mesh, rank_of_cell,
+                                                     is_rigid, communicator);
+    nodes       = std::make_unique<NodeMap<2>>(*blocks);
   }
 
-  void BlockSystem::make_solver(const MeshData &as_read)
+  void BlockSystem::make_solver(const MeshData &curves)
   {
-    auto far = make_far_field(parameters, as_read, *model, boundary_geometry);
+    auto far = make_far_field(parameters, curves, *model, boundary_geometry);
     auto static_far = make_static_far_field(parameters, *model, far.get());
     if (parameters.is_implicit)
     {
@@ -153,6 +193,7 @@ namespace quoin
 
   unsigned int BlockSystem::n_rigid_blocks() const
   {
-    return std::count(model->is_rigid().begin(), model->is_rigid().end(), true);
+    const auto &is_rigid = model->table().is_rigid;
+    return std::count(is_rigid.begin(), is_rigid.end(), true);
   }
 } // namespace quoin

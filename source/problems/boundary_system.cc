@@ -48,9 +48,12 @@ namespace quoin
           MeshData mesh;
           if (!parameters.mesh_file.empty())
             mesh = read_gmsh(parameters.mesh_file, communicator);
-          fingerprint = run_fingerprint(parameters, mesh);
-          geometry    = make_boundary_geometry(settings, mesh);
-          histories   = std::make_unique<BoundaryHistories>(
+          using dealii::Utilities::MPI::broadcast;
+          fingerprint
+              = broadcast(communicator, run_fingerprint(parameters, mesh));
+          mesh      = broadcast(communicator, curves_of(mesh));
+          geometry  = make_boundary_geometry(settings, mesh);
+          histories = std::make_unique<BoundaryHistories>(
               parameters.histories, geometry, settings,
               parameters.model.thickness);
           hoop_stress

@@ -14,7 +14,7 @@ namespace quoin
   namespace
   {
     /** Edges of blocks along the interface. */
-    std::vector<unsigned int>
+    std::vector<BoundaryFace<2>>
     interface_faces(const BoundaryElementParameters &settings,
                     const Model &model, const std::string &load)
     {
@@ -22,7 +22,7 @@ namespace quoin
       for (const BoundaryCurveParameters &curve : settings.boundaries)
         if (curve.shape == BoundaryShape::interface)
           curves.insert(curves.end(), curve.curves.begin(), curve.curves.end());
-      return faces_of_curves(model.mesh(), curves, load);
+      return faces_of_curves(model.nodes(), curves, load);
     }
 
     /** The history of the waves must have no gap. */
@@ -86,9 +86,8 @@ namespace quoin
     try
     {
       return std::make_unique<FarField>(
-          load->name, std::move(domain), model.mesh(),
-          interface_faces(settings, model, load->name), model.exchange(),
-          model.thickness());
+          load->name, std::move(domain), model.nodes(),
+          interface_faces(settings, model, load->name), model.thickness());
     }
     catch (const InputError &error)
     {
@@ -111,8 +110,8 @@ namespace quoin
                         needs_it))
       return nullptr;
     return std::make_unique<StaticFarField>(
-        far->name(), far->domain(), model.mesh(),
+        far->name(), far->domain(), model.nodes(),
         interface_faces(parameters.boundary, model, far->name()),
-        model.exchange(), model.thickness());
+        model.thickness());
   }
 } // namespace quoin

@@ -32,16 +32,23 @@ namespace quoin
       return std::find(list.begin(), list.end(), name) != list.end();
     }
 
-    /** Length of the set's joints where the run begins [m]. */
-    double joint_length(const JointSetParameters &set, const BlockMesh<2> &mesh)
+    bool is_in_set(const JointNodes<2> &face, const JointSetParameters &set,
+                   const BlockTable<2> &table)
     {
-      double length = 0.;
-      for (const JointFace &face : mesh.joint_faces)
-        if (names(set.curves,
-                  face.name == 0 ? "unnamed" : mesh.line_names[face.name]))
-          length += mesh.vertices[face.lower[0]].distance(
-              mesh.vertices[face.lower[1]]);
-      return length;
+      return names(set.curves,
+                   face.name == 0 ? "unnamed" : table.face_names[face.name]);
+    }
+
+    /** Whether the set has joints where the run begins. Collective. */
+    bool has_joints(const JointSetParameters &set, const NodeMap<2> &nodes)
+    {
+      const auto &faces = nodes.joint_faces();
+      const bool has    = std::any_of(faces.begin(), faces.end(),
+                                      [&](const JointNodes<2> &face) {
+                                     return is_in_set(face, set, nodes.table());
+                                   });
+      return dealii::Utilities::MPI::max(has ? 1U : 0U, nodes.communicator())
+             == 1U;
     }
 
     /** Whether stages let other joints become like @p set. */
@@ -59,6 +66,27 @@ namespace quoin
                          });
     }
 
+    /** Diagonal of the box around each block [m]. Collective. */
+    std::vector<double> block_sizes(const NodeMap<2> &nodes)
+    {
+      // Upper corners with the other sign: one minimum finds both.
+      const unsigned int n_blocks = nodes.table().n_blocks();
+      std::vector<double> box(4 * n_blocks, infinity);
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          double *corners = &box[4 * nodes.block_of_node(i) + d];
+          corners[0]      = std::min(corners[0], nodes.point(i)[d]);
+          corners[2]      = std::min(corners[2], -nodes.point(i)[d]);
+        }
+      dealii::Utilities::MPI::min(box, nodes.communicator(), box);
+      std::vector<double> sizes;
+      for (unsigned int b = 0; b < n_blocks; ++b)
+        sizes.push_back(std::hypot(box[4 * b] + box[4 * b + 2],
+                                   box[4 * b + 1] + box[4 * b + 3]));
+      return sizes;
+    }
+
     /** E/length of the stiffest and the softest neighbour [Pa/m]. */
     struct Neighbours
     {
@@ -69,40 +97,38 @@ namespace quoin
                           const std::vector<MaterialParameters> &materials,
                           const Model &model)
     {
-      const BlockMesh<2> &mesh = model.mesh();
+      // Boxes of blocks are of all ranks' parts.
+      const NodeMap<2> &nodes = model.nodes();
+      const auto sizes        = block_sizes(nodes);
       Neighbours result;
-      for (const JointFace &face : mesh.joint_faces)
+      for (const JointNodes<2> &face : nodes.joint_faces())
       {
-        if (!names(set.curves,
-                   face.name == 0 ? "unnamed" : mesh.line_names[face.name]))
+        if (!is_in_set(face, set, model.table()))
           continue;
-        for (const unsigned int cell : face.cells)
+        for (unsigned int side = 0; side < 2; ++side)
         {
-          const auto &material = materials[model.material_of_cell(cell)];
-          if (material.rigid)
+          const unsigned int cell = face.cells[side];
+          if (!face.is_own[side]
+              || materials[model.material_of_cell(cell)].rigid)
             continue;
+          const double young
+              = materials[model.material_of_cell(cell)].elastic.young;
           double shortest = infinity;
           for (unsigned int k = 0; k < 3; ++k)
             shortest = std::min(
-                shortest, mesh.vertices[mesh.cells[cell][k]].distance(
-                              mesh.vertices[mesh.cells[cell][(k + 1) % 3]]));
-          const unsigned int b  = mesh.block_of_cell(cell);
-          dealii::Point<2> low  = mesh.vertices[mesh.block_first_vertex[b]];
-          dealii::Point<2> high = low;
-          for (unsigned int v = mesh.block_first_vertex[b];
-               v < mesh.block_first_vertex[b + 1]; ++v)
-            for (unsigned int d = 0; d < 2; ++d)
-            {
-              low[d]  = std::min(low[d], mesh.vertices[v][d]);
-              high[d] = std::max(high[d], mesh.vertices[v][d]);
-            }
-          result.stiffest_cell = std::max(result.stiffest_cell,
-                                          material.elastic.young / shortest);
-          result.softest_block
-              = std::min(result.softest_block,
-                         material.elastic.young / low.distance(high));
+                shortest,
+                nodes.point(nodes.cell(cell)[k])
+                    .distance(nodes.point(nodes.cell(cell)[(k + 1) % 3])));
+          result.stiffest_cell
+              = std::max(result.stiffest_cell, young / shortest);
+          result.softest_block = std::min(result.softest_block,
+                                          young / sizes[face.blocks[side]]);
         }
       }
+      result.stiffest_cell = dealii::Utilities::MPI::max(result.stiffest_cell,
+                                                         nodes.communicator());
+      result.softest_block = dealii::Utilities::MPI::min(result.softest_block,
+                                                         nodes.communicator());
       return result;
     }
 
@@ -114,7 +140,7 @@ namespace quoin
         const bool takes_new
             = set.all_new_contacts || !set.new_contacts.empty();
         const std::string begin = "joints " + set.name + ": ";
-        if (joint_length(set, model.mesh()) == 0.)
+        if (!has_joints(set, model.nodes()))
         {
           if (!takes_new && !set.curves.empty()
               && !is_taken_later(set, parameters.stages))
@@ -166,10 +192,11 @@ namespace quoin
       if (parameters.triangles != TriangleKind::plain
           || parameters.model.plane != PlaneAssumption::plane_strain)
         return;
-      const BlockMesh<2> &mesh = model.mesh();
-      std::vector<bool> is_used(parameters.model.materials.size(), false);
-      for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-        is_used[model.material_of_cell(c)] = true;
+      std::vector<unsigned int> is_used(parameters.model.materials.size(), 0);
+      for (unsigned int c = 0; c < model.nodes().n_cells(); ++c)
+        is_used[model.material_of_cell(c)] = 1;
+      dealii::Utilities::MPI::max(is_used, model.nodes().communicator(),
+                                  is_used);
       for (unsigned int m = 0; m < is_used.size(); ++m)
       {
         const MaterialParameters &material = parameters.model.materials[m];

@@ -208,26 +208,29 @@ namespace quoin
   }
 
   std::vector<std::string>
-  material_lines(const Parameters &parameters, const BlockMesh<2> &mesh,
+  material_lines(const Parameters &parameters, const NodeMap<2> &nodes,
                  const std::vector<unsigned int> &material_of_group)
   {
-    const auto &materials = parameters.model.materials;
-    std::vector<std::set<unsigned int>> blocks(materials.size());
-    std::vector<std::size_t> n_cells(materials.size(), 0);
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
-      for (unsigned int c = mesh.block_first_cell[b];
-           c < mesh.block_first_cell[b + 1]; ++c)
-      {
-        const unsigned int m = material_of_group[mesh.cell_group[c]];
-        blocks[m].insert(b);
-        ++n_cells[m];
-      }
+    const auto &materials       = parameters.model.materials;
+    const unsigned int n_blocks = nodes.table().n_blocks();
+    std::vector<double> has(materials.size() * n_blocks, 0.);
+    std::vector<double> n_cells(materials.size(), 0.);
+    for (unsigned int c = 0; c < nodes.n_cells(); ++c)
+    {
+      const unsigned int m = material_of_group[nodes.group_of_cell(c)];
+      has[m * n_blocks + nodes.block_of_cell(c)] = 1.;
+      n_cells[m] += nodes.table().is_quadratic ? 0.25 : 1.;
+    }
+    dealii::Utilities::MPI::max(has, nodes.communicator(), has);
+    dealii::Utilities::MPI::sum(n_cells, nodes.communicator(), n_cells);
     std::vector<std::string> lines;
     for (unsigned int m = 0; m < materials.size(); ++m)
       lines.push_back(
           "material " + materials[m].name + ": "
-          + count_text(blocks[m].size(), "block") + ", "
-          + count_text(n_cells[m] / (mesh.quadratic ? 4 : 1), "triangle") + "; "
+          + count_text(std::count(has.begin() + m * n_blocks,
+                                  has.begin() + (m + 1) * n_blocks, 1.),
+                       "block")
+          + ", " + count_text(n_cells[m], "triangle") + "; "
           + material_text(materials[m], parameters.model.plane));
     return lines;
   }
@@ -285,37 +288,34 @@ namespace quoin
     return range_text(low, high, unit);
   }
 
-  std::string place_text(const LoadParameters &load, const BlockMesh<2> &mesh)
+  std::string place_text(const LoadParameters &load, const NodeMap<2> &node_map)
   {
     if (!load.boundaries.empty())
     {
       std::set<unsigned int> nodes;
-      for (const unsigned int f :
-           faces_of_curves(mesh, load.boundaries, load.name))
-        nodes.insert(mesh.boundary_faces[f].vertices.begin(),
-                     mesh.boundary_faces[f].vertices.end());
+      for (const BoundaryFace<2> &face :
+           faces_of_curves(node_map, load.boundaries, load.name))
+        nodes.insert(face.nodes.begin(), face.nodes.end());
       return " on " + count_text(nodes.size(), "node") + " of "
              + joined(load.boundaries);
     }
     if (load.groups.empty())
       return load.type == LoadType::boundary_elements ? "" : " on all blocks";
-    const auto groups = groups_of_names(mesh, load.groups, load.name);
+    const auto groups = groups_of_names(node_map, load.groups, load.name);
     unsigned int n    = 0;
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
-      n += std::count(groups.begin(), groups.end(),
-                      mesh.cell_group[mesh.block_first_cell[b]])
-           > 0;
+    for (const unsigned int group : node_map.table().group)
+      n += std::count(groups.begin(), groups.end(), group) > 0;
     return " on " + count_text(n, "block") + " of " + joined(load.groups);
   }
 
   std::vector<std::string> load_lines(const Parameters &parameters,
-                                      const BlockMesh<2> &mesh)
+                                      const NodeMap<2> &nodes)
   {
     std::vector<std::string> lines;
     for (const LoadParameters &load : parameters.loads)
     {
       std::string text = "load " + load.name + ": " + type_text(load)
-                         + place_text(load, mesh);
+                         + place_text(load, nodes);
       const auto names = component_names(load);
       for (unsigned int d = 0; d < names.size(); ++d)
         if (load.components[d].quantity != LoadQuantity::free)

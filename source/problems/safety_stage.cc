@@ -2,7 +2,6 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/number_text.h>
-#include <quoin/mesh/mesh_size.h>
 #include <quoin/problems/implicit_stage.h>
 #include <quoin/problems/safety_stage.h>
 #include <quoin/results/atomic_file.h>
@@ -127,7 +126,7 @@ namespace quoin
     ExplicitSolver &solver = *context.system.explicit_solver;
     FailureWatch watch(safety.failure_displacement > 0.
                            ? safety.failure_displacement
-                           : failure_share * diagonal(context.system.mesh));
+                           : failure_share * context.system.nodes->diagonal());
     context.steps.choose(stage);
     for (;;)
     {

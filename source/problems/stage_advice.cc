@@ -286,25 +286,27 @@ namespace quoin
   std::vector<CellSize> cell_sizes(const Model &model, const State<2> &state,
                                    const std::size_t n_materials)
   {
-    const BlockMesh<2> &mesh = model.mesh();
+    const NodeMap<2> &nodes = model.nodes();
     std::vector<CellSize> sizes(n_materials);
-    for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
-      for (unsigned int c = mesh.block_first_cell[b];
-           c < mesh.block_first_cell[b + 1]; ++c)
-      {
-        if (state.is_absent(b) || model.is_rigid()[b])
-          continue;
-        const auto &[p, q, r] = mesh.cells[c];
-        std::array<double, 3> edges{
-          { mesh.vertices[p].distance(mesh.vertices[q]),
-            mesh.vertices[q].distance(mesh.vertices[r]),
-            mesh.vertices[r].distance(mesh.vertices[p]) }
-        };
-        std::sort(edges.begin(), edges.end());
-        CellSize &size = sizes[model.material_of_cell(c)];
-        if (edges[1] > size.edge)
-          size = { edges[1], mesh.vertices[p] };
-      }
+    for (unsigned int c = 0; c < model.n_deformable_cells(); ++c)
+    {
+      if (state.is_absent(nodes.block_of_cell(c)))
+        continue;
+      const auto &[i, j, k] = nodes.cell(c);
+      const auto &p = nodes.point(i), &q = nodes.point(j), &r = nodes.point(k);
+      std::array<double, 3> edges{ { p.distance(q), q.distance(r),
+                                     r.distance(p) } };
+      std::sort(edges.begin(), edges.end());
+      CellSize &size = sizes[model.material_of_cell(c)];
+      if (edges[1] > size.edge)
+        size = { edges[1], p };
+    }
+    // The largest of all ranks, of several the lowest rank's.
+    for (CellSize &size : sizes)
+      for (const CellSize &other :
+           dealii::Utilities::MPI::all_gather(nodes.communicator(), size))
+        if (other.edge > size.edge)
+          size = other;
     return sizes;
   }
 

@@ -10,35 +10,38 @@ namespace quoin
   {
     // Blocks that were removed are left out with their nodes and cells.
     BlockFields fields;
-    const BlockMesh<2> &mesh = model.mesh();
+    const NodeMap<2> &nodes = model.nodes();
     std::vector<std::array<double, 4>> stress;
     std::vector<PlaneTensor> strain;
     model.blocks().stresses(state.nodes.data(), state.plastic, stress, strain);
-    stress.resize(model.n_cells(), { { 0., 0., 0., 0. } }); // rigid
-    strain.resize(model.n_cells(), { { 0., 0., 0. } });
-    for (unsigned int b = 0; b < model.n_blocks(); ++b)
+    stress.resize(nodes.n_cells(), { { 0., 0., 0., 0. } }); // rigid
+    strain.resize(nodes.n_cells(), { { 0., 0., 0. } });
+    std::vector<std::int32_t> number(nodes.n_local(), -1);
+    const auto add_node = [&](const unsigned int i)
     {
-      const unsigned int block = model.first_block() + b;
+      const NodeRecord<2> &node = state.nodes[i];
+      number[i]                 = std::int32_t(fields.position.size());
+      fields.position.push_back({ { node.X[0], node.X[1] } });
+      fields.displacement.push_back({ { node.u[0], node.u[1] } });
+      fields.velocity.push_back(
+          { { state.velocity[i].v[0], state.velocity[i].v[1] } });
+    };
+    for (const BlockPart &part : nodes.block_parts())
+    {
+      const unsigned int block = part.number;
       if (state.is_absent(block))
         continue;
-      const NodeRange range    = model.block_nodes(block);
-      const std::int32_t shift = fields.position.size() - range.begin;
-      for (std::size_t i = range.begin; i < range.end; ++i)
+      for (unsigned int i = part.nodes[0]; i < part.nodes[1]; ++i)
+        add_node(i);
+      for (unsigned int own = part.cells[0]; own < part.cells[1]; ++own)
       {
-        const NodeRecord<2> &node = state.nodes[i];
-        fields.position.push_back({ { node.X[0], node.X[1] } });
-        fields.displacement.push_back({ { node.u[0], node.u[1] } });
-        fields.velocity.push_back(
-            { { state.velocity[i].v[0], state.velocity[i].v[1] } });
-      }
-      for (unsigned int c = mesh.block_first_cell[block];
-           c < mesh.block_first_cell[block + 1]; ++c)
-      {
-        const unsigned int own = c - model.first_cell();
+        // Nodes that other ranks share come with the first cell they have.
+        for (const unsigned int i : nodes.cell(own))
+          if (number[i] < 0)
+            add_node(i);
         fields.cells.emplace_back();
         for (unsigned int k = 0; k < 3; ++k)
-          fields.cells.back()[k]
-              = static_cast<std::int32_t>(model.cells()[own][k]) + shift;
+          fields.cells.back()[k] = number[nodes.cell(own)[k]];
         fields.stress.push_back(stress[own]);
         fields.strain.push_back(strain[own]);
         if (model.blocks().is_plastic())
@@ -49,7 +52,7 @@ namespace quoin
                                                   : state.plastic.shear[own]);
         }
         fields.block.push_back(block);
-        fields.material.push_back(model.material_of_cell(c));
+        fields.material.push_back(model.material_of_cell(own));
       }
     }
     return fields;
@@ -64,7 +67,7 @@ namespace quoin
     {
       const auto &segment = model.joints().segment(i);
       // A joint between two ranks is written by that of its lower side.
-      if (segment.lower[0] >= model.exchange().n_owned()
+      if (!model.nodes().joint_faces()[segment.face].is_own[0]
           || state.joints.handed_over[i])
         continue;
       const auto gaps = model.joints().gaps(state.nodes.data(), i);

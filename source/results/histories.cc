@@ -55,13 +55,13 @@ namespace quoin
       }
     };
 
-    bool contains(const BlockMesh<2> &mesh, const unsigned int cell,
+    bool contains(const NodeMap<2> &nodes, const unsigned int cell,
                   const dealii::Point<2> &point)
     {
       for (unsigned int k = 0; k < 3; ++k)
       {
-        const auto &p     = mesh.vertices[mesh.cells[cell][k]];
-        const auto along  = mesh.vertices[mesh.cells[cell][(k + 1) % 3]] - p;
+        const auto &p     = nodes.point(nodes.cell(cell)[k]);
+        const auto along  = nodes.point(nodes.cell(cell)[(k + 1) % 3]) - p;
         const auto beyond = point - p;
         if (along[0] * beyond[1] < along[1] * beyond[0])
           return false;
@@ -69,20 +69,18 @@ namespace quoin
       return true;
     }
 
-    std::array<double, 3> place_of_block(const BlockMesh<2> &mesh,
+    std::array<double, 3> place_of_block(const NodeMap<2> &nodes,
                                          const unsigned int block,
                                          const dealii::Point<2> &point)
     {
-      bool inside = false;
-      for (unsigned int c = mesh.block_first_cell[block];
-           c < mesh.block_first_cell[block + 1]; ++c)
-        inside = inside || contains(mesh, c, point);
+      const BlockPart &part = nodes.block_parts()[nodes.find_part(block)];
+      bool inside           = false;
+      for (unsigned int c = part.cells[0]; c < part.cells[1]; ++c)
+        inside = inside || contains(nodes, c, point);
       dealii::Point<2> sum;
-      for (unsigned int v = mesh.block_first_vertex[block];
-           v < mesh.block_first_vertex[block + 1]; ++v)
-        sum += mesh.vertices[v];
-      const unsigned int n
-          = mesh.block_first_vertex[block + 1] - mesh.block_first_vertex[block];
+      for (unsigned int node = part.nodes[0]; node < part.nodes[1]; ++node)
+        sum += nodes.point(node);
+      const unsigned int n = part.nodes[1] - part.nodes[0];
       return { { inside ? 0. : 1., sum[1] / n, sum[0] / n } };
     }
 
@@ -90,30 +88,26 @@ namespace quoin
                         const std::vector<bool> &absent_in_the_end,
                         Nearest &nearest)
     {
-      const BlockMesh<2> &mesh = model.mesh();
-      for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      const NodeMap<2> &nodes = model.nodes();
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       {
-        const unsigned int v     = model.exchange().global(i);
-        const unsigned int block = mesh.block_of_vertex(v);
-        const bool absent
-            = absent_in_the_end[mesh.cell_group[mesh.block_first_cell[block]]];
+        const unsigned int block = nodes.block_of_node(i);
+        const bool absent = absent_in_the_end[model.table().group[block]];
         nearest.consider(
-            mesh.vertices[v], i,
-            [&] { return place_of_block(mesh, block, nearest.point); },
+            nodes.point(i), i,
+            [&] { return place_of_block(nodes, block, nearest.point); },
             absent ? just_behind : 0.);
       }
     }
 
     void consider_cells(const Model &model, Nearest &nearest)
     {
-      const BlockMesh<2> &mesh = model.mesh();
-      for (unsigned int c = 0; c < model.n_cells(); ++c)
+      const NodeMap<2> &nodes = model.nodes();
+      for (unsigned int c = 0; c < nodes.n_cells(); ++c)
       {
-        const auto &cell = mesh.cells[model.first_cell() + c];
-        const dealii::Point<2> centroid((mesh.vertices[cell[0]]
-                                         + mesh.vertices[cell[1]]
-                                         + mesh.vertices[cell[2]])
-                                        / 3.);
+        const auto &[i, j, k] = nodes.cell(c);
+        const dealii::Point<2> centroid(
+            (nodes.point(i) + nodes.point(j) + nodes.point(k)) / 3.);
         nearest.consider(
             centroid, c,
             [&] {
@@ -126,16 +120,16 @@ namespace quoin
     void consider_joint_points(const Model &model, const std::string &curve,
                                Nearest &nearest)
     {
-      const BlockMesh<2> &mesh = model.mesh();
+      const NodeMap<2> &nodes = model.nodes();
       for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
       {
-        const auto &face = mesh.joint_faces[model.joints().segment(i).face];
-        if (!curve.empty() && mesh.line_names[face.name] != curve)
+        const auto &face = nodes.joint_faces()[model.joints().segment(i).face];
+        if (!curve.empty() && model.table().face_names[face.name] != curve)
           continue;
         for (unsigned int k = 0; k < 2; ++k)
         {
-          const auto &here  = mesh.vertices[face.lower[k]];
-          const auto &other = mesh.vertices[face.lower[1 - k]];
+          const auto &here  = nodes.point(face.lower[k]);
+          const auto &other = nodes.point(face.lower[1 - k]);
           nearest.consider(
               here, 2 * i + k,
               [&]
@@ -245,7 +239,7 @@ namespace quoin
   {
     const HistoryParameters &wanted = probe.parameters;
     const std::string section = "section 'Histories/" + wanted.name + "': ";
-    const BlockMesh<2> &mesh  = model.mesh();
+    const NodeMap<2> &nodes   = model.nodes();
     // The least key of all ranks; more than one know joints between them.
     probe.here           = true;
     const double nearest = dealii::Utilities::MPI::min(key[0], communicator);
@@ -256,10 +250,11 @@ namespace quoin
       probe.here = probe.here && part == least;
     }
     double longest = 0.;
-    for (const auto &cell : mesh.cells)
+    for (const auto &cell : nodes.all_cells())
       for (unsigned int k = 0; k < 3; ++k)
-        longest = std::max(longest, mesh.vertices[cell[k]].distance_square(
-                                        mesh.vertices[cell[(k + 1) % 3]]));
+        longest = std::max(longest, nodes.point(cell[k]).distance_square(
+                                        nodes.point(cell[(k + 1) % 3])));
+    longest = dealii::Utilities::MPI::max(longest, communicator);
     if (nearest > 4. * longest && nearest != std::numeric_limits<double>::max())
     {
       std::ostringstream message;
@@ -339,18 +334,15 @@ namespace quoin
 
   bool Histories::is_absent(const Probe &probe, const State<2> &state) const
   {
-    const BlockMesh<2> &mesh = model.mesh();
     switch (probe.parameters.quantity)
     {
     case HistoryQuantity::displacement:
     case HistoryQuantity::velocity:
-      return state.is_absent(
-          mesh.block_of_vertex(model.exchange().global(probe.entity)));
+      return state.is_absent(model.nodes().block_of_node(probe.entity));
     case HistoryQuantity::stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
-      return state.is_absent(
-          mesh.block_of_cell(model.first_cell() + probe.entity));
+      return state.is_absent(model.nodes().block_of_cell(probe.entity));
     case HistoryQuantity::joint:
       return model.is_at_absent_block(probe.entity / 2, state);
     default:
@@ -361,7 +353,7 @@ namespace quoin
   double Histories::rotation(const unsigned int cell,
                              const State<2> &state) const
   {
-    const auto &nodes = model.cells()[cell];
+    const auto &nodes = model.nodes().cell(cell);
     if (cell >= model.n_deformable_cells())
     {
       const RigidBlocks &rigid = model.rigid_blocks();

@@ -20,9 +20,10 @@
 #include <quoin/base/lone_process.h>
 #include <quoin/loads/record.h>
 #include <quoin/loads/time_function.h>
-#include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/gmsh_reader.h>
 #include <quoin/mesh/mesh_report.h>
+#include <quoin/mesh/node_map.h>
+#include <quoin/mesh/partition.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -213,9 +214,18 @@ namespace
     BlockMesh<2> mesh;
     split_into_blocks(data, options, mesh);
     require(mesh.n_blocks() > 0, "a mesh without blocks was accepted");
-    require(!make_mesh_report(mesh).to_text().empty(), "no report");
-    require(partition_blocks(mesh, 3).size() == mesh.n_blocks(),
-            "blocks without a rank");
+    const MeshReport report = make_mesh_report(mesh);
+    require(!report.to_text().empty(), "no report");
+    const std::vector<bool> is_rigid(mesh.n_blocks(), false);
+    const auto rank = partition_cells(mesh, is_rigid, 3);
+    require(rank.size() == mesh.n_cells()
+                && std::all_of(rank.begin(), rank.end(),
+                               [](const unsigned int r) { return r < 3; }),
+            "cells without a rank");
+    const std::vector<unsigned int> first(mesh.n_cells(), 0);
+    const BlockTriangulation<2> blocks(mesh, first, is_rigid, MPI_COMM_SELF);
+    require(NodeMap<2>(blocks).n_global() == report.n_nodes,
+            "nodes are not those of the report");
   }
 
   void try_table(const Input &input)

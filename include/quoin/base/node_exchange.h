@@ -7,46 +7,75 @@
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/partitioner.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace quoin
 {
   /**
    * Nodes of this rank: a contiguous range of global nodes that it owns,
-   * numbered from 0, and after them ghosts, the joint partners that other
-   * ranks own. Copies what the owners know to the ghosts.
+   * numbered from 0, and after them copies of nodes: first the shared ones,
+   * nodes of its own cells that other ranks own, whose forces it adds to those
+   * of the owner; then partners, the nodes across joints of which another rank
+   * has the cell, which it only reads. A node may be there more than once: what
+   * is added to a partner is nobody's, whoever owns the node.
    */
   class NodeExchange
   {
   public:
-    /** Owns [first, last) of @p n_global nodes and mirrors @p ghosts. */
+    /** Owns [first, last) of @p n_global nodes and mirrors @p partners. */
     NodeExchange(unsigned int first, unsigned int last, unsigned int n_global,
-                 const std::vector<unsigned int> &ghosts,
+                 const std::vector<unsigned int> &partners,
                  MPI_Comm communicator);
 
-    /** The same owned nodes with other @p ghosts; collective. */
-    NodeExchange with_ghosts(const std::vector<unsigned int> &ghosts) const;
+    /** The same with @p shared nodes, ascending; collective. */
+    NodeExchange(unsigned int first, unsigned int last, unsigned int n_global,
+                 const std::vector<unsigned int> &shared,
+                 const std::vector<unsigned int> &partners,
+                 MPI_Comm communicator);
+
+    /** The same owned nodes with other @p partners alone; collective. */
+    NodeExchange with_partners(const std::vector<unsigned int> &partners) const;
 
     unsigned int n_owned() const
     {
       return partitioner.locally_owned_size();
     }
+    unsigned int n_shared() const
+    {
+      return shared_partitioner.n_ghost_indices();
+    }
     unsigned int n_local() const
     {
-      return n_owned() + partitioner.n_ghost_indices();
+      return n_owned() + n_shared() + partners.size();
     }
     bool owns(const unsigned int global) const
     {
       return partitioner.in_local_range(global);
     }
-    /** Local number of an owned node or ghost. */
+    /** Local number of a node that is owned, shared or a partner. */
     unsigned int local(const unsigned int global) const
     {
-      return partitioner.global_to_local(global);
+      return owns(global) || shared_partitioner.is_ghost_entry(global)
+                 ? shared_partitioner.global_to_local(global)
+                 : partner(global);
+    }
+    /** Local number of a node as a partner. */
+    unsigned int partner(const unsigned int global) const
+    {
+      return n_owned() + n_shared()
+             + (std::lower_bound(partners.begin(), partners.end(), global)
+                - partners.begin());
     }
     unsigned int global(const unsigned int local) const
     {
-      return partitioner.local_to_global(local);
+      return local < n_owned() + n_shared()
+                 ? shared_partitioner.local_to_global(local)
+                 : partners[local - n_owned() - n_shared()];
+    }
+    unsigned int n_global() const
+    {
+      return partitioner.size();
     }
     MPI_Comm communicator() const
     {
@@ -64,22 +93,36 @@ namespace quoin
     template <typename T>
     void update_ghosts(const T *owned, T *ghosts) const;
 
+    /**
+     * Adds the entries of shared nodes of @p values, n_local() long, to those
+     * of their owners on other ranks. The entries here stay. @p Value is an
+     * aggregate of doubles.
+     */
+    template <typename T>
+    void add_to_owners(T *values) const;
+
   private:
-    dealii::Utilities::MPI::Partitioner partitioner;
+    dealii::Utilities::MPI::Partitioner partitioner, shared_partitioner;
+    std::vector<unsigned int> partners; /**< global, ascending */
+    /** Where the values of shared nodes and then of partners come from: below
+        n_owned() an owned node, else a ghost of the partitioner. Empty if it is
+        the ghosts in their order. */
+    std::vector<unsigned int> sources;
   };
 
   template <typename T>
   void NodeExchange::update_ghosts(const T *owned, T *ghosts) const
   {
-    const auto &sources = partitioner.ghost_targets();
+    const auto &senders = partitioner.ghost_targets();
     const auto &targets = partitioner.import_targets();
-    if (sources.empty() && targets.empty())
+    if (senders.empty() && targets.empty() && sources.empty())
       return;
 
-    std::vector<MPI_Request> requests(sources.size() + targets.size());
+    std::vector<T> arrived(sources.empty() ? 0 : partitioner.n_ghost_indices());
+    std::vector<MPI_Request> requests(senders.size() + targets.size());
     auto request = requests.begin();
-    T *ghost     = ghosts;
-    for (const auto &[rank, count] : sources)
+    T *ghost     = sources.empty() ? ghosts : arrived.data();
+    for (const auto &[rank, count] : senders)
     {
       MPI_Irecv(ghost, count * sizeof(T), MPI_BYTE, rank, 0, communicator(),
                 &*request++);
@@ -98,6 +141,46 @@ namespace quoin
       outgoing += count;
     }
     MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    for (const unsigned int source : sources)
+      *ghosts++
+          = source < n_owned() ? owned[source] : arrived[source - n_owned()];
+  }
+
+  template <typename T>
+  void NodeExchange::add_to_owners(T *values) const
+  {
+    constexpr unsigned int n_components = sizeof(T) / sizeof(double);
+    const auto &targets                 = shared_partitioner.ghost_targets();
+    const auto &senders                 = shared_partitioner.import_targets();
+    if (senders.empty() && targets.empty())
+      return;
+    std::vector<T> arrived(shared_partitioner.n_import_indices());
+    std::vector<MPI_Request> requests(senders.size() + targets.size());
+    auto request = requests.begin();
+    T *incoming  = arrived.data();
+    for (const auto &[rank, count] : senders)
+    {
+      MPI_Irecv(incoming, count * sizeof(T), MPI_BYTE, rank, 1, communicator(),
+                &*request++);
+      incoming += count;
+    }
+    const T *outgoing = values + n_owned();
+    for (const auto &[rank, count] : targets)
+    {
+      MPI_Isend(outgoing, count * sizeof(T), MPI_BYTE, rank, 1, communicator(),
+                &*request++);
+      outgoing += count;
+    }
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+    const T *part = arrived.data();
+    for (const auto &[begin, end] : shared_partitioner.import_indices())
+      for (unsigned int i = begin; i < end; ++i, ++part)
+      {
+        double *sum        = reinterpret_cast<double *>(values + i);
+        const double *term = reinterpret_cast<const double *>(part);
+        for (unsigned int c = 0; c < n_components; ++c)
+          sum[c] += term[c];
+      }
   }
 } // namespace quoin
 

@@ -54,7 +54,7 @@ namespace quoin
 
     /**
      * Each four cells are one six-node triangle, cut as the function
-     * cut_into_quadratic_triangles() does. What goes cell by cell, strains,
+     * NodeMap does. What goes cell by cell, strains,
      * stresses and linearise(), is then of that triangle at the centroids of
      * the cells; add_forces() and what else goes in lanes is not.
      */

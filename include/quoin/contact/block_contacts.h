@@ -4,7 +4,6 @@
 #ifndef quoin_contact_block_contacts_h
 #define quoin_contact_block_contacts_h
 
-#include <quoin/base/node_exchange.h>
 #include <quoin/base/state.h>
 #include <quoin/contact/contact_edges.h>
 #include <quoin/contact/contact_parameters.h>
@@ -28,8 +27,7 @@ namespace quoin
     std::vector<JointSetParameters> sets;
     std::vector<std::string> materials;
     std::vector<unsigned int> material_of_group;
-    std::vector<bool> is_rigid; /**< for each block; empty: none is */
-    double thickness = 1.;      /**< [m] */
+    double thickness = 1.; /**< [m] */
   };
 
   /**
@@ -67,12 +65,11 @@ namespace quoin
   {
   public:
     /**
-     * Keeps references to @p mesh and @p exchange. Throws an InputError about
+     * Keeps a reference to @p node_map; collective. Throws an InputError about
      * materials that no set for new contacts covers, and about laws that are
      * not for contacts.
      */
-    BlockContacts(const BlockMesh<2> &mesh, const NodeExchange &exchange,
-                  const ContactModel &model);
+    BlockContacts(const NodeMap<2> &node_map, const ContactModel &model);
 
     /**
      * Takes the present positions. When due, hands over joints that slipped or
@@ -255,7 +252,13 @@ namespace quoin
     [[noreturn]] void refuse_speed(const State<2> &state, double speed,
                                    double dt) const;
 
-    const BlockMesh<2> &mesh;
+    unsigned int joint_number(const MatchedJoints &joints,
+                              const unsigned int segment) const
+    {
+      return node_map.joint_faces()[joints.segment(segment).face].number;
+    }
+
+    const NodeMap<2> &node_map;
     const NodeExchange &exchange;
     const ContactEdges edges;
     const ContactParameters parameters;

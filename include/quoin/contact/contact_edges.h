@@ -4,7 +4,7 @@
 #ifndef quoin_contact_contact_edges_h
 #define quoin_contact_contact_edges_h
 
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 
 #include <array>
 #include <vector>
@@ -14,7 +14,8 @@ namespace quoin
   /** An edge on the boundary of a block, which is on its left. */
   struct ContactEdge
   {
-    std::array<unsigned int, 2> nodes; /**< vertices of the whole mesh */
+    std::array<unsigned int, 2> nodes; /**< global numbers */
+    std::array<dealii::Point<2>, 2> points; /**< where they are at rest [m] */
     unsigned int block;
     unsigned int group;     /**< of the cell behind it */
     unsigned int previous;  /**< edge that ends where this one starts */
@@ -37,8 +38,8 @@ namespace quoin
 
   /**
    * The boundaries of all blocks of the mesh, joint or not, as edges between
-   * which contacts are found. Edges are numbered by their first vertex, so
-   * that all ranks agree and those of a block are consecutive. Where the side
+   * which contacts are found, on all ranks. Edges are numbered by their block,
+   * then by their first node. Where the side
    * of a rigid block is straight, it is one edge, whatever its mesh, unless it
    * is part of a joint.
    */
@@ -47,9 +48,8 @@ namespace quoin
   public:
     static constexpr unsigned int none = -1;
 
-    /** @p is_rigid: for each block; empty: none is. */
-    explicit ContactEdges(const BlockMesh<2> &mesh,
-                          const std::vector<bool> &is_rigid = {});
+    /** Collective. */
+    explicit ContactEdges(const NodeMap<2> &nodes);
 
     unsigned int size() const
     {
@@ -68,7 +68,7 @@ namespace quoin
     {
       return joint_interfaces;
     }
-    /** Of each joint face of the mesh. */
+    /** Of each JointNodes::number. */
     unsigned int interface_of_face(const unsigned int face) const
     {
       return face_interface[face];
@@ -81,10 +81,9 @@ namespace quoin
     }
 
   private:
-    void link(unsigned int n_vertices);
-    void find_corners(const BlockMesh<2> &mesh);
-    void merge_straight_sides(const BlockMesh<2> &mesh,
-                              const std::vector<bool> &is_rigid);
+    void link();
+    void find_corners();
+    void merge_straight_sides(const std::vector<bool> &is_rigid);
 
     std::vector<ContactEdge> edges;
     std::vector<unsigned int> block_first_edge;

@@ -4,7 +4,6 @@
 #ifndef quoin_contact_contact_search_h
 #define quoin_contact_contact_search_h
 
-#include <quoin/base/node_exchange.h>
 #include <quoin/base/state.h>
 #include <quoin/contact/contact_edges.h>
 
@@ -26,8 +25,8 @@ namespace quoin
    * order. Blocks marked in @p left_out take no part. Collective.
    */
   std::vector<EdgeEnds>
-  edges_within_reach(const BlockMesh<2> &mesh, const ContactEdges &edges,
-                     const NodeExchange &exchange, const NodeRecord<2> *nodes,
+  edges_within_reach(const NodeMap<2> &node_map, const ContactEdges &edges,
+                     const NodeRecord<2> *nodes,
                      const AlignedArray<std::uint8_t> &left_out, double skin);
 
   /**

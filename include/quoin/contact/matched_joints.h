@@ -4,10 +4,9 @@
 #ifndef quoin_contact_matched_joints_h
 #define quoin_contact_matched_joints_h
 
-#include <quoin/base/node_exchange.h>
 #include <quoin/base/state.h>
 #include <quoin/joints/joint_parameters.h>
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 
 #include <array>
 #include <functional>
@@ -56,11 +55,11 @@ namespace quoin
   {
   public:
     /**
-     * Takes the joint faces of @p mesh that touch nodes of this rank.
+     * Takes the joint faces of @p nodes.
      * Throws an InputError about a joint face that belongs to no set, or a
      * curve named by two sets.
      */
-    void prepare(const BlockMesh<2> &mesh, const NodeExchange &exchange,
+    void prepare(const NodeMap<2> &nodes,
                  const std::vector<JointSetParameters> &sets, double thickness);
 
     unsigned int n_segments() const
@@ -192,7 +191,7 @@ namespace quoin
       std::array<double, 2> area;               /**< of each point [m^2] */
       float share; /**< of the energy that this rank counts */
       unsigned int set;
-      unsigned int face; /**< into BlockMesh::joint_faces */
+      unsigned int face; /**< into NodeMap::joint_faces() */
     };
 
     const Segment &segment(const unsigned int i) const

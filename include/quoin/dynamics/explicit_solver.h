@@ -150,6 +150,11 @@ namespace quoin
     void apply_forces(State<2> &state, const StepContext &context);
     void advance_blocks(State<2> &state, const StepContext &context,
                         const Requests &requests);
+    /** Adds what this rank has on shared nodes to their owners', and forgets
+        it. Collective. */
+    void add_shared_forces(AlignedArray<NodeVector<2>> &values);
+    /** Of joints, contacts and loads on owned nodes. Collective. */
+    void find_applied_force();
     void capture(CapturedNode &node, const State<2> &state) const;
     void move_constrained_nodes(State<2> &state, const StepContext &context);
     /** At the time of the step [J], from velocities before and after it. */
@@ -183,7 +188,7 @@ namespace quoin
     std::vector<BlockOutside> blocks_outside;
 
     std::vector<CapturedNode> captured; /**< ascending nodes */
-    /** Of each tile, and of the rigid blocks. */
+    /** Of each tile, the shared nodes, and of the rigid blocks. */
     std::vector<unsigned int> captured_begin;
 
     AlignedArray<NodeVector<2>> force;

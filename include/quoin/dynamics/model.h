@@ -4,7 +4,6 @@
 #ifndef quoin_dynamics_model_h
 #define quoin_dynamics_model_h
 
-#include <quoin/base/node_exchange.h>
 #include <quoin/base/state.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/matched_joints.h>
@@ -17,7 +16,7 @@
 #include <quoin/loads/viscous_boundary.h>
 #include <quoin/materials/material_parameters.h>
 #include <quoin/materials/plane_assumption.h>
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 
 #include <memory>
 #include <vector>
@@ -53,22 +52,17 @@ namespace quoin
 
   /**
    * The blocks and joints of this rank, packed for the solvers and constant
-   * from then on, but for what set_properties() changes. Nodes, cells
-   * and blocks have local numbers: whole blocks, deformable ones first, then
-   * rigid ones, then the ghosts of nodes that joints reach.
+   * from then on, but for what set_properties() changes. Nodes and cells have
+   * the local numbers of a NodeMap.
    */
   class Model
   {
   public:
     /**
-     * Blocks of @p mesh are owned by the rank that @p rank_of_block names;
-     * those of a rank must be consecutive, its rigid ones last, and ranks
-     * ascending. Keeps a reference to the mesh. Throws an InputError about
-     * groups without material and joints without set.
+     * Keeps a reference to @p nodes. Throws an InputError about groups without
+     * material and joints without set. Collective.
      */
-    Model(const BlockMesh<2> &mesh,
-          const std::vector<unsigned int> &rank_of_block,
-          const ModelParameters &parameters, MPI_Comm communicator);
+    Model(const NodeMap<2> &nodes, const ModelParameters &parameters);
 
     /** What BlockContacts needs, for large displacements. */
     ContactModel contact_model() const;
@@ -107,13 +101,17 @@ namespace quoin
     /** Of each local node, whether its block is absent in @p state. */
     std::vector<bool> absent_nodes(const State<2> &state) const;
 
-    const BlockMesh<2> &mesh() const
+    const NodeMap<2> &nodes() const
     {
-      return block_mesh;
+      return node_map;
+    }
+    const BlockTable<2> &table() const
+    {
+      return node_map.table();
     }
     const NodeExchange &exchange() const
     {
-      return *nodes;
+      return node_map.exchange();
     }
     /** The deformable blocks: their nodes, cells and numbers come first. */
     const BlockForces<2> &blocks() const
@@ -124,21 +122,15 @@ namespace quoin
     {
       return rigid;
     }
-    /** Of the whole mesh, by the number of the block. */
-    const std::vector<bool> &is_rigid() const
-    {
-      return rigid_block;
-    }
     /** Owned nodes from this one on are those of rigid blocks. */
     unsigned int n_deformable_nodes() const
     {
-      return block_mesh.block_first_vertex[rigid_begin]
-             - block_mesh.block_first_vertex[block_begin];
+      return node_map.n_deformable_nodes();
     }
     /** Owned cells from this one on are those of rigid blocks. */
     unsigned int n_deformable_cells() const
     {
-      return block_mesh.block_first_cell[rigid_begin] - first_cell();
+      return node_map.n_deformable_cells();
     }
     bool large_displacements() const
     {
@@ -176,20 +168,19 @@ namespace quoin
     double slowest_shear_wave() const;
     /** What columns beside the blocks are made of. */
     FreeFieldGround free_field_ground() const;
-    unsigned int first_block() const
+    /** Entry of rigid_blocks() of @p block of the whole mesh, of this rank. */
+    unsigned int rigid_number(const unsigned int block) const
     {
-      return block_begin;
+      return node_map.find_part(block) - node_map.n_deformable_block_parts();
     }
-    unsigned int n_blocks() const
-    {
-      return block_end - block_begin;
-    }
-    /** Local nodes of @p block of the whole mesh, which this rank owns. */
+    /** Local nodes of @p block of the whole mesh; none of another rank's. */
     NodeRange block_nodes(const unsigned int block) const
     {
-      const auto &first = block_mesh.block_first_vertex;
-      return { first[block] - first[block_begin],
-               first[block + 1] - first[block_begin] };
+      const unsigned int part = node_map.find_part(block);
+      if (part == node_map.block_parts().size())
+        return { 0, 0 };
+      const auto &[begin, end] = node_map.block_parts()[part].nodes;
+      return { begin, end };
     }
     /** Of each physical surface, whether it is there where the run begins. */
     std::vector<bool> groups_present_at_start() const;
@@ -202,23 +193,10 @@ namespace quoin
     void place(unsigned int block, State<2> &state) const;
     /** Makes cells of @p block, which this rank owns, as at the start. */
     void forget_yielding(unsigned int block, PlasticHistory &history) const;
-    unsigned int first_cell() const
-    {
-      return block_mesh.block_first_cell[block_begin];
-    }
-    unsigned int n_cells() const
-    {
-      return block_mesh.block_first_cell[block_end] - first_cell();
-    }
-    /** Owned cells with local node numbers. */
-    const std::vector<std::array<unsigned int, 3>> &cells() const
-    {
-      return local_cells;
-    }
-    /** Index into the materials of a cell of the whole mesh. */
+    /** Index into the materials of an owned cell. */
     unsigned int material_of_cell(const unsigned int cell) const
     {
-      return now.material_of_group[block_mesh.cell_group[cell]];
+      return now.material_of_group[node_map.group_of_cell(cell)];
     }
     double thickness() const
     {
@@ -227,13 +205,11 @@ namespace quoin
 
   private:
     void find_materials();
-    void find_blocks(const std::vector<unsigned int> &rank_of_block,
-                     MPI_Comm communicator);
     void find_masses();
     void find_initial_stress();
     std::array<double, 4> initial_stress(const LoadParameters &load,
                                          const dealii::Point<2> &point,
-                                         unsigned int cell) const;
+                                         unsigned int group) const;
     AlignedArray<double> packed_initial_stress() const;
     void pack_blocks(const ConstructionState &construction);
     void find_stable_step();
@@ -242,17 +218,13 @@ namespace quoin
     /** The same with springs wherever blocks may touch. */
     void add_contact_bound(std::vector<std::array<double, 3>> &bound) const;
 
-    const BlockMesh<2> &block_mesh;
+    const NodeMap<2> &node_map;
     const ModelParameters parameters;
 
     ModelProperties now;
     std::vector<bool> absent_group; /**< of physical surfaces, at the start */
     std::vector<Impedance> group_impedance;
-    unsigned int block_begin, rigid_begin, block_end;
-    std::vector<bool> rigid_block;
-    std::unique_ptr<NodeExchange> nodes;
     std::vector<double> node_mass;
-    std::vector<std::array<unsigned int, 3>> local_cells;
     std::vector<std::array<double, 4>> cell_stress;     /**< or empty */
     std::vector<MatchedJoints::FaceStress> face_stress; /**< or empty */
     BlockForces<2> block_forces;

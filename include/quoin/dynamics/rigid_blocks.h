@@ -8,7 +8,7 @@
 #include <quoin/blocks/node_update.h>
 #include <quoin/loads/node_constraint.h>
 #include <quoin/materials/material_parameters.h>
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 
 #include <array>
 #include <vector>
@@ -62,13 +62,11 @@ namespace quoin
     };
 
     /**
-     * Takes the blocks [first, last) of @p mesh, all of them rigid, whose
-     * nodes begin at the local node @p first_node. @p density is that of each
-     * cell group.
+     * Takes the rigid blocks of @p nodes. @p density is that of each cell
+     * group.
      */
-    void prepare(const BlockMesh<2> &mesh, unsigned int first,
-                 unsigned int last, unsigned int first_node,
-                 const std::vector<double> &density, double thickness);
+    void prepare(const NodeMap<2> &nodes, const std::vector<double> &density,
+                 double thickness);
 
     unsigned int n_blocks() const
     {

@@ -95,12 +95,10 @@ namespace quoin
     };
 
     /**
-     * @p faces: outer edges of @p mesh, indices into boundary_faces, along the
-     * interface. Throws an InputError that begins with the section.
+     * @p faces: of all ranks, along the interface; see faces_of_curves(). Throws an InputError that begins with the section.
      */
     FarField(const std::string &name, FarFieldDomain domain,
-             const BlockMesh<2> &mesh, const std::vector<unsigned int> &faces,
-             const NodeExchange &exchange, double thickness);
+             const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces, double thickness);
     ~FarField() override;
 
     /**

@@ -5,8 +5,7 @@
 #define quoin_farfield_interface_transfer_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/base/node_exchange.h>
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 #include <quoin/tdbem/boundary.h>
 
 #include <array>
@@ -26,15 +25,14 @@ namespace quoin
   {
   public:
     /**
-     * @p elements of @p boundary lie along @p faces, indices into
-     * mesh.boundary_faces, on the other side of them. Throws an InputError if
+     * @p elements of @p boundary lie along @p faces of all ranks, on the other
+     * side of them. Throws an InputError if
      * an edge lies along no element, or an element along no edge.
      */
     InterfaceTransfer(const Boundary &boundary,
                       const std::vector<unsigned int> &elements,
-                      const BlockMesh<2> &mesh,
-                      const std::vector<unsigned int> &faces,
-                      const NodeExchange &exchange);
+                      const NodeMap<2> &node_map,
+                      const std::vector<BoundaryFace<2>> &faces);
 
     /** Local nodes that this rank owns, ascending. */
     const std::vector<unsigned int> &nodes() const

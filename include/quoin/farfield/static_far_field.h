@@ -30,9 +30,7 @@ namespace quoin
   public:
     /** As FarField, of whose @p domain motion and waves are not looked at. */
     StaticFarField(const std::string &name, const FarFieldDomain &domain,
-                   const BlockMesh<2> &mesh,
-                   const std::vector<unsigned int> &faces,
-                   const NodeExchange &exchange, double thickness);
+                   const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces, double thickness);
 
     /**
      * Largest entry of the difference between the stiffness as computed and

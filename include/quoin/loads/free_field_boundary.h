@@ -4,12 +4,11 @@
 #ifndef quoin_loads_free_field_boundary_h
 #define quoin_loads_free_field_boundary_h
 
-#include <quoin/base/node_exchange.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/node_constraint.h>
 #include <quoin/loads/viscous_boundary.h>
 #include <quoin/materials/linear_elastic.h>
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 
 #include <array>
 #include <string>
@@ -60,7 +59,7 @@ namespace quoin
      * is not upright or in one piece, or a base that cannot drive a column.
      */
     FreeFieldBoundary(const LoadParameters &parameters, unsigned int index,
-                      const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                      const NodeMap<2> &node_map,
                       const FreeFieldGround &ground, const FreeFieldBase &base);
 
     void begin_stage(State<2> &state, bool continues) override;
@@ -109,13 +108,12 @@ namespace quoin
 
     [[noreturn]] void fail(const std::string &setting,
                            const std::string &why) const;
-    void make_column(const BlockMesh<2> &mesh,
-                     const std::vector<unsigned int> &faces,
+    void make_column(const std::vector<BoundaryFace<2>> &faces,
                      const FreeFieldGround &ground);
-    void make_shares(const BlockMesh<2> &mesh, const NodeExchange &exchange,
-                     const std::vector<unsigned int> &faces, double thickness);
+    void make_shares(const NodeMap<2> &node_map,
+                     const std::vector<BoundaryFace<2>> &faces, double thickness);
     /** Returns the base's faces. */
-    std::vector<unsigned int> make_foot(const BlockMesh<2> &mesh,
+    std::vector<BoundaryFace<2>> make_foot(const NodeMap<2> &node_map,
                                         const FreeFieldBase &given);
     unsigned int node_at(double height) const;
     void start(const std::vector<CapturedNode> &captured,

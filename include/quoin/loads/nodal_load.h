@@ -4,10 +4,9 @@
 #ifndef quoin_loads_nodal_load_h
 #define quoin_loads_nodal_load_h
 
-#include <quoin/base/node_exchange.h>
 #include <quoin/base/state.h>
 #include <quoin/loads/load_parameters.h>
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 
 #include <vector>
 
@@ -15,7 +14,7 @@ namespace quoin
 {
   /**
    * A traction or gravity: forces a_x(t) w_i, a_y(t) w_i on nodes i with
-   * fixed weights w_i, the tributary area [m^2] (BlockMesh::edge_share()) or
+   * fixed weights w_i, the tributary area [m^2] (NodeMap::face_share()) or
    * the mass [kg]. A pressure
    * adds a_p(t) n_i, with n_i the tributary area times the inward normal.
    * Tractions and pressures act on the reference area and keep their
@@ -25,8 +24,7 @@ namespace quoin
   {
   public:
     /** @p mass is that of the local nodes, unscaled [kg]. */
-    NodalLoad(const LoadParameters &parameters, const BlockMesh<2> &mesh,
-              const NodeExchange &exchange, const std::vector<double> &mass,
+    NodalLoad(const LoadParameters &parameters, const NodeMap<2> &node_map, const std::vector<double> &mass,
               double thickness);
 
     /** Weights of gravity where masses have changed; see the constructor. */
@@ -55,18 +53,18 @@ namespace quoin
   };
 
   /**
-   * Boundary faces of the curves @p names, as indices into
-   * mesh.boundary_faces. Throws an InputError naming @p load if a curve does
+   * Boundary faces of the curves @p names, those of all ranks on all ranks.
+   * Collective. Throws an InputError naming @p load if a curve does
    * not exist or has no outer edge.
    */
-  std::vector<unsigned int>
-  faces_of_curves(const BlockMesh<2> &mesh,
+  std::vector<BoundaryFace<2>>
+  faces_of_curves(const NodeMap<2> &node_map,
                   const std::vector<std::string> &names,
                   const std::string &load);
 
   /** Groups named @p names; throws an InputError naming @p load. */
   std::vector<unsigned int>
-  groups_of_names(const BlockMesh<2> &mesh,
+  groups_of_names(const NodeMap<2> &node_map,
                   const std::vector<std::string> &names,
                   const std::string &load);
 } // namespace quoin

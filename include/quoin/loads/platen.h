@@ -4,10 +4,9 @@
 #ifndef quoin_loads_platen_h
 #define quoin_loads_platen_h
 
-#include <quoin/base/node_exchange.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/node_constraint.h>
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 
 namespace quoin
 {
@@ -22,7 +21,7 @@ namespace quoin
   public:
     /** @p index is its place in State::platens. */
     Platen(const LoadParameters &parameters, unsigned int index,
-           const BlockMesh<2> &mesh, const NodeExchange &exchange);
+           const NodeMap<2> &node_map);
 
     /**
      * Masses of the local nodes, as they act in the stage to come [kg].

@@ -4,10 +4,9 @@
 #ifndef quoin_loads_prescribed_motion_h
 #define quoin_loads_prescribed_motion_h
 
-#include <quoin/base/node_exchange.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/node_constraint.h>
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 
 namespace quoin
 {
@@ -15,8 +14,7 @@ namespace quoin
   class PrescribedMotion : public NodeConstraint
   {
   public:
-    PrescribedMotion(const LoadParameters &parameters, const BlockMesh<2> &mesh,
-                     const NodeExchange &exchange);
+    PrescribedMotion(const LoadParameters &parameters, const NodeMap<2> &node_map);
 
     void correct(const StepContext &step,
                  const std::vector<CapturedNode> &captured,
@@ -48,8 +46,8 @@ namespace quoin
 
   /** Local owned nodes on the faces @p faces of the outer boundary. */
   std::vector<unsigned int>
-  nodes_of_faces(const BlockMesh<2> &mesh, const NodeExchange &exchange,
-                 const std::vector<unsigned int> &faces);
+  nodes_of_faces(const NodeMap<2> &node_map,
+                 const std::vector<BoundaryFace<2>> &faces);
 } // namespace quoin
 
 #endif

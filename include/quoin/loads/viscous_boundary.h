@@ -4,12 +4,11 @@
 #ifndef quoin_loads_viscous_boundary_h
 #define quoin_loads_viscous_boundary_h
 
-#include <quoin/base/node_exchange.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/node_constraint.h>
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/materials/plane_assumption.h>
-#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/node_map.h>
 
 #include <array>
 #include <vector>
@@ -43,11 +42,11 @@ namespace quoin
 
   /**
    * Adds to @p dashpots, those of the local nodes @p nodes (ascending), the
-   * shares of the @p faces of @p mesh; nodes that are not listed are left out.
+   * shares of the @p faces of @p node_map; nodes that are not listed are left out.
    * @p impedance: of each cell group.
    */
-  void add_dashpots(const BlockMesh<2> &mesh, const NodeExchange &exchange,
-                    const std::vector<unsigned int> &faces,
+  void add_dashpots(const NodeMap<2> &node_map,
+                    const std::vector<BoundaryFace<2>> &faces,
                     const std::vector<Impedance> &impedance, double thickness,
                     const std::vector<unsigned int> &nodes,
                     std::vector<Dashpot> &dashpots);
@@ -88,10 +87,10 @@ namespace quoin
   public:
     /**
      * @p index: its place in State::viscous_boundaries; @p impedance: of what
-     * lies beyond each cell group of @p mesh.
+     * lies beyond each cell group of @p node_map.
      */
     ViscousBoundary(const LoadParameters &parameters, unsigned int index,
-                    const BlockMesh<2> &mesh, const NodeExchange &exchange,
+                    const NodeMap<2> &node_map,
                     const std::vector<Impedance> &impedance, double thickness);
 
     void begin_stage(State<2> &state, bool continues) override;

@@ -19,9 +19,10 @@ namespace quoin
    * cell, which is on the left, the edge runs from vertices[0] to vertices[1]
    * (counter-clockwise around the block).
    */
+  template <int dim>
   struct BlockFace
   {
-    std::array<unsigned int, 2> vertices;
+    std::array<unsigned int, dim> vertices;
     unsigned int cell;
     unsigned int name; /**< into BlockMesh::line_names */
   };
@@ -42,43 +43,41 @@ namespace quoin
    * Where a joint ends inside a block the vertex there is not split:
    * lower[k] == upper[k] at such a tip.
    */
+  template <int dim>
   struct JointFace
   {
-    std::array<unsigned int, 2> lower;
-    std::array<unsigned int, 2> upper;
+    std::array<unsigned int, dim> lower;
+    std::array<unsigned int, dim> upper;
     std::array<unsigned int, 2> cells;  /**< of lower, of upper */
     unsigned int name;                  /**< into line_names; may be unnamed */
     std::array<unsigned int, 2> groups; /**< cell groups of lower, upper */
   };
 
   /**
-   * The blocks that a mesh fell into: the triangles of all blocks, which share
-   * no vertices, and how they touch. Blocks are numbered one after the
+   * The blocks that a mesh fell into: the simplices of all blocks, which share
+   * no vertices, and how they touch. It is what BlockTriangulation distributes,
+   * and exists on the first rank until then. Blocks are numbered one after the
    * other; cells and vertices are block-major, and within a block the
    * vertices on its boundary come first.
-   *
-   * A quadratic mesh is one of six-node triangles, each of which is the four
-   * consecutive cells of cut_into_quadratic_triangles(); the fourth has the
-   * nodes in the middle of its edges as vertices. An edge of a quadratic
-   * triangle is two faces, each with a corner and a midside node.
    */
   template <int dim>
   struct BlockMesh
   {
     std::vector<dealii::Point<dim>> vertices;
-    std::vector<std::array<unsigned int, 3>> cells; /**< counter-clockwise */
-    std::vector<unsigned int> cell_group;           /**< into group_names */
+    std::vector<std::array<unsigned int, dim + 1>>
+        cells;                                    /**< positive volume */
+    std::vector<unsigned int> cell_group;         /**< into group_names */
     std::vector<unsigned int> block_first_cell;   /**< n_blocks() + 1 entries */
     std::vector<unsigned int> block_first_vertex; /**< n_blocks() + 1 entries */
 
     std::vector<std::string> group_names; /**< of physical surfaces */
     std::vector<std::string> line_names;  /**< of physical curves; [0] is "" */
 
+    /** Cells are to have nodes in the middle of their edges; see NodeMap. */
     bool quadratic = false;
-    std::vector<bool> is_midside; /**< by vertex; empty if not quadratic */
 
-    std::vector<BlockFace> boundary_faces; /**< outer, not joints */
-    std::vector<JointFace> joint_faces;
+    std::vector<BlockFace<dim>> boundary_faces; /**< outer, not joints */
+    std::vector<JointFace<dim>> joint_faces;
 
     /** Cells that the mesh file listed clockwise and that were turned. */
     unsigned int n_reoriented_cells = 0;
@@ -106,27 +105,6 @@ namespace quoin
       return std::upper_bound(block_first_vertex.begin(),
                               block_first_vertex.end(), vertex)
              - block_first_vertex.begin() - 1;
-    }
-
-    /**
-     * The share of a boundary or joint face that its end @p vertex stands for
-     * if a constant traction acts on it: a half; by Simpson's rule over the two
-     * faces of a quadratic edge a third at a corner, two thirds at a midside.
-     */
-    double edge_share(const unsigned int vertex) const
-    {
-      return !quadratic ? 0.5 : is_midside[vertex] ? 2. / 3. : 1. / 3.;
-    }
-
-    /**
-     * The vertices that carry the mass of @p cell in equal thirds: its own; of
-     * a quadratic triangle those in the middle of the edges, because the
-     * integrals of the corners' shape functions vanish.
-     */
-    const std::array<unsigned int, 3> &
-    mass_vertices(const unsigned int cell) const
-    {
-      return cells[quadratic ? cell | 3U : cell];
     }
   };
 } // namespace quoin

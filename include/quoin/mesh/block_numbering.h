@@ -31,24 +31,10 @@ namespace quoin
                        const std::vector<unsigned int> &new_order);
 
   /**
-   * Distribute whole blocks to @p n_parts parts of about equal numbers of cells
-   * with few pairs of blocks joined across parts; returns the part of each
-   * block. With at least as many parts as blocks, block i goes to part i and
-   * the other parts are empty. METIS divides the graph of blocks and joints; if
-   * that leaves a part more than a tenth above what dealing out the blocks by
-   * size alone gives (few blocks of very different size), the latter is taken.
+   * The order for renumber_blocks that puts the blocks which @p is_rigid marks
+   * behind the others.
    */
-  std::vector<unsigned int> partition_blocks(const BlockMesh<2> &mesh,
-                                             const unsigned int n_parts);
-
-  /**
-   * The order for renumber_blocks that makes the blocks of each part
-   * consecutive. Within parts the order stays, but blocks that @p behind marks
-   * (none, if it is empty) come behind the others.
-   */
-  std::vector<unsigned int>
-  order_by_part(const std::vector<unsigned int> &part_of_block,
-                const std::vector<bool> &behind = {});
+  std::vector<unsigned int> order_rigid_last(const std::vector<bool> &is_rigid);
 } // namespace quoin
 
 #endif

@@ -34,8 +34,8 @@ namespace quoin
    * mesh must have some; add_crossed_triangles() cuts them. Triangles that are
    * left among them, because gmsh found no partner, stay as they are.
    *
-   * With TriangleKind::quadratic cut_into_quadratic_triangles() gives the
-   * triangles, which are those of TriangleKind::plain, their midside nodes.
+   * With TriangleKind::quadratic the triangles are those of
+   * TriangleKind::plain; NodeMap gives them their midside nodes.
    *
    * Throws InputError with the file, the entity and the cure: no such file, an
    * error of gmsh, no triangles, quadrangles (unless they are to be crossed,
@@ -47,15 +47,15 @@ namespace quoin
                      TriangleKind kind = TriangleKind::plain);
 
   /**
-   * The same on all ranks: the first one reads and sends to the others. An
-   * InputError is thrown on all of them.
+   * The same by the first rank; the others have an empty mesh. An InputError is
+   * thrown on all of them. Collective.
    */
   MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator,
                      TriangleKind kind = TriangleKind::plain);
 
   /**
-   * Mesh the text @p geometry of a .geo file, on all ranks. @p maker: what made
-   * it, for messages.
+   * The same with the text @p geometry of a .geo file. @p maker: what made it,
+   * for messages.
    */
   MeshData mesh_gmsh_geometry(const std::string &geometry,
                               const std::string &maker,

@@ -34,7 +34,7 @@ namespace quoin
     std::vector<std::string> group_names;         /**< of physical surfaces */
     std::vector<std::string> line_names = { "" }; /**< [0] is "", unnamed */
 
-    /** After cut_into_quadratic_triangles(). */
+    /** Whether triangles are to have nodes in the middle of their edges. */
     bool quadratic = false;
 
     unsigned int n_reoriented = 0;      /**< triangles that were clockwise */
@@ -54,6 +54,9 @@ namespace quoin
    * than 1e-12 of its longest edge squared).
    */
   void orient_triangles(MeshData &mesh);
+
+  /** The named curves of @p mesh with the vertices on them, and its names. */
+  MeshData curves_of(const MeshData &mesh);
 } // namespace quoin
 
 #endif

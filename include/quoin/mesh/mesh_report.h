@@ -6,6 +6,8 @@
 
 #include <quoin/mesh/block_mesh.h>
 
+#include <boost/serialization/map.hpp>
+
 #include <map>
 #include <string>
 
@@ -16,10 +18,9 @@ namespace quoin
   {
     unsigned int n_blocks      = 0;
     unsigned int n_cells       = 0;
-    unsigned int n_vertices    = 0;
+    unsigned int n_nodes       = 0;
     unsigned int n_joint_faces = 0;
-    /** Four cells are one quadratic triangle then, two faces one edge. */
-    bool quadratic = false;
+    bool quadratic             = false; /**< nodes on the middle of edges */
 
     /** By curve name; "" stands for joints without one [m]. */
     std::map<std::string, double> joint_length;
@@ -51,6 +52,16 @@ namespace quoin
 
     dealii::Point<2> lower_left;  /**< of the bounding box [m] */
     dealii::Point<2> upper_right; /**< of the bounding box [m] */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &n_blocks &n_cells &n_nodes &n_joint_faces &quadratic
+          &joint_length &total_joint_length &shortest_edge &longest_edge
+              &smallest_angle &n_joint_ends &n_tied_joint_faces
+                  &n_reoriented_cells &unmatched_length &unmatched_position
+                      &overlaps &overlap_position &lower_left &upper_right;
+    }
 
     /** Lines of text without a final newline. */
     std::string to_text() const;

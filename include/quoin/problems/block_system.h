@@ -10,8 +10,8 @@
 #include <quoin/dynamics/model.h>
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/implicit/implicit_solver.h>
-#include <quoin/mesh/block_mesh.h>
 #include <quoin/mesh/mesh_report.h>
+#include <quoin/mesh/node_map.h>
 #include <quoin/problems/parameters.h>
 
 #include <memory>
@@ -57,8 +57,9 @@ namespace quoin
     const Parameters &parameters;
     const MPI_Comm communicator;
     std::string fingerprint; /**< see run_fingerprint() */
-    BlockMesh<2> mesh;
     MeshReport mesh_report;
+    std::unique_ptr<BlockTriangulation<2>> blocks;
+    std::unique_ptr<NodeMap<2>> nodes;
     BoundaryGeometry boundary_geometry;
     std::unique_ptr<Model> model;
     std::unique_ptr<Construction> construction;
@@ -67,8 +68,9 @@ namespace quoin
     ImplicitSolver *implicit_solver = nullptr; /**< the solver, or null */
 
   private:
-    void make_model();
-    void make_solver(const MeshData &as_read);
+    /** Splits and distributes the mesh of the first rank. */
+    void make_mesh(MeshData as_read);
+    void make_solver(const MeshData &curves);
   };
 } // namespace quoin
 

@@ -6,8 +6,8 @@
 
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/problems/parameters.h>
-#include <quoin/mesh/block_mesh.h>
 #include <quoin/mesh/mesh_report.h>
+#include <quoin/mesh/node_map.h>
 
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@
 namespace quoin
 {
   // What a parameter file means, a line each, for --check. All ranks get the
-  // same lines: the mesh is there as a whole.
+  // same lines; what asks for nodes is collective.
 
   /** P and S wave speeds [m/s]. */
   struct WaveSpeeds
@@ -29,7 +29,7 @@ namespace quoin
    * ModelProperties has it.
    */
   std::vector<std::string>
-  material_lines(const Parameters &parameters, const BlockMesh<2> &mesh,
+  material_lines(const Parameters &parameters, const NodeMap<2> &nodes,
                  const std::vector<unsigned int> &material_of_group);
 
   /** Names of the curves in @p report are those of the mesh. */
@@ -37,7 +37,7 @@ namespace quoin
                                        const MeshReport &report);
 
   std::vector<std::string> load_lines(const Parameters &parameters,
-                                      const BlockMesh<2> &mesh);
+                                      const NodeMap<2> &nodes);
 
   /** What is given on boundary elements in @p duration [s], and waves. */
   std::vector<std::string>
@@ -61,7 +61,8 @@ namespace quoin
                          const std::string &unit);
 
   /** Edges of the loads' curves, or blocks of their groups; empty: all. */
-  std::string place_text(const LoadParameters &load, const BlockMesh<2> &mesh);
+  std::string place_text(const LoadParameters &load,
+                         const NodeMap<2> &node_map);
 } // namespace quoin
 
 #endif

@@ -143,7 +143,8 @@ TEST(StableTimeStep, BoundsTheLargestFrequencyClosely)
   make_stack(mesh, 2, 2);
   for (const auto &[kn, ks] : joint_stiffnesses)
   {
-    const Model model(mesh, { 0, 0 }, two_blocks(kn, ks), MPI_COMM_SELF);
+    const TestNodes nodes(mesh);
+    const Model model(nodes, two_blocks(kn, ks));
     const double exact = exact_eigenvalue(model);
     const double bound = model.stability().largest_eigenvalue(model.mass());
     EXPECT_GE(bound, exact * (1. - 1e-6)) << kn;
@@ -161,7 +162,8 @@ TEST(StableTimeStep, BoundsTheLargestFrequencyOfUnequalBlocks)
     ModelParameters parameters = two_blocks(kn, ks);
     parameters.materials       = { material("lower", 8000., 1e9, 0.4),
                                    material("upper", 1000., 5e10, 0.) };
-    const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+    const TestNodes nodes(mesh);
+    const Model model(nodes, parameters);
     EXPECT_GE(model.stability().largest_eigenvalue(model.mass()),
               exact_eigenvalue(model) * (1. - 1e-6))
         << kn;
@@ -182,7 +184,8 @@ TEST(StableTimeStep, BoundsTheFrequencyWhereFourBlocksMeet)
     ModelParameters parameters;
     parameters.materials = { material("rock") };
     parameters.joints    = { elastic_joint(kn, ks, "unnamed") };
-    const Model model(mesh, { 0, 0, 0, 0 }, parameters, MPI_COMM_SELF);
+    const TestNodes nodes(mesh);
+    const Model model(nodes, parameters);
     const double exact = exact_eigenvalue(model);
     const double bound = model.stability().largest_eigenvalue(model.mass());
     EXPECT_GE(bound, exact * (1. - 1e-6)) << kn;

@@ -79,8 +79,8 @@ namespace
   /** Blocks, their contacts and joints, moved by hand. */
   struct Scene
   {
-    BlockMesh<2> mesh;
-    std::unique_ptr<NodeExchange> exchange;
+    const BlockMesh<2> mesh;
+    TestNodes nodes;
     MatchedJoints joints;
     std::unique_ptr<BlockContacts> contacts;
     State<2> state;
@@ -88,14 +88,10 @@ namespace
 
     Scene(const std::function<void(BlockMesh<2> &)> &make,
           const std::vector<JointSetParameters> &sets = { touching() })
+      : mesh(made(make)), nodes(mesh)
     {
-      make(mesh);
-      exchange = std::make_unique<NodeExchange>(
-          0, mesh.n_vertices(), mesh.n_vertices(), std::vector<unsigned int>(),
-          MPI_COMM_SELF);
-      joints.prepare(mesh, *exchange, sets, thickness);
-      contacts     = std::make_unique<BlockContacts>(mesh, *exchange,
-                                                 contact_model(sets));
+      joints.prepare(nodes, sets, thickness);
+      contacts = std::make_unique<BlockContacts>(nodes, contact_model(sets));
       state.joints = joints.make_history();
       for (const auto &p : mesh.vertices)
         state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
@@ -106,6 +102,13 @@ namespace
                    const std::vector<JointSetParameters> &sets = { touching() })
       : Scene([&](BlockMesh<2> &mesh) { make_blocks(mesh, rectangles); }, sets)
     {
+    }
+
+    static BlockMesh<2> made(const std::function<void(BlockMesh<2> &)> &make)
+    {
+      BlockMesh<2> result;
+      make(result);
+      return result;
     }
 
     /** Block that has a vertex at the reference position. */
@@ -602,19 +605,19 @@ TEST(BlockContacts, EveryPairOfMaterialsNeedsASet)
 {
   BlockMesh<2> mesh;
   make_blocks(mesh, { { 0., 0., 1., 1., 1, 1 } });
-  const NodeExchange exchange(0, 4, 4, {}, MPI_COMM_SELF);
+  const TestNodes nodes(mesh);
   ContactModel model = contact_model({ elastic_joint(kn, ks) });
-  EXPECT_THROW(BlockContacts(mesh, exchange, model), InputError);
+  EXPECT_THROW(BlockContacts(nodes, model), InputError);
   JointSetParameters set = touching();
   set.all_new_contacts   = false;
   set.new_contacts       = { { "stone", "stone" } };
   model.sets             = { set };
-  EXPECT_NO_THROW(BlockContacts(mesh, exchange, model));
+  EXPECT_NO_THROW(BlockContacts(nodes, model));
   model.sets = { set, set };
-  EXPECT_THROW(BlockContacts(mesh, exchange, model), InputError);
+  EXPECT_THROW(BlockContacts(nodes, model), InputError);
   set.new_contacts = { { "stone", "wood" } };
   model.sets       = { set };
-  EXPECT_THROW(BlockContacts(mesh, exchange, model), InputError);
+  EXPECT_THROW(BlockContacts(nodes, model), InputError);
 }
 
 TEST(ContactSearch, FindsWhatAllPairsAgainstAllFind)
@@ -628,7 +631,8 @@ TEST(ContactSearch, FindsWhatAllPairsAgainstAllFind)
                            size(random), 1 + i % 4, 1 + i % 3, angle(random) });
   BlockMesh<2> mesh;
   make_blocks(mesh, rectangles);
-  const ContactEdges edges(mesh);
+  const TestNodes nodes(mesh);
+  const ContactEdges edges(nodes);
   std::vector<EdgeEnds> ends;
   for (unsigned int e = 0; e < edges.size(); ++e)
   {
@@ -678,7 +682,8 @@ TEST(ContactEdges, RunAroundTheirBlocks)
 {
   BlockMesh<2> mesh;
   make_stack(mesh, 3, 2);
-  const ContactEdges edges(mesh);
+  const TestNodes nodes(mesh);
+  const ContactEdges edges(nodes);
   ASSERT_EQ(edges.size(), 20U);
   ASSERT_EQ(edges.interfaces().size(), 1U);
   for (unsigned int b = 0; b < 2; ++b)

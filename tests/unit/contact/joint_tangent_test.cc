@@ -22,7 +22,6 @@ namespace
   /** One joint between two blocks, its segment turned by an angle. */
   struct Joint
   {
-    BlockMesh<2> mesh;
     MatchedJoints joints;
     AlignedArray<NodeRecord<2>> nodes;
     JointHistory history;
@@ -30,11 +29,9 @@ namespace
 
     explicit Joint(const JointSetParameters &set)
     {
+      BlockMesh<2> mesh;
       make_stack(mesh, 1, 1);
-      joints.prepare(mesh,
-                     NodeExchange(0, mesh.n_vertices(), mesh.n_vertices(), {},
-                                  MPI_COMM_SELF),
-                     { set }, thickness);
+      joints.prepare(TestNodes(mesh), { set }, thickness);
       history = joints.make_history();
       for (const auto &p : mesh.vertices)
         nodes.push_back({ { p[0], p[1] }, { 0., 0. } });

@@ -19,7 +19,7 @@ namespace
   /** The joint between two stacked blocks, the whole turned by an angle. */
   struct Stack
   {
-    BlockMesh<2> mesh;
+    TestNodes nodes;
     MatchedJoints joints;
     State<2> state;
     AlignedArray<NodeVector<2>> force;
@@ -28,27 +28,38 @@ namespace
     explicit Stack(const unsigned int nx = 1, const double angle = 0.,
                    const JointSetParameters &set = elastic_joint(kn, ks),
                    const bool quadratic          = false)
+      : nodes(mesh(nx, angle, quadratic))
     {
-      make_stack(mesh, nx, 1, quadratic);
-      const double c = std::cos(angle), s = std::sin(angle);
-      for (auto &p : mesh.vertices)
-        p = { c * p[0] - s * p[1], s * p[0] + c * p[1] };
-      joints.prepare(mesh, exchange(), { set }, thickness);
+      joints.prepare(nodes, { set }, thickness);
       state.joints = joints.make_history();
-      for (const auto &p : mesh.vertices)
-        state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
+      for (unsigned int v = 0; v < nodes->n_local(); ++v)
+        state.nodes.push_back(
+            { { nodes->point(v)[0], nodes->point(v)[1] }, { 0., 0. } });
     }
 
-    NodeExchange exchange() const
+    static BlockMesh<2> mesh(const unsigned int nx, const double angle,
+                             const bool quadratic)
     {
-      return NodeExchange(0, mesh.n_vertices(), mesh.n_vertices(), {},
-                          MPI_COMM_SELF);
+      BlockMesh<2> result;
+      make_stack(result, nx, 1, quadratic);
+      const double c = std::cos(angle), s = std::sin(angle);
+      for (auto &p : result.vertices)
+        p = { c * p[0] - s * p[1], s * p[0] + c * p[1] };
+      return result;
+    }
+
+    unsigned int first_node(const unsigned int block) const
+    {
+      return nodes_of_block(nodes, block)[0];
+    }
+    unsigned int end_node(const unsigned int block) const
+    {
+      return nodes_of_block(nodes, block)[1];
     }
 
     void move_upper(const double x, const double y)
     {
-      for (unsigned int v = mesh.block_first_vertex[1];
-           v < mesh.block_first_vertex[2]; ++v)
+      for (unsigned int v = first_node(1); v < end_node(1); ++v)
       {
         state.nodes[v].u[0] += x;
         state.nodes[v].u[1] += y;
@@ -57,15 +68,14 @@ namespace
 
     void find_forces()
     {
-      force.assign(mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+      force.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
       joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
     }
 
     std::array<double, 2> total(const unsigned int block) const
     {
       std::array<double, 2> sum{};
-      for (unsigned int v = mesh.block_first_vertex[block];
-           v < mesh.block_first_vertex[block + 1]; ++v)
+      for (unsigned int v = first_node(block); v < end_node(block); ++v)
         for (unsigned int d = 0; d < 2; ++d)
           sum[d] += force[v].v[d];
       return sum;
@@ -120,7 +130,7 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
     for (unsigned int k = 0; k < 2; ++k)
     {
       const auto &segment = stack.joints.segment(i);
-      const bool middle   = stack.mesh.is_midside[segment.lower[k]];
+      const bool middle   = stack.nodes->is_midside(segment.lower[k]);
       EXPECT_NEAR(segment.area[k], (middle ? 1. / 3. : 1. / 6.) * thickness,
                   1e-15);
       area += segment.area[k];
@@ -132,21 +142,20 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   // of 3, which the trapezoidal rule on the same nodes misses by 1/72.
   const double turn = 1e-9;
   const double c = std::cos(50. * degree), s = std::sin(50. * degree);
-  std::vector<NodeVector<2>> motion(stack.mesh.n_vertices(), { { 0., 0. } });
-  for (unsigned int v = stack.mesh.block_first_vertex[1];
-       v < stack.mesh.block_first_vertex[2]; ++v)
+  std::vector<NodeVector<2>> motion(stack.nodes->n_local(), { { 0., 0. } });
+  for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
   {
-    const auto arm = stack.mesh.vertices[v] - dealii::Point<2>(-s, c);
+    const auto arm = stack.nodes->point(v) - dealii::Point<2>(-s, c);
     motion[v]      = { { -turn * arm[1], turn * arm[0] } };
     for (unsigned int d = 0; d < 2; ++d)
       stack.state.nodes[v].u[d] = motion[v].v[d];
   }
   stack.find_forces();
   double force = 0., moment = 0.;
-  for (unsigned int v = 0; v < stack.mesh.block_first_vertex[1]; ++v)
+  for (unsigned int v = 0; v < stack.end_node(0); ++v)
   {
     const double along
-        = c * stack.mesh.vertices[v][0] + s * stack.mesh.vertices[v][1];
+        = c * stack.nodes->point(v)[0] + s * stack.nodes->point(v)[1];
     const double normal = -s * stack.force[v].v[0] + c * stack.force[v].v[1];
     force += normal;
     moment += along * normal;
@@ -160,25 +169,25 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
 
   // At the rate of this motion dampers of the joint's stiffness give the same
   // force; that of each node has its own area.
-  std::vector<NodeVector<2>> viscous(stack.mesh.n_vertices(), { { 0., 0. } });
+  std::vector<NodeVector<2>> viscous(stack.nodes->n_local(), { { 0., 0. } });
   stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.state.joints,
                                   motion.data(), 1., viscous.data());
-  std::vector<std::array<double, 3>> stiffness(stack.mesh.n_vertices(),
+  std::vector<std::array<double, 3>> stiffness(stack.nodes->n_local(),
                                                { { 0., 0., 0. } });
   stack.joints.add_stiffness_bound(
       stack.state.nodes.data(), [](unsigned int, unsigned int) { return 0.; },
       stiffness);
-  for (unsigned int v = 0; v < stack.mesh.block_first_vertex[1]; ++v)
+  for (unsigned int v = 0; v < stack.end_node(0); ++v)
   {
     for (unsigned int d = 0; d < 2; ++d)
       EXPECT_NEAR(viscous[v].v[d], stack.force[v].v[d], 1e-6 * unit);
     const double along
-        = c * stack.mesh.vertices[v][0] + s * stack.mesh.vertices[v][1];
-    const bool on_joint = std::abs(c * stack.mesh.vertices[v][1]
-                                   - s * stack.mesh.vertices[v][0] - 1.)
+        = c * stack.nodes->point(v)[0] + s * stack.nodes->point(v)[1];
+    const bool on_joint = std::abs(c * stack.nodes->point(v)[1]
+                                   - s * stack.nodes->point(v)[0] - 1.)
                           < 1e-9;
     const double share = !on_joint                    ? 0.
-                         : stack.mesh.is_midside[v]   ? 2. / 3.
+                         : stack.nodes->is_midside(v) ? 2. / 3.
                          : along < 0.1 || along > 2.9 ? 1. / 6.
                                                       : 1. / 3.;
     EXPECT_NEAR(stiffness[v][0] + stiffness[v][1],
@@ -207,10 +216,10 @@ TEST(MatchedJoints, UniformOpeningAndSlip)
 
   // Half as much at the ends of the joint as in its middle.
   for (const double x : { 0., 1., 2. })
-    for (const unsigned int v : vertices_at(stack.mesh, x, 1.))
+    for (const unsigned int v : nodes_at(stack.nodes, x, 1.))
     {
       const double share = (x == 1. ? 0.5 : 0.25)
-                           * (stack.mesh.block_of_vertex(v) == 0 ? 1. : -1.);
+                           * (stack.nodes->block_of_node(v) == 0 ? 1. : -1.);
       EXPECT_NEAR(stack.force[v].v[0], share * area * ks * slip, 1e-6);
       EXPECT_NEAR(stack.force[v].v[1], share * area * kn * opening, 1e-6);
     }
@@ -226,7 +235,7 @@ TEST(MatchedJoints, NoForceOnNodesOffTheJoint)
   stack.find_forces();
   for (const double y : { 0., 2. })
     for (const double x : { 0., 1. })
-      for (const unsigned int v : vertices_at(stack.mesh, x, y))
+      for (const unsigned int v : nodes_at(stack.nodes, x, y))
       {
         EXPECT_EQ(stack.force[v].v[0], 0.);
         EXPECT_EQ(stack.force[v].v[1], 0.);
@@ -279,8 +288,7 @@ TEST(MatchedJoints, TheFrameIsTheMeanOfBothSides)
   // The upper side turns by a small angle about the middle of the joint.
   Stack stack;
   const double angle = 2e-3;
-  for (unsigned int v = stack.mesh.block_first_vertex[1];
-       v < stack.mesh.block_first_vertex[2]; ++v)
+  for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
   {
     NodeRecord<2> &node = stack.state.nodes[v];
     const double x = node.X[0] - 0.5, y = node.X[1] - 1.;
@@ -390,12 +398,11 @@ TEST(MatchedJoints, ViscousForcesOfRockJointsByTheStiffnessOfTheMoment)
   const double s = 5e6, rate = 1e-3, beta = 1e-4;
   stack.move_upper(0., -law.closure.closure(s));
   stack.find_forces();
-  AlignedArray<NodeVector<2>> velocity(stack.mesh.n_vertices(),
+  AlignedArray<NodeVector<2>> velocity(stack.nodes->n_local(),
                                        NodeVector<2>{ { 0., 0. } });
-  for (unsigned int v = stack.mesh.block_first_vertex[1];
-       v < stack.mesh.block_first_vertex[2]; ++v)
+  for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
     velocity[v].v[1] = -rate;
-  stack.force.assign(stack.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+  stack.force.assign(stack.nodes->n_local(), NodeVector<2>{ { 0., 0. } });
   stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.state.joints,
                                   velocity.data(), beta, stack.force.data());
   const double expected = -beta * law.closure.stiffness(s) * rate * thickness;
@@ -407,7 +414,7 @@ TEST(MatchedJoints, BoundIsExactForTwoMassesAndASpring)
   const double angle = 30. * degree;
   Stack stack(1, angle);
   std::vector<double> mass;
-  for (unsigned int v = 0; v < stack.mesh.n_vertices(); ++v)
+  for (unsigned int v = 0; v < stack.nodes->n_local(); ++v)
     mass.push_back(1. + 0.37 * v * v);
   std::vector<std::array<double, 3>> bound(mass.size(), { { 0., 0., 0. } });
   stack.joints.add_stiffness_bound(stack.state.nodes.data(), mass, bound);
@@ -436,8 +443,8 @@ TEST(MatchedJoints, BoundIsExactForTwoMassesAndASpring)
     }
   }
   for (unsigned int v = 0; v < mass.size(); ++v)
-    if (std::abs(stack.mesh.vertices[v][1] * std::cos(angle)
-                 - stack.mesh.vertices[v][0] * std::sin(angle) - 1.)
+    if (std::abs(stack.nodes->point(v)[1] * std::cos(angle)
+                 - stack.nodes->point(v)[0] * std::sin(angle) - 1.)
         > 0.1)
     {
       EXPECT_EQ(bound[v][0] + bound[v][1], 0.);
@@ -449,16 +456,15 @@ TEST(MatchedJoints, ViscousForcesOfStickingPoints)
   Stack stack(1, 0., frictional());
   stack.move_upper(0., -1e-4);
   stack.find_forces();
-  AlignedArray<NodeVector<2>> velocity(stack.mesh.n_vertices(),
+  AlignedArray<NodeVector<2>> velocity(stack.nodes->n_local(),
                                        NodeVector<2>{ { 0., 0. } });
-  for (unsigned int v = stack.mesh.block_first_vertex[1];
-       v < stack.mesh.block_first_vertex[2]; ++v)
+  for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
     velocity[v] = { { 0.3, -0.2 } };
 
   const double beta = 1e-4;
   const auto damp   = [&]()
   {
-    stack.force.assign(stack.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+    stack.force.assign(stack.nodes->n_local(), NodeVector<2>{ { 0., 0. } });
     stack.joints.add_viscous_forces(stack.state.nodes.data(),
                                     stack.state.joints, velocity.data(), beta,
                                     stack.force.data());
@@ -509,15 +515,15 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   const unsigned int n = mesh.n_vertices();
 
   MatchedJoints joints;
-  joints.prepare(mesh, NodeExchange(0, n, n, {}, MPI_COMM_SELF),
-                 { elastic_joint(kn, ks, "crack") }, thickness);
+  joints.prepare(TestNodes(mesh), { elastic_joint(kn, ks, "crack") },
+                 thickness);
   const auto segment     = joints.segment(0);
   const unsigned int tip = segment.lower[0] == segment.upper[0] ? 0 : 1;
   ASSERT_EQ(segment.lower[tip], segment.upper[tip]);
   ASSERT_NE(segment.lower[1 - tip], segment.upper[1 - tip]);
 
   State<2> state;
-  state.joints.resize(joints.n_points());
+  state.joints = joints.make_history();
   for (const auto &p : mesh.vertices)
     state.nodes.push_back({ { p[0], p[1] }, { 0.01 * p[0], -0.02 * p[1] } });
   state.nodes[segment.upper[1 - tip]].u[1] += 1e-4;
@@ -559,11 +565,11 @@ TEST(MatchedJoints, SetsActOnTheirOwnCurves)
   const unsigned int n = mesh.n_vertices();
   MatchedJoints joints;
   joints.prepare(
-      mesh, NodeExchange(0, n, n, {}, MPI_COMM_SELF),
+      TestNodes(mesh),
       { elastic_joint(1e9, 1e8, "second"), elastic_joint(5e9, 5e8, "first") },
       1.);
   State<2> state;
-  state.joints.resize(joints.n_points());
+  state.joints = joints.make_history();
   for (const auto &p : mesh.vertices)
     state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
   for (unsigned int b = 1; b < 3; ++b)
@@ -588,7 +594,7 @@ TEST(MatchedJoints, RefusesCurvesItCannotPlace)
 {
   Stack stack;
   const auto prepare = [&](const std::vector<JointSetParameters> &sets)
-  { MatchedJoints().prepare(stack.mesh, stack.exchange(), sets, thickness); };
+  { MatchedJoints().prepare(stack.nodes, sets, thickness); };
   expect_input_error([&] { prepare({ elastic_joint(1., 1., "crack") }); },
                      { "Joints/crack", "'crack'", ", joint,", "Curves" });
   auto again = elastic_joint(1., 1.);
@@ -609,10 +615,10 @@ TEST(MatchedJoints, UnnamedJointsHaveAWordOfTheirOwn)
   add_grid(data, 1, 1, "upper", 0., 1.);
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
-  const NodeExchange exchange(0, 8, 8, {}, MPI_COMM_SELF);
+  const TestNodes nodes(mesh);
   MatchedJoints joints;
-  joints.prepare(mesh, exchange, { elastic_joint(kn, ks, "unnamed") }, 1.);
+  joints.prepare(nodes, { elastic_joint(kn, ks, "unnamed") }, 1.);
   EXPECT_EQ(joints.n_segments(), 1U);
-  expect_input_error([&] { joints.prepare(mesh, exchange, {}, 1.); },
+  expect_input_error([&] { joints.prepare(nodes, {}, 1.); },
                      { "'unnamed'", "'lower'", "'upper'" });
 }

@@ -62,7 +62,7 @@ namespace
   void throw_upper(TestRun &run, const double x, const double y,
                    const double spin)
   {
-    if (run.model.is_rigid()[1])
+    if (run.model.table().is_rigid[1])
     {
       double *v = run.state.rigid_blocks[1].velocity;
       v[0]      = x;

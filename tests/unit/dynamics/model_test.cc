@@ -23,7 +23,8 @@ namespace
 
   void make_model(const BlockMesh<2> &mesh, const ModelParameters &parameters)
   {
-    Model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+    const TestNodes nodes(mesh, parameters.materials);
+    Model(nodes, parameters);
   }
 } // namespace
 
@@ -33,7 +34,8 @@ TEST(Model, LumpsAThirdOfEachCell)
   make_stack(mesh, 1, 1);
   ModelParameters parameters = two_blocks();
   parameters.materials = { material("upper", 3000.), material("lower", 1200.) };
-  const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+  const TestNodes nodes(mesh);
+  const Model model(nodes, parameters);
   ASSERT_EQ(model.mass().size(), 8U);
   double mass[2]{};
   for (unsigned int v = 0; v < 8; ++v)
@@ -48,8 +50,8 @@ TEST(Model, LumpsAThirdOfEachCell)
   }
   EXPECT_DOUBLE_EQ(mass[0], 1200. * 0.5);
   EXPECT_DOUBLE_EQ(mass[1], 3000. * 0.5);
-  EXPECT_EQ(model.n_blocks(), 2U);
-  EXPECT_EQ(model.n_cells(), 4U);
+  EXPECT_EQ(model.table().n_blocks(), 2U);
+  EXPECT_EQ(model.nodes().n_cells(), 4U);
   EXPECT_EQ(model.thickness(), 0.5);
 }
 
@@ -63,7 +65,8 @@ TEST(Model, ImpedanceOfWaves)
     ModelParameters parameters = two_blocks();
     parameters.plane           = strain ? PlaneAssumption::plane_strain
                                         : PlaneAssumption::plane_stress;
-    const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+    const TestNodes nodes(mesh);
+    const Model model(nodes, parameters);
     const double modulus = strain ? E * (1. - nu) / ((1. + nu) * (1. - 2. * nu))
                                   : E / (1. - nu * nu);
     ASSERT_EQ(model.impedance().size(), 2U);
@@ -77,7 +80,8 @@ TEST(Model, StartsAtRestInPlace)
 {
   BlockMesh<2> mesh;
   make_stack(mesh, 2, 1);
-  const Model model(mesh, { 0, 0 }, two_blocks(), MPI_COMM_SELF);
+  const TestNodes nodes(mesh);
+  const Model model(nodes, two_blocks());
   const State<2> state = model.initial_state();
   ASSERT_EQ(state.nodes.size(), mesh.n_vertices());
   ASSERT_EQ(state.joints.state.size(), 4U);
@@ -130,7 +134,8 @@ TEST(Model, InitialStressOfAGroupAndWithDepth)
   parameters.initial_stresses
       = { initial_stress({ { 0., -1e6, 0. } }, { { 0., 3e5, 0. } }),
           initial_stress({ { -5e5, 0., 1e5 } }, {}, { "upper" }) };
-  const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+  const TestNodes nodes(mesh);
+  const Model model(nodes, parameters);
   const State<2> state = model.initial_state();
   for (unsigned int c = 0; c < mesh.n_cells(); ++c)
   {
@@ -163,7 +168,8 @@ TEST(Model, InitialStressOutOfThePlane)
   parameters.initial_stresses[1].stress_zz = { { -7e5, 2e5 } };
   for (auto &material : parameters.materials)
     material.strength = MohrCoulombStrength{ 1e9, 0., 0. };
-  const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+  const TestNodes nodes(mesh);
+  const Model model(nodes, parameters);
   const State<2> state = model.initial_state();
   for (unsigned int c = 0; c < mesh.n_cells(); ++c)
   {

@@ -16,31 +16,36 @@ namespace
   /** Two blocks of 3 m x 2 m, their corners out of square. */
   struct Stack
   {
-    BlockMesh<2> mesh;
+    TestNodes nodes;
     std::unique_ptr<Model> model;
 
     explicit Stack(const bool quadratic, const bool upper_is_rigid = false)
+      : nodes(mesh(quadratic), { false, upper_is_rigid })
     {
-      make_stack(mesh, 3, 2, quadratic);
-      for (auto &p : mesh.vertices)
-        p = { p[0] + 0.2 * p[1], p[1] };
       ModelParameters parameters    = two_blocks();
       parameters.materials[1].rigid = upper_is_rigid;
-      model = std::make_unique<Model>(mesh, std::vector<unsigned int>{ 0, 0 },
-                                      parameters, MPI_COMM_SELF);
+      model = std::make_unique<Model>(nodes, parameters);
+    }
+
+    static BlockMesh<2> mesh(const bool quadratic)
+    {
+      BlockMesh<2> result;
+      make_stack(result, 3, 2, quadratic);
+      for (auto &p : result.vertices)
+        p = { p[0] + 0.2 * p[1], p[1] };
+      return result;
     }
 
     /** Sums of force and of its moment about the origin. */
     std::array<double, 3> resultant(const LoadParameters &parameters) const
     {
-      const NodalLoad load(parameters, mesh, model->exchange(), model->mass(),
-                           thickness);
-      std::vector<NodeVector<2>> force(mesh.n_vertices(), { { 0., 0. } });
+      const NodalLoad load(parameters, nodes, model->mass(), thickness);
+      std::vector<NodeVector<2>> force(nodes->n_local(), { { 0., 0. } });
       load.add_forces({ 0., 0. }, force.data());
       std::array<double, 3> sum{};
       for (unsigned int v = 0; v < force.size(); ++v)
       {
-        const auto &p = mesh.vertices[v];
+        const auto &p = nodes->point(v);
         sum[0] += force[v].v[0];
         sum[1] += force[v].v[1];
         sum[2] += p[0] * force[v].v[1] - p[1] * force[v].v[0];
@@ -54,16 +59,16 @@ TEST(QuadraticModel, MassIsInTheMiddleOfEdges)
 {
   const Stack stack(true);
   double sum[3]{};
-  for (unsigned int v = 0; v < stack.mesh.n_vertices(); ++v)
+  for (unsigned int v = 0; v < stack.nodes->n_local(); ++v)
   {
     const double mass = stack.model->mass()[v];
-    if (stack.mesh.is_midside[v])
+    if (stack.nodes->is_midside(v))
       EXPECT_GT(mass, 0.);
     else
       EXPECT_EQ(mass, 0.);
     sum[0] += mass;
-    sum[1] += mass * stack.mesh.vertices[v][0];
-    sum[2] += mass * stack.mesh.vertices[v][1];
+    sum[1] += mass * stack.nodes->point(v)[0];
+    sum[2] += mass * stack.nodes->point(v)[1];
   }
   const double mass = 2500. * 12. * thickness;
   EXPECT_NEAR(sum[0], mass, 1e-12 * mass);
@@ -98,15 +103,15 @@ TEST(QuadraticModel, TractionAndPressureHaveTheirResultants)
   EXPECT_NEAR(push[2], -7. * 2.3 * area, 1e-12);
 
   // Of each edge of 1 m: a sixth at its ends, two thirds in the middle.
-  const NodalLoad load(traction("pull", "top", "0", "1"), stack.mesh,
-                       stack.model->exchange(), stack.model->mass(), thickness);
-  std::vector<NodeVector<2>> force(stack.mesh.n_vertices(), { { 0., 0. } });
+  const NodalLoad load(traction("pull", "top", "0", "1"), stack.nodes,
+                       stack.model->mass(), thickness);
+  std::vector<NodeVector<2>> force(stack.nodes->n_local(), { { 0., 0. } });
   load.add_forces({ 0., 0. }, force.data());
   const double expected[]
       = { 1. / 6., 2. / 3., 1. / 3., 2. / 3., 1. / 3., 2. / 3., 1. / 6. };
   for (unsigned int i = 0; i < 7; ++i)
   {
-    const auto nodes = vertices_at(stack.mesh, 0.8 + 0.5 * i, 4.);
+    const auto nodes = nodes_at(stack.nodes, 0.8 + 0.5 * i, 4.);
     ASSERT_EQ(nodes.size(), 1U);
     EXPECT_NEAR(force[nodes[0]].v[1], expected[i] * thickness, 1e-15);
   }
@@ -131,8 +136,7 @@ TEST(QuadraticModel, PlatensHaveTheCentreOfTheirGroup)
   const Stack stack(true);
   State<2> state = stack.model->initial_state();
   state.platens.resize(1);
-  Platen platen(::platen("plate", "upper", {}, {}, {}), 0, stack.mesh,
-                stack.model->exchange());
+  Platen platen(::platen("plate", "upper", {}, {}, {}), 0, stack.nodes);
   platen.set_mass(stack.model->mass());
   platen.begin_stage(state, false);
   EXPECT_NEAR(state.platens[0].centre[0], 1.5 + 0.2 * 3., 1e-12);

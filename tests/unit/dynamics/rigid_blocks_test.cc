@@ -31,8 +31,7 @@ namespace
   void order(BlockMesh<2> &mesh, const ModelParameters &parameters)
   {
     renumber_blocks(
-        mesh, order_by_part(std::vector<unsigned int>(mesh.n_blocks(), 0),
-                            find_rigid_blocks(mesh, parameters.materials)));
+        mesh, order_rigid_last(find_rigid_blocks(mesh, parameters.materials)));
   }
 
   /** A rectangle of nx x ny unit squares, "block", by itself. */
@@ -85,13 +84,11 @@ namespace
 
   unsigned int rigid_block(const TestRun &run, const std::string &group)
   {
-    const BlockMesh<2> &mesh = run.mesh;
+    const BlockTable<2> &table = run.model.table();
     for (unsigned int b = 0; b < run.model.rigid_blocks().n_blocks(); ++b)
     {
-      const unsigned int v     = run.model.rigid_blocks().block(b).begin;
-      const unsigned int block = mesh.block_of_vertex(v);
-      if (mesh.group_names[mesh.cell_group[mesh.block_first_cell[block]]]
-          == group)
+      const unsigned int v = run.model.rigid_blocks().block(b).begin;
+      if (table.group_names[table.group[run.nodes->block_of_node(v)]] == group)
         return b;
     }
     ADD_FAILURE() << group;
@@ -208,7 +205,8 @@ TEST(RigidBlocks, MassAndInertiaOfARectangle)
     add_grid(data, 2 * n, n, "block", 1e5, -1e5, 1.5 / n);
     BlockMesh<2> mesh;
     split_into_blocks(data, {}, mesh);
-    const Model model(mesh, { 0 }, one_rigid_block(), MPI_COMM_SELF);
+    const TestNodes nodes(mesh, one_rigid_block().materials);
+    const Model model(nodes, one_rigid_block());
     ASSERT_EQ(model.rigid_blocks().n_blocks(), 1U);
     const RigidBlocks::Block &block = model.rigid_blocks().block(0);
     const double mass               = 2000. * 0.5 * 3. * 1.5;
@@ -233,7 +231,8 @@ TEST(RigidBlocks, MassAndInertiaOfAnAngle)
   data.vertices.pop_back();
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
-  const Model model(mesh, { 0 }, one_rigid_block(), MPI_COMM_SELF);
+  const TestNodes nodes(mesh, one_rigid_block().materials);
+  const Model model(nodes, one_rigid_block());
   const RigidBlocks::Block &block = model.rigid_blocks().block(0);
   const double square             = 2000. * 0.5;
   EXPECT_DOUBLE_EQ(block.mass, 3. * square);
@@ -519,7 +518,8 @@ TEST(RigidBlocks, PatchWithDeformableBlocks)
                 traction("press", "top", "0", "-1e5") });
   EXPECT_EQ(run.model.n_deformable_cells(), 8U);
   EXPECT_EQ(run.model.n_deformable_nodes(), 12U);
-  EXPECT_EQ(run.model.is_rigid(), std::vector<bool>({ false, false, true }));
+  EXPECT_EQ(run.model.table().is_rigid,
+            std::vector<bool>({ false, false, true }));
   StageParameters stage = stage_with({ "base", "press" }, DampingType::local);
   run.begin(stage, 0.5);
   run.step(4000);
@@ -549,7 +549,8 @@ TEST(RigidBlocks, BoundOfTheFrequency)
       make_stack(mesh, 4, 2);
       ModelParameters parameters = two_blocks(kn, ks);
       parameters.materials = { rigid("lower", base_density), rigid("upper") };
-      const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+      const TestNodes nodes(mesh, parameters.materials);
+      const Model model(nodes, parameters);
       const double exact = exact_eigenvalue(model);
       const double bound = model.stability().largest_eigenvalue(model.mass());
       EXPECT_GE(bound, exact * (1. - 1e-6));
@@ -575,8 +576,8 @@ TEST(RigidBlocks, BoundOfManyBlocksOnOne)
   parameters.materials = { rigid("base", 1e5), rigid("block") };
   parameters.joints
       = { elastic_joint(1e10, 5e9), elastic_joint(1e2, 1e2, "head") };
-  const Model model(mesh, std::vector<unsigned int>(21, 0), parameters,
-                    MPI_COMM_SELF);
+  const TestNodes nodes(mesh, parameters.materials);
+  const Model model(nodes, parameters);
   const double exact = exact_eigenvalue(model);
   const double bound = model.stability().largest_eigenvalue(model.mass());
   EXPECT_GE(bound, exact * (1. - 1e-6));
@@ -612,7 +613,8 @@ TEST(RigidBlocks, BoundOfContactsAnywhere)
   ModelParameters parameters     = two_blocks(2e10, 3e10);
   parameters.materials           = { rigid("lower"), rigid("upper") };
   parameters.large_displacements = true;
-  const Model model(mesh, { 0, 0 }, parameters, MPI_COMM_SELF);
+  const TestNodes nodes(mesh, parameters.materials);
+  const Model model(nodes, parameters);
   // Around a rectangle of 2 m by 1 m every node but those in the middle of
   // the long sides is a corner with two edges of 1 m: all have 1 m.
   const double k = 2. * 3e10 * 1. * 0.5, mass = 2500. * 0.5 * 2.;

@@ -5,11 +5,11 @@
 #define quoin_tests_unit_dynamics_test_models_h
 
 #include "../mesh/test_meshes.h"
+#include "../mesh/test_nodes.h"
 
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/mesh/block_splitter.h>
-#include <quoin/mesh/quadratic_triangles.h>
 
 #include <memory>
 #include <random>
@@ -35,8 +35,7 @@ namespace quoin::test
       if (i == 1)
         add_curve(data, "top", 0., y1, nx, y1);
     }
-    if (quadratic)
-      cut_into_quadratic_triangles(data);
+    data.quadratic = quadratic;
     split_into_blocks(data, {}, mesh);
   }
 
@@ -166,15 +165,15 @@ namespace quoin::test
   /** A model of one rank with its solver, ready to step. */
   struct TestRun
   {
-    BlockMesh<2> &mesh;
+    const BlockMesh<2> &mesh;
+    TestNodes nodes;
     Model model;
     ExplicitSolver solver;
     State<2> state;
 
-    TestRun(BlockMesh<2> &mesh, const ModelParameters &parameters,
+    TestRun(const BlockMesh<2> &mesh, const ModelParameters &parameters,
             const std::vector<LoadParameters> &loads)
-      : mesh(mesh), model(mesh, std::vector<unsigned int>(mesh.n_blocks(), 0),
-                          parameters, MPI_COMM_SELF),
+      : mesh(mesh), nodes(mesh, parameters.materials), model(nodes, parameters),
         solver(model, loads), state(model.initial_state())
     {
     }
@@ -201,16 +200,16 @@ namespace quoin::test
     /** The nodes of a curve or, by their block, of a group. */
     std::vector<unsigned int> nodes_at_height(const double y) const
     {
-      std::vector<unsigned int> nodes;
-      for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
-        if (std::abs(mesh.vertices[v][1] - y) < 1e-9)
-          nodes.push_back(v);
-      return nodes;
+      std::vector<unsigned int> found;
+      for (unsigned int i = 0; i < nodes->n_local(); ++i)
+        if (std::abs(nodes->point(i)[1] - y) < 1e-9)
+          found.push_back(i);
+      return found;
     }
 
     unsigned int node(const double x, const double y) const
     {
-      const auto found = vertices_at(mesh, x, y);
+      const auto found = nodes_at(nodes, x, y);
       EXPECT_EQ(found.size(), 1U);
       return found.front();
     }

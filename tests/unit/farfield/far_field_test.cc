@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../mesh/test_nodes.h"
+
 #include <quoin/farfield/far_field.h>
 
 #include <gtest/gtest.h>
 
 using namespace quoin;
+using quoin::test::TestNodes;
 
 namespace
 {
@@ -22,8 +25,7 @@ namespace
    */
   struct HeavyBlock
   {
-    BlockMesh<2> mesh;
-    NodeExchange exchange{ 0, n + 1, n + 1, {}, MPI_COMM_SELF };
+    const TestNodes nodes{ mesh() };
     State<2> state;
     StepContext step{};
     std::vector<CapturedNode> captured;
@@ -31,31 +33,47 @@ namespace
 
     HeavyBlock()
     {
-      std::vector<unsigned int> faces;
       std::vector<Eigen::Vector2d> points;
       for (unsigned int i = 0; i <= n; ++i)
-      {
-        mesh.vertices.emplace_back(element * i, 0.);
         points.emplace_back(element * i, 0.);
-      }
       FarFieldDomain domain;
       domain.boundary.add_curve(points, false);
       domain.medium = medium;
       for (unsigned int k = 0; k < n; ++k)
-      {
-        faces.push_back(k);
-        mesh.boundary_faces.push_back({ { { k + 1, k } }, 0, 0 });
         domain.interface.push_back(k);
-      }
-      far = std::make_unique<FarField>("beyond", std::move(domain), mesh, faces,
-                                       exchange, thickness);
+      far     = std::make_unique<FarField>("beyond", std::move(domain), nodes,
+                                       nodes->gather_faces({ false, true }),
+                                       thickness);
       step.dt = step.dt_before = step.dt_velocity = element / medium.c1;
-      state.nodes.resize(n + 1);
-      state.velocity.resize(n + 1);
-      for (unsigned int i = 0; i <= n; ++i)
-        state.nodes[i].X[0] = mesh.vertices[i][0];
+      state.nodes.resize(nodes->n_local());
+      state.velocity.resize(nodes->n_local());
+      for (unsigned int i = 0; i < nodes->n_local(); ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+          state.nodes[i].X[d] = nodes->point(i)[d];
       far->set_time_step(step.dt, 1, 100);
       far->begin_stage(state, false);
+    }
+
+    /** The block below the side, all cells of which meet at its foot. */
+    static BlockMesh<2> mesh()
+    {
+      BlockMesh<2> result;
+      result.group_names        = { "rock" };
+      result.line_names         = { "", "side" };
+      result.block_first_cell   = { 0, n };
+      result.block_first_vertex = { 0, n + 2 };
+      for (unsigned int i = 0; i <= n; ++i)
+        result.vertices.emplace_back(element * i, 0.);
+      result.vertices.emplace_back(0.5 * length, -1.);
+      for (unsigned int k = 0; k < n; ++k)
+      {
+        result.boundary_faces.push_back({ { { k + 1, k } }, k, 1 });
+        result.cells.push_back({ { n + 1, k + 1, k } });
+        result.cell_group.push_back(0);
+      }
+      result.boundary_faces.push_back({ { { 0, n + 1 } }, 0, 0 });
+      result.boundary_faces.push_back({ { { n + 1, n } }, n - 1, 0 });
+      return result;
     }
 
     void move(const NodeVector<2> &velocity)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../mesh/test_nodes.h"
+
 #include <quoin/base/exceptions.h>
 #include <quoin/farfield/interface_transfer.h>
 
@@ -10,6 +12,7 @@
 #include <random>
 
 using namespace quoin;
+using quoin::test::TestNodes;
 
 namespace
 {
@@ -17,21 +20,42 @@ namespace
       blocks meet at x = 1 with vertices of their own. */
   struct Top
   {
-    BlockMesh<2> mesh;
-    std::vector<unsigned int> faces;
-    std::vector<double> x = { 0., 0.4, 1., 1., 1.9, 2.2, 3. };
-    NodeExchange exchange{ 0, 7, 7, {}, MPI_COMM_SELF };
+    const TestNodes nodes{ mesh() };
+    /** Of the upper edge alone. */
+    const std::vector<BoundaryFace<2>> faces
+        = nodes->gather_faces({ false, true });
 
-    Top()
+    static BlockMesh<2> mesh()
     {
-      for (const double place : x)
-        mesh.vertices.emplace_back(place, 0.);
-      // The blocks are below: on the left of the direction of -x.
-      for (const unsigned int k : { 0U, 1U, 3U, 4U, 5U })
+      BlockMesh<2> result;
+      result.group_names        = { "rock" };
+      result.line_names         = { "", "top" };
+      result.block_first_cell   = { 0 };
+      result.block_first_vertex = { 0 };
+      for (const std::vector<double> &x :
+           { std::vector<double>{ 0., 0.4, 1. }, { 1., 1.9, 2.2, 3. } })
       {
-        faces.push_back(mesh.boundary_faces.size());
-        mesh.boundary_faces.push_back({ { { k + 1, k } }, 0, 0 });
+        // The block is below, each of its cells up to a vertex at its foot.
+        const unsigned int first = result.n_vertices();
+        const unsigned int foot  = first + x.size();
+        for (const double place : x)
+          result.vertices.emplace_back(place, 0.);
+        result.vertices.emplace_back(0.5 * (x.front() + x.back()), -1.);
+        for (unsigned int k = first; k + 1 < foot; ++k)
+        {
+          result.boundary_faces.push_back(
+              { { { k + 1, k } }, result.n_cells(), 1 });
+          result.cells.push_back({ { foot, k + 1, k } });
+          result.cell_group.push_back(0);
+        }
+        result.boundary_faces.push_back(
+            { { { first, foot } }, result.block_first_cell.back(), 0 });
+        result.boundary_faces.push_back(
+            { { { foot, foot - 1 } }, result.n_cells() - 1, 0 });
+        result.block_first_cell.push_back(result.n_cells());
+        result.block_first_vertex.push_back(result.n_vertices());
       }
+      return result;
     }
   };
 
@@ -52,13 +76,12 @@ TEST(InterfaceTransfer, means_of_linear_motion)
 {
   const Top top;
   const Boundary boundary = above({ 0., 0.7, 1.5, 3. });
-  const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.mesh, top.faces,
-                                   top.exchange);
+  const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.nodes, top.faces);
   Eigen::VectorXd means;
   transfer.gather(
       [&](const unsigned int k)
       {
-        const double x = top.x[transfer.nodes()[k]];
+        const double x = top.nodes->point(transfer.nodes()[k])[0];
         return std::array<double, 2>{ { 2. - x, 3. * x } };
       },
       means);
@@ -75,8 +98,7 @@ TEST(InterfaceTransfer, virtual_work)
 {
   const Top top;
   const Boundary boundary = above({ 0., 0.7, 1.5, 3. });
-  const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.mesh, top.faces,
-                                   top.exchange);
+  const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.nodes, top.faces);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1., 1.);
   std::vector<std::array<double, 2>> v(transfer.nodes().size());
@@ -111,8 +133,7 @@ TEST(InterfaceTransfer, congruence)
 {
   const Top top;
   const Boundary boundary = above({ 0., 1., 2.2, 3. });
-  const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.mesh, top.faces,
-                                   top.exchange);
+  const InterfaceTransfer transfer(boundary, { 0, 1, 2 }, top.nodes, top.faces);
   std::vector<double> diagonal;
   for (unsigned int k = 0; k < transfer.nodes().size(); ++k)
     diagonal.push_back(1. + k);
@@ -138,22 +159,28 @@ TEST(InterfaceTransfer, chords)
 {
   constexpr unsigned int n = 24;
   BlockMesh<2> mesh;
-  std::vector<unsigned int> faces;
+  mesh.group_names        = { "rock" };
+  mesh.line_names         = { "", "circle" };
+  mesh.block_first_cell   = { 0, n };
+  mesh.block_first_vertex = { 0, n + 1 };
   std::vector<Eigen::Vector2d> points;
   for (unsigned int k = 0; k < n; ++k)
   {
     const double angle = 2. * M_PI * k / n;
     mesh.vertices.emplace_back(std::cos(angle), std::sin(angle));
-    faces.push_back(k);
-    mesh.boundary_faces.push_back({ { { k, (k + 1) % n } }, 0, 0 });
+    mesh.boundary_faces.push_back({ { { k, (k + 1) % n } }, k, 1 });
+    mesh.cells.push_back({ { n, k, (k + 1) % n } });
+    mesh.cell_group.push_back(0);
     if (k % 3 == 0) // clockwise: the domain is outside
       points.insert(points.begin(), { std::cos(angle), std::sin(angle) });
   }
-  const NodeExchange exchange(0, n, n, {}, MPI_COMM_SELF);
+  mesh.vertices.emplace_back(0., 0.);
+  const TestNodes nodes(mesh);
   Boundary boundary;
   boundary.add_curve(points, true);
-  const InterfaceTransfer transfer(boundary, { 0, 1, 2, 3, 4, 5, 6, 7 }, mesh,
-                                   faces, exchange);
+  const InterfaceTransfer transfer(boundary, { 0, 1, 2, 3, 4, 5, 6, 7 }, nodes,
+                                   nodes->gather_faces({ false, true }));
+  EXPECT_EQ(transfer.nodes().size(), n);
   Eigen::VectorXd means;
   transfer.gather(
       [](const unsigned int) {
@@ -170,10 +197,10 @@ TEST(InterfaceTransfer, chords)
 TEST(InterfaceTransfer, refuses_gaps)
 {
   const Top top;
-  EXPECT_THROW(InterfaceTransfer(above({ 0., 1., 2. }), { 0, 1 }, top.mesh,
-                                 top.faces, top.exchange),
-               InputError);
+  EXPECT_THROW(
+      InterfaceTransfer(above({ 0., 1., 2. }), { 0, 1 }, top.nodes, top.faces),
+      InputError);
   EXPECT_THROW(InterfaceTransfer(above({ 0., 1., 3., 4. }), { 0, 1, 2 },
-                                 top.mesh, top.faces, top.exchange),
+                                 top.nodes, top.faces),
                InputError);
 }

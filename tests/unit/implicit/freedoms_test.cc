@@ -22,6 +22,7 @@ namespace
   struct Bodies
   {
     BlockMesh<2> mesh;
+    std::unique_ptr<TestNodes> nodes;
     std::unique_ptr<Model> model;
     std::unique_ptr<Platen> beam;
     std::unique_ptr<Freedoms> freedoms;
@@ -33,12 +34,12 @@ namespace
       make_stack(mesh, 3, 1);
       ModelParameters parameters    = two_blocks();
       parameters.materials[1].rigid = true;
-      model = std::make_unique<Model>(mesh, std::vector<unsigned int>{ 0, 0 },
-                                      parameters, MPI_COMM_SELF);
+      nodes = std::make_unique<TestNodes>(mesh, parameters.materials);
+      model = std::make_unique<Model>(*nodes, parameters);
       state = model->initial_state();
       state.platens.resize(1);
       beam = std::make_unique<Platen>(platen("beam", "lower", x, y, rotation),
-                                      0, mesh, model->exchange());
+                                      0, *nodes);
       beam->set_mass(model->mass());
       beam->begin_stage(state, false);
       freedoms = std::make_unique<Freedoms>(
@@ -227,12 +228,11 @@ TEST(Freedoms, TheLastMotionOfANodePrevails)
 {
   BlockMesh<2> mesh;
   make_stack(mesh, 2, 1);
-  const Model model(mesh, { 0, 0 }, two_blocks(), MPI_COMM_SELF);
+  const TestNodes nodes(mesh);
+  const Model model(nodes, two_blocks());
   State<2> state = model.initial_state();
-  PrescribedMotion bottom(motion("bottom", "bottom", "1", "2"), mesh,
-                          model.exchange());
-  PrescribedMotion sides(motion("sides", "sides", "3", ""), mesh,
-                         model.exchange());
+  PrescribedMotion bottom(motion("bottom", "bottom", "1", "2"), nodes);
+  PrescribedMotion sides(motion("sides", "sides", "3", ""), nodes);
   const Freedoms freedoms(model, { &bottom, &sides }, {}, state);
   EXPECT_EQ(freedoms.prescribed().size(), 3U + 1U + 8U);
   Configuration configuration = freedoms.configuration(state);

@@ -13,7 +13,7 @@ namespace quoin::test
   /** A model of one rank with its implicit solver. */
   struct ImplicitRun
   {
-    const BlockMesh<2> &mesh;
+    TestNodes nodes;
     Model model;
     ImplicitSolver solver;
     State<2> state;
@@ -21,8 +21,7 @@ namespace quoin::test
     ImplicitRun(const BlockMesh<2> &mesh, const ModelParameters &parameters,
                 const std::vector<LoadParameters> &loads,
                 const ImplicitParameters &numbers = {})
-      : mesh(mesh), model(mesh, std::vector<unsigned int>(mesh.n_blocks(), 0),
-                          parameters, MPI_COMM_SELF),
+      : nodes(mesh, parameters.materials), model(nodes, parameters),
         solver(model, loads, numbers, names(parameters)),
         state(model.initial_state())
     {

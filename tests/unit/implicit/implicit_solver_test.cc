@@ -62,8 +62,7 @@ namespace
     add_curve(data, "right", 6., 0., 6., 2.);
     if (cut == Cut::crossed)
       cross(data);
-    if (cut == Cut::quadratic)
-      cut_into_quadratic_triangles(data);
+    data.quadratic = cut == Cut::quadratic;
     split_into_blocks(data, {}, mesh);
   }
 
@@ -168,7 +167,7 @@ TEST(ImplicitSolver, UniformStressIsExact)
                     numbers);
     run.begin({ "left", "floor", "pull" });
     run.finish();
-    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+    for (unsigned int c = 0; c < run.nodes->n_cells(); ++c)
     {
       const auto stress
           = run.model.blocks().cell_stress(run.state.nodes.data(), {}, c);
@@ -180,7 +179,7 @@ TEST(ImplicitSolver, UniformStressIsExact)
       EXPECT_NEAR(t, sx, 1e-9 * sx);
     // Length over E, and two joints.
     const double pulled = sx * (6. / 1e10 + 1. / 1e11 + 1. / 2e11);
-    for (const unsigned int v : vertices_at(mesh, 6., 2.))
+    for (const unsigned int v : nodes_at(run.nodes, 6., 2.))
     {
       EXPECT_NEAR(run.state.nodes[v].u[0], pulled, 1e-9 * pulled);
       EXPECT_NEAR(run.state.nodes[v].u[1], -0.2 * sx * 2. / 1e10,
@@ -207,7 +206,7 @@ TEST(ImplicitSolver, IterationsConvergeQuadratically)
   run.begin({ "left", "push" });
   run.solver.step(run.state);
   ASSERT_TRUE(run.solver.is_over(run.state));
-  EXPECT_GT(run.state.nodes[vertices_at(mesh, 6., 2.)[0]].u[1], 0.5);
+  EXPECT_GT(run.state.nodes[nodes_at(run.nodes, 6., 2.)[0]].u[1], 0.5);
   expect_quadratic_convergence(run.solver.take_reports(), 2);
 }
 
@@ -336,7 +335,8 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
   // Boundary elements below the stack, of the same rock, resist its turning.
   BlockMesh<2> mesh;
   make_stack(mesh, 4, 1);
-  const Model model(mesh, { 0, 0 }, two_blocks(), MPI_COMM_SELF);
+  const TestNodes nodes(mesh);
+  const Model model(nodes, two_blocks());
   FarFieldDomain domain;
   domain.boundary.add_curve({ { 4., 0. }, { 2., 0. }, { 0., 0. } }, false);
   domain.medium    = ElasticMedium::from_young(2500., 1e10, 0.2);
@@ -351,8 +351,8 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
                component(given_force, "0"), component(given_force, "1e6*t")) },
       {}, { "joint" },
       std::make_unique<StaticFarField>(
-          "far", domain, mesh, faces_of_curves(mesh, { "bottom" }, "far"),
-          model.exchange(), model.thickness()));
+          "far", domain, nodes, faces_of_curves(nodes, { "bottom" }, "far"),
+          model.thickness()));
   State<2> state = model.initial_state();
   solver.begin_stage(stage_with({ "far", "turn" }), nullptr, state);
   while (!solver.is_over(state))
@@ -415,7 +415,7 @@ TEST(ImplicitSolver, WhatASupportHeldIsLetGo)
 
   run.begin({ "left" }, &pulled);
   EXPECT_EQ(run.state.implicit.released, 0.);
-  const unsigned int end = vertices_at(mesh, 6., 2.)[0];
+  const unsigned int end = nodes_at(run.nodes, 6., 2.)[0];
   unsigned int n         = 0;
   for (; run.state.implicit.released < 1.; ++n)
   {

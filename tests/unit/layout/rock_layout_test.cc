@@ -399,7 +399,7 @@ TEST(RockGeometry, borders_that_a_body_and_a_hole_share)
     EXPECT_EQ(mesh.n_blocks(), 2u);
     // The hole's walls go round it, on whatever they are.
     double length = 0.;
-    for (const BlockFace &face : mesh.boundary_faces)
+    for (const BlockFace<2> &face : mesh.boundary_faces)
       if (face.name < mesh.line_names.size()
           && mesh.line_names[face.name] == "tunnel")
         length += mesh.vertices[face.vertices[0]].distance(

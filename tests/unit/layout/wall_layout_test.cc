@@ -61,7 +61,7 @@ namespace
       split_into_blocks(
           mesh_gmsh_geometry(geometry.text, "wall", MPI_COMM_SELF), options,
           mesh);
-      for (const JointFace &face : mesh.joint_faces)
+      for (const JointFace<2> &face : mesh.joint_faces)
         joint_length[mesh.line_names[face.name]]
             += mesh.vertices[face.lower[0]].distance(
                 mesh.vertices[face.lower[1]]);
@@ -246,7 +246,7 @@ TEST(WallGeometry, HasTheBlocksAndJointsOfTheTests)
   // Odd courses have their first head joint after a unit, even ones after
   // half a unit; the other columns of half units are cracks.
   std::map<std::string, std::set<std::pair<long, long>>> places;
-  for (const JointFace &face : mesh.joint_faces)
+  for (const JointFace<2> &face : mesh.joint_faces)
     for (const unsigned int v : face.lower)
     {
       const auto &p = mesh.vertices[v];

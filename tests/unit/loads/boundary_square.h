@@ -4,10 +4,10 @@
 #ifndef quoin_tests_unit_loads_boundary_square_h
 #define quoin_tests_unit_loads_boundary_square_h
 
-#include <quoin/base/node_exchange.h>
+#include "../mesh/test_nodes.h"
+
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/node_constraint.h>
-#include <quoin/mesh/block_mesh.h>
 
 #include <string>
 #include <vector>
@@ -22,8 +22,8 @@ namespace quoin::test
   struct BoundarySquare
   {
     static constexpr double dt = 1e-3;
-    BlockMesh<2> mesh;
-    NodeExchange exchange{ 0, 4, 4, {}, MPI_COMM_SELF };
+    BlockMesh<2> mesh          = rectangle();
+    TestNodes nodes{ mesh };
     std::vector<double> mass = { 2., 1., 2., 1. }; /**< [kg] */
     std::vector<CapturedNode> captured;
     State<2> state;
@@ -31,14 +31,6 @@ namespace quoin::test
 
     BoundarySquare()
     {
-      mesh.vertices    = { { 1., 2. }, { 4., 2. }, { 4., 3. }, { 1., 3. } };
-      mesh.cells       = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
-      mesh.cell_group  = { 0, 0 };
-      mesh.group_names = { "rock" };
-      mesh.line_names  = { "", "bottom", "right", "top", "left" };
-      for (const unsigned int k : { 0U, 1U, 2U, 3U })
-        mesh.boundary_faces.push_back(
-            { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k + 1 });
       state.nodes.resize(4);
       state.velocity.resize(4);
       for (unsigned int i = 0; i < 4; ++i)
@@ -48,6 +40,22 @@ namespace quoin::test
       step.load_rate                              = 1.;
       step.middle                                 = { 0.5 * dt, 0.5 * dt };
       step.end                                    = { dt, dt };
+    }
+
+    static BlockMesh<2> rectangle()
+    {
+      BlockMesh<2> result;
+      result.vertices   = { { 1., 2. }, { 4., 2. }, { 4., 3. }, { 1., 3. } };
+      result.cells      = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
+      result.cell_group = { 0, 0 };
+      result.block_first_cell   = { 0, 2 };
+      result.block_first_vertex = { 0, 4 };
+      result.group_names        = { "rock" };
+      result.line_names         = { "", "bottom", "right", "top", "left" };
+      for (const unsigned int k : { 0U, 1U, 2U, 3U })
+        result.boundary_faces.push_back(
+            { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k + 1 });
+      return result;
     }
 
     /** What the solver does before it: captures the nodes, as they are. */

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include "../mesh/test_nodes.h"
+
 #include <quoin/loads/nodal_load.h>
 
 #include <gtest/gtest.h>
@@ -8,22 +10,30 @@
 #include <vector>
 
 using namespace quoin;
+using quoin::test::TestNodes;
 
 namespace
 {
   /** A rectangle of 3 m by 1 m, the block inside, whose curve is "wall". */
   struct Rectangle
   {
-    BlockMesh<2> mesh;
-    NodeExchange exchange{ 0, 4, 4, {}, MPI_COMM_SELF };
+    const BlockMesh<2> mesh = block();
+    const TestNodes nodes{ mesh };
 
-    Rectangle()
+    static BlockMesh<2> block()
     {
-      mesh.vertices   = { { 0., 0. }, { 3., 0. }, { 3., 1. }, { 0., 1. } };
-      mesh.line_names = { "wall", "right" };
+      BlockMesh<2> result;
+      result.vertices   = { { 0., 0. }, { 3., 0. }, { 3., 1. }, { 0., 1. } };
+      result.cells      = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
+      result.cell_group = { 0, 0 };
+      result.block_first_cell   = { 0, 2 };
+      result.block_first_vertex = { 0, 4 };
+      result.group_names        = { "rock" };
+      result.line_names         = { "", "wall", "right" };
       for (const unsigned int k : { 0U, 1U, 2U, 3U })
-        mesh.boundary_faces.push_back(
-            { { { k, (k + 1) % 4 } }, 0, k == 1 ? 1U : 0U });
+        result.boundary_faces.push_back(
+            { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k == 1 ? 2U : 1U });
+      return result;
     }
 
     NodalLoad load(const std::vector<std::string> &curves,
@@ -34,8 +44,7 @@ namespace
       parameters.boundaries = curves;
       parameters.components[2]
           = { LoadQuantity::force, TimeFunction(pressure, "./") };
-      return { parameters, mesh, exchange, std::vector<double>(4, 1.),
-               thickness };
+      return { parameters, nodes, std::vector<double>(4, 1.), thickness };
     }
   };
 } // namespace

@@ -21,7 +21,7 @@ namespace
 
     HeldBlock(const LoadComponent &x, const LoadComponent &y,
               const LoadComponent &rotation)
-      : platen(parameters(x, y, rotation), 0, mesh, exchange)
+      : platen(parameters(x, y, rotation), 0, nodes)
     {
       state.platens.resize(1);
       platen.set_mass(mass);

@@ -24,8 +24,7 @@ namespace
         = BoundarySquare::component(LoadQuantity::velocity, normal);
     parameters.components[1]
         = BoundarySquare::component(LoadQuantity::velocity, shear);
-    return { parameters,         0,  square.mesh, square.exchange,
-             { { 300., 200. } }, 0.5 };
+    return { parameters, 0, square.nodes, { { 300., 200. } }, 0.5 };
   }
 } // namespace
 

@@ -80,59 +80,26 @@ TEST(BlockNumbering, PermutesBlocks)
   EXPECT_ANY_THROW(renumber_blocks(mesh, { 0, 1, 2, 2 }));
 }
 
-TEST(BlockNumbering, PartitionsWholeBlocks)
+TEST(BlockNumbering, RigidBlocksComeBehindTheOthers)
 {
-  BlockMesh<2> mesh;
+  EXPECT_EQ(order_rigid_last({ true, true, false, false, true, false }),
+            std::vector<unsigned int>({ 2, 3, 5, 0, 1, 4 }));
+  EXPECT_EQ(order_rigid_last({ false, false }),
+            std::vector<unsigned int>({ 0, 1 }));
+  EXPECT_EQ(order_rigid_last({ true, true }),
+            std::vector<unsigned int>({ 0, 1 }));
+
+  BlockMesh<2> mesh, ordered;
   split(tiles(8), mesh);
-  const auto part = partition_blocks(mesh, 4);
-  std::vector<unsigned int> load(4, 0);
-  ASSERT_EQ(part.size(), 64U);
-  for (const unsigned int p : part)
-    ++load.at(p);
-  for (const unsigned int l : load)
-    EXPECT_NEAR(l, 16, 2);
-
-  const auto order = order_by_part(part);
-  renumber_blocks(mesh, order);
-  expect_consistent(mesh, 256.);
-  for (unsigned int b = 1; b < 64; ++b)
-  {
-    EXPECT_LE(part[order[b - 1]], part[order[b]]);
-    if (part[order[b - 1]] == part[order[b]])
-    {
-      EXPECT_LT(order[b - 1], order[b]);
-    }
-  }
-}
-
-TEST(BlockNumbering, SomeBlocksComeBehindInTheirPart)
-{
-  EXPECT_EQ(order_by_part({ 1, 0, 1, 0, 1, 0 },
-                          { true, true, false, false, false, false }),
-            std::vector<unsigned int>({ 3, 5, 1, 2, 4, 0 }));
-}
-
-TEST(BlockNumbering, PartitionsWithFewBlocks)
-{
-  BlockMesh<2> mesh;
-  split(tiles(2), mesh);
-  EXPECT_EQ(partition_blocks(mesh, 1), std::vector<unsigned int>(4, 0));
-  const std::vector<unsigned int> one_each = { 0, 1, 2, 3 };
-  EXPECT_EQ(partition_blocks(mesh, 4), one_each);
-  EXPECT_EQ(partition_blocks(mesh, 9), one_each);
-
-  // A large block and small ones: no part may be empty.
-  MeshData data;
-  add_grid(data, 10, 10, "rock");
-  for (unsigned int i = 0; i < 4; ++i)
-    add_grid(data, 1, 1, "rock", 20. + 2 * i, 0.);
-  split_into_blocks(data, {}, mesh);
-  ASSERT_EQ(mesh.n_blocks(), 5U);
-  std::vector<unsigned int> load(3, 0);
-  for (const unsigned int p : partition_blocks(mesh, 3))
-    ++load.at(p);
-  std::sort(load.begin(), load.end());
-  EXPECT_EQ(load, (std::vector<unsigned int>{ 1, 2, 2 }));
+  ordered = mesh;
+  std::vector<bool> is_rigid;
+  for (unsigned int b = 0; b < 64; ++b)
+    is_rigid.push_back(b % 5 < 2);
+  const auto order = order_rigid_last(is_rigid);
+  renumber_blocks(ordered, order);
+  expect_consistent(ordered, 256.);
+  for (unsigned int b = 0; b < 64; ++b)
+    EXPECT_EQ(corner(ordered, b), corner(mesh, order[b]));
 }
 
 TEST(MeshData, SurvivesSerialization)

@@ -22,7 +22,7 @@ namespace
   double joint_length(const BlockMesh<2> &mesh, const std::string &name)
   {
     double length = 0.;
-    for (const JointFace &face : mesh.joint_faces)
+    for (const JointFace<2> &face : mesh.joint_faces)
       if (mesh.line_names[face.name] == name)
         length += mesh.vertices[face.lower[0]].distance(
             mesh.vertices[face.lower[1]]);
@@ -44,7 +44,7 @@ TEST(BlockSplitter, LeavesASquareWhole)
   EXPECT_EQ(mesh.joint_faces.size(), 0U);
   ASSERT_EQ(mesh.boundary_faces.size(), 10U);
   unsigned int n_base = 0;
-  for (const BlockFace &face : mesh.boundary_faces)
+  for (const BlockFace<2> &face : mesh.boundary_faces)
     if (mesh.line_names[face.name] == "base")
     {
       ++n_base;
@@ -67,7 +67,7 @@ TEST(BlockSplitter, PutsTheLowerBlockBelowABedJoint)
   EXPECT_EQ(mesh.n_blocks(), 2U);
   EXPECT_EQ(mesh.n_vertices(), 16U);
   ASSERT_EQ(mesh.joint_faces.size(), 3U);
-  for (const JointFace &face : mesh.joint_faces)
+  for (const JointFace<2> &face : mesh.joint_faces)
   {
     EXPECT_EQ(mesh.block_of_cell(face.cells[0]), 0U);
     EXPECT_EQ(mesh.block_of_cell(face.cells[1]), 1U);
@@ -85,7 +85,7 @@ TEST(BlockSplitter, PutsTheLowerBlockLeftOfAHeadJoint)
 
   expect_consistent(mesh, 6.);
   ASSERT_EQ(mesh.joint_faces.size(), 3U);
-  for (const JointFace &face : mesh.joint_faces)
+  for (const JointFace<2> &face : mesh.joint_faces)
   {
     EXPECT_EQ(mesh.block_of_cell(face.cells[0]), 0U);
     EXPECT_GT(mesh.vertices[face.lower[1]][1], mesh.vertices[face.lower[0]][1]);

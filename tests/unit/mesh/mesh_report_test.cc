@@ -5,7 +5,6 @@
 
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/mesh_report.h>
-#include <quoin/mesh/quadratic_triangles.h>
 
 using namespace quoin;
 using namespace quoin::test;
@@ -24,7 +23,7 @@ TEST(MeshReport, CountsAndMeasures)
 
   EXPECT_EQ(report.n_blocks, 3U);
   EXPECT_EQ(report.n_cells, 16U);
-  EXPECT_EQ(report.n_vertices, 22U);
+  EXPECT_EQ(report.n_nodes, 22U);
   EXPECT_EQ(report.n_joint_faces, 5U);
   EXPECT_DOUBLE_EQ(report.joint_length.at("bed"), 4.);
   EXPECT_DOUBLE_EQ(report.joint_length.at("crack"), 1.);
@@ -48,15 +47,18 @@ TEST(MeshReport, SpeaksOfQuadraticTriangles)
   MeshData data;
   add_grid(data, 4, 2, "rock");
   add_curve(data, "bed", 0, 1, 4, 1);
-  cut_into_quadratic_triangles(data);
+  data.quadratic = true;
   SplitOptions options;
   options.joints_along = { "bed" };
   BlockMesh<2> mesh;
   split_into_blocks(data, options, mesh);
   const MeshReport report = make_mesh_report(mesh);
 
-  EXPECT_EQ(report.n_cells, 64U);
-  EXPECT_EQ(report.n_joint_faces, 8U);
+  EXPECT_TRUE(report.quadratic);
+  EXPECT_EQ(report.n_cells, 16U);
+  EXPECT_EQ(report.n_joint_faces, 4U);
+  // Of either block: 10 vertices, 17 edges.
+  EXPECT_EQ(report.n_nodes, 54U);
   EXPECT_DOUBLE_EQ(report.total_joint_length, 4.);
   EXPECT_DOUBLE_EQ(report.shortest_edge, 1.);
   EXPECT_DOUBLE_EQ(report.longest_edge, std::sqrt(2.));

@@ -103,7 +103,7 @@ namespace quoin::test
                                     const unsigned int vertex)
   {
     unsigned int n = 0;
-    for (const JointFace &face : mesh.joint_faces)
+    for (const JointFace<2> &face : mesh.joint_faces)
       for (unsigned int k = 0; k < 2; ++k)
         n += (face.lower[k] == vertex) + (face.upper[k] == vertex);
     return n;
@@ -143,14 +143,14 @@ namespace quoin::test
     // 2. Faces.
     std::vector<unsigned int> n_faces(mesh.n_blocks(), 0);
     std::set<unsigned int> on_boundary;
-    for (const BlockFace &face : mesh.boundary_faces)
+    for (const BlockFace<2> &face : mesh.boundary_faces)
     {
       EXPECT_TRUE(
           has_edge(mesh.cells[face.cell], face.vertices[0], face.vertices[1]));
       ++n_faces[mesh.block_of_cell(face.cell)];
       on_boundary.insert(face.vertices.begin(), face.vertices.end());
     }
-    for (const JointFace &face : mesh.joint_faces)
+    for (const JointFace<2> &face : mesh.joint_faces)
     {
       EXPECT_TRUE(
           has_edge(mesh.cells[face.cells[0]], face.lower[0], face.lower[1]));

@@ -32,8 +32,8 @@ namespace
   {
     BlockMesh<2> mesh;
     make_stack(mesh, 3, 2);
-    const Model model(mesh, std::vector<unsigned int>(mesh.n_blocks(), 0),
-                      parameters.model, MPI_COMM_SELF);
+    const TestNodes nodes(mesh);
+    const Model model(nodes, parameters.model);
     std::string text;
     for (const auto &list : { model_advice(parameters, model),
                               stage_advice(parameters, stage, model,
@@ -216,10 +216,10 @@ TEST(ModelSummary, SaysWhatThereIs)
   const Parameters parameters = good_parameters();
   BlockMesh<2> mesh;
   make_stack(mesh, 3, 2);
-  const Model model(mesh, std::vector<unsigned int>(mesh.n_blocks(), 0),
-                    parameters.model, MPI_COMM_SELF);
+  const TestNodes nodes(mesh);
+  const Model model(nodes, parameters.model);
   const auto materials
-      = material_lines(parameters, mesh, model.properties().material_of_group);
+      = material_lines(parameters, nodes, model.properties().material_of_group);
   ASSERT_EQ(materials.size(), 2U);
   EXPECT_EQ(materials[0],
             "material lower: 1 block, 12 triangles; elastic, E 1e+10 Pa, nu "
@@ -228,7 +228,7 @@ TEST(ModelSummary, SaysWhatThereIs)
   ASSERT_EQ(joints.size(), 1U);
   EXPECT_EQ(joints[0],
             "joints joint: 3 m; elastic, kn 2e+10 Pa/m, ks 1e+10 Pa/m");
-  const auto loads = load_lines(parameters, mesh);
+  const auto loads = load_lines(parameters, nodes);
   ASSERT_EQ(loads.size(), 2U);
   EXPECT_EQ(loads[0], "load base: prescribed motion on 4 nodes of bottom, "
                       "horizontal 0 m/s, vertical 0 m/s");
@@ -268,8 +268,8 @@ TEST(CostEstimate, FieldsAreAsLargeAsTheyAreWritten)
     }
     BlockMesh<2> mesh;
     make_stack(mesh, 60, 40);
-    const Model model(mesh, std::vector<unsigned int>(mesh.n_blocks(), 0),
-                      parameters, MPI_COMM_SELF);
+    const TestNodes nodes(mesh);
+    const Model model(nodes, parameters);
     const TemporaryDirectory directory;
     BlockOutput blocks(directory.path(), MPI_COMM_SELF);
     JointOutput joints(directory.path(), MPI_COMM_SELF);

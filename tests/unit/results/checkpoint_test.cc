@@ -35,11 +35,13 @@ namespace
       state.nodes[i] = { { 1. / (i + 1.), -0.3 * i }, { 1e-17 * i, 5e-324 } };
       state.velocity[i] = { { std::sqrt(i + 2.), -0. } };
     }
-    state.joints.resize(n / 2);
+    state.joints.resize(n / 2, 3);
     for (std::size_t i = 0; i < n / 2; ++i)
     {
       state.joints.normal_traction[i] = -1e6 / (i + 3.);
       state.joints.state[i]           = static_cast<JointState>(i % 4);
+      for (unsigned int k = 0; k < 3; ++k)
+        state.joints.internal[3 * i + k] = 0.1 * i - k;
     }
     state.energy.friction = 1. / 7.;
     return state;
@@ -110,6 +112,8 @@ TEST(Checkpoint, RoundTripIsBitwise)
   EXPECT_TRUE(
       same_bytes(after.joints.normal_traction, before.joints.normal_traction));
   EXPECT_TRUE(same_bytes(after.joints.state, before.joints.state));
+  EXPECT_EQ(after.joints.n_internal, 3U);
+  EXPECT_TRUE(same_bytes(after.joints.internal, before.joints.internal));
 }
 
 TEST(Checkpoint, OnlyTheNewestIsKept)

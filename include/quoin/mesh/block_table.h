@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_mesh_block_table_h
+#define quoin_mesh_block_table_h
+
+#include <deal.II/base/point.h>
+
+#include <boost/serialization/array.hpp>
+#include <boost/serialization/string.hpp>
+#include <boost/serialization/vector.hpp>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * What every rank knows of the whole mesh: names, sizes and an entry for each
+   * block, but nothing for each cell or node.
+   */
+  template <int dim>
+  struct BlockTable
+  {
+    std::vector<std::string> group_names; /**< of material ids */
+    /** Names of boundary ids: curves in two dimensions; [0] is "", unnamed. */
+    std::vector<std::string> face_names;
+
+    /** Cells [first_cell[b], first_cell[b + 1]) of the whole mesh are those of
+        block b. */
+    std::vector<unsigned int> first_cell;
+    std::vector<unsigned int> group; /**< of the first cell of each block */
+    std::vector<bool> is_rigid;      /**< of each block */
+    /** Pairs of blocks with a joint between them, ascending, each once; a
+        crack inside a block is a pair of that block with itself. */
+    std::vector<std::array<unsigned int, 2>> joined;
+
+    unsigned int n_vertices    = 0;
+    unsigned int n_joint_faces = 0;
+    bool is_quadratic          = false;      /**< cells have midside nodes */
+    std::array<dealii::Point<dim>, 2> box{}; /**< lower and upper corner [m] */
+
+    unsigned int n_blocks() const
+    {
+      return group.size();
+    }
+    unsigned int n_cells() const
+    {
+      return first_cell.empty() ? 0 : first_cell.back();
+    }
+    /** Number of the block that has cell @p cell of the whole mesh. */
+    unsigned int block_of_cell(const unsigned int cell) const
+    {
+      return std::upper_bound(first_cell.begin(), first_cell.end(), cell)
+             - first_cell.begin() - 1;
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &group_names &face_names &first_cell &group &is_rigid &joined
+          &n_vertices &n_joint_faces &is_quadratic &box;
+    }
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_mesh_block_triangulation_h
+#define quoin_mesh_block_triangulation_h
+
+#include <quoin/mesh/block_mesh.h>
+#include <quoin/mesh/block_table.h>
+#include <quoin/mesh/joint_map.h>
+
+#include <deal.II/distributed/fully_distributed_tria.h>
+
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * The mesh of record: a distributed triangulation of all blocks, which are
+   * its disconnected parts, and the joints between them. Each rank has the
+   * cells that it owns and, where a block is distributed over several ranks,
+   * those of others that share a vertex with them.
+   *
+   * Ids of coarse cells are the numbers of the cells in the whole mesh,
+   * whatever the number of ranks; material ids are groups, boundary ids of
+   * outer faces the names of BlockTable::face_names. Faces along joints are
+   * boundary faces, too; joint_boundary_id() is theirs.
+   */
+  template <int dim>
+  class BlockTriangulation
+  {
+  public:
+    using Triangulation
+        = dealii::parallel::fullydistributed::Triangulation<dim>;
+
+    /**
+     * Collective. Distributes @p mesh, which only the first rank has and which
+     * is empty afterwards: cell c goes to rank @p rank_of_cell [c]. No serial
+     * triangulation is made; the first rank sends each of the others its part.
+     * @p is_rigid has an entry for each block.
+     */
+    BlockTriangulation(BlockMesh<dim> &mesh,
+                       const std::vector<unsigned int> &rank_of_cell,
+                       const std::vector<bool> &is_rigid,
+                       MPI_Comm communicator);
+
+    const Triangulation &triangulation() const
+    {
+      return cells;
+    }
+    const JointMap<dim> &joints() const
+    {
+      return joint_map;
+    }
+    const BlockTable<dim> &table() const
+    {
+      return block_table;
+    }
+    MPI_Comm communicator() const
+    {
+      return cells.get_communicator();
+    }
+
+    /** Number in the whole mesh of each vertex of triangulation(). */
+    const std::vector<unsigned int> &vertex_numbers() const
+    {
+      return vertices;
+    }
+
+    /** Boundary id of faces along a joint named @p name. */
+    unsigned int joint_boundary_id(const unsigned int name) const
+    {
+      return block_table.face_names.size() + name;
+    }
+
+  private:
+    Triangulation cells;
+    JointMap<dim> joint_map;
+    BlockTable<dim> block_table;
+    std::vector<unsigned int> vertices;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,524 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/mesh/node_map.h>
+
+#include <deal.II/base/mpi_consensus_algorithms.h>
+#include <deal.II/fe/fe_simplex_p.h>
+
+#include <boost/serialization/utility.hpp>
+
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace quoin
+{
+  namespace
+  {
+    using Dof = dealii::types::global_dof_index;
+
+    /** The linear cells that stand for one with the nodes @p nodes. */
+    template <int dim>
+    std::vector<std::array<unsigned int, dim + 1>>
+    linear_cells(const std::vector<Dof> &nodes)
+    {
+      const auto cell = [&](const auto... k)
+      {
+        return std::array<unsigned int, dim + 1>{ static_cast<unsigned int>(
+            nodes[k])... };
+      };
+      if constexpr (dim == 2)
+      {
+        if (nodes.size() == 6)
+          return { cell(0, 3, 5), cell(1, 4, 3), cell(2, 5, 4), cell(3, 4, 5) };
+        return { cell(0, 1, 2) };
+      }
+      else
+        return { cell(0, 1, 2, 3) };
+    }
+
+    /** Vertices of face @p f of a cell, in between its midside node if the
+        cell has those; as indices into its nodes. */
+    template <int dim>
+    std::vector<unsigned int> nodes_of_face(const unsigned int f,
+                                            const bool is_quadratic)
+    {
+      const auto simplex = dealii::ReferenceCells::get_simplex<dim>();
+      std::vector<unsigned int> result;
+      for (unsigned int k = 0; k < dim; ++k)
+        result.push_back(simplex.face_to_cell_vertices(f, k, 1));
+      if (is_quadratic)
+        result.insert(result.begin() + 1, dim + 1 + f);
+      return result;
+    }
+
+    constexpr unsigned int linear_cells_of(const bool is_quadratic)
+    {
+      return is_quadratic ? 4 : 1;
+    }
+  } // namespace
+
+  template <int dim>
+  NodeMap<dim>::NodeMap(const BlockTriangulation<dim> &blocks)
+    : blocks(blocks), dofs(blocks.triangulation())
+  {
+    AssertThrow(dim == 2 || !table().is_quadratic,
+                dealii::ExcMessage("Quadratic cells are triangles."));
+    dofs.distribute_dofs(
+        dealii::FE_SimplexP<dim>(table().is_quadratic ? 2 : 1));
+    number_nodes();
+    find_ghosts();
+    pack_cells();
+    pack_faces();
+  }
+
+  template <int dim>
+  void NodeMap<dim>::number_nodes()
+  {
+    const dealii::IndexSet &owned = dofs.locally_owned_dofs();
+    const unsigned int n          = owned.n_elements();
+    const Dof first               = n > 0 ? owned.nth_index_in_set(0) : 0;
+    const bool is_quadratic       = table().is_quadratic;
+
+    // Nodes go by the first of these that differs: rigid or not, shared or
+    // not, their number in the whole mesh or the order of the cells.
+    std::vector<std::uint64_t> key(n, 0);
+    constexpr std::uint64_t is_shared = std::uint64_t(1) << 40;
+    constexpr std::uint64_t is_rigid  = std::uint64_t(1) << 41;
+    std::vector<bool> met(n, false);
+    std::uint64_t visit = 0;
+    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
+    for (const auto &cell : dofs.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      cell->get_dof_indices(nodes);
+      const bool rigid      = table().is_rigid[table().block_of_cell(
+               cell->id().get_coarse_cell_id())];
+      const auto visit_node = [&](const Dof node, const std::uint64_t number)
+      {
+        if (!owned.is_element(node) || met[node - first])
+          return;
+        met[node - first] = true;
+        key[node - first] = number + (rigid ? is_rigid : 0);
+      };
+      if (is_quadratic)
+        for (const auto &part : linear_cells<dim>(nodes))
+          for (const unsigned int node : part)
+            visit_node(node, visit++);
+      else
+        for (unsigned int k = 0; k <= dim; ++k)
+          visit_node(nodes[k], blocks.vertex_numbers()[cell->vertex_index(k)]);
+    }
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_ghost())
+      {
+        cell->get_dof_indices(nodes);
+        for (const Dof node : nodes)
+          if (owned.is_element(node))
+            key[node - first] |= is_shared;
+      }
+
+    std::vector<unsigned int> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    std::sort(order.begin(), order.end(),
+              [&](const unsigned int a, const unsigned int b)
+              { return key[a] < key[b]; });
+    std::vector<Dof> new_numbers(n);
+    for (unsigned int i = 0; i < n; ++i)
+      new_numbers[order[i]] = first + i;
+    dofs.renumber_dofs(new_numbers);
+    shared_nodes_begin
+        = std::count_if(key.begin(), key.end(),
+                        [&](const std::uint64_t k) { return k < is_shared; });
+    deformable_nodes
+        = std::count_if(key.begin(), key.end(),
+                        [&](const std::uint64_t k) { return k < is_rigid; });
+  }
+
+  template <int dim>
+  typename NodeMap<dim>::Partners NodeMap<dim>::nodes_of_joints() const
+  {
+    const unsigned int rank
+        = dealii::Utilities::MPI::this_mpi_process(communicator());
+    std::map<unsigned int,
+             typename dealii::DoFHandler<dim>::active_cell_iterator>
+        cell_of_number;
+    for (const JointPair<dim> &pair : blocks.joints())
+      for (unsigned int side = 0; side < 2; ++side)
+        if (pair.ranks[side] == rank)
+          cell_of_number.emplace(pair.cells[side], dofs.end());
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        const auto found = cell_of_number.find(cell->id().get_coarse_cell_id());
+        if (found != cell_of_number.end())
+          found->second = cell;
+      }
+
+    Partners result(blocks.joints().size());
+    // To other ranks: number of the pair, side, nodes.
+    std::map<unsigned int, std::vector<std::vector<unsigned int>>> to_send;
+    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
+    for (unsigned int p = 0; p < blocks.joints().size(); ++p)
+    {
+      const JointPair<dim> &pair = blocks.joints()[p];
+      for (unsigned int side = 0; side < 2; ++side)
+      {
+        if (pair.ranks[side] != rank)
+          continue;
+        cell_of_number.at(pair.cells[side])->get_dof_indices(nodes);
+        for (const unsigned int k :
+             nodes_of_face<dim>(pair.faces[side], table().is_quadratic))
+          result[p][side].push_back(nodes[k]);
+        if (pair.ranks[1 - side] != rank)
+        {
+          std::vector<unsigned int> message = { pair.number, side };
+          message.insert(message.end(), result[p][side].begin(),
+                         result[p][side].end());
+          to_send[pair.ranks[1 - side]].push_back(message);
+        }
+      }
+    }
+    for (const auto &[from, messages] :
+         dealii::Utilities::MPI::some_to_some(communicator(), to_send))
+      for (const auto &message : messages)
+      {
+        const auto found = std::lower_bound(
+            blocks.joints().begin(), blocks.joints().end(), message[0],
+            [](const JointPair<dim> &pair, const unsigned int number)
+            { return pair.number < number; });
+        result[found - blocks.joints().begin()][message[1]].assign(
+            message.begin() + 2, message.end());
+      }
+    return result;
+  }
+
+  template <int dim>
+  void NodeMap<dim>::find_ghosts()
+  {
+    const unsigned int rank
+        = dealii::Utilities::MPI::this_mpi_process(communicator());
+    const dealii::IndexSet &owned = dofs.locally_owned_dofs();
+    const auto sort               = [](std::vector<unsigned int> &nodes)
+    {
+      std::sort(nodes.begin(), nodes.end());
+      nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    };
+    std::vector<unsigned int> shared;
+    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        cell->get_dof_indices(nodes);
+        for (const Dof node : nodes)
+          if (!owned.is_element(node))
+            shared.push_back(node);
+      }
+    sort(shared);
+
+    const Partners partners_of = nodes_of_joints();
+    std::vector<unsigned int> partners;
+    for (unsigned int p = 0; p < partners_of.size(); ++p)
+      for (unsigned int side = 0; side < 2; ++side)
+        if (blocks.joints()[p].ranks[side] != rank)
+          partners.insert(partners.end(), partners_of[p][side].begin(),
+                          partners_of[p][side].end());
+    sort(partners);
+
+    const Dof first = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;
+    node_exchange   = std::make_unique<NodeExchange>(
+        first, first + owned.n_elements(), dofs.n_dofs(), shared, partners,
+        communicator());
+
+    // Joints, by local nodes and cells.
+    std::vector<unsigned int> numbers; // of owned cells, ascending
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_locally_owned())
+        numbers.push_back(cell->id().get_coarse_cell_id());
+    const auto linear_cell
+        = [&](const unsigned int number, const unsigned int vertex)
+    {
+      const unsigned int cell
+          = std::lower_bound(numbers.begin(), numbers.end(), number)
+            - numbers.begin();
+      return table().is_quadratic ? 4 * cell + vertex : cell;
+    };
+    for (unsigned int p = 0; p < partners_of.size(); ++p)
+    {
+      const JointPair<dim> &pair = blocks.joints()[p];
+      const auto local = [&](const unsigned int side, const unsigned int k)
+      {
+        const unsigned int node = partners_of[p][side][k];
+        return pair.ranks[side] == rank ? node_exchange->local(node)
+                                        : node_exchange->partner(node);
+      };
+      const bool is_quadratic = table().is_quadratic;
+      for (unsigned int part = 0; part < (is_quadratic ? 2 : 1); ++part)
+      {
+        JointNodes<dim> joint;
+        joint.number = is_quadratic ? 2 * pair.number + part : pair.number;
+        joint.name   = pair.name;
+        joint.groups = pair.groups;
+        for (unsigned int side = 0; side < 2; ++side)
+        {
+          joint.blocks[side] = table().block_of_cell(pair.cells[side]);
+          joint.is_own[side] = pair.ranks[side] == rank;
+          // Of halves, the linear cell at their vertex.
+          const auto face = nodes_of_face<dim>(pair.faces[side], is_quadratic);
+          const bool at_start
+              = part == (side == 1 && pair.match[0] == 1 ? 1U : 0U);
+          joint.cells[side]
+              = joint.is_own[side] ? linear_cell(
+                    pair.cells[side], at_start ? face.front() : face.back())
+                                   : none;
+        }
+        for (unsigned int k = 0; k < dim; ++k)
+          if (is_quadratic)
+          {
+            // Vertex, midside, vertex; the other side the other way round.
+            joint.lower[k] = local(0, part + k);
+            joint.upper[k]
+                = local(1, pair.match[0] == 1 ? 2 - part - k : part + k);
+          }
+          else
+          {
+            joint.lower[k] = local(0, k);
+            joint.upper[k] = local(1, pair.match[k]);
+          }
+        joints.push_back(joint);
+      }
+    }
+  }
+
+  template <int dim>
+  void NodeMap<dim>::pack_cells()
+  {
+    const bool is_quadratic = table().is_quadratic;
+    points.resize(node_exchange->n_local());
+    node_block.resize(points.size(), none);
+    midside.assign(is_quadratic ? points.size() : 0, false);
+
+    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
+    for (const auto &cell : dofs.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      const unsigned int block
+          = table().block_of_cell(cell->id().get_coarse_cell_id());
+      cell->get_dof_indices(nodes);
+      for (Dof &node : nodes)
+        node = node_exchange->local(node);
+      for (unsigned int k = 0; k <= dim; ++k)
+        points[nodes[k]] = cell->vertex(k);
+      if (is_quadratic)
+        for (unsigned int f = 0; f <= dim; ++f)
+        {
+          const auto face = nodes_of_face<dim>(f, true);
+          points[nodes[face[1]]]
+              = 0.5 * (cell->vertex(face[0]) + cell->vertex(face[2]));
+          midside[nodes[face[1]]] = true;
+        }
+      for (const Dof node : nodes)
+        node_block[node] = block;
+      if (parts.empty() || parts.back().number != block)
+      {
+        const unsigned int begin = cells.size();
+        parts.push_back({ block, { begin, begin }, { 0, 0 } });
+        n_deformable_parts += !table().is_rigid[block];
+      }
+      for (const auto &part : linear_cells<dim>(nodes))
+      {
+        cells.push_back(part);
+        cell_group.push_back(cell->material_id());
+      }
+      parts.back().cells[1] = cells.size();
+    }
+
+    // Nodes of a block that are not shared are consecutive.
+    unsigned int node = 0;
+    for (unsigned int p = 0; p < parts.size(); ++p)
+    {
+      if (p == n_deformable_parts)
+        node = deformable_nodes;
+      const unsigned int end
+          = p < n_deformable_parts ? shared_nodes_begin : n_owned();
+      parts[p].nodes[0] = node;
+      while (node < end && node_block[node] == parts[p].number)
+        ++node;
+      parts[p].nodes[1] = node;
+    }
+
+    std::vector<std::array<double, dim>> positions(points.size());
+    for (unsigned int i = 0; i < n_owned(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        positions[i][d] = points[i][d];
+    node_exchange->update_ghosts(positions.data());
+    node_exchange->update_ghosts(node_block.data());
+    std::vector<unsigned char> is_midside(midside.begin(), midside.end());
+    if (is_quadratic)
+      node_exchange->update_ghosts(is_midside.data());
+    for (unsigned int i = n_owned(); i < points.size(); ++i)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        points[i][d] = positions[i][d];
+      if (is_quadratic)
+        midside[i] = is_midside[i];
+    }
+  }
+
+  template <int dim>
+  void NodeMap<dim>::pack_faces()
+  {
+    const bool is_quadratic    = table().is_quadratic;
+    const unsigned int n_names = table().face_names.size();
+    const unsigned int n_parts = linear_cells_of(is_quadratic);
+    unsigned int first         = 0;
+    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
+    for (const auto &cell : dofs.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      if (cell->at_boundary())
+        cell->get_dof_indices(nodes);
+      for (unsigned int f = 0; f <= dim; ++f)
+      {
+        if (!cell->face(f)->at_boundary()
+            || cell->face(f)->boundary_id() >= n_names)
+          continue;
+        const auto face = nodes_of_face<dim>(f, is_quadratic);
+        for (unsigned int part = 0; part + dim <= face.size(); ++part)
+        {
+          OuterFace<dim> result;
+          for (unsigned int k = 0; k < dim; ++k)
+            result.nodes[k] = node_exchange->local(nodes[face[part + k]]);
+          // The linear cell at the vertex of this half.
+          result.cell = first + (is_quadratic ? face[part == 0 ? 0 : 2] : 0);
+          result.name = cell->face(f)->boundary_id();
+          outer.push_back(result);
+        }
+      }
+      first += n_parts;
+    }
+    std::sort(outer.begin(), outer.end(),
+              [](const OuterFace<dim> &a, const OuterFace<dim> &b)
+              { return a.nodes < b.nodes; });
+  }
+
+  template <int dim>
+  unsigned int NodeMap<dim>::block_of_cell(const unsigned int cell) const
+  {
+    return (std::upper_bound(parts.begin(), parts.end(), cell,
+                             [](const unsigned int c, const BlockPart &part)
+                             { return c < part.cells[0]; })
+            - 1)
+        ->number;
+  }
+
+  template <int dim>
+  unsigned int NodeMap<dim>::find_part(const unsigned int number) const
+  {
+    const auto found
+        = std::lower_bound(parts.begin(), parts.end(), number,
+                           [](const BlockPart &part, const unsigned int n)
+                           { return part.number < n; });
+    return found != parts.end() && found->number == number
+               ? found - parts.begin()
+               : parts.size();
+  }
+
+  template <int dim>
+  std::vector<BoundaryFace<dim>>
+  NodeMap<dim>::gather_faces(const std::vector<bool> &wanted) const
+  {
+    std::vector<BoundaryFace<dim>> own;
+    for (const OuterFace<dim> &face : outer)
+    {
+      if (!wanted[face.name])
+        continue;
+      BoundaryFace<dim> result;
+      for (unsigned int k = 0; k < dim; ++k)
+      {
+        result.nodes[k]  = node_exchange->global(face.nodes[k]);
+        result.points[k] = points[face.nodes[k]];
+        result.shares[k] = face_share(face.nodes[k]);
+      }
+      result.group = cell_group[face.cell];
+      result.block = block_of_cell(face.cell);
+      result.name  = face.name;
+      own.push_back(result);
+    }
+    std::vector<BoundaryFace<dim>> all;
+    for (const auto &part :
+         dealii::Utilities::MPI::all_gather(communicator(), own))
+      all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end(),
+              [](const BoundaryFace<dim> &a, const BoundaryFace<dim> &b)
+              { return a.nodes < b.nodes; });
+    return all;
+  }
+
+  template <int dim>
+  std::array<dealii::Point<dim>, 2>
+  NodeMap<dim>::box_of_block(const unsigned int number) const
+  {
+    // The upper corner with the other sign, so that one minimum finds both.
+    std::vector<double> box(2 * dim, std::numeric_limits<double>::max());
+    for (unsigned int i = 0; i < n_owned(); ++i)
+      if (node_block[i] == number)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          box[d]       = std::min(box[d], points[i][d]);
+          box[dim + d] = std::min(box[dim + d], -points[i][d]);
+        }
+    dealii::Utilities::MPI::min(box, communicator(), box);
+    std::array<dealii::Point<dim>, 2> result;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      result[0][d] = box[d];
+      result[1][d] = -box[dim + d];
+    }
+    return result;
+  }
+
+  template <int dim>
+  dealii::Point<dim>
+  NodeMap<dim>::point_of_block(const unsigned int number) const
+  {
+    const auto found
+        = std::find(node_block.begin(), node_block.begin() + n_owned(), number);
+    dealii::Point<dim> result;
+    first_point(found == node_block.begin() + n_owned()
+                    ? none
+                    : found - node_block.begin(),
+                result);
+    return result;
+  }
+
+  template <int dim>
+  bool NodeMap<dim>::first_point(const unsigned int node,
+                                 dealii::Point<dim> &position,
+                                 unsigned int *block) const
+  {
+    const unsigned int own = node == none ? none : node_exchange->global(node);
+    const unsigned int first = dealii::Utilities::MPI::min(own, communicator());
+    if (first == none)
+      return false;
+    const unsigned int rank
+        = dealii::Utilities::MPI::this_mpi_process(communicator());
+    const unsigned int speaker = dealii::Utilities::MPI::min(
+        own == first ? rank : none, communicator());
+    std::pair<dealii::Point<dim>, unsigned int> found;
+    if (rank == speaker)
+      found = { points[node], node_block[node] };
+    found = dealii::Utilities::MPI::broadcast(communicator(), found, speaker);
+    position = found.first;
+    if (block)
+      *block = found.second;
+    return true;
+  }
+
+  template class NodeMap<2>;
+  template class NodeMap<3>;
+} // namespace quoin
