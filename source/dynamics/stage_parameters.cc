@@ -1,192 +1,198 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/parameter_entries.h>
 #include <quoin/dynamics/stage_parameters.h>
 
 namespace quoin
 {
   namespace
   {
-    using dealii::Patterns::Anything;
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    using dealii::Patterns::Selection;
-
-    void declare_construction(dealii::ParameterHandler &prm)
+    void check_release(const ParameterSection &section,
+                       const StageParameters &stage)
     {
-      prm.declare_entry("Excavate", "", Anything(),
-                        "Physical surfaces whose blocks are taken away where "
-                        "the stage begins.");
-      prm.declare_entry("Fill", "", Anything(),
-                        "Physical surfaces whose blocks are placed where the "
-                        "stage begins, as the mesh has them and free of "
-                        "stress. What is not excavated before is absent until "
-                        "then.");
-      prm.declare_entry("Release", "1", Double(),
-                        "Share of what all excavated blocks exerted on those "
-                        "that stay which is gone at the end of this stage [-]");
-      prm.declare_entry("Release duration", "automatic", Anything(),
-                        "How long that takes, by the loads' clock; automatic: "
+      if (section.text("Release duration") == "automatic")
+        return;
+      if (stage.release_duration < 0.)
+        section.fail("Release duration",
+                     "must be 'automatic' or a time that is not negative.");
+      if (stage.end == StageEnd::time
+          && stage.release_duration > stage.duration)
+        section.fail("Release duration", "is longer than the stage. Lower "
+                                         "it, or raise 'Duration'.");
+    }
+
+    void enter_construction(ParameterEntries &entries, StageParameters &stage)
+    {
+      entries.list("Excavate", stage.excavate,
+                   "Physical surfaces whose blocks are taken away where "
+                   "the stage begins.");
+      entries.list("Fill", stage.fill,
+                   "Physical surfaces whose blocks are placed where the "
+                   "stage begins, as the mesh has them and free of stress. "
+                   "What is not excavated before is absent until then.");
+      entries.within("Release", stage.release, 0., 1.,
+                     "Share of the forces of all excavated blocks on those "
+                     "that stay which is gone at the end of this stage [-]");
+      entries.number_or("automatic", -1., "Release duration",
+                        stage.release_duration,
+                        "How long the release of the forces of excavated "
+                        "blocks takes, by the loads' clock; automatic: "
                         "the stage's duration or, of an explicit stage with "
                         "'End = static ratio', twice the time of a shear wave "
                         "along the model's diagonal [s]");
-      prm.declare_entry("Release ramp", "smooth", Selection("smooth|linear"),
-                        "smooth: half a cosine.");
-      prm.declare_entry("Materials", "", Anything(),
-                        "Pairs group:material: what physical surfaces are "
-                        "made of from this stage on; stresses stay.");
-      prm.declare_entry("Joint properties", "", Anything(),
-                        "Pairs set:other set: joint sets that follow the law "
-                        "of another, which may be without curves, from this "
-                        "stage on; tractions stay.");
+      entries.choice("Release ramp", stage.releases_linearly,
+                     { { "smooth", false }, { "linear", true } },
+                     "How the forces of excavated blocks decrease with time; "
+                     "smooth: by half a cosine.");
+      entries.pairs(
+          "Materials", stage.materials,
+          "must be pairs such as lining:young_concrete, rock:grouted.",
+          "Pairs group:material: what physical surfaces are "
+          "made of from this stage on; stresses stay.");
+      entries.pairs("Joint properties", stage.joint_properties,
+                    "must be pairs such as bed:weak_bed.",
+                    "Pairs set:other set: joint sets that follow the law "
+                    "of another, which may be without curves, from this "
+                    "stage on; tractions stay.");
+      if (const ParameterSection *section = entries.read_section())
+        check_release(*section, stage);
     }
 
-    void read_construction(const ParameterSection &section,
-                           StageParameters &stage)
+    void enter_damping(ParameterEntries &entries, StageParameters &stage)
     {
-      stage.excavate = section.list("Excavate");
-      stage.fill     = section.list("Fill");
-      stage.release  = section.within("Release", 0., 1.);
-      if (section.text("Release duration") != "automatic")
+      entries.choice("Damping", stage.damping,
+                     { { "none", DampingType::none },
+                       { "local", DampingType::local },
+                       { "adaptive", DampingType::adaptive },
+                       { "Rayleigh", DampingType::rayleigh } },
+                     "local: a share of the unbalanced force, against the "
+                     "velocity; adaptive: mass-proportional with a "
+                     "coefficient that keeps the damping power at half the "
+                     "rate of kinetic energy; Rayleigh: alpha and beta. "
+                     "Explicit stages that settle need one, or a viscous or "
+                     "free-field boundary.");
+      double local_coefficient = 0.8;
+      if (entries.reads_if(stage.damping == DampingType::local))
       {
-        stage.release_duration = section.numbers<1>("Release duration").front();
-        if (stage.release_duration < 0.)
-          section.fail("Release duration",
-                       "must be 'automatic' or a time that is not negative.");
-        if (stage.end == StageEnd::time
-            && stage.release_duration > stage.duration)
-          section.fail("Release duration", "is longer than the stage. Lower "
-                                           "it, or raise 'Duration'.");
+        entries.within("Local damping coefficient", local_coefficient, 0.,
+                       0.999,
+                       "Share of the unbalanced force that local damping "
+                       "opposes to the velocity [-]");
+        stage.local_coefficient = local_coefficient;
       }
-      stage.releases_linearly = section.text("Release ramp") == "linear";
-      stage.materials         = section.pairs(
-                  "Materials",
-                  "must be pairs such as lining:young_concrete, rock:grouted.");
-      stage.joint_properties = section.pairs(
-          "Joint properties", "must be pairs such as bed:weak_bed.");
+      if (entries.reads_if(stage.damping == DampingType::rayleigh))
+      {
+        entries.nonnegative("Rayleigh mass coefficient", stage.mass_coefficient,
+                            "Coefficient alpha of the mass in Rayleigh damping "
+                            "[1/s]");
+        entries.nonnegative("Rayleigh stiffness coefficient",
+                            stage.stiffness_coefficient,
+                            "Coefficient beta of the stiffness in Rayleigh "
+                            "damping; it lowers the critical time step [s]");
+      }
+      bool scales_mass = false;
+      entries.flag("Mass scaling", scales_mass,
+                   "Whether mass is added where 'Scaled time step' would not "
+                   "be stable without; for static work only.");
+      if (entries.reads_if(scales_mass))
+        entries.positive("Scaled time step", stage.scaled_time_step,
+                         "Time step to which 'Mass scaling' raises the "
+                         "critical one, before the safety factor on it "
+                         "[s]");
+    }
+
+    void enter_end(ParameterEntries &entries, StageParameters &stage)
+    {
+      entries.choice("End", stage.end,
+                     { { "time", StageEnd::time },
+                       { "static ratio", StageEnd::static_ratio },
+                       { "factor of safety", StageEnd::static_ratio } },
+                     "What ends the stage: its duration; or that the sum of "
+                     "the unbalanced forces has fallen to a share of that of "
+                     "the applied ones. Factor of safety: strengths are "
+                     "divided by factors, each time from the state of the "
+                     "stage before, until it is known which one the model "
+                     "still bears; it then goes on as it was.");
+      const bool by_time = stage.end == StageEnd::time;
+      if (entries.reads_if(by_time))
+        entries.positive("Duration", stage.duration,
+                         "Duration of a stage with 'End = time' [s]");
+      entries.within("Kinetic energy limit", stage.kinetic_limit, 0., 1.,
+                     "Quasi-static loading to collapse: the loading rate is "
+                     "reduced, at most ten thousand times, so that kinetic "
+                     "energy stays below this share of the energy throughput; "
+                     "the duration is then one of the loads' clock; 0: loads "
+                     "follow the time [-]");
+      if (entries.reads_if(!by_time))
+      {
+        entries.positive("Static ratio", stage.static_ratio,
+                         "Unbalanced by applied force at which a stage with "
+                         "'End = static ratio' ends, and a factor of safety "
+                         "is stable; below 1 [-]");
+        entries.nonnegative("Minimum duration", stage.minimum_duration,
+                            "Time that a stage with 'End = static ratio' lasts "
+                            "at least; it lasts in any case until its loads "
+                            "have come to rest [s]");
+      }
+      entries.number_or("previous end", -1., "Start time", stage.start_time,
+                        "Time at which the stage is meant to begin, as a "
+                        "check, or 'previous end' [s]");
+      stage.maximum_steps = 10000000;
+      entries.integer("Maximum steps", stage.maximum_steps, 1,
+                      "Number of steps after which a stage that has not "
+                      "settled ends the run as failed, and a trial of a "
+                      "factor of safety counts as failing [-]");
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      if (!by_time && stage.static_ratio >= 1.)
+        section->fail("Static ratio", "must be below 1, where all that is "
+                                      "applied is unbalanced: give 1e-3 to "
+                                      "1e-9.");
+      if (stage.slows_loads() && !by_time)
+        section->fail("Kinetic energy limit",
+                      "needs 'End = time': a stage that settles has loads that "
+                      "rest in the end.");
+      if (section->text("Start time") != "previous end"
+          && stage.start_time < 0.)
+        section->fail("Start time",
+                      "must be 'previous end' or a time of zero or more.");
+    }
+
+    void enter(ParameterEntries &entries, StageParameters &stage)
+    {
+      entries.list("Loads", stage.loads,
+                   "Names of the loads that act in this stage; initial "
+                   "stresses act in all and are not among them.");
+      enter_end(entries, stage);
+      enter_damping(entries, stage);
+      enter_construction(entries, stage);
+      const ParameterSection *section = entries.read_section();
+      if (entries.reads_if(section
+                           && section->text("End") == "factor of safety"))
+        stage.safety.emplace().enter(entries);
+      if (!section || !stage.safety)
+        return;
+      for (const char *name :
+           { "Excavate", "Fill", "Materials", "Joint properties" })
+        if (!section->text(name).empty())
+          section->fail(name, "does not go with 'End = factor of safety', "
+                              "which leaves the model as it was. Use a stage "
+                              "of its own before it.");
     }
   } // namespace
 
   void StageParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Loads", "", Anything(),
-                      "Names of the loads that act in this stage; initial "
-                      "stresses act in all and are not among them.");
-    prm.declare_entry("End", "time",
-                      Selection("time|static ratio|factor of safety"),
-                      "What ends the stage: its duration; or that the sum of "
-                      "the unbalanced forces has fallen to a share of that of "
-                      "the applied ones. Factor of safety: strengths are "
-                      "divided by factors, each time from the state of the "
-                      "stage before, until it is known which one the model "
-                      "still bears; it then goes on as it was.");
-    prm.declare_entry("Duration", "0", Double(), "For 'End = time' [s]");
-    prm.declare_entry("Kinetic energy limit", "0", Double(),
-                      "The clock of the loads slows down, at most ten "
-                      "thousand times, so that kinetic energy stays below "
-                      "this share of the energy that went through; the "
-                      "duration is then one of that clock. For quasi-static "
-                      "loading to collapse; 0: loads follow the time [-]");
-    prm.declare_entry("Static ratio", "1e-6", Double(),
-                      "Unbalanced to applied force at which a stage with "
-                      "'End = static ratio' ends, and a factor of safety "
-                      "is stable; below 1 [-]");
-    prm.declare_entry("Minimum duration", "0", Double(),
-                      "For 'End = static ratio': the stage lasts at least so "
-                      "long, and in any case until its loads have come to "
-                      "rest [s]");
-    prm.declare_entry("Start time", "previous end", Anything(),
-                      "'previous end', or the time at which the stage is "
-                      "meant to begin, as a check [s]");
-    prm.declare_entry("Maximum steps", "10000000", Integer(1),
-                      "A static stage that has not settled by then ends "
-                      "the run as failed, a factor of safety counts as "
-                      "failing [-]");
-    prm.declare_entry("Damping", "none",
-                      Selection("none|local|adaptive|Rayleigh"),
-                      "local: a share of the unbalanced force, against the "
-                      "velocity; adaptive: mass-proportional with a "
-                      "coefficient that keeps the damping power at half the "
-                      "rate of kinetic energy; Rayleigh: alpha and beta. "
-                      "Explicit stages that settle need one, or a viscous or "
-                      "free-field boundary.");
-    prm.declare_entry("Local damping coefficient", "0.8", Double(),
-                      "Share of the unbalanced force [-]");
-    prm.declare_entry("Rayleigh mass coefficient", "0", Double(),
-                      "alpha [1/s]");
-    prm.declare_entry("Rayleigh stiffness coefficient", "0", Double(),
-                      "beta; it lowers the critical time step [s]");
-    prm.declare_entry("Mass scaling", "no", Selection("yes|no|true|false"),
-                      "Add mass where needed for 'Scaled time step' to be "
-                      "stable; for static work only.");
-    prm.declare_entry("Scaled time step", "0", Double(),
-                      "Time step to which 'Mass scaling' raises the critical "
-                      "one, before the share of it that is used [s]");
-    declare_construction(prm);
-    SafetyParameters::declare(prm);
+    declare_entries(prm, enter);
   }
 
   StageParameters StageParameters::read(const ParameterSection &section,
                                         const std::string &name)
   {
-    StageParameters stage;
-    stage.name  = name;
-    stage.loads = section.list("Loads");
-    stage.end   = section.choice<StageEnd>(
-        "End", { { "time", StageEnd::time },
-                   { "static ratio", StageEnd::static_ratio },
-                   { "factor of safety", StageEnd::static_ratio } });
-    if (stage.end == StageEnd::time)
-      stage.duration = section.positive("Duration");
-    else
-    {
-      stage.static_ratio = section.positive("Static ratio");
-      if (stage.static_ratio >= 1.)
-        section.fail("Static ratio", "must be below 1, where all that is "
-                                     "applied is unbalanced: give 1e-3 to "
-                                     "1e-9.");
-      stage.minimum_duration = section.nonnegative("Minimum duration");
-    }
-    stage.maximum_steps = section.integer("Maximum steps");
-    stage.kinetic_limit = section.within("Kinetic energy limit", 0., 1.);
-    if (stage.slows_loads() && stage.end != StageEnd::time)
-      section.fail("Kinetic energy limit",
-                   "needs 'End = time': a stage that settles has loads that "
-                   "rest in the end.");
-    if (section.text("Start time") != "previous end")
-    {
-      stage.start_time = section.numbers<1>("Start time").front();
-      if (stage.start_time < 0.)
-        section.fail("Start time",
-                     "must be 'previous end' or a time of zero or more.");
-    }
-    stage.damping = section.choice<DampingType>(
-        "Damping", { { "none", DampingType::none },
-                     { "local", DampingType::local },
-                     { "adaptive", DampingType::adaptive },
-                     { "Rayleigh", DampingType::rayleigh } });
-    if (stage.damping == DampingType::local)
-      stage.local_coefficient
-          = section.within("Local damping coefficient", 0., 0.999);
-    if (stage.damping == DampingType::rayleigh)
-    {
-      stage.mass_coefficient = section.nonnegative("Rayleigh mass coefficient");
-      stage.stiffness_coefficient
-          = section.nonnegative("Rayleigh stiffness coefficient");
-    }
-    if (section.flag("Mass scaling"))
-      stage.scaled_time_step = section.positive("Scaled time step");
-    read_construction(section, stage);
-    if (section.text("End") == "factor of safety")
-    {
-      stage.safety = SafetyParameters::read(section);
-      for (const char *name :
-           { "Excavate", "Fill", "Materials", "Joint properties" })
-        if (!section.text(name).empty())
-          section.fail(name, "does not go with 'End = factor of safety', which "
-                             "leaves the model as it was. Use a stage of its "
-                             "own before it.");
-    }
+    StageParameters stage = read_entries(section, enter);
+    stage.name            = name;
     return stage;
   }
 

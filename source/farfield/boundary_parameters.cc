@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/farfield/boundary_parameters.h>
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
+#include <quoin/base/parameter_entries.h>
+#include <quoin/farfield/boundary_parameters.h>
 
 #include <cmath>
 #include <sstream>
@@ -13,11 +14,6 @@ namespace quoin
 {
   namespace
   {
-    using dealii::Patterns::Anything;
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    using dealii::Patterns::Selection;
-
     using constants::degree;
 
     SpaceTimeFunction function(const ParameterSection &section,
@@ -70,67 +66,34 @@ namespace quoin
       return result;
     }
 
-    const std::vector<std::pair<std::string, BoundaryShape>> shapes
-        = { { "circle", BoundaryShape::circle },
-            { "polygon", BoundaryShape::polygon },
-            { "line", BoundaryShape::line },
-            { "arc", BoundaryShape::arc },
-            { "mesh", BoundaryShape::mesh },
-            { "interface", BoundaryShape::interface } };
-
-    void read_shape(const ParameterSection &section,
-                    BoundaryCurveParameters &boundary)
+    void check_angles(const ParameterSection &section,
+                      const std::array<double, 2> &degrees)
     {
-      using Shape    = BoundaryShape;
-      boundary.shape = section.choice<Shape>("Shape", shapes);
-      switch (boundary.shape)
-      {
-      case Shape::circle:
-      case Shape::arc:
-        boundary.centre = section.numbers<2>("Centre");
-        boundary.radius = section.positive("Radius");
-        boundary.angles = section.numbers<2>("Angles");
-        if (boundary.shape == Shape::arc)
-        {
-          const double span = std::abs(boundary.angles[1] - boundary.angles[0]);
-          if (!(span > 0. && span < 360.))
-            section.fail("Angles", "must differ by more than 0 and less than "
-                                   "360 degrees: an arc has two ends.");
-        }
-        for (double &angle : boundary.angles)
-          angle *= degree;
-        break;
-      case Shape::polygon:
-      case Shape::line:
-      {
-        boundary.points         = points(section, "Points");
-        const bool closed       = boundary.shape == Shape::polygon;
-        const std::size_t least = closed ? 3 : 2;
-        if (closed && boundary.points.size() > 1
-            && boundary.points.front() == boundary.points.back())
-          section.fail("Points", "ends where it begins: a polygon is closed by "
-                                 "itself, leave the last point out.");
-        if (boundary.points.size() < least)
-          section.fail("Points",
-                       closed ? "must list at least three corners of a polygon."
-                              : "must list at least two points of a line.");
-        break;
-      }
-      case Shape::mesh:
-      case Shape::interface:
-        boundary.curves = section.list("Curves");
-        if (boundary.curves.empty())
-          section.fail("Curves",
-                       "must name physical curves of the file in section "
-                       "'Mesh'.");
-        break;
-      }
+      const double span = std::abs(degrees[1] - degrees[0]);
+      if (!(span > 0. && span < 360.))
+        section.fail("Angles", "must differ by more than 0 and less than "
+                               "360 degrees: an arc has two ends.");
+    }
 
-      boundary.domain = section.choice<DomainSide>(
-          "Domain", { { "inside", DomainSide::inside },
-                      { "outside", DomainSide::outside },
-                      { "left", DomainSide::left },
-                      { "right", DomainSide::right } });
+    void check_points(const ParameterSection &section,
+                      const BoundaryCurveParameters &boundary)
+    {
+      const bool closed       = boundary.shape == BoundaryShape::polygon;
+      const std::size_t least = closed ? 3 : 2;
+      if (closed && boundary.points.size() > 1
+          && boundary.points.front() == boundary.points.back())
+        section.fail("Points", "ends where it begins: a polygon is closed by "
+                               "itself, leave the last point out.");
+      if (boundary.points.size() < least)
+        section.fail("Points",
+                     closed ? "must list at least three corners of a polygon."
+                            : "must list at least two points of a line.");
+    }
+
+    void check_domain(const ParameterSection &section,
+                      const BoundaryCurveParameters &boundary)
+    {
+      using Shape             = BoundaryShape;
       const bool by_direction = boundary.domain == DomainSide::left
                                 || boundary.domain == DomainSide::right;
       if (by_direction
@@ -143,204 +106,439 @@ namespace quoin
         section.fail("Domain", "is for closed boundaries: an open one takes "
                                "'left' or 'right' of its direction.");
     }
+
+    void enter_shape(ParameterEntries &entries,
+                     BoundaryCurveParameters &boundary)
+    {
+      using Shape = BoundaryShape;
+      entries.choice("Shape", boundary.shape,
+                     { { "circle", Shape::circle },
+                       { "polygon", Shape::polygon },
+                       { "line", Shape::line },
+                       { "arc", Shape::arc },
+                       { "mesh", Shape::mesh },
+                       { "interface", Shape::interface } },
+                     "Shape of the boundary. Closed: circle, polygon. Open: "
+                     "line (through several points), arc. Mesh: curves of the "
+                     "mesh file, closed or open. Interface: the same, along "
+                     "blocks that move with the boundary elements; each "
+                     "element spans whole edges of blocks.");
+      const ParameterSection *section = entries.read_section();
+      const Shape shape               = boundary.shape;
+      if (entries.reads_if(shape == Shape::circle || shape == Shape::arc))
+      {
+        std::array<double, 2> degrees{ { 0., 360. } };
+        entries.numbers("Centre", boundary.centre,
+                        "x, y of the centre of a circle or an arc [m]");
+        entries.positive("Radius", boundary.radius,
+                         "Radius of a circle or an arc [m]");
+        entries.numbers("Angles", degrees,
+                        "Angles at which an arc begins and ends, anticlockwise "
+                        "from the x axis; its direction is from the first to "
+                        "the second. The first one is the place of a vertex of "
+                        "a circle [deg]");
+        if (section && shape == Shape::arc)
+          check_angles(*section, degrees);
+        boundary.angles = { { degrees[0] * degree, degrees[1] * degree } };
+      }
+      if (entries.reads_if(shape == Shape::polygon || shape == Shape::line))
+        entries.other("Points", "",
+                      "Corners of a polygon, or points of a line in its "
+                      "direction: x, y; x, y; ... [m]",
+                      [&](const ParameterSection &from)
+                      {
+                        boundary.points = points(from, "Points");
+                        check_points(from, boundary);
+                      });
+      if (entries.reads_if(shape == Shape::mesh || shape == Shape::interface))
+      {
+        entries.list("Curves", boundary.curves,
+                     "Physical curves of the shapes 'mesh' and 'interface', "
+                     "joined end to end; the first one gives the direction.");
+        if (section && boundary.curves.empty())
+          section->fail("Curves",
+                        "must name physical curves of the file in section "
+                        "'Mesh'.");
+      }
+      entries.choice("Domain", boundary.domain,
+                     { { "inside", DomainSide::inside },
+                       { "outside", DomainSide::outside },
+                       { "left", DomainSide::left },
+                       { "right", DomainSide::right } },
+                     "Where the domain is: inside or outside a closed "
+                     "boundary, left or right of the direction of an open "
+                     "one.");
+      if (section)
+        check_domain(*section, boundary);
+    }
+
+    void check_elements(const ParameterSection &section,
+                        const BoundaryCurveParameters &boundary)
+    {
+      if (boundary.grading != 1. && boundary.shape != BoundaryShape::arc
+          && !(boundary.shape == BoundaryShape::line
+               && boundary.points.size() == 2))
+        section.fail("Grading", "is for arcs and for lines with two points: "
+                                "leave it at 1, or make several lines that "
+                                "meet end to end.");
+      if (boundary.polygon != CirclePolygon::inscribed
+          && boundary.shape != BoundaryShape::circle)
+        section.fail("Area", "is for circles only: leave it at 'polygon'.");
+      if (boundary.shape == BoundaryShape::circle && boundary.n_elements > 0
+          && boundary.n_elements < 3)
+        section.fail("Elements", "must be at least 3 on a circle.");
+    }
+
+    void check_values(const ParameterSection &section,
+                      const BoundaryCurveParameters &boundary)
+    {
+      if (boundary.shape == BoundaryShape::interface)
+        for (const std::string name : { "Horizontal", "Vertical", "Pressure" })
+          if (section.text(name) != (name == "Pressure" ? "0" : "traction 0"))
+            section.fail(name, "is given, but the blocks move an interface: "
+                               "remove it.");
+      const bool has_pressure = section.text("Pressure") != "0";
+      if (has_pressure && !boundary.traction_is_given[0]
+          && !boundary.traction_is_given[1])
+        section.fail("Pressure", "has nothing to act on where both "
+                                 "displacements are given: remove it, or give "
+                                 "a traction.");
+    }
+
+    void enter_curve(ParameterEntries &entries,
+                     BoundaryCurveParameters &boundary)
+    {
+      enter_shape(entries, boundary);
+      entries.integer("Elements", boundary.n_elements, 0,
+                      "Number of elements, 20000 on all boundaries at most; "
+                      "0: from the element length [-]",
+                      1000000);
+      entries.nonnegative("Element length", boundary.element_length,
+                          "Longest element or, if elements are graded, the "
+                          "shortest one; 0: 'Element length' of section "
+                          "'Boundary elements', and if that is 0, too, the "
+                          "edges of the mesh [m]");
+      entries.within("Grading", boundary.grading, 1e-6, 1e6,
+                     "Length of the last element by that of the first one of "
+                     "an arc or a line with two points, 1e-6 to 1e6 [-]");
+      entries.choice("Area", boundary.polygon,
+                     { { "polygon", CirclePolygon::inscribed },
+                       { "equal", CirclePolygon::equal_area },
+                       { "equal perimeter", CirclePolygon::equal_perimeter } },
+                     "Which polygon stands for a circle: one with vertices on "
+                     "the circle, with the area of the circle, or, most exact, "
+                     "with its perimeter.");
+      const ParameterSection *section = entries.read_section();
+      if (section)
+        check_elements(*section, boundary);
+      const std::string directions[] = { "Horizontal", "Vertical" };
+      for (unsigned int d = 0; d < 2; ++d)
+        entries.other(directions[d], "traction 0",
+                      directions[d]
+                          + " component that is given: 'traction' [Pa] or "
+                            "'displacement' [m] and an expression of x, y, t "
+                            "[m, s]; or 'table FILE' or a signal, alone or "
+                            "'times EXPRESSION'.",
+                      [&](const ParameterSection &from)
+                      {
+                        bool is_traction = true;
+                        read_condition(from, directions[d], is_traction,
+                                       boundary.value[d]);
+                        boundary.traction_is_given[d] = is_traction;
+                      });
+      entries.other("Pressure", "0",
+                    "Pressure that pushes on the domain and adds to given "
+                    "tractions: an expression of x, y, t [m, s], 'table FILE' "
+                    "or a signal [Pa]",
+                    [&](const ParameterSection &from) {
+                      boundary.pressure
+                          = function(from, "Pressure", from.text("Pressure"));
+                    });
+      if (section)
+        check_values(*section, boundary);
+      if (section && boundary.shape == BoundaryShape::interface)
+        boundary.traction_is_given = { { false, false } };
+    }
+
+    void check_wave(const ParameterSection &section,
+                    const IncidentWaveParameters &wave)
+    {
+      const bool has_signal = wave.signal_entry == "Signal";
+      if (has_signal && section.text("Displacement") != "0")
+        section.fail("Displacement", "is given beside 'Signal': give one of "
+                                     "them.");
+      if (!has_signal && wave.n_integrations > 0)
+        section.fail("Motion", "is for 'Signal': give that, and no "
+                               "'Displacement'.");
+      if (wave.type == IncidentWaveType::line_source)
+      {
+        if (wave.half_plane)
+          section.fail("Space",
+                       "is not for a line source, whose field is that "
+                       "of the full plane: leave it at 'full plane' and "
+                       "make the free surface a boundary.");
+        if (!has_signal)
+          section.fail("Signal",
+                       "must give the moment of the line source, by a "
+                       "factor 'Amplitude'.");
+        if (wave.n_integrations > 0)
+          section.fail("Motion",
+                       "is not for a line source: its 'Signal' is the "
+                       "moment. Leave it at 'displacement'.");
+      }
+    }
+
+    void enter_angle(ParameterEntries &entries, IncidentWaveParameters &wave)
+    {
+      const ParameterSection *section = entries.read_section();
+      const bool surface              = wave.type == IncidentWaveType::rayleigh;
+      if (section && surface && !wave.half_plane)
+        section->fail("Space", "has no surface for a Rayleigh wave: it needs "
+                               "'half-plane'.");
+      const double limit = wave.half_plane && !surface ? 89. : 360.;
+      if (section && surface && std::abs(section->number("Angle")) != 90.)
+        section->fail("Angle", "must be 90 or -90 for a Rayleigh wave, which "
+                               "travels along the surface to +x or -x.");
+      entries.within("Angle", wave.angle, -limit, limit,
+                     "Direction of propagation, from the upward vertical "
+                     "towards +x; Rayleigh: 90 or -90 [deg]",
+                     degree);
+    }
+
+    void enter_wave(ParameterEntries &entries, IncidentWaveParameters &wave)
+    {
+      using Type = IncidentWaveType;
+      entries.choice("Type", wave.type,
+                     { { "plane P", Type::plane_p },
+                       { "plane SV", Type::plane_sv },
+                       { "Rayleigh", Type::rayleigh },
+                       { "line source", Type::line_source } },
+                     "Plane P: motion along the direction of propagation; "
+                     "plane SV: across it; Rayleigh: along the free surface; "
+                     "line source: an explosion in the domain.");
+      entries.choice("Space", wave.half_plane,
+                     { { "full plane", false }, { "half-plane", true } },
+                     "Half-plane: the medium is below y = 0, where the wave "
+                     "is reflected; no boundary may be above. Rayleigh waves "
+                     "need it, line sources must not have it.");
+      enter_angle(entries, wave);
+      if (entries.reads_if(wave.type == Type::line_source))
+        entries.numbers("Position", wave.position, "x, y of a line source [m]");
+      std::string signal, displacement = "0";
+      entries.text("Signal", signal,
+                   "Function of t [s]: motion of the incident wave at the "
+                   "origin, vertical if it is a Rayleigh wave; moment per "
+                   "length of a line source. Expression, table, wavelet, "
+                   "pulse, record or synthetic; 0 before the wave's start.");
+      entries.choice<unsigned int>(
+          "Motion", wave.n_integrations,
+          { { "displacement", 0 }, { "velocity", 1 }, { "acceleration", 2 } },
+          "What 'Signal' is; integrated from t = 0 on, or in "
+          "closed form. A moment is not integrated.");
+      entries.number("Amplitude", wave.amplitude,
+                     "Factor of the signal [m, m/s, m/s^2; line source: N]");
+      entries.text("Displacement", displacement,
+                   "Displacement of the incident wave as a function of t, "
+                   "instead of 'Signal', for 'Motion = displacement' [m]");
+      wave.signal_entry = signal.empty() ? "Displacement" : "Signal";
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      check_wave(*section, wave);
+      try
+      {
+        wave.signal = TimeFunction(signal.empty() ? displacement : signal,
+                                   section->folder())
+                          .signal();
+      }
+      catch (const InputError &error)
+      {
+        section->fail(wave.signal_entry, error.what());
+      }
+    }
+
+    void check_box(const ParameterSection &section,
+                   const SampledFieldParameters &field)
+    {
+      if (!(field.box[0] < field.box[2] && field.box[1] < field.box[3]))
+        section.fail("Box", "must be xmin, ymin, xmax, ymax with xmin < xmax "
+                            "and ymin < ymax.");
+      const double n_points
+          = (1. + (field.box[2] - field.box[0]) / field.spacing)
+            * (1. + (field.box[3] - field.box[1]) / field.spacing);
+      if (n_points > 1e6)
+      {
+        std::ostringstream why;
+        why << "makes " << n_points
+            << " points, more than a million: give a larger one.";
+        section.fail("Spacing", why.str());
+      }
+    }
+
+    void enter_field(ParameterEntries &entries, SampledFieldParameters &field)
+    {
+      entries.other("Box", "",
+                    "xmin, ymin, xmax, ymax of the rectangle in which the "
+                    "field is computed, at the end of the run, for "
+                    "field.pvd; empty: nowhere [m]",
+                    [&](const ParameterSection &from)
+                    {
+                      field.has_box = !from.text("Box").empty();
+                      if (field.has_box)
+                        field.box = from.numbers<4>("Box");
+                    });
+      if (entries.reads_if(field.has_box))
+        entries.positive("Spacing", field.spacing,
+                         "Distance between the points of the field [m]");
+      if (entries.read_section() && field.has_box)
+        check_box(*entries.read_section(), field);
+    }
+
+    void check_analysis(const ParameterSection &section,
+                        const BoundaryElementParameters &parameters)
+    {
+      const bool quadrature
+          = parameters.formulation == Formulation::convolution_quadrature;
+      if (parameters.highest_frequency > 0. && parameters.element_length > 0.)
+        section.fail("Highest frequency", "gives the elements' length, as "
+                                          "'Element length' does: leave one of "
+                                          "them at 0.");
+      if (parameters.is_static && parameters.decay > 0.)
+        section.fail("Decay", "has no meaning with 'Analysis = static': remove "
+                              "it.");
+      if (quadrature && parameters.decay > 0.)
+        section.fail("Decay", "is not for convolution quadrature: use 'Mass "
+                              "damping' and 'Stiffness damping'.");
+      for (const std::string name : { "Mass damping", "Stiffness damping" })
+        if (!quadrature && section.number(name) > 0.)
+          section.fail(name, "needs 'Formulation = convolution quadrature'; "
+                             "other formulations take 'Decay'.");
+      if (parameters.is_static && quadrature)
+        section.fail("Formulation", "has no statics: use Galerkin or "
+                                    "collocation.");
+    }
+
+    /** Without blocks the section says how long the run takes. */
+    void check_coupling(const ParameterSection &section,
+                        const BoundaryElementParameters &parameters,
+                        const bool coupled)
+    {
+      if (!coupled && parameters.coupling != CouplingScheme::implicit)
+        section.fail("Coupling", "has no meaning without blocks: remove it.");
+      if (!coupled && !parameters.is_static)
+        section.positive("Duration");
+      if (coupled && parameters.is_static)
+        section.fail("Analysis", "is that of a domain without blocks: leave it "
+                                 "at 'dynamic'.");
+      if (coupled && parameters.duration > 0.)
+        section.fail("Duration", "has no meaning here: the stages say how long "
+                                 "the run takes. Remove it.");
+    }
+
+    void enter_time(ParameterEntries &entries,
+                    BoundaryElementParameters &parameters)
+    {
+      entries.nonnegative("Step ratio", parameters.step_ratio,
+                          "c_1 times time step by length of the shortest "
+                          "element; used if 'Time step' is 0. 0: 1, more if "
+                          "Poisson's ratio is above 0.25 (c_2 times time step "
+                          "then is 0.58 lengths), at most 1.5; with "
+                          "convolution quadrature 0.5 [-]");
+      entries.nonnegative("Time step", parameters.time_step,
+                          "Time step of the boundary elements, which is "
+                          "shortened until the run ends at a step; 0: as "
+                          "'Step ratio' says [s]");
+      entries.nonnegative("Duration", parameters.duration,
+                          "Duration of a run with 'Model = boundary elements' "
+                          "[s]");
+      entries.choice("Coupling", parameters.coupling,
+                     { { "implicit", CouplingScheme::implicit },
+                       { "staggered", CouplingScheme::staggered } },
+                     "Coupling with blocks. Implicit: the newest impedance "
+                     "acts on each block step, on the nodes of the interface "
+                     "implicitly; keeps the critical step. Staggered: by "
+                     "extrapolated displacements, as Jin, Wang & Zhang do; "
+                     "often unstable.");
+      entries.nonnegative("Decay", parameters.decay,
+                          "Rate of the decay of both kernels of Galerkin and "
+                          "collocation [1/s]");
+      entries.nonnegative("Mass damping", parameters.damping.mass,
+                          "Coefficient of the mass in Rayleigh damping, for "
+                          "convolution quadrature only [1/s]");
+      entries.nonnegative("Stiffness damping", parameters.damping.stiffness,
+                          "Coefficient of the stiffness in Rayleigh damping, "
+                          "for convolution quadrature only [s]");
+    }
+
+    void enter_section(ParameterEntries &entries,
+                       BoundaryElementParameters &parameters)
+    {
+      entries.text("Material", parameters.material,
+                   "Material of the domain; empty: the only one there is. What "
+                   "lies beyond blocks of a Mohr-Coulomb material has its "
+                   "elasticity and does not yield.");
+      entries.choice(
+          "Formulation", parameters.formulation,
+          { { "Galerkin", Formulation::galerkin },
+            { "collocation", Formulation::collocation },
+            { "convolution quadrature", Formulation::convolution_quadrature } },
+          "Formulation of the integral equation: in the mean over each element "
+          "or at its middle, with tractions and velocities constant in each "
+          "time step; or in the mean by convolution quadrature.");
+      entries.choice("Analysis", parameters.is_static,
+                     { { "dynamic", false }, { "static", true } },
+                     "dynamic: time marching; static: one solution, with the "
+                     "given values at t = 'Duration'.");
+      entries.nonnegative("Element length", parameters.element_length,
+                          "Longest element of boundaries that have no "
+                          "'Element length' of their own [m]");
+      entries.nonnegative("Highest frequency", parameters.highest_frequency,
+                          "Highest frequency of the waves that are to leave or "
+                          "come in: makes the 'Element length' a tenth of the "
+                          "length of the S wave of this frequency; 0: the "
+                          "length is given [Hz]");
+      enter_time(entries, parameters);
+      entries.choice("History", parameters.direct_history,
+                     { { "compressed", false }, { "direct", true } },
+                     "How past steps are summed: at bounded cost, or as they "
+                     "are written, at growing cost.");
+      entries.within("Tolerance", parameters.tolerance, 1e-12, 1e-2,
+                     "Relative error of the compressed history [-]");
+      entries.integer("Passivity frequencies", parameters.n_frequencies, 0,
+                      "Number of frequencies at which is looked, before the "
+                      "run, whether the boundary can create energy; 0: not "
+                      "at all [-]",
+                      100000);
+      if (const ParameterSection *section = entries.read_section())
+        check_analysis(*section, parameters);
+    }
   } // namespace
 
   void BoundaryCurveParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Shape", "circle",
-                      Selection("circle|polygon|line|arc|mesh|interface"),
-                      "Closed: circle, polygon. Open: line (through several "
-                      "points), arc. Mesh: curves of the mesh file, closed or "
-                      "open. Interface: the same, along blocks that move with "
-                      "the boundary elements; each element spans whole edges "
-                      "of blocks.");
-    prm.declare_entry("Centre", "0, 0", Anything(),
-                      "Circle, arc: x, y of the centre [m]");
-    prm.declare_entry("Radius", "0", Double(), "Circle, arc [m]");
-    prm.declare_entry("Angles", "0, 360", Anything(),
-                      "Arc: from, to, anticlockwise from the x axis; its "
-                      "direction is from the first to the second. Circle: the "
-                      "first is the place of a vertex [deg]");
-    prm.declare_entry("Points", "", Anything(),
-                      "Polygon: its corners; line: its points, in its "
-                      "direction; as x, y; x, y; ... [m]");
-    prm.declare_entry(
-        "Curves", "", Anything(),
-        "Mesh, interface: physical curves, joined end to end; the "
-        "first one "
-        "gives the direction.");
-    prm.declare_entry("Domain", "outside",
-                      Selection("inside|outside|left|right"),
-                      "Where the domain is: inside or outside a closed "
-                      "boundary, left or right of the direction of an open "
-                      "one.");
-    prm.declare_entry("Elements", "0", Integer(0, 1000000),
-                      "Number of elements, 20000 on all boundaries at most; "
-                      "0: from the element length.");
-    prm.declare_entry("Element length", "0", Double(),
-                      "No element is longer; if they are graded, of the "
-                      "shortest; 0: that of the section, and if that is 0, "
-                      "too, the edges of the mesh [m]");
-    prm.declare_entry("Grading", "1", Double(),
-                      "Arc, line with two points: length of the last element "
-                      "by that of the first one, 1e-6 to 1e6 [-]");
-    prm.declare_entry("Area", "polygon",
-                      Selection("polygon|equal|equal perimeter"),
-                      "Circle: a polygon with vertices on the circle, with "
-                      "the area of the circle, or, most exact, with its "
-                      "perimeter.");
-    for (const std::string direction : { "Horizontal", "Vertical" })
-      prm.declare_entry(direction, "traction 0", Anything(),
-                        "What is given: 'traction' [Pa] or 'displacement' [m] "
-                        "and an expression of x, y, t [m, s]; or 'table FILE' "
-                        "or a signal, alone or 'times EXPRESSION'.");
-    prm.declare_entry("Pressure", "0", Anything(),
-                      "Expression as above; pushes on the domain and adds to "
-                      "given tractions [Pa]");
+    declare_entries(prm, enter_curve);
   }
 
   BoundaryCurveParameters
   BoundaryCurveParameters::read(const ParameterSection &section,
                                 const std::string &name)
   {
-    BoundaryCurveParameters boundary;
-    boundary.name = name;
-    read_shape(section, boundary);
-    boundary.n_elements     = section.integer("Elements");
-    boundary.element_length = section.nonnegative("Element length");
-    boundary.grading        = section.within("Grading", 1e-6, 1e6);
-    if (boundary.grading != 1. && boundary.shape != BoundaryShape::arc
-        && !(boundary.shape == BoundaryShape::line
-             && boundary.points.size() == 2))
-      section.fail("Grading", "is for arcs and for lines with two points: "
-                              "leave it at 1, or make several lines that meet "
-                              "end to end.");
-    boundary.polygon = section.choice<CirclePolygon>(
-        "Area", { { "polygon", CirclePolygon::inscribed },
-                  { "equal", CirclePolygon::equal_area },
-                  { "equal perimeter", CirclePolygon::equal_perimeter } });
-    if (boundary.polygon != CirclePolygon::inscribed
-        && boundary.shape != BoundaryShape::circle)
-      section.fail("Area", "is for circles only: leave it at 'polygon'.");
-    if (boundary.shape == BoundaryShape::circle && boundary.n_elements > 0
-        && boundary.n_elements < 3)
-      section.fail("Elements", "must be at least 3 on a circle.");
-    read_condition(section, "Horizontal", boundary.traction_is_given[0],
-                   boundary.value[0]);
-    read_condition(section, "Vertical", boundary.traction_is_given[1],
-                   boundary.value[1]);
-    boundary.pressure = function(section, "Pressure", section.text("Pressure"));
-    if (boundary.shape == BoundaryShape::interface)
-    {
-      for (const std::string name : { "Horizontal", "Vertical", "Pressure" })
-        if (section.text(name) != (name == "Pressure" ? "0" : "traction 0"))
-          section.fail(name, "is given, but the blocks move an interface: "
-                             "remove it.");
-      boundary.traction_is_given = { { false, false } };
-    }
-    const bool has_pressure = section.text("Pressure") != "0";
-    if (has_pressure && !boundary.traction_is_given[0]
-        && !boundary.traction_is_given[1])
-      section.fail("Pressure", "has nothing to act on where both displacements "
-                               "are given: remove it, or give a traction.");
+    BoundaryCurveParameters boundary = read_entries(section, enter_curve);
+    boundary.name                    = name;
     return boundary;
   }
 
   void IncidentWaveParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Type", "plane P",
-                      Selection("plane P|plane SV|Rayleigh|line source"),
-                      "Plane P: motion along the direction of propagation; "
-                      "plane SV: across it; Rayleigh: along the free surface; "
-                      "line source: an explosion in the domain.");
-    prm.declare_entry("Space", "full plane", Selection("full plane|half-plane"),
-                      "Half-plane: the medium is below y = 0, where the wave "
-                      "is reflected; no boundary may be above. Rayleigh waves "
-                      "need it, line sources must not have it.");
-    prm.declare_entry("Angle", "0", Double(),
-                      "Direction of propagation, from the upward vertical "
-                      "towards +x; Rayleigh: 90 or -90 [deg]");
-    prm.declare_entry("Position", "0, 0", Anything(), "Line source: x, y [m]");
-    prm.declare_entry("Signal", "", Anything(),
-                      "Function of t [s]: motion of the incident wave at the "
-                      "origin, vertical if it is a Rayleigh wave; moment per "
-                      "length of a line source. Expression, table, wavelet, "
-                      "pulse, record or synthetic; 0 before the wave's start.");
-    prm.declare_entry("Motion", "displacement",
-                      Selection("displacement|velocity|acceleration"),
-                      "What 'Signal' is; integrated from t = 0 on, or in "
-                      "closed form. A moment is not integrated.");
-    prm.declare_entry("Amplitude", "1", Double(),
-                      "Factor of the signal [m, m/s, m/s^2; line source: N]");
-    prm.declare_entry("Displacement", "0", Anything(),
-                      "Instead of 'Signal', for 'Motion = displacement' [m]");
+    declare_entries(prm, enter_wave);
   }
 
   IncidentWaveParameters
   IncidentWaveParameters::read(const ParameterSection &section,
                                const std::string &name)
   {
-    using Type = IncidentWaveType;
-    IncidentWaveParameters wave;
-    wave.name       = name;
-    wave.type       = section.choice<Type>("Type",
-                                     { { "plane P", Type::plane_p },
-                                             { "plane SV", Type::plane_sv },
-                                             { "Rayleigh", Type::rayleigh },
-                                             { "line source", Type::line_source } });
-    wave.half_plane = section.text("Space") == "half-plane";
-    if (wave.type == Type::rayleigh)
-    {
-      if (!wave.half_plane)
-        section.fail("Space", "has no surface for a Rayleigh wave: it needs "
-                              "'half-plane'.");
-      wave.angle = section.number("Angle");
-      if (std::abs(wave.angle) != 90.)
-        section.fail("Angle", "must be 90 or -90 for a Rayleigh wave, which "
-                              "travels along the surface to +x or -x.");
-    }
-    else
-    {
-      const double limit = wave.half_plane ? 89. : 360.;
-      wave.angle         = section.within("Angle", -limit, limit);
-    }
-    wave.angle *= degree;
-    wave.n_integrations = section.choice<unsigned int>(
-        "Motion",
-        { { "displacement", 0 }, { "velocity", 1 }, { "acceleration", 2 } });
-    const bool has_signal = !section.text("Signal").empty();
-    wave.signal_entry     = has_signal ? "Signal" : "Displacement";
-    if (has_signal && section.text("Displacement") != "0")
-      section.fail("Displacement", "is given beside 'Signal': give one of "
-                                   "them.");
-    if (!has_signal && wave.n_integrations > 0)
-      section.fail("Motion", "is for 'Signal': give that, and no "
-                             "'Displacement'.");
-    if (wave.type == Type::line_source)
-    {
-      wave.position = section.numbers<2>("Position");
-      if (wave.half_plane)
-        section.fail("Space", "is not for a line source, whose field is that "
-                              "of the full plane: leave it at 'full plane' and "
-                              "make the free surface a boundary.");
-      if (!has_signal)
-        section.fail("Signal", "must give the moment of the line source, by a "
-                               "factor 'Amplitude'.");
-      if (wave.n_integrations > 0)
-        section.fail("Motion", "is not for a line source: its 'Signal' is the "
-                               "moment. Leave it at 'displacement'.");
-    }
-    wave.amplitude = section.number("Amplitude");
-    try
-    {
-      wave.signal
-          = TimeFunction(section.text(wave.signal_entry), section.folder())
-                .signal();
-    }
-    catch (const InputError &error)
-    {
-      section.fail(wave.signal_entry, error.what());
-    }
+    IncidentWaveParameters wave = read_entries(section, enter_wave);
+    wave.name                   = name;
     return wave;
   }
 
@@ -354,148 +552,26 @@ namespace quoin
 
   void SampledFieldParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Box", "", Anything(),
-                      "xmin, ymin, xmax, ymax of the rectangle in which the "
-                      "field is computed, at the end of the run, for "
-                      "field.pvd; empty: nowhere [m]");
-    prm.declare_entry("Spacing", "0", Double(), "Of its points [m]");
+    declare_entries(prm, enter_field);
   }
 
   SampledFieldParameters
   SampledFieldParameters::read(const ParameterSection &section)
   {
-    SampledFieldParameters field;
-    field.has_box = !section.text("Box").empty();
-    if (!field.has_box)
-      return field;
-    field.box = section.numbers<4>("Box");
-    if (!(field.box[0] < field.box[2] && field.box[1] < field.box[3]))
-      section.fail("Box", "must be xmin, ymin, xmax, ymax with xmin < xmax and "
-                          "ymin < ymax.");
-    field.spacing = section.positive("Spacing");
-    const double n_points
-        = (1. + (field.box[2] - field.box[0]) / field.spacing)
-          * (1. + (field.box[3] - field.box[1]) / field.spacing);
-    if (n_points > 1e6)
-    {
-      std::ostringstream why;
-      why << "makes " << n_points
-          << " points, more than a million: give a larger one.";
-      section.fail("Spacing", why.str());
-    }
-    return field;
+    return read_entries(section, enter_field);
   }
 
   void BoundaryElementParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Material", "", Anything(),
-                      "Of the domain; empty: the only one there is. What "
-                      "lies beyond blocks of a Mohr-Coulomb material has its "
-                      "elasticity and does not yield.");
-    prm.declare_entry(
-        "Formulation", "Galerkin",
-        Selection("Galerkin|collocation|convolution quadrature"),
-        "Of the integral equation: in the mean over each element or at its "
-        "middle, with tractions and velocities constant in each time step; or "
-        "in the mean by convolution quadrature.");
-    prm.declare_entry("Analysis", "dynamic", Selection("dynamic|static"),
-                      "Static: one solution, with the given values at t = "
-                      "'Duration'.");
-    prm.declare_entry("Element length", "0", Double(),
-                      "Of boundaries that have none of their own [m]");
-    prm.declare_entry("Highest frequency", "0", Double(),
-                      "Of the waves that are to leave or come in: makes the "
-                      "'Element length' a tenth of the length of the S wave of "
-                      "this frequency; 0: the length is given [Hz]");
-    prm.declare_entry("Step ratio", "0", Double(),
-                      "c_1 times time step by length of the shortest element; "
-                      "used if 'Time step' is 0. 0: 1, more if Poisson's ratio "
-                      "is above 0.25 (c_2 times time step then is 0.58 "
-                      "lengths), at most 1.5; with convolution quadrature 0.5 "
-                      "[-]");
-    prm.declare_entry("Time step", "0", Double(),
-                      "0: as the ratio says. It is shortened until the run "
-                      "ends at a step [s]");
-    prm.declare_entry("Duration", "0", Double(), "Of the run [s]");
-    prm.declare_entry("Coupling", "implicit", Selection("implicit|staggered"),
-                      "With blocks. Implicit: the newest impedance acts on "
-                      "each block step, on the nodes of the interface "
-                      "implicitly; keeps the critical step. Staggered: by "
-                      "extrapolated displacements, as Jin, Wang & Zhang do; "
-                      "often unstable.");
-    prm.declare_entry("Decay", "0", Double(),
-                      "Rate of the decay of both kernels of Galerkin and "
-                      "collocation [1/s]");
-    prm.declare_entry("Mass damping", "0", Double(),
-                      "Rayleigh damping, convolution quadrature only [1/s]");
-    prm.declare_entry("Stiffness damping", "0", Double(),
-                      "Rayleigh damping, convolution quadrature only [s]");
-    prm.declare_entry("History", "compressed", Selection("compressed|direct"),
-                      "How past steps are summed: at bounded cost, or as they "
-                      "are written, at growing cost.");
-    prm.declare_entry("Tolerance", "1e-6", Double(),
-                      "Of the compressed history [-]");
-    prm.declare_entry("Passivity frequencies", "64", Integer(0, 100000),
-                      "Number of frequencies at which is looked, before the "
-                      "run, whether the boundary can create energy; 0: not "
-                      "at all.");
+    declare_entries(prm, enter_section);
   }
 
   BoundaryElementParameters
   BoundaryElementParameters::read(const ParameterSection &section,
                                   const bool coupled)
   {
-    BoundaryElementParameters parameters;
-    parameters.material    = section.text("Material");
-    parameters.formulation = section.choice<Formulation>(
-        "Formulation",
-        { { "Galerkin", Formulation::galerkin },
-          { "collocation", Formulation::collocation },
-          { "convolution quadrature", Formulation::convolution_quadrature } });
-    const bool quadrature
-        = parameters.formulation == Formulation::convolution_quadrature;
-    parameters.is_static         = section.text("Analysis") == "static";
-    parameters.element_length    = section.nonnegative("Element length");
-    parameters.highest_frequency = section.nonnegative("Highest frequency");
-    if (parameters.highest_frequency > 0. && parameters.element_length > 0.)
-      section.fail("Highest frequency", "gives the elements' length, as "
-                                        "'Element length' does: leave one of "
-                                        "them at 0.");
-    parameters.step_ratio = section.nonnegative("Step ratio");
-    parameters.time_step  = section.nonnegative("Time step");
-    parameters.duration   = parameters.is_static || coupled
-                                ? section.nonnegative("Duration")
-                                : section.positive("Duration");
-    parameters.coupling   = section.choice<CouplingScheme>(
-        "Coupling", { { "implicit", CouplingScheme::implicit },
-                        { "staggered", CouplingScheme::staggered } });
-    if (!coupled && parameters.coupling != CouplingScheme::implicit)
-      section.fail("Coupling", "has no meaning without blocks: remove it.");
-    if (parameters.is_static && section.number("Decay") > 0.)
-      section.fail("Decay", "has no meaning with 'Analysis = static': remove "
-                            "it.");
-    if (coupled && parameters.is_static)
-      section.fail("Analysis", "is that of a domain without blocks: leave it "
-                               "at 'dynamic'.");
-    if (coupled && parameters.duration > 0.)
-      section.fail("Duration", "has no meaning here: the stages say how long "
-                               "the run takes. Remove it.");
-    parameters.decay = section.nonnegative("Decay");
-    if (quadrature && parameters.decay > 0.)
-      section.fail("Decay", "is not for convolution quadrature: use 'Mass "
-                            "damping' and 'Stiffness damping'.");
-    parameters.damping.mass      = section.nonnegative("Mass damping");
-    parameters.damping.stiffness = section.nonnegative("Stiffness damping");
-    for (const std::string name : { "Mass damping", "Stiffness damping" })
-      if (!quadrature && section.number(name) > 0.)
-        section.fail(name, "needs 'Formulation = convolution quadrature'; "
-                           "other formulations take 'Decay'.");
-    if (parameters.is_static && quadrature)
-      section.fail("Formulation", "has no statics: use Galerkin or "
-                                  "collocation.");
-    parameters.direct_history = section.text("History") == "direct";
-    parameters.tolerance      = section.within("Tolerance", 1e-12, 1e-2);
-    parameters.n_frequencies  = section.integer("Passivity frequencies");
+    const auto parameters = read_entries(section, enter_section);
+    check_coupling(section, parameters, coupled);
     return parameters;
   }
 

@@ -2,12 +2,13 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/named_sections.h>
+#include <quoin/base/parameter_entries.h>
 #include <quoin/layout/rock_parameters.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <stdexcept>
 
 #include "element_limit.h"
@@ -17,10 +18,6 @@ namespace quoin
   namespace
   {
     using Point = dealii::Point<2>;
-    using dealii::Patterns::Anything;
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    using dealii::Patterns::Selection;
 
     /** "x, y; x, y; ..." */
     Polygon read_points(const ParameterSection &section,
@@ -79,242 +76,334 @@ namespace quoin
       return distribution;
     }
 
-    const char *distribution_text
+    /** Sides are those of a counter-clockwise outline from here on. */
+    void complete_sides(const ParameterSection &section, RockParameters &rock)
+    {
+      const std::size_t n = rock.outline.size();
+      if (rock.sides.empty())
+        rock.sides.assign(n, "outline");
+      if (rock.sides.size() != n)
+        section.fail("Sides", "must be as many names as 'Outline' has "
+                              "corners, that is "
+                                  + std::to_string(n) + ".");
+      if (signed_area(rock.outline) < 0.)
+      {
+        // The side after a corner is then the one before it.
+        std::reverse(rock.outline.begin(), rock.outline.end());
+        std::reverse(rock.sides.begin(), rock.sides.end());
+        std::rotate(rock.sides.begin(), rock.sides.begin() + 1,
+                    rock.sides.end());
+      }
+    }
+
+    void complete_sizes(const ParameterSection &section, RockParameters &rock)
+    {
+      if (rock.finest_size == 0.)
+        rock.finest_size = rock.element_size;
+      if (rock.finest_size > rock.element_size)
+        section.fail("Finest element size",
+                     "must not exceed 'Element size', which it refines.");
+      limit_elements(section, 2. * std::abs(signed_area(rock.outline))
+                                  / rock.element_size / rock.element_size);
+      if (rock.shortest_edge == 0.)
+        rock.shortest_edge = 0.1 * rock.element_size;
+      if (rock.smallest_block == 0.)
+        rock.smallest_block = 4. * rock.shortest_edge * rock.shortest_edge;
+      if (rock.narrowest_block == 0.)
+        rock.narrowest_block = rock.shortest_edge;
+    }
+
+    const std::string distribution_text
         = "A number, or one of 'uniform', 'normal', 'log-normal' with mean and "
           "standard deviation, or 'exponential' with the mean";
+
+    enum class RegionShape
+    {
+      polygon,
+      circle,
+      arch
+    };
+
+    void enter_region_shape(ParameterEntries &entries, RockRegion &region)
+    {
+      RegionShape shape = RegionShape::polygon;
+      entries.choice("Shape", shape,
+                     { { "polygon", RegionShape::polygon },
+                       { "circle", RegionShape::circle },
+                       { "arch", RegionShape::arch } },
+                     "Shape of the region; arch: the section of a tunnel with "
+                     "floor, walls and a roof that is an arc of a circle.");
+      const ParameterSection *section = entries.read_section();
+      std::array<double, 2> centre{};
+      double radius = 0., width = 0., height = 0., rise = 0.;
+      unsigned int n = 24;
+      if (entries.reads_if(shape == RegionShape::polygon))
+        entries.other("Points", "",
+                      "Corners of the polygon: x, y; x, y; ... [m]",
+                      [&](const ParameterSection &from)
+                      {
+                        region.polygon = read_points(from, "Points", 3);
+                        check_polygon(from, "Points", region.polygon);
+                      });
+      entries.numbers("Centre", centre,
+                      "x, y of the circle's centre, or of the middle of the "
+                      "arch's floor [m]");
+      if (entries.reads_if(shape == RegionShape::circle))
+        entries.positive("Radius", radius, "Radius of the circle [m]");
+      if (entries.reads_if(shape == RegionShape::arch))
+      {
+        entries.positive("Width", width, "Width of the arch [m]");
+        entries.nonnegative("Wall height", height,
+                            "Height of the walls below the arch [m]");
+        entries.within("Rise", rise, 0., 0.5 * width,
+                       "Rise of the arch above its walls, at most half of "
+                       "its width [m]");
+        if (section && height + rise == 0.)
+          section->fail("Wall height", "and 'Rise' must not both be zero.");
+      }
+      entries.integer("Corners", n, 3,
+                      "Number of corners of the polygon instead of the circle, "
+                      "or of chords of the arch's roof [-]",
+                      10000);
+      const Point middle(centre[0], centre[1]);
+      if (section && shape == RegionShape::circle)
+        region.polygon = circle_polygon(middle, radius, n);
+      if (section && shape == RegionShape::arch)
+        region.polygon = arch_polygon(middle, width, height, rise, n);
+      if (section && signed_area(region.polygon) < 0.)
+        std::reverse(region.polygon.begin(), region.polygon.end());
+    }
+
+    void enter_region(ParameterEntries &entries, RockRegion &region)
+    {
+      enter_region_shape(entries, region);
+      entries.choice("Use", region.use,
+                     { { "body", RockRegion::body },
+                       { "hole", RockRegion::hole },
+                       { "zone", RockRegion::zone } },
+                     "body: a physical surface with the region's name, for a "
+                     "material of its own or to be excavated; hole: nothing "
+                     "is there; zone: only joints that name it know it. Of "
+                     "regions that overlap, the later one prevails.");
+      entries.flag("Outline is a joint", region.is_outlined,
+                   "Whether the outline of a body, the physical curve with the "
+                   "region's name, is a joint.");
+      entries.flag("Joints inside", region.has_joints,
+                   "Whether joints go through a body.");
+      entries.flag("Refine mesh", region.refines_mesh,
+                   "Whether elements are as fine as 'Finest element size' "
+                   "of section 'Rock' says along the region's outline.");
+      const ParameterSection *section = entries.read_section();
+      if (section && region.refines_mesh && region.use == RockRegion::zone)
+        section->fail("Refine mesh", "needs the outline of a body or a hole: a "
+                                     "zone has none in the mesh.");
+    }
+
+    Distribution read_dip(const ParameterSection &section)
+    {
+      const Distribution dip = read_distribution(section, "Dip");
+      if (!(std::abs(dip.mean) <= 360.))
+        section.fail("Dip", "must have a mean between -360 and 360 degrees.");
+      if (dip.kind == DistributionKind::log_normal
+          || dip.kind == DistributionKind::exponential)
+        section.fail("Dip", "is an angle: take 'Fisher', 'normal' or "
+                            "'uniform'.");
+      return dip;
+    }
+
+    void enter_set(ParameterEntries &entries, RockJoints &joints)
+    {
+      using Section = ParameterSection;
+      entries.other("Dip", "0",
+                    "Dip of a set, anticlockwise from the x axis. A number, or "
+                    "one of 'uniform', 'normal', 'Fisher' with mean and "
+                    "standard deviation, such as 'Fisher 30, 5' [deg]",
+                    [&](const Section &section)
+                    { joints.dip = read_dip(section); });
+      entries.other("Spacing", "0",
+                    "Spacing of the lines of a set, across the mean dip. "
+                        + distribution_text + " [m]",
+                    [&](const Section &section)
+                    { joints.spacing = read_length(section, "Spacing"); });
+      entries.other("Trace length", "persistent",
+                    "Length of the traces of a set, as 'Spacing', or "
+                    "'persistent': from border to border [m]",
+                    [&](const Section &section)
+                    {
+                      joints.is_persistent
+                          = section.text("Trace length") == "persistent";
+                      if (!joints.is_persistent)
+                        joints.length = read_length(section, "Trace length");
+                    });
+      entries.other(
+          "Gap", "0",
+          "Gap between traces on a line of a set, as 'Spacing', or 0 "
+          "[m]",
+          [&](const Section &section)
+          {
+            if (joints.is_persistent)
+              return;
+            const Distribution gap = read_distribution(section, "Gap");
+            if (gap.kind != DistributionKind::constant || gap.mean != 0.)
+              joints.gap = read_length(section, "Gap");
+          });
+      std::array<double, 2> origin{};
+      entries.numbers("Origin", origin,
+                      "x, y of a point on the first line of a set [m]");
+      joints.origin = Point(origin[0], origin[1]);
+    }
+
+    void check_file(const ParameterSection &section, std::string &file)
+    {
+      if (file.empty())
+        section.fail("File", "must name a table of traces.");
+      if (file.front() != '/')
+        file = section.folder() + file;
+      std::error_code error; // a name may be too long for any file
+      if (!std::filesystem::is_regular_file(file, error))
+        section.fail("File", "does not exist: there is no file '" + file
+                                 + "'. Give the path from the folder of the "
+                                   "parameter file.");
+    }
+
+    void enter_joints(ParameterEntries &entries, RockJoints &joints)
+    {
+      entries.choice("Kind", joints.kind,
+                     { { "set", RockJoints::set },
+                       { "polyline", RockJoints::polyline },
+                       { "traces", RockJoints::traces },
+                       { "Voronoi", RockJoints::voronoi } },
+                     "set: parallel lines on which traces and gaps follow "
+                     "each other; polyline: one joint through given points; "
+                     "traces: straight joints from a file; Voronoi: the "
+                     "borders of random polygons.");
+      if (entries.reads_if(joints.kind == RockJoints::set))
+        enter_set(entries, joints);
+      if (entries.reads_if(joints.kind == RockJoints::polyline))
+        entries.other("Points", "", "Points of a polyline: x, y; x, y; ... [m]",
+                      [&](const ParameterSection &section)
+                      { joints.points = read_points(section, "Points", 2); });
+      if (entries.reads_if(joints.kind == RockJoints::traces))
+      {
+        entries.text("File", joints.file,
+                     "Table of traces with x1, y1, x2, y2 in each row [m], "
+                     "relative to the folder of this file.");
+        if (const ParameterSection *section = entries.read_section())
+          check_file(*section, joints.file);
+      }
+      if (entries.reads_if(joints.kind == RockJoints::voronoi))
+      {
+        entries.positive("Block size", joints.block_size,
+                         "Root of the mean area of Voronoi polygons [m]");
+        entries.integer("Relaxation", joints.relaxation, 0,
+                        "How often the sites of Voronoi polygons are moved to "
+                        "the middle of their polygons, which become more "
+                        "regular; 5 are many [-]",
+                        1000);
+      }
+      entries.text("Region", joints.region,
+                   "Region of section 'Rock regions' in which alone these "
+                   "joints are; empty: everywhere.");
+    }
+
+    void enter_sizes(ParameterEntries &entries, RockParameters &rock)
+    {
+      entries.nonnegative("Shortest edge", rock.shortest_edge,
+                          "Distance below which ends of joints are moved "
+                          "together or to another joint; 0: a tenth of the "
+                          "element size [m]");
+      entries.nonnegative("Smallest block", rock.smallest_block,
+                          "Area of blocks below which they are joined to the "
+                          "neighbour with which they share the longest joint; "
+                          "0: the square of twice the shortest edge [m^2]");
+      entries.nonnegative("Narrowest block", rock.narrowest_block,
+                          "Width of blocks, twice their area by their "
+                          "perimeter, below which they are joined to the "
+                          "neighbour with which they share the longest joint; "
+                          "0: the shortest edge [m]");
+      entries.positive("Element size", rock.element_size,
+                       "Longest edge of elements [m]");
+      entries.nonnegative("Finest element size", rock.finest_size,
+                          "Longest edge of elements along outlines of regions "
+                          "that refine the mesh; 0: the element size [m]");
+      rock.size_growth = 0.2;
+      entries.positive("Size growth", rock.size_growth,
+                       "Growth of the element size with the distance from "
+                       "outlines that refine the mesh [m/m]");
+    }
+
+    void enter_rock(ParameterEntries &entries, RockParameters &rock)
+    {
+      entries.other("Outline", "",
+                    "x, y; x, y; ... of the corners of rock that the program "
+                    "cuts into blocks itself, instead of reading 'Mesh/File'; "
+                    "empty: no such rock [m]",
+                    [&](const ParameterSection &section)
+                    {
+                      if (section.text("Outline").empty())
+                        return;
+                      rock.outline = read_points(section, "Outline", 3);
+                      check_polygon(section, "Outline", rock.outline);
+                    });
+      if (!entries.reads_if(!rock.outline.empty()))
+        return;
+      entries.list("Sides", rock.sides,
+                   "Names of the sides, the first one from the first to the "
+                   "second corner: physical curves. Sides may share one; "
+                   "empty: all are 'outline'.");
+      entries.text("Group", rock.group,
+                   "Physical surface of the blocks that are in no region.");
+      entries.integer("Random seed", rock.seed, 0,
+                      "Seed of the joints: another seed, other joints.");
+      entries.choice("Dead ends", rock.dead_ends,
+                     { { "cut", RockParameters::cut },
+                       { "extend", RockParameters::extend },
+                       { "keep", RockParameters::keep } },
+                     "Joints that end inside a block. cut: they go back to "
+                     "the last joint that they met; extend: they go straight "
+                     "on to the next joint or border; keep: they are cracks.");
+      enter_sizes(entries, rock);
+      if (const ParameterSection *section = entries.read_section())
+      {
+        complete_sides(*section, rock);
+        complete_sizes(*section, rock);
+      }
+    }
   } // namespace
 
   void RockRegion::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Shape", "polygon", Selection("polygon|circle|arch"),
-                      "arch: the section of a tunnel with floor, walls and a "
-                      "roof that is an arc of a circle.");
-    prm.declare_entry("Points", "", Anything(),
-                      "Polygon: x, y; x, y; ... of its corners [m]");
-    prm.declare_entry("Centre", "0, 0", Anything(),
-                      "x, y of the circle's centre, or of the middle of the "
-                      "arch's floor [m]");
-    prm.declare_entry("Radius", "0", Double(), "Of the circle [m]");
-    prm.declare_entry("Width", "0", Double(), "Of the arch [m]");
-    prm.declare_entry("Wall height", "0", Double(),
-                      "Of the arch, up to its roof [m]");
-    prm.declare_entry("Rise", "0", Double(),
-                      "Of the arch's roof above its walls, at most half of "
-                      "its width [m]");
-    prm.declare_entry("Corners", "24", Integer(3, 10000),
-                      "Of the polygon instead of the circle, or chords of the "
-                      "arch's roof");
-    prm.declare_entry("Use", "body", Selection("body|hole|zone"),
-                      "body: a physical surface with the region's name, for a "
-                      "material of its own or to be excavated; hole: nothing "
-                      "is there; zone: only joints that name it know it. Of "
-                      "regions that overlap, the later one prevails.");
-    prm.declare_entry("Outline is a joint", "yes",
-                      Selection("yes|no|true|false"),
-                      "Of a body: the physical curve with the region's name "
-                      "is a joint.");
-    prm.declare_entry("Joints inside", "yes", Selection("yes|no|true|false"),
-                      "Of a body: whether joints go through it.");
-    prm.declare_entry("Refine mesh", "no", Selection("yes|no|true|false"),
-                      "Whether elements are as fine as 'Finest element size' "
-                      "of section 'Rock' says along its outline.");
+    declare_entries(prm, enter_region);
   }
 
   RockRegion RockRegion::read(const ParameterSection &section,
                               const std::string &name)
   {
-    RockRegion region;
-    region.name             = name;
-    const std::string shape = section.text("Shape");
-    const auto centre       = section.numbers<2>("Centre");
-    const Point middle(centre[0], centre[1]);
-    const unsigned int n = section.integer("Corners");
-    if (shape == "circle")
-      region.polygon = circle_polygon(middle, section.positive("Radius"), n);
-    else if (shape == "arch")
-    {
-      const double width  = section.positive("Width");
-      const double height = section.nonnegative("Wall height");
-      const double rise   = section.within("Rise", 0., 0.5 * width);
-      if (height + rise == 0.)
-        section.fail("Wall height", "and 'Rise' must not both be zero.");
-      region.polygon = arch_polygon(middle, width, height, rise, n);
-    }
-    else
-    {
-      region.polygon = read_points(section, "Points", 3);
-      check_polygon(section, "Points", region.polygon);
-    }
-    if (signed_area(region.polygon) < 0.)
-      std::reverse(region.polygon.begin(), region.polygon.end());
-    region.use = section.choice<Use>(
-        "Use", { { "body", body }, { "hole", hole }, { "zone", zone } });
-    region.is_outlined  = section.flag("Outline is a joint");
-    region.has_joints   = section.flag("Joints inside");
-    region.refines_mesh = section.flag("Refine mesh");
-    if (region.refines_mesh && region.use == zone)
-      section.fail("Refine mesh", "needs the outline of a body or a hole: a "
-                                  "zone has none in the mesh.");
+    RockRegion region = read_entries(section, enter_region);
+    region.name       = name;
     return region;
   }
 
   void RockJoints::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Kind", "set", Selection("set|polyline|traces|Voronoi"),
-                      "set: parallel lines on which traces and gaps follow "
-                      "each other; polyline: one joint through given points; "
-                      "traces: straight joints from a file; Voronoi: the "
-                      "borders of random polygons.");
-    prm.declare_entry("Dip", "0", Anything(),
-                      "Set: anticlockwise from the x axis. A number, or one of "
-                      "'uniform', 'normal', 'Fisher' with mean and standard "
-                      "deviation, such as 'Fisher 30, 5' [deg]");
-    prm.declare_entry("Spacing", "0", Anything(),
-                      std::string("Set: from line to line, across the mean "
-                                  "dip. ")
-                          + distribution_text + " [m]");
-    prm.declare_entry("Trace length", "persistent", Anything(),
-                      "Set: as 'Spacing', or 'persistent': from border to "
-                      "border [m]");
-    prm.declare_entry("Gap", "0", Anything(),
-                      "Set: between traces on a line; as 'Spacing', or 0 [m]");
-    prm.declare_entry("Origin", "0, 0", Anything(),
-                      "Set: x, y of a point on the first line [m]");
-    prm.declare_entry("Points", "", Anything(),
-                      "Polyline: x, y; x, y; ... [m]");
-    prm.declare_entry("File", "", Anything(),
-                      "Traces: a table with x1, y1, x2, y2 in each row [m], "
-                      "relative to the folder of this file");
-    prm.declare_entry("Block size", "0", Double(),
-                      "Voronoi: root of the mean area of polygons [m]");
-    prm.declare_entry("Relaxation", "0", Integer(0, 1000),
-                      "Voronoi: how often sites are moved to the middle of "
-                      "their polygons, which become more regular; 5 are many");
-    prm.declare_entry("Region", "", Anything(),
-                      "In which alone they are, of section 'Rock regions'; "
-                      "empty: everywhere.");
+    declare_entries(prm, enter_joints);
   }
-
-  namespace
-  {
-    void read_set(const ParameterSection &section, RockJoints &joints)
-    {
-      joints.dip = read_distribution(section, "Dip");
-      if (!(std::abs(joints.dip.mean) <= 360.))
-        section.fail("Dip", "must have a mean between -360 and 360 degrees.");
-      if (joints.dip.kind == DistributionKind::log_normal
-          || joints.dip.kind == DistributionKind::exponential)
-        section.fail("Dip", "is an angle: take 'Fisher', 'normal' or "
-                            "'uniform'.");
-      joints.spacing       = read_length(section, "Spacing");
-      joints.is_persistent = section.text("Trace length") == "persistent";
-      if (!joints.is_persistent)
-      {
-        joints.length          = read_length(section, "Trace length");
-        const Distribution gap = read_distribution(section, "Gap");
-        if (gap.kind != DistributionKind::constant || gap.mean != 0.)
-          joints.gap = read_length(section, "Gap");
-      }
-      const auto origin = section.numbers<2>("Origin");
-      joints.origin     = Point(origin[0], origin[1]);
-    }
-  } // namespace
 
   RockJoints RockJoints::read(const ParameterSection &section,
                               const std::string &name)
   {
-    RockJoints joints;
-    joints.name   = name;
-    joints.kind   = section.choice<Kind>("Kind", { { "set", set },
-                                                   { "polyline", polyline },
-                                                   { "traces", traces },
-                                                   { "Voronoi", voronoi } });
-    joints.region = section.text("Region");
-    switch (joints.kind)
-    {
-    case set:
-      read_set(section, joints);
-      break;
-    case polyline:
-      joints.points = read_points(section, "Points", 2);
-      break;
-    case traces:
-    {
-      const std::string file = section.text("File");
-      if (file.empty())
-        section.fail("File", "must name a table of traces.");
-      joints.file = file.front() == '/' ? file : section.folder() + file;
-      std::error_code error; // a name may be too long for any file
-      if (!std::filesystem::is_regular_file(joints.file, error))
-        section.fail("File", "does not exist: there is no file '" + joints.file
-                                 + "'. Give the path from the folder of the "
-                                   "parameter file.");
-      break;
-    }
-    case voronoi:
-      joints.block_size = section.positive("Block size");
-      joints.relaxation = section.integer("Relaxation");
-      break;
-    }
+    RockJoints joints = read_entries(section, enter_joints);
+    joints.name       = name;
     return joints;
   }
 
   void RockParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry(
-        "Outline", "", Anything(),
-        "x, y; x, y; ... of the corners of rock that the program "
-        "cuts into blocks itself, instead of reading 'Mesh/File'; "
-        "empty: no such rock [m]");
-    prm.declare_entry("Sides", "", Anything(),
-                      "Names of the sides, the first one from the first to the "
-                      "second corner: physical curves. Sides may share one; "
-                      "empty: all are 'outline'.");
-    prm.declare_entry("Group", "rock", Anything(),
-                      "Physical surface of the blocks that are in no region");
-    prm.declare_entry("Random seed", "1", Integer(0),
-                      "Another seed, other joints.");
-    prm.declare_entry("Dead ends", "cut", Selection("cut|extend|keep"),
-                      "Joints that end inside a block. cut: they go back to "
-                      "the last joint that they met; extend: they go straight "
-                      "on to the next joint or border; keep: they are cracks.");
-    prm.declare_entry("Shortest edge", "0", Double(),
-                      "Ends of joints that are nearer to each other or to "
-                      "another joint are moved together; 0: a tenth of the "
-                      "element size [m]");
-    prm.declare_entry("Smallest block", "0", Double(),
-                      "Smaller ones are joined to the neighbour with which "
-                      "they share the longest joint; 0: the square of twice "
-                      "the shortest edge [m^2]");
-    prm.declare_entry("Narrowest block", "0", Double(),
-                      "Likewise narrower ones, by twice their area over their "
-                      "perimeter, which is the width of a strip; 0: the "
-                      "shortest edge [m]");
-    prm.declare_entry("Element size", "0", Double(),
-                      "Edges of elements are no longer [m]");
-    prm.declare_entry("Finest element size", "0", Double(),
-                      "Along outlines of regions that refine the mesh; 0: the "
-                      "element size [m]");
-    prm.declare_entry("Size growth", "0.2", Double(),
-                      "Of elements with the distance from those outlines "
-                      "[m/m]");
+    declare_entries(prm, enter_rock);
   }
 
   namespace
   {
-    std::vector<std::string> read_sides(const ParameterSection &section,
-                                        const std::size_t n)
-    {
-      auto sides = section.list("Sides");
-      if (sides.empty())
-        sides.assign(n, "outline");
-      if (sides.size() != n)
-        section.fail("Sides", "must be as many names as 'Outline' has "
-                              "corners, that is "
-                                  + std::to_string(n) + ".");
-      return sides;
-    }
-
     /** Joints name regions that exist, and have names of their own. */
     void check_names(const ParameterSection &top, const RockParameters &rock)
     {
@@ -365,56 +454,14 @@ namespace quoin
                              "the region or the 'Outline'.");
       }
     }
-
-    void read_sizes(const ParameterSection &section, RockParameters &rock)
-    {
-      rock.element_size    = section.positive("Element size");
-      rock.finest_size     = section.nonnegative("Finest element size");
-      rock.size_growth     = section.positive("Size growth");
-      rock.shortest_edge   = section.nonnegative("Shortest edge");
-      rock.smallest_block  = section.nonnegative("Smallest block");
-      rock.narrowest_block = section.nonnegative("Narrowest block");
-      if (rock.finest_size == 0.)
-        rock.finest_size = rock.element_size;
-      if (rock.finest_size > rock.element_size)
-        section.fail("Finest element size",
-                     "must not exceed 'Element size', which it refines.");
-      limit_elements(section, 2. * std::abs(signed_area(rock.outline))
-                                  / rock.element_size / rock.element_size);
-      if (rock.shortest_edge == 0.)
-        rock.shortest_edge = 0.1 * rock.element_size;
-      if (rock.smallest_block == 0.)
-        rock.smallest_block = 4. * rock.shortest_edge * rock.shortest_edge;
-      if (rock.narrowest_block == 0.)
-        rock.narrowest_block = rock.shortest_edge;
-    }
   } // namespace
 
   RockParameters RockParameters::read(const ParameterSection &top)
   {
-    RockParameters rock;
-    {
-      const ParameterSection section(top, "Rock");
-      if (section.text("Outline").empty())
-        return rock;
-      rock.outline = read_points(section, "Outline", 3);
-      check_polygon(section, "Outline", rock.outline);
-      rock.sides = read_sides(section, rock.outline.size());
-      if (signed_area(rock.outline) < 0.)
-      {
-        // The side after a corner is then the one before it.
-        std::reverse(rock.outline.begin(), rock.outline.end());
-        std::reverse(rock.sides.begin(), rock.sides.end());
-        std::rotate(rock.sides.begin(), rock.sides.begin() + 1,
-                    rock.sides.end());
-      }
-      rock.group     = section.text("Group");
-      rock.seed      = section.integer("Random seed");
-      rock.dead_ends = section.choice<DeadEnds>(
-          "Dead ends",
-          { { "cut", cut }, { "extend", extend }, { "keep", keep } });
-      read_sizes(section, rock);
-    }
+    RockParameters rock
+        = read_entries(ParameterSection(top, "Rock"), enter_rock);
+    if (rock.outline.empty())
+      return rock;
     rock.regions = read_named<RockRegion>(top, "Rock regions");
     rock.joints  = read_named<RockJoints>(top, "Rock joints");
     check_names(top, rock);

@@ -1,77 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/parameter_entries.h>
 #include <quoin/layout/wall_parameters.h>
 
+#include <array>
 #include <cmath>
 
 #include "element_limit.h"
 
 namespace quoin
 {
-  void WallParameters::declare(dealii::ParameterHandler &prm)
-  {
-    using dealii::Patterns::Anything;
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Integer;
-    using dealii::Patterns::Selection;
-    prm.declare_entry(
-        "Bond", "none",
-        Selection("none|running|stack|header|English|Flemish|random"),
-        "How units are laid in a wall that the program makes itself, instead "
-        "of reading 'Mesh/File'; none: no such wall. A header is half a unit; "
-        "header courses begin with a header and a quarter.");
-    prm.declare_entry("Length", "0", Double(), "From left to right end [m]");
-    prm.declare_entry("Courses", "0", Integer(0), "Their number");
-    prm.declare_entry("Unit length", "0", Double(),
-                      "Of a whole unit, without mortar [m]");
-    prm.declare_entry("Unit height", "0", Double(),
-                      "Of a unit, without mortar [m]");
-    prm.declare_entry("Joint thickness", "0, 0", Anything(),
-                      "Head and bed joints. Joints of the model have none: "
-                      "units grow by it [m]");
-    prm.declare_entry("Offset", "0.5", Double(),
-                      "Running bond: shift of every other course, as a share "
-                      "of a unit with its joint [-]");
-    prm.declare_entry("First course", "whole", Selection("whole|shifted"),
-                      "Whether the lowest course begins with a whole unit "
-                      "(a stretcher), or as the one above would otherwise.");
-    prm.declare_entry("Shortest piece", "0.2", Double(),
-                      "Units cut shorter than this share of a whole one, at "
-                      "ends and openings, are joined to their neighbour [-]");
-    prm.declare_entry("Random lengths", "0, 0", Anything(),
-                      "Random bond: shortest and longest unit, between which "
-                      "lengths are uniformly distributed [m]");
-    prm.declare_entry("Random overlap", "0", Double(),
-                      "Random bond: head joints of neighbouring courses keep "
-                      "this distance at least [m]");
-    prm.declare_entry("Random seed", "1", Integer(0),
-                      "Random bond: another seed, another wall.");
-    prm.declare_entry("Openings", "", Anything(),
-                      "left [m], right [m], first course, last course; further "
-                      "openings after a semicolon. x is 0 at the left end, "
-                      "courses count from 1 at the bottom. Units are cut to "
-                      "fit.");
-    prm.declare_entry("Lintel bearing", "0", Double(),
-                      "A lintel of one course above each opening reaches so "
-                      "far to each side of it; 0: none, units of the bond "
-                      "bridge the opening [m]");
-    prm.declare_entry("Bottom platen", "0", Double(),
-                      "Height of a block below the whole wall; 0: none [m]");
-    prm.declare_entry("Top platen", "0", Double(),
-                      "Height of a block above the whole wall; 0: none [m]");
-    prm.declare_entry("Potential cracks", "none", Selection("none|mid-unit"),
-                      "Joints at mid-length of all units longer than three "
-                      "quarters of a whole one: the curve 'crack'.");
-    prm.declare_entry("Element size", "0", Double(),
-                      "Edges of elements are no longer; 0: half the height of "
-                      "a course [m]");
-    prm.declare_entry("Elements", "structured", Selection("structured|free"),
-                      "structured: rectangles between all head joints and "
-                      "cracks of the wall, halved alternately; free: gmsh's "
-                      "unstructured mesh of each unit.");
-  }
-
   namespace
   {
     std::vector<WallOpening> read_openings(const ParameterSection &section,
@@ -118,71 +57,151 @@ namespace quoin
         section.fail("Courses", "makes more than a million units.");
     }
 
-    void read_random(const ParameterSection &section, WallParameters &wall)
+    void check_random(const ParameterSection &section,
+                      const WallParameters &wall)
     {
-      const auto lengths   = section.numbers<2>("Random lengths");
-      wall.random_shortest = lengths[0];
-      wall.random_longest  = lengths[1];
-      wall.random_overlap  = section.nonnegative("Random overlap");
-      wall.random_seed     = section.integer("Random seed");
-      if (wall.bond != WallBond::random)
-        return;
-      if (!(0. < lengths[0] && lengths[0] <= lengths[1]))
+      if (!(0. < wall.random_shortest
+            && wall.random_shortest <= wall.random_longest))
         section.fail("Random lengths",
                      "must be shortest and longest unit with 0 < shortest <= "
                      "longest.");
-      if (!((1. + wall.length / lengths[0]) * wall.n_courses <= most_units))
+      if (!((1. + wall.length / wall.random_shortest) * wall.n_courses
+            <= most_units))
         section.fail("Random lengths", "make more than a million units. Check "
                                        "that they are in metres.");
-      if (wall.random_overlap > 0.5 * lengths[0])
+      if (wall.random_overlap > 0.5 * wall.random_shortest)
         section.fail("Random overlap",
                      "must not exceed half of the shortest unit.");
     }
+
+    void enter_random(ParameterEntries &entries, WallParameters &wall)
+    {
+      std::array<double, 2> lengths{};
+      entries.numbers("Random lengths", lengths,
+                      "Shortest and longest unit of a random bond, between "
+                      "which lengths are uniformly distributed [m]");
+      wall.random_shortest = lengths[0];
+      wall.random_longest  = lengths[1];
+      entries.nonnegative("Random overlap", wall.random_overlap,
+                          "Smallest distance between head joints of "
+                          "neighbouring courses of a random bond [m]");
+      entries.integer("Random seed", wall.random_seed, 0,
+                      "Seed of the random bond: another seed, another wall.");
+      const ParameterSection *section = entries.read_section();
+      if (section && wall.bond == WallBond::random)
+        check_random(*section, wall);
+    }
+
+    /** Lengths of units in the parameters are those without mortar. */
+    void enter_units(ParameterEntries &entries, WallParameters &wall)
+    {
+      entries.positive("Length", wall.length,
+                       "Length of the wall, from its left to its right end "
+                       "[m]");
+      entries.integer("Courses", wall.n_courses, 0,
+                      "Number of courses of the wall [-]");
+      entries.positive("Unit length", wall.unit_length,
+                       "Length of a whole unit, without mortar [m]");
+      entries.positive("Unit height", wall.unit_height,
+                       "Height of a unit, without mortar [m]");
+      std::array<double, 2> joint{};
+      entries.numbers("Joint thickness", joint,
+                      "Thickness of head and of bed joints. Joints of the "
+                      "model have none: units grow by it [m]");
+      wall.unit_length += joint[0];
+      wall.unit_height += joint[1];
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      if (!(joint[0] >= 0. && joint[1] >= 0.))
+        section->fail("Joint thickness", "must not be negative.");
+      if (wall.n_courses == 0)
+        section->fail("Courses", "must be at least 1.");
+      check_number_of_units(*section, wall);
+    }
+
+    void check_elements(const ParameterSection &section, WallParameters &wall)
+    {
+      if (wall.element_size == 0.)
+        wall.element_size = 0.5 * wall.unit_height;
+      const double height = wall.n_courses * wall.unit_height
+                            + wall.bottom_platen + wall.top_platen;
+      limit_elements(section, 2. * wall.length / wall.element_size * height
+                                  / wall.element_size);
+      if (wall.structured && wall.bond == WallBond::random)
+        section.fail("Elements", "must be 'free' with 'Bond = random', whose "
+                                 "joints lie at any distance.");
+    }
+
+    void enter(ParameterEntries &entries, WallParameters &wall)
+    {
+      entries.choice(
+          "Bond", wall.bond,
+          { { "none", WallBond::none },
+            { "running", WallBond::running },
+            { "stack", WallBond::stack },
+            { "header", WallBond::header },
+            { "English", WallBond::english },
+            { "Flemish", WallBond::flemish },
+            { "random", WallBond::random } },
+          "How units are laid in a wall that the program makes itself, instead "
+          "of reading 'Mesh/File'; none: no such wall. A header is half a "
+          "unit; header courses begin with a header and a quarter.");
+      if (!entries.reads_if(wall.bond != WallBond::none))
+        return;
+      enter_units(entries, wall);
+      entries.within("Offset", wall.offset, 0., 1.,
+                     "Shift of every other course of a running bond, as a "
+                     "share of a unit with its joint [-]");
+      entries.choice("First course", wall.begins_shifted,
+                     { { "whole", false }, { "shifted", true } },
+                     "Whether the lowest course begins with a whole unit "
+                     "(a stretcher), or as the one above would otherwise.");
+      entries.within("Shortest piece", wall.shortest, 0., 0.5,
+                     "Share of a whole unit below which units that are cut at "
+                     "ends and openings are joined to their neighbour [-]");
+      enter_random(entries, wall);
+      entries.other("Openings", "",
+                    "Openings of the wall: left [m], right [m], first course, "
+                    "last course; further openings after a semicolon. x is 0 "
+                    "at the left end, courses count from 1 at the bottom. "
+                    "Units are cut to fit.",
+                    [&](const ParameterSection &section)
+                    { wall.openings = read_openings(section, wall); });
+      entries.nonnegative("Lintel bearing", wall.lintel_bearing,
+                          "Length by which a lintel of one course above each "
+                          "opening reaches beyond each side of it; 0: no "
+                          "lintel, units of the bond bridge the opening [m]");
+      entries.nonnegative("Bottom platen", wall.bottom_platen,
+                          "Height of a block below the whole wall; 0: none "
+                          "[m]");
+      entries.nonnegative("Top platen", wall.top_platen,
+                          "Height of a block above the whole wall; 0: none "
+                          "[m]");
+      entries.choice("Potential cracks", wall.cracks,
+                     { { "none", false }, { "mid-unit", true } },
+                     "Joints at mid-length of all units longer than three "
+                     "quarters of a whole one: the curve 'crack'.");
+      entries.nonnegative("Element size", wall.element_size,
+                          "Longest edge of elements; 0: half the height of a "
+                          "course [m]");
+      entries.choice("Elements", wall.structured,
+                     { { "structured", true }, { "free", false } },
+                     "structured: rectangles between all head joints and "
+                     "cracks of the wall, halved alternately; free: gmsh's "
+                     "unstructured mesh of each unit.");
+      if (const ParameterSection *section = entries.read_section())
+        check_elements(*section, wall);
+    }
   } // namespace
+
+  void WallParameters::declare(dealii::ParameterHandler &prm)
+  {
+    declare_entries(prm, enter);
+  }
 
   WallParameters WallParameters::read(const ParameterSection &section)
   {
-    WallParameters wall;
-    wall.bond
-        = section.choice<WallBond>("Bond", { { "none", WallBond::none },
-                                             { "running", WallBond::running },
-                                             { "stack", WallBond::stack },
-                                             { "header", WallBond::header },
-                                             { "English", WallBond::english },
-                                             { "Flemish", WallBond::flemish },
-                                             { "random", WallBond::random } });
-    if (wall.bond == WallBond::none)
-      return wall;
-    wall.length      = section.positive("Length");
-    wall.n_courses   = section.integer("Courses");
-    const auto joint = section.numbers<2>("Joint thickness");
-    if (!(joint[0] >= 0. && joint[1] >= 0.))
-      section.fail("Joint thickness", "must not be negative.");
-    if (wall.n_courses == 0)
-      section.fail("Courses", "must be at least 1.");
-    wall.unit_length = section.positive("Unit length") + joint[0];
-    wall.unit_height = section.positive("Unit height") + joint[1];
-    check_number_of_units(section, wall);
-    wall.offset         = section.within("Offset", 0., 1.);
-    wall.begins_shifted = section.text("First course") == "shifted";
-    wall.shortest       = section.within("Shortest piece", 0., 0.5);
-    read_random(section, wall);
-    wall.openings       = read_openings(section, wall);
-    wall.lintel_bearing = section.nonnegative("Lintel bearing");
-    wall.bottom_platen  = section.nonnegative("Bottom platen");
-    wall.top_platen     = section.nonnegative("Top platen");
-    wall.cracks         = section.text("Potential cracks") == "mid-unit";
-    wall.element_size   = section.nonnegative("Element size");
-    if (wall.element_size == 0.)
-      wall.element_size = 0.5 * wall.unit_height;
-    const double height = wall.n_courses * wall.unit_height + wall.bottom_platen
-                          + wall.top_platen;
-    limit_elements(section, 2. * wall.length / wall.element_size * height
-                                / wall.element_size);
-    wall.structured = section.text("Elements") == "structured";
-    if (wall.structured && wall.bond == WallBond::random)
-      section.fail("Elements", "must be 'free' with 'Bond = random', whose "
-                               "joints lie at any distance.");
-    return wall;
+    return read_entries(section, enter);
   }
 } // namespace quoin

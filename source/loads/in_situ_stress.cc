@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/finite_numbers.h>
+#include <quoin/base/parameter_entries.h>
 #include <quoin/loads/in_situ_stress.h>
 
 #include <deal.II/base/utilities.h>
@@ -14,8 +15,6 @@ namespace quoin
 {
   namespace
   {
-    using dealii::Patterns::Anything;
-    using dealii::Patterns::Double;
     using dealii::Utilities::split_string_list;
 
     std::vector<std::array<double, 2>>
@@ -63,6 +62,20 @@ namespace quoin
                                     "density times gravity [N/m^3].");
       return layers;
     }
+
+    void read_out_of_plane_ratio(const ParameterSection &section,
+                                 InSituStress &stress)
+    {
+      if (section.text("Out-of-plane ratio") == "same")
+        return;
+      const auto ratio = finite_numbers({ section.text("Out-of-plane ratio") });
+      if (ratio.empty() || ratio[0] < 0.)
+        section.fail("Out-of-plane ratio",
+                     "must be 'same' or a number that is not negative.");
+      stress.has_out_of_plane    = true;
+      stress.out_of_plane_ratio  = ratio[0];
+      stress.out_of_plane_stress = 0.;
+    }
   } // namespace
 
   double InSituStress::surface_height(const double x) const
@@ -100,51 +113,37 @@ namespace quoin
                out_of_plane_ratio * vertical + out_of_plane_stress } };
   }
 
-  void InSituStress::declare(dealii::ParameterHandler &prm)
+  void InSituStress::enter(ParameterEntries &entries)
   {
-    prm.declare_entry("Surface", "0", Anything(),
-                      "In-situ stress: height y of the ground, or the points "
-                      "x, y; x, y of its line, level beyond the first and the "
-                      "last; stress is zero above it [m]");
-    prm.declare_entry("Unit weight", "", Anything(),
-                      "In-situ stress: that of the ground, or of its layers "
-                      "downwards, each but the last with the height of its "
-                      "foot [m]: 18e3:-5, 21e3:-12, 26e3 [N/m^3]");
-    prm.declare_entry("Surface pressure", "0", Double(),
-                      "In-situ stress: on the surface, beside the weight of "
-                      "the ground [Pa]");
-    prm.declare_entry("Horizontal ratio", "1", Double(),
-                      "In-situ stress: K0, horizontal by vertical stress [-]");
-    prm.declare_entry("Horizontal surface stress", "0", Double(),
-                      "In-situ stress: horizontal stress that is locked in at "
-                      "every depth, beside K0 times the vertical one, tension "
-                      "positive [Pa]");
-    prm.declare_entry("Out-of-plane ratio", "same", Anything(),
-                      "In-situ stress, in plane strain: stress out of the "
-                      "plane by vertical stress; 'same': as the horizontal "
-                      "one, with what is locked in [-]");
-  }
-
-  InSituStress InSituStress::read(const ParameterSection &section)
-  {
-    InSituStress result;
-    result.surface             = read_surface(section);
-    result.layers              = read_layers(section);
-    result.pressure            = section.number("Surface pressure");
-    result.horizontal_ratio    = section.nonnegative("Horizontal ratio");
-    result.horizontal_stress   = section.number("Horizontal surface stress");
-    result.out_of_plane_ratio  = result.horizontal_ratio;
-    result.out_of_plane_stress = result.horizontal_stress;
-    if (section.text("Out-of-plane ratio") != "same")
-    {
-      const auto ratio = finite_numbers({ section.text("Out-of-plane ratio") });
-      if (ratio.empty() || ratio[0] < 0.)
-        section.fail("Out-of-plane ratio",
-                     "must be 'same' or a number that is not negative.");
-      result.has_out_of_plane    = true;
-      result.out_of_plane_ratio  = ratio[0];
-      result.out_of_plane_stress = 0.;
-    }
-    return result;
+    entries.other("Surface", "0",
+                  "In-situ stress: height y of the ground, or the points "
+                  "x, y; x, y of its line, level beyond the first and the "
+                  "last; stress is zero above it [m]",
+                  [&](const ParameterSection &section)
+                  { surface = read_surface(section); });
+    entries.other("Unit weight", "",
+                  "In-situ stress: unit weight of the ground, or of its layers "
+                  "downwards, each but the last with the height of its "
+                  "foot [m]: 18e3:-5, 21e3:-12, 26e3 [N/m^3]",
+                  [&](const ParameterSection &section)
+                  { layers = read_layers(section); });
+    entries.number("Surface pressure", pressure,
+                   "In-situ stress: pressure on the surface, beside the weight "
+                   "of the ground [Pa]");
+    entries.nonnegative("Horizontal ratio", horizontal_ratio,
+                        "In-situ stress: K0, horizontal by vertical stress "
+                        "[-]");
+    entries.number("Horizontal surface stress", horizontal_stress,
+                   "In-situ stress: horizontal stress that is locked in at "
+                   "every depth, beside K0 times the vertical one, tension "
+                   "positive [Pa]");
+    out_of_plane_ratio  = horizontal_ratio;
+    out_of_plane_stress = horizontal_stress;
+    entries.other("Out-of-plane ratio", "same",
+                  "In-situ stress, in plane strain: stress out of the "
+                  "plane by vertical stress; 'same': as the horizontal "
+                  "one, with what is locked in [-]",
+                  [&](const ParameterSection &section)
+                  { read_out_of_plane_ratio(section, *this); });
   }
 } // namespace quoin

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/parameter_entries.h>
 #include <quoin/base/unread_parameters.h>
 #include <quoin/loads/load_parameters.h>
 
@@ -17,8 +18,6 @@ namespace quoin
 {
   namespace
   {
-    using dealii::Patterns::Anything;
-
     TimeFunction time_function(const ParameterSection &section,
                                const std::string &name, const std::string &text)
     {
@@ -174,47 +173,6 @@ namespace quoin
                       { "Out-of-plane ratio", "same", in_situ } });
     }
 
-    LoadType read_type(const ParameterSection &section)
-    {
-      return section.choice<LoadType>(
-          "Type", { { "prescribed motion", LoadType::prescribed_motion },
-                    { "traction", LoadType::traction },
-                    { "viscous boundary", LoadType::viscous_boundary },
-                    { "free-field boundary", LoadType::free_field },
-                    { "platen", LoadType::platen },
-                    { "gravity", LoadType::gravity },
-                    { "initial stress", LoadType::initial_stress },
-                    { "in-situ stress", LoadType::initial_stress },
-                    { "boundary elements", LoadType::boundary_elements } });
-    }
-
-    void read_platen(const ParameterSection &section, LoadParameters &load)
-    {
-      load.groups = section.list("Group");
-      load.components[0]
-          = platen_component(section, "Horizontal", platen_words);
-      load.components[1] = platen_component(section, "Vertical", platen_words);
-      load.components[2]
-          = platen_component(section, "Rotation", rotation_words);
-      if (load.groups.empty() == load.boundaries.empty())
-        section.fail("Group", "and 'Boundary': a platen takes one of the two.");
-    }
-
-    void read_initial_stress(const ParameterSection &section,
-                             LoadParameters &load)
-    {
-      load.groups = section.list("Groups");
-      if (section.text("Type") == "in-situ stress")
-      {
-        load.in_situ = InSituStress::read(section);
-        return;
-      }
-      load.stress          = section.numbers<3>("Stress");
-      load.stress_gradient = section.numbers<3>("Stress gradient");
-      if (section.text("Stress zz") != "elastic")
-        load.stress_zz = section.numbers<2>("Stress zz");
-    }
-
     /** Refuses what does nothing or acts nowhere. */
     void refuse_idle(const ParameterSection &section,
                      const LoadParameters &load)
@@ -279,117 +237,185 @@ namespace quoin
     return result;
   }
 
-  void LoadParameters::declare(dealii::ParameterHandler &prm)
+  namespace
   {
-    prm.declare_entry(
-        "Type", "traction",
-        dealii::Patterns::Selection(
-            "prescribed motion|traction|viscous "
-            "boundary|free-field boundary|platen|gravity|"
-            "initial stress|in-situ stress|boundary elements"),
-        "What the load is. Boundary elements: as their section says.");
-    prm.declare_entry("Boundary", "", Anything(),
-                      "Physical curves on which it acts.");
-    prm.declare_entry("Group", "", Anything(),
-                      "Platen: physical surfaces whose blocks are the rigid "
-                      "body, instead of a boundary.");
-    prm.declare_entry("Groups", "", Anything(),
-                      "Initial or in-situ stress: physical surfaces in which "
-                      "it acts; empty: all.");
-    prm.declare_entry("Quantity", "velocity",
-                      dealii::Patterns::Selection("velocity|displacement"),
-                      "Prescribed motion: what is given [m/s] or, from the "
-                      "start of the stage, [m].");
-    for (const std::string direction : { "Horizontal", "Vertical" })
-      prm.declare_entry(direction, "free", Anything(),
-                        "Function of t (time in the stage) and T (total "
-                        "time) [s], 'table FILE', a signal or 'free'. Traction "
-                        "[Pa], gravity [m/s^2], motion [m/s] or [m]; for a "
-                        "platen preceded by 'velocity' [m/s], 'displacement' "
-                        "[m] or 'force' [N].");
-    prm.declare_entry("Rotation", "free", Anything(),
-                      "Platen, anticlockwise: 'velocity' [deg/s], "
-                      "'displacement' [deg] or 'moment' [N m] and a "
-                      "function of time, or 'free'.");
-    prm.declare_entry("Pressure", "free", Anything(),
-                      "Traction: pushes on the block, against its outward "
-                      "normal in the mesh, and adds to 'Horizontal' and "
-                      "'Vertical'; as those [Pa]");
-    for (const std::string direction : { "normal", "shear" })
-      prm.declare_entry("Incident " + direction + " velocity", "0", Anything(),
-                        "Viscous boundary: velocity of the wave that comes "
-                        "in, along the inward normal or along the boundary "
-                        "with the block on its left [m/s].");
-    prm.declare_entry("Far field material", "", Anything(),
-                      "Viscous boundary: material of what is beyond, which "
-                      "gives the impedances; empty: that of the cells along "
-                      "the boundary.");
-    prm.declare_entry("Base", "", Anything(),
-                      "Free-field boundary: the load on the model's base, of "
-                      "type 'viscous boundary' or 'prescribed motion', which "
-                      "drives the foot of the column too.");
-    prm.declare_entry("Stress", "0, 0, 0", Anything(),
-                      "Initial stress xx, yy, xy at y = 0, tension positive "
-                      "[Pa]");
-    prm.declare_entry("Stress gradient", "0, 0, 0", Anything(),
-                      "Change of the initial stress with y [Pa/m]");
-    prm.declare_entry("Stress zz", "elastic", Anything(),
+    void enter_place(ParameterEntries &entries, LoadParameters &load)
+    {
+      entries.choice("Type", load.type,
+                     { { "prescribed motion", LoadType::prescribed_motion },
+                       { "traction", LoadType::traction },
+                       { "viscous boundary", LoadType::viscous_boundary },
+                       { "free-field boundary", LoadType::free_field },
+                       { "platen", LoadType::platen },
+                       { "gravity", LoadType::gravity },
+                       { "initial stress", LoadType::initial_stress },
+                       { "in-situ stress", LoadType::initial_stress },
+                       { "boundary elements", LoadType::boundary_elements } },
+                     "What the load is. Boundary elements: as section "
+                     "'Boundary elements' says.");
+      entries.list("Boundary", load.boundaries,
+                   "Physical curves on which the load acts.");
+      if (const ParameterSection *section = entries.read_section())
+        refuse_unread_parameters(*section);
+      if (entries.reads_if(load.type == LoadType::platen))
+        entries.list("Group", load.groups,
+                     "Platen: physical surfaces whose blocks are the rigid "
+                     "body, instead of a boundary.");
+      if (entries.reads_if(load.type == LoadType::initial_stress))
+        entries.list("Groups", load.groups,
+                     "Initial or in-situ stress: physical surfaces in which "
+                     "it acts; empty: all.");
+    }
+
+    /** A component that @p read makes of the section and the name. */
+    template <typename Read>
+    void enter_component(ParameterEntries &entries, const std::string &name,
+                         const std::string &preset, LoadComponent &component,
+                         const std::string &sentence, const Read &read)
+    {
+      entries.other(name, preset, sentence,
+                    [&](const ParameterSection &section)
+                    { component = read(section, name); });
+    }
+
+    void enter_directions(ParameterEntries &entries, LoadParameters &load)
+    {
+      const bool is_platen = load.type == LoadType::platen;
+      const bool is_motion = load.type == LoadType::prescribed_motion;
+      const bool is_force
+          = load.type == LoadType::traction || load.type == LoadType::gravity;
+      LoadQuantity quantity = LoadQuantity::velocity;
+      if (entries.reads_if(is_motion))
+        entries.choice("Quantity", quantity,
+                       { { "velocity", LoadQuantity::velocity },
+                         { "displacement", LoadQuantity::displacement } },
+                       "Prescribed motion: whether a velocity [m/s] is given "
+                       "or a displacement from the start of the stage on "
+                       "[m].");
+      if (is_force)
+        quantity = LoadQuantity::force;
+      const auto plain
+          = [&](const ParameterSection &section, const std::string &name)
+      {
+        return is_platen ? platen_component(section, name, platen_words)
+                         : component(section, name, quantity);
+      };
+      const std::string names[] = { "Horizontal", "Vertical" };
+      for (unsigned int d = 0; d < 2; ++d)
+        if (entries.reads_if(is_platen || is_motion || is_force))
+          enter_component(
+              entries, names[d], "free", load.components[d],
+              names[d]
+                  + " component: function of t (time in the stage) and T "
+                    "(total time) [s], 'table FILE', a signal or 'free'. "
+                    "Traction [Pa], gravity [m/s^2], motion [m/s] or [m]; for "
+                    "a platen preceded by 'velocity' [m/s], 'displacement' [m] "
+                    "or 'force' [N].",
+              plain);
+      if (entries.reads_if(is_platen))
+        enter_component(
+            entries, "Rotation", "free", load.components[2],
+            "Rotation of a platen, anticlockwise: 'velocity' "
+            "[deg/s], 'displacement' [deg] or 'moment' [N m] and a "
+            "function of time, or 'free'.",
+            [](const ParameterSection &section, const std::string &name)
+            { return platen_component(section, name, rotation_words); });
+      if (entries.reads_if(is_force))
+        enter_component(entries, "Pressure", "free", load.components[2],
+                        "Traction: pressure that pushes on the block, against "
+                        "its outward normal in the mesh, and adds to "
+                        "'Horizontal' and 'Vertical'; a function of time as "
+                        "those [Pa]",
+                        plain);
+      const ParameterSection *section = entries.read_section();
+      if (section && is_platen
+          && load.groups.empty() == load.boundaries.empty())
+        section->fail("Group",
+                      "and 'Boundary': a platen takes one of the two.");
+    }
+
+    void enter_open_boundary(ParameterEntries &entries, LoadParameters &load)
+    {
+      if (entries.reads_if(load.type == LoadType::viscous_boundary))
+      {
+        const std::string names[] = { "normal", "shear" };
+        for (unsigned int d = 0; d < 2; ++d)
+          enter_component(
+              entries, "Incident " + names[d] + " velocity", "0",
+              load.components[d],
+              std::string("Viscous boundary: velocity of the wave that comes "
+                          "in, ")
+                  + (d == 0 ? "along the inward normal"
+                            : "along the boundary with the block on its left")
+                  + ", as a function of time [m/s]",
+              [](const ParameterSection &section, const std::string &name)
+              { return component(section, name, LoadQuantity::velocity); });
+        entries.text("Far field material", load.far_material,
+                     "Viscous boundary: material of what is beyond, which "
+                     "gives the impedances; empty: that of the cells along "
+                     "the boundary.");
+      }
+      if (!entries.reads_if(load.type == LoadType::free_field))
+        return;
+      entries.text("Base", load.base,
+                   "Free-field boundary: the load on the model's base, of "
+                   "type 'viscous boundary' or 'prescribed motion', which "
+                   "drives the foot of the column too.");
+      if (entries.read_section() && load.base.empty())
+        entries.read_section()->fail("Base", "must name the load on the base "
+                                             "of the model.");
+    }
+
+    void enter_initial_stress(ParameterEntries &entries, LoadParameters &load)
+    {
+      const ParameterSection *section = entries.read_section();
+      const bool is_in_situ
+          = section && section->text("Type") == "in-situ stress";
+      if (entries.reads_if(!is_in_situ))
+      {
+        entries.numbers("Stress", load.stress,
+                        "Initial stress xx, yy, xy at y = 0, tension positive "
+                        "[Pa]");
+        entries.numbers("Stress gradient", load.stress_gradient,
+                        "Change of the initial stress xx, yy, xy with y "
+                        "[Pa/m]");
+        entries.other("Stress zz", "elastic",
                       "Initial stress out of the plane, in plane strain: its "
                       "value at y = 0 [Pa] and its change with y [Pa/m]; "
                       "'elastic': Poisson's ratio times (xx + yy). Laws that "
-                      "yield depend on it.");
-    InSituStress::declare(prm);
+                      "yield depend on it.",
+                      [&](const ParameterSection &from)
+                      {
+                        if (from.text("Stress zz") != "elastic")
+                          load.stress_zz = from.numbers<2>("Stress zz");
+                      });
+      }
+      if (entries.reads_if(is_in_situ))
+        load.in_situ.emplace().enter(entries);
+    }
+
+    void enter(ParameterEntries &entries, LoadParameters &load)
+    {
+      enter_place(entries, load);
+      enter_directions(entries, load);
+      enter_open_boundary(entries, load);
+      if (entries.reads_if(load.type == LoadType::initial_stress))
+        enter_initial_stress(entries, load);
+      if (const ParameterSection *section = entries.read_section())
+        refuse_idle(*section, load);
+    }
+  } // namespace
+
+  void LoadParameters::declare(dealii::ParameterHandler &prm)
+  {
+    declare_entries(prm, enter);
   }
 
   LoadParameters LoadParameters::read(const ParameterSection &section,
                                       const std::string &name)
   {
-    LoadParameters load;
-    load.name       = name;
-    load.type       = read_type(section);
-    load.boundaries = section.list("Boundary");
-    refuse_unread_parameters(section);
-
-    switch (load.type)
-    {
-    case LoadType::prescribed_motion:
-    {
-      const auto quantity = section.choice<LoadQuantity>(
-          "Quantity", { { "velocity", LoadQuantity::velocity },
-                        { "displacement", LoadQuantity::displacement } });
-      load.components[0] = component(section, "Horizontal", quantity);
-      load.components[1] = component(section, "Vertical", quantity);
-      break;
-    }
-    case LoadType::traction:
-    case LoadType::gravity:
-      load.components[0]
-          = component(section, "Horizontal", LoadQuantity::force);
-      load.components[1] = component(section, "Vertical", LoadQuantity::force);
-      load.components[2] = component(section, "Pressure", LoadQuantity::force);
-      break;
-    case LoadType::viscous_boundary:
-      load.components[0] = component(section, "Incident normal velocity",
-                                     LoadQuantity::velocity);
-      load.components[1] = component(section, "Incident shear velocity",
-                                     LoadQuantity::velocity);
-      load.far_material  = section.text("Far field material");
-      break;
-    case LoadType::free_field:
-      load.base = section.text("Base");
-      if (load.base.empty())
-        section.fail("Base", "must name the load on the base of the model.");
-      break;
-    case LoadType::platen:
-      read_platen(section, load);
-      break;
-    case LoadType::initial_stress:
-      read_initial_stress(section, load);
-      break;
-    case LoadType::boundary_elements:
-      break;
-    }
-    refuse_idle(section, load);
+    LoadParameters load = read_entries(section, enter);
+    load.name           = name;
     return load;
   }
 } // namespace quoin

@@ -2,85 +2,99 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/parameter_entries.h>
 #include <quoin/materials/material_parameters.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace quoin
 {
   namespace
   {
-    MohrCoulombStrength read_strength(const ParameterSection &section)
+    void enter_strength(ParameterEntries &entries,
+                        MohrCoulombStrength &strength)
     {
       using constants::degree;
-      MohrCoulombStrength strength;
-      const double phi        = section.within("Friction angle", 0., 80.);
-      strength.friction_angle = phi * degree;
-      strength.dilation_angle
-          = section.within("Dilation angle", 0., phi) * degree;
-      strength.cohesion = section.nonnegative("Cohesion");
-      if (section.text("Tensile strength") != "none")
-        strength.tension = section.numbers<1>("Tensile strength").front();
+      entries.nonnegative("Cohesion", strength.cohesion,
+                          "Cohesion c; read if 'Law = Mohr-Coulomb' [Pa]");
+      entries.within("Friction angle", strength.friction_angle, 0., 80.,
+                     "Friction angle phi, at most 80; read if 'Law = "
+                     "Mohr-Coulomb' [deg]",
+                     degree);
+      const ParameterSection *section = entries.read_section();
+      const double phi = section ? section->number("Friction angle") : 0.;
+      entries.within("Dilation angle", strength.dilation_angle, 0., phi,
+                     "Dilation angle psi, not above the friction angle; read "
+                     "if 'Law = Mohr-Coulomb' [deg]",
+                     degree);
+      entries.number_or("none", std::numeric_limits<double>::infinity(),
+                        "Tensile strength", strength.tension,
+                        "Tensile strength sigma_t, or 'none'; c / tan(phi) "
+                        "counts if that is less; read if 'Law = Mohr-Coulomb' "
+                        "[Pa]");
+      if (!section)
+        return;
       if (!(strength.tension >= 0.))
-        section.fail("Tensile strength",
-                     "must not be negative; 'none' leaves the limit "
-                     "c / tan(phi) alone.");
+        section->fail("Tensile strength",
+                      "must not be negative; 'none' leaves the limit "
+                      "c / tan(phi) alone.");
       if (strength.cohesion == 0. && phi == 0.)
-        section.fail("Cohesion", "must be positive if 'Friction angle' is 0: "
-                                 "the material would have no strength.");
-      return strength;
+        section->fail("Cohesion", "must be positive if 'Friction angle' is 0: "
+                                  "the material would have no strength.");
+    }
+
+    void enter(ParameterEntries &entries, MaterialParameters &material)
+    {
+      enum Law
+      {
+        elastic,
+        mohr_coulomb,
+        rigid
+      } law
+          = elastic;
+      entries.list("Groups", material.groups,
+                   "Physical surfaces of the mesh that are made of this "
+                   "material; empty: the one that bears its name; "
+                   "'none': no block, only what is beyond the blocks.");
+      entries.choice("Law", law,
+                     { { "linear elastic", elastic },
+                       { "Mohr-Coulomb", mohr_coulomb },
+                       { "rigid", rigid } },
+                     "linear elastic; Mohr-Coulomb: elastic up to a shear "
+                     "and a tensile strength, then perfectly plastic; rigid: "
+                     "needs only the density.");
+      entries.positive("Density", material.elastic.density,
+                       "Density rho [kg/m^3]");
+      material.rigid = law == rigid;
+      if (entries.reads_if(!material.rigid))
+      {
+        entries.positive("Young's modulus", material.elastic.young,
+                         "Young's modulus E; not read if 'Law = rigid' [Pa]");
+        entries.within("Poisson's ratio", material.elastic.poisson, -0.99,
+                       0.4999,
+                       "Poisson's ratio nu; not read if 'Law = rigid' [-]");
+      }
+      if (entries.reads_if(law == mohr_coulomb))
+        enter_strength(entries, material.strength.emplace());
     }
   } // namespace
 
-  using dealii::Patterns::Anything;
-  using dealii::Patterns::Double;
-  using dealii::Patterns::Selection;
-
   void MaterialParameters::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Groups", "", Anything(),
-                      "Physical surfaces of the mesh that are made of this "
-                      "material; empty: the one that bears its name; "
-                      "'none': no block, only what is beyond.");
-    prm.declare_entry("Law", "linear elastic",
-                      Selection("linear elastic|Mohr-Coulomb|rigid"),
-                      "linear elastic; Mohr-Coulomb: elastic up to a shear "
-                      "and a tensile strength, then perfectly plastic; rigid: "
-                      "needs only the density.");
-    prm.declare_entry("Density", "0", Double(), "rho [kg/m^3]");
-    prm.declare_entry("Young's modulus", "0", Double(),
-                      "E [Pa]; not read if 'Law = rigid'");
-    prm.declare_entry("Poisson's ratio", "0", Double(),
-                      "nu [-]; not read if 'Law = rigid'");
-    prm.declare_entry(
-        "Cohesion", "0", Double(),
-        "c [Pa]; read if 'Law = Mohr-Coulomb', as the next three");
-    prm.declare_entry("Friction angle", "0", Double(), "phi [deg]");
-    prm.declare_entry("Dilation angle", "0", Double(),
-                      "psi [deg], not above the friction angle");
-    prm.declare_entry("Tensile strength", "none", Anything(),
-                      "sigma_t [Pa], or 'none'; at most c / tan(phi) counts");
+    declare_entries(prm, enter);
   }
 
   MaterialParameters MaterialParameters::read(const ParameterSection &section,
                                               const std::string &name)
   {
-    MaterialParameters material;
-    material.name   = name;
-    material.groups = section.list("Groups");
+    MaterialParameters material = read_entries(section, enter);
+    material.name               = name;
     if (material.groups.empty())
       material.groups = { name };
     if (material.groups == std::vector<std::string>{ "none" })
       material.groups.clear();
-    material.elastic.density = section.positive("Density");
-    material.rigid           = section.text("Law") == "rigid";
-    if (material.rigid)
-      return material;
-    material.elastic.young   = section.positive("Young's modulus");
-    material.elastic.poisson = section.within("Poisson's ratio", -0.99, 0.4999);
-    if (section.text("Law") == "Mohr-Coulomb")
-      material.strength = read_strength(section);
     return material;
   }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/problems/initial_motion.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/parameter_entries.h>
+#include <quoin/problems/initial_motion.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -13,12 +14,10 @@ namespace quoin
 {
   namespace
   {
-    /** The two expressions of @p name; false if it is empty. */
-    bool read_pair(const ParameterSection &section, const std::string &name,
+    /** The two expressions of @p name, which is not empty. */
+    void read_pair(const ParameterSection &section, const std::string &name,
                    std::array<SpaceTimeFunction, 2> &value)
     {
-      if (section.text(name).empty())
-        return false;
       const auto parts
           = dealii::Utilities::split_string_list(section.text(name), ';');
       if (parts.size() != 2)
@@ -38,29 +37,40 @@ namespace quoin
           section.fail(name, "must not depend on time: it is the motion at "
                              "t = 0. Give expressions of x and y alone.");
       }
-      return true;
+    }
+
+    void enter(ParameterEntries &entries, InitialMotion &motion)
+    {
+      const auto add = [&](const std::string &name, const std::string &unit,
+                           std::array<SpaceTimeFunction, 2> &value)
+      {
+        entries.other(name, "",
+                      name
+                          + " of all nodes at t = 0, horizontal and vertical: "
+                            "two expressions of x and y [m] with a semicolon "
+                            "between; empty: none "
+                          + unit,
+                      [&](const ParameterSection &section)
+                      {
+                        if (section.text(name).empty())
+                          return;
+                        read_pair(section, name, value);
+                        motion.is_given = true;
+                      });
+      };
+      add("Displacement", "[m]", motion.displacement);
+      add("Velocity", "[m/s]", motion.velocity);
     }
   } // namespace
 
   void InitialMotion::declare(dealii::ParameterHandler &prm)
   {
-    for (const auto &[name, unit] :
-         { std::pair{ "Displacement", "[m]" }, { "Velocity", "[m/s]" } })
-      prm.declare_entry(name, "", dealii::Patterns::Anything(),
-                        std::string("Horizontal and vertical, of all nodes at "
-                                    "t = 0: two expressions of x and y [m] "
-                                    "with a semicolon between; empty: none ")
-                            + unit);
+    declare_entries(prm, enter);
   }
 
   InitialMotion InitialMotion::read(const ParameterSection &section)
   {
-    InitialMotion motion;
-    const bool displaced
-        = read_pair(section, "Displacement", motion.displacement);
-    const bool moving = read_pair(section, "Velocity", motion.velocity);
-    motion.is_given   = displaced || moving;
-    return motion;
+    return read_entries(section, enter);
   }
 
   void InitialMotion::apply(State<2> &state) const

@@ -1,54 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/problems/mesh_parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/parameter_entries.h>
 #include <quoin/layout/rock_layout.h>
 #include <quoin/layout/wall_layout.h>
+#include <quoin/problems/mesh_parameters.h>
 
 #include <filesystem>
+#include <utility>
 
 namespace quoin
 {
-  void declare_mesh(dealii::ParameterHandler &prm)
-  {
-    using dealii::Patterns::Anything;
-    using dealii::Patterns::Selection;
-    prm.enter_subsection("Mesh");
-    prm.declare_entry("File", "", Anything(),
-                      "gmsh geometry (.geo) or mesh (.msh), relative to "
-                      "the folder of this file; coordinates in [m]. Empty "
-                      "with a wall of section 'Wall' or rock of section "
-                      "'Rock'.");
-    prm.declare_entry("Triangles", "plain",
-                      Selection("plain|crossed|quadratic"),
-                      "plain: the file's or gmsh's triangles; crossed: "
-                      "quadrangles, each cut into four triangles by its "
-                      "diagonals, which do not lock in plastic flow; "
-                      "quadratic: those of 'plain' with nodes in the middle "
-                      "of their edges, for the implicit solver.");
-    prm.declare_entry("Joints along", "", Anything(),
-                      "Physical curves along which the mesh is split into "
-                      "blocks; empty with a wall of section 'Wall' or rock of "
-                      "section 'Rock': all of its joints.");
-    prm.declare_entry("Joints between", "", Anything(),
-                      "Pairs a:b of physical surfaces between which it is "
-                      "split, or 'all'.");
-    prm.declare_entry("Joint ends inside blocks", "keep",
-                      Selection("keep|refuse"),
-                      "Joints that end inside a block: keep them as "
-                      "cracks, or stop.");
-    prm.leave_subsection();
-
-    prm.enter_subsection("Wall");
-    WallParameters::declare(prm);
-    prm.leave_subsection();
-
-    prm.enter_subsection("Rock");
-    RockParameters::declare(prm);
-    prm.leave_subsection();
-  }
-
   namespace
   {
     void lay(const WallParameters &wall, Parameters &parameters)
@@ -109,9 +72,10 @@ namespace quoin
       return true;
     }
 
-    void read_mesh_file(const ParameterSection &section, Parameters &parameters)
+    void check_mesh_file(const ParameterSection &section,
+                         Parameters &parameters)
     {
-      const std::string name = section.text("File");
+      const std::string name = parameters.mesh_file;
       if (name.empty())
         section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
                              "a bond, or section 'Rock' an outline.");
@@ -128,26 +92,68 @@ namespace quoin
       if (extension != ".geo" && extension != ".msh")
         section.fail("File", "must end in .geo or .msh.");
     }
+
+    void enter_mesh(ParameterEntries &entries, Parameters &parameters)
+    {
+      entries.text("File", parameters.mesh_file,
+                   "gmsh geometry (.geo) or mesh (.msh), relative to "
+                   "the folder of this file; coordinates in [m]. Empty "
+                   "with a wall of section 'Wall' or rock of section "
+                   "'Rock'.");
+      entries.choice("Triangles", parameters.triangles,
+                     { { "plain", TriangleKind::plain },
+                       { "crossed", TriangleKind::crossed },
+                       { "quadratic", TriangleKind::quadratic } },
+                     "plain: the file's or gmsh's triangles; crossed: "
+                     "quadrangles, each cut into four triangles by its "
+                     "diagonals, which do not lock in plastic flow; "
+                     "quadratic: those of 'plain' with nodes in the middle "
+                     "of their edges, for the implicit solver.");
+      SplitOptions &split = parameters.split;
+      entries.list("Joints along", split.joints_along,
+                   "Physical curves along which the mesh is split into "
+                   "blocks; empty with a wall of section 'Wall' or rock of "
+                   "section 'Rock': all of its joints.");
+      entries.pairs("Joints between", split.joints_between,
+                    "must be 'all' or pairs such as rock:concrete.",
+                    "Pairs a:b of physical surfaces between which the mesh is "
+                    "split into blocks, or 'all'.",
+                    &split.between_all);
+      entries.choice("Joint ends inside blocks", split.joint_ends,
+                     { { "keep", SplitOptions::keep },
+                       { "refuse", SplitOptions::refuse } },
+                     "Joints that end inside a block: keep them as "
+                     "cracks, or stop.");
+    }
   } // namespace
+
+  void declare_mesh(dealii::ParameterHandler &prm)
+  {
+    prm.enter_subsection("Mesh");
+    declare_entries(prm, enter_mesh);
+    prm.leave_subsection();
+
+    prm.enter_subsection("Wall");
+    WallParameters::declare(prm);
+    prm.leave_subsection();
+
+    prm.enter_subsection("Rock");
+    RockParameters::declare(prm);
+    prm.leave_subsection();
+  }
 
   void read_mesh(const ParameterSection &top, Parameters &parameters)
   {
     const bool generated = read_generated(top, parameters);
+    const auto joints_of_layout
+        = std::exchange(parameters.split.joints_along, {});
     const ParameterSection section(top, "Mesh");
-    parameters.triangles = section.choice<TriangleKind>(
-        "Triangles", { { "plain", TriangleKind::plain },
-                       { "crossed", TriangleKind::crossed },
-                       { "quadratic", TriangleKind::quadratic } });
+    ParameterEntries entries(section);
+    enter_mesh(entries, parameters);
     if (!generated)
-      read_mesh_file(section, parameters);
-    if (!generated || !section.text("Joints along").empty())
-      parameters.split.joints_along = section.list("Joints along");
-    parameters.split.joints_between = section.pairs(
-        "Joints between", "must be 'all' or pairs such as rock:concrete.",
-        &parameters.split.between_all);
-    parameters.split.joint_ends = section.choice<SplitOptions::JointEnds>(
-        "Joint ends inside blocks",
-        { { "keep", SplitOptions::keep }, { "refuse", SplitOptions::refuse } });
+      check_mesh_file(section, parameters);
+    else if (parameters.split.joints_along.empty())
+      parameters.split.joints_along = joints_of_layout;
   }
 
   void check_triangles(const ParameterSection &top,

@@ -7,12 +7,14 @@
 #include <quoin/problems/parameters.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/named_sections.h>
+#include <quoin/base/parameter_entries.h>
 #include <quoin/layout/rock_parameters.h>
 
 #include <filesystem>
 #include <functional>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace quoin
 {
@@ -20,8 +22,6 @@ namespace quoin
   {
     using dealii::ParameterHandler;
     using dealii::Patterns::Anything;
-    using dealii::Patterns::Double;
-    using dealii::Patterns::Selection;
 
     /** The sections whose subsections the user names. */
     struct NamedSection
@@ -56,95 +56,108 @@ namespace quoin
       }
     }
 
-    void declare_fixed(ParameterHandler &prm)
+    using Enter = void (*)(ParameterEntries &, Parameters &);
+
+    void enter_top(ParameterEntries &entries, Parameters &parameters)
     {
-      prm.declare_entry("Title", "", Anything(), "For figures and logs.");
-      prm.declare_entry("Model", "blocks",
-                        Selection("blocks|boundary elements"),
-                        "Blocks on joints; or a domain with boundary elements "
-                        "alone, which needs no mesh, joints, loads or stages.");
-      prm.declare_entry("Solver", "explicit", Selection("explicit|implicit"),
-                        "Motion by central differences; or equilibrium by "
-                        "Newton's method, without inertia and damping: for "
-                        "blocks at small displacements, as section 'Implicit' "
-                        "says.");
-      prm.declare_entry("Plane assumption", "plane strain",
-                        Selection("plane strain|plane stress"),
-                        "Of all blocks.");
-      prm.declare_entry("Thickness", "1", Double(), "Out of the plane [m]");
-      prm.declare_entry("Output directory", "output", Anything(),
-                        "Relative to the folder of this file.");
-
-      declare_mesh(prm);
-
-      prm.enter_subsection("Contact");
-      ContactParameters::declare(prm);
-      prm.leave_subsection();
-
-      prm.enter_subsection("Boundary elements");
-      BoundaryElementParameters::declare(prm);
-      prm.leave_subsection();
-
-      prm.enter_subsection("Sampled field");
-      SampledFieldParameters::declare(prm);
-      prm.leave_subsection();
-
-      prm.enter_subsection("Initial motion");
-      InitialMotion::declare(prm);
-      prm.leave_subsection();
-
-      prm.enter_subsection("Implicit");
-      ImplicitParameters::declare(prm);
-      prm.leave_subsection();
-
-      prm.enter_subsection("Time stepping");
-      prm.declare_entry("Share of critical time step", "0.8", Double(),
-                        "Of the bound that is computed from blocks, joints "
-                        "and damping; with local damping, joints that can "
-                        "fail or large displacements no more than 0.5 is "
-                        "used [-]");
-      prm.declare_entry("Time step", "0", Double(),
-                        "0: as the share says; else this one, which must be "
-                        "below the critical one [s]");
-      prm.leave_subsection();
-
-      prm.enter_subsection("Histories");
-      prm.declare_entry("Interval", "0", Double(),
-                        "Between rows of histories.csv and energies.csv; 0: "
-                        "every step [s]");
-      prm.leave_subsection();
-
-      prm.enter_subsection("Output");
-      prm.declare_entry("Field interval", "0", Double(),
-                        "Between VTU files; 0: at the end of stages only "
-                        "[s]");
-      prm.declare_entry("Checkpoint interval", "60", Double(),
-                        "Between checkpoints, in wall-clock time; 0: at the "
-                        "end of stages only [s]");
-      prm.declare_entry("Measure bandwidth", "no",
-                        Selection("yes|no|true|false"),
-                        "Measure the memory bandwidth after the run and "
-                        "write which share of it the run used.");
-      prm.leave_subsection();
+      entries.text("Title", parameters.title,
+                   "Title of the run, for figures and logs.");
+      entries.choice("Model", parameters.is_boundary_model,
+                     { { "blocks", false }, { "boundary elements", true } },
+                     "Blocks on joints; or a domain with boundary elements "
+                     "alone, which needs no mesh, joints, loads or stages.");
+      entries.choice("Solver", parameters.is_implicit,
+                     { { "explicit", false }, { "implicit", true } },
+                     "Motion by central differences; or equilibrium by "
+                     "Newton's method, without inertia and damping: for "
+                     "blocks at small displacements, as section 'Implicit' "
+                     "says.");
+      entries.choice("Plane assumption", parameters.model.plane,
+                     { { "plane strain", PlaneAssumption::plane_strain },
+                       { "plane stress", PlaneAssumption::plane_stress } },
+                     "What all blocks are in: plane strain or plane stress.");
+      entries.positive("Thickness", parameters.model.thickness,
+                       "Thickness of the model, out of the plane [m]");
+      parameters.output_directory = "output";
+      entries.text("Output directory", parameters.output_directory,
+                   "Folder of all results, relative to the folder of this "
+                   "file.");
     }
 
-    void read_output(const ParameterSection &top, Parameters &parameters)
+    void enter_time_stepping(ParameterEntries &entries, Parameters &parameters)
     {
+      entries.within("Share of critical time step",
+                     parameters.share_of_critical_step, 1e-6, 1.,
+                     "Safety factor on the time step: share of the critical "
+                     "time step that is computed from blocks, joints and "
+                     "damping; with local damping, joints that can fail or "
+                     "large displacements no more than 0.5 is used [-]");
+      entries.nonnegative("Time step", parameters.time_step,
+                          "Time step, which must be below the critical one; "
+                          "0: as the share of the critical time step says "
+                          "[s]");
+    }
+
+    void enter_histories(ParameterEntries &entries, Parameters &parameters)
+    {
+      entries.nonnegative("Interval", parameters.history_interval,
+                          "Time between rows of histories.csv and "
+                          "energies.csv; 0: every step [s]");
+    }
+
+    void enter_output(ParameterEntries &entries, Parameters &parameters)
+    {
+      entries.nonnegative("Field interval", parameters.field_interval,
+                          "Time between VTU files; 0: at the end of stages "
+                          "only [s]");
+      entries.nonnegative("Checkpoint interval", parameters.checkpoint_interval,
+                          "Wall-clock time between checkpoints; 0: at the end "
+                          "of stages only [s]");
+      entries.flag("Measure bandwidth", parameters.measure_bandwidth,
+                   "Whether the memory bandwidth is measured after the run, "
+                   "and the share of it that the run used is written.");
+    }
+
+    /** Sections of the run itself, without names. */
+    const std::vector<std::pair<std::string, Enter>> run_sections
+        = { { "Time stepping", enter_time_stepping },
+            { "Histories", enter_histories },
+            { "Output", enter_output } };
+
+    /** Sections with a struct of their own. */
+    const std::vector<NamedSection> other_sections
+        = { { "Contact", ContactParameters::declare },
+            { "Boundary elements", BoundaryElementParameters::declare },
+            { "Sampled field", SampledFieldParameters::declare },
+            { "Initial motion", InitialMotion::declare },
+            { "Implicit", ImplicitParameters::declare } };
+
+    void declare_fixed(ParameterHandler &prm)
+    {
+      declare_entries(prm, enter_top);
+      declare_mesh(prm);
+      for (const NamedSection &section : other_sections)
       {
-        const ParameterSection section(top, "Time stepping");
-        parameters.share_of_critical_step
-            = section.within("Share of critical time step", 1e-6, 1.);
-        parameters.time_step = section.nonnegative("Time step");
+        prm.enter_subsection(section.name);
+        section.declare_one(prm);
+        prm.leave_subsection();
       }
+      for (const auto &[name, enter] : run_sections)
       {
-        const ParameterSection section(top, "Histories");
-        parameters.history_interval = section.nonnegative("Interval");
+        prm.enter_subsection(name);
+        declare_entries(prm, enter);
+        prm.leave_subsection();
       }
-      const ParameterSection section(top, "Output");
-      parameters.field_interval = section.nonnegative("Field interval");
-      parameters.checkpoint_interval
-          = section.nonnegative("Checkpoint interval");
-      parameters.measure_bandwidth = section.flag("Measure bandwidth");
+    }
+
+    void read_run_sections(const ParameterSection &top, Parameters &parameters)
+    {
+      for (const auto &[name, enter] : run_sections)
+      {
+        const ParameterSection section(top, name);
+        ParameterEntries entries(section);
+        enter(entries, parameters);
+      }
     }
 
     /** Whether the section that @p prm is in has a parameter @p name. */
@@ -231,18 +244,11 @@ namespace quoin
     Parameters parameters;
     parameters.file = file;
     const ParameterSection top(prm, file);
-    parameters.title            = top.text("Title");
-    const std::string output    = top.text("Output directory");
-    parameters.output_directory = !output.empty() && output.front() == '/'
-                                      ? output
-                                      : top.folder() + output;
-    parameters.model.thickness  = top.positive("Thickness");
-    parameters.model.plane      = top.choice<PlaneAssumption>(
-        "Plane assumption",
-        { { "plane strain", PlaneAssumption::plane_strain },
-               { "plane stress", PlaneAssumption::plane_stress } });
-    parameters.is_boundary_model = top.text("Model") == "boundary elements";
-    parameters.is_implicit       = top.text("Solver") == "implicit";
+    ParameterEntries entries(top);
+    enter_top(entries, parameters);
+    if (parameters.output_directory.empty()
+        || parameters.output_directory.front() != '/')
+      parameters.output_directory = top.folder() + parameters.output_directory;
     if (parameters.is_implicit && parameters.is_boundary_model)
       top.fail("Solver", "is for blocks: with 'Model = boundary elements' "
                          "leave it 'explicit'; statics of these is 'Analysis = "
@@ -256,7 +262,7 @@ namespace quoin
                        + ", section 'Materials': 'Names' must list at "
                          "least one material.");
     parameters.histories = read_named<HistoryParameters>(top, "Histories");
-    read_output(top, parameters);
+    read_run_sections(top, parameters);
     if (parameters.is_boundary_model)
       read_boundary_model(top, parameters);
     else

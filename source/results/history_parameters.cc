@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/parameter_entries.h>
 #include <quoin/results/history_parameters.h>
 
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace quoin
 {
@@ -69,79 +72,76 @@ namespace quoin
       return table;
     }
 
-    std::string kind_names(const std::string &separator)
+    void enter(ParameterEntries &entries, HistoryParameters &history)
     {
-      std::string names;
+      std::vector<std::pair<std::string, std::string>> words;
       for (const auto &[name, kind] : kinds())
-        names += (names.empty() ? "" : separator) + name;
-      return names;
-    }
-  } // namespace
-
-  void HistoryParameters::declare(dealii::ParameterHandler &prm)
-  {
-    using dealii::Patterns::Anything;
-    prm.declare_entry(
-        "Quantity", "displacement x",
-        dealii::Patterns::Selection(kind_names("|")),
-        "What the column holds, in SI units; 'stress 1' and "
-        "'stress 2' are the larger and the smaller principal "
-        "stress; 'yielding' is 0 in a cell that never yielded, else a sum of 1 "
-        "for shear and 2 for tension in the last step, 4 and 8 for either "
-        "before it; 'plastic shear strain' is accumulated; 'kinetic energy "
-        "share' is kinetic energy by "
-        "all energy that went through the model; 'joint damage' the share of "
-        "tensile strength and cohesion that a composite law has lost, 'joint "
-        "crushing' the plastic displacement on its cap; 'contacts' the "
-        "number of points that press on each other, matched "
-        "joints apart; 'rotation' is that of the nearest rigid "
-        "block, full turns counted, or of the nearest cell, "
-        "from -180 to 180, anticlockwise. Rigid blocks have no "
-        "stress: it is written as 0. Those of a 'boundary' are "
-        "for boundary elements: velocities and tractions are "
-        "the means of their last step that is over; 0 before the first "
-        "stage with 'End = time' that they act in. With 'Model = boundary "
-        "elements' displacements and velocities are those in the "
-        "domain. 'boundary hoop stress' is the normal stress "
-        "along the boundary, 'boundary force' that on the "
-        "domain.");
-    prm.declare_entry("Point", "0, 0", Anything(),
+        words.emplace_back(name, name);
+      std::string quantity = "displacement x";
+      entries.choice(
+          "Quantity", quantity, words,
+          "What the column holds, in SI units; 'stress 1' and 'stress 2' are "
+          "the larger and the smaller principal stress; 'yielding' is 0 in a "
+          "cell that never yielded, else a sum of 1 for shear and 2 for "
+          "tension in the last step, 4 and 8 for either before it; 'plastic "
+          "shear strain' is accumulated; 'kinetic energy share' is kinetic "
+          "energy by the energy throughput; 'joint damage' the share of "
+          "tensile strength and cohesion that a composite law has lost, 'joint "
+          "crushing' the plastic displacement on its cap; 'contacts' the "
+          "number of points that press on each other, matched joints apart; "
+          "'rotation' is that of the nearest rigid block, full turns counted, "
+          "or of the nearest cell, from -180 to 180, anticlockwise. Rigid "
+          "blocks have no stress: it is written as 0. Quantities of a "
+          "'boundary' are for boundary elements: velocities and tractions are "
+          "the means of their last step that is over; 0 before the first stage "
+          "with 'End = time' that they act in. With 'Model = boundary "
+          "elements' displacements and velocities are those in the domain. "
+          "'boundary hoop stress' is the normal stress along the boundary, "
+          "'boundary force' the force on the domain.");
+      const Kind &kind  = kinds().at(quantity);
+      history.quantity  = kind.quantity;
+      history.component = kind.component;
+      history.unit      = kind.unit;
+      entries.numbers("Point", history.point,
                       "x, y of the point whose nearest node, cell or joint "
                       "point, or boundary element, is recorded; of boundary "
                       "elements: the point in the domain, and the point about "
                       "which the moment is taken. Of nodes at one place: that "
                       "of the block in which the point is, else of the lower "
                       "or left block [m]");
-    prm.declare_entry("Load", "", Anything(),
-                      "Load whose reaction or platen is recorded.");
-    prm.declare_entry("Curve", "", Anything(),
-                      "Joint quantities: physical curve on which to look for "
-                      "the nearest joint point; empty: all. Boundary force, "
-                      "moment: the boundary, by its name in 'Boundary "
-                      "elements'.");
+      entries.text("Load", history.load,
+                   "Load whose reaction or platen is recorded.");
+      entries.text("Curve", history.curve,
+                   "Joint quantities: physical curve on which to look for "
+                   "the nearest joint point; empty: all. Boundary force, "
+                   "moment: the boundary, by its name in 'Boundary "
+                   "elements'.");
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      const bool of_load
+          = kind.quantity == HistoryQuantity::reaction
+            || kind.quantity == HistoryQuantity::platen_displacement
+            || kind.quantity == HistoryQuantity::platen_force;
+      if (of_load && history.load.empty())
+        section->fail("Load", "must name the load to be recorded.");
+      if (kind.quantity == HistoryQuantity::boundary_force
+          && history.curve.empty())
+        section->fail("Curve", "must name the boundary on which the force "
+                               "acts.");
+    }
+  } // namespace
+
+  void HistoryParameters::declare(dealii::ParameterHandler &prm)
+  {
+    declare_entries(prm, enter);
   }
 
   HistoryParameters HistoryParameters::read(const ParameterSection &section,
                                             const std::string &name)
   {
-    const Kind &kind = kinds().at(section.text("Quantity"));
-    HistoryParameters history;
-    history.name      = name;
-    history.quantity  = kind.quantity;
-    history.component = kind.component;
-    history.unit      = kind.unit;
-    history.point     = section.numbers<2>("Point");
-    history.load      = section.text("Load");
-    history.curve     = section.text("Curve");
-    const bool of_load
-        = kind.quantity == HistoryQuantity::reaction
-          || kind.quantity == HistoryQuantity::platen_displacement
-          || kind.quantity == HistoryQuantity::platen_force;
-    if (of_load && history.load.empty())
-      section.fail("Load", "must name the load to be recorded.");
-    if (kind.quantity == HistoryQuantity::boundary_force
-        && history.curve.empty())
-      section.fail("Curve", "must name the boundary on which the force acts.");
+    HistoryParameters history = read_entries(section, enter);
+    history.name              = name;
     return history;
   }
 } // namespace quoin

@@ -85,6 +85,10 @@ namespace quoin
   void Progress::finish(const ProgressFigures &figures)
   {
     log.status("");
+    // A stage in which nothing went on needs no line.
+    if (figures.step == first_step
+        && std::max(figures.fraction, 0.) == first_fraction)
+      return;
     log.message(figures.stage
                 + ": ended at t = " + formatted("%.6g s", figures.time)
                 + " after " + std::to_string(figures.step - first_step)

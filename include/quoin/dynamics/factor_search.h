@@ -4,14 +4,14 @@
 #ifndef quoin_dynamics_factor_search_h
 #define quoin_dynamics_factor_search_h
 
-#include <quoin/base/parameter_section.h>
-
 #include <cstdint>
 #include <limits>
 #include <vector>
 
 namespace quoin
 {
+  class ParameterEntries;
+
   /** How a stage looks for a factor of safety. */
   struct SafetyParameters
   {
@@ -24,8 +24,8 @@ namespace quoin
     bool reduces_blocks         = true;
     bool reduces_joints         = true;
 
-    static void declare(dealii::ParameterHandler &prm);
-    static SafetyParameters read(const ParameterSection &section);
+    /** Declares or reads the entries in the subsection of a stage. */
+    void enter(ParameterEntries &entries);
   };
 
   /** What became of a model whose strength was divided by a factor. */

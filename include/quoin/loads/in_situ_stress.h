@@ -4,13 +4,13 @@
 #ifndef quoin_loads_in_situ_stress_h
 #define quoin_loads_in_situ_stress_h
 
-#include <quoin/base/parameter_section.h>
-
 #include <array>
 #include <vector>
 
 namespace quoin
 {
+  class ParameterEntries;
+
   /**
    * Stress in the ground by its weight (@cite JaegerCookZimmerman2007, chapter
    * 13): with the depth counted vertically below the surface h(x),
@@ -45,8 +45,8 @@ namespace quoin
     /** xx, yy, xy, zz [Pa] at (@p x, @p y). */
     std::array<double, 4> stress(double x, double y) const;
 
-    static void declare(dealii::ParameterHandler &prm);
-    static InSituStress read(const ParameterSection &section);
+    /** Declares or reads the entries in the subsection of a load. */
+    void enter(ParameterEntries &entries);
   };
 } // namespace quoin
 

@@ -51,7 +51,7 @@ namespace quoin
 
     void update(const ProgressFigures &figures);
 
-    /** A stage ends: the bar goes, a last line stays. */
+    /** A stage ends: the bar goes, a last line stays if anything went on. */
     void finish(const ProgressFigures &figures);
 
   private:

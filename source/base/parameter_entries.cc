@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/parameter_entries.h>
+
+#include <charconv>
+
+namespace quoin
+{
+  using dealii::Patterns::Anything;
+  using dealii::Patterns::Double;
+
+  bool ParameterEntries::declare(const std::string &name,
+                                 const std::string &preset,
+                                 const dealii::Patterns::PatternBase &pattern,
+                                 const std::string &sentence)
+  {
+    if (prm)
+      prm->declare_entry(name, preset, pattern, sentence);
+    return prm != nullptr;
+  }
+
+  std::string ParameterEntries::default_text(const std::vector<double> &values)
+  {
+    std::string result;
+    for (const double value : values)
+    {
+      char digits[32];
+      // Fifteen digits: a quotient by a unit may be off in the last one.
+      const auto end = std::to_chars(digits, digits + sizeof(digits), value,
+                                     std::chars_format::general, 15)
+                           .ptr;
+      std::string text(digits, end);
+      // 1e-7 and 1e6 rather than 1e-07 and 1e+06.
+      if (const auto power = text.find('e'); power != std::string::npos)
+        text = text.substr(0, power + 1)
+               + std::to_string(std::stoi(text.substr(power + 1)));
+      result += (result.empty() ? "" : ", ") + text;
+    }
+    return result;
+  }
+
+  void ParameterEntries::number(const std::string &name, double &value,
+                                const std::string &sentence, const double unit)
+  {
+    if (!declare(name, default_text({ value / unit }), Double(), sentence))
+      value = section->number(name) * unit;
+  }
+
+  void ParameterEntries::positive(const std::string &name, double &value,
+                                  const std::string &sentence)
+  {
+    if (!declare(name, default_text({ value }), Double(), sentence))
+      value = section->positive(name);
+  }
+
+  void ParameterEntries::nonnegative(const std::string &name, double &value,
+                                     const std::string &sentence)
+  {
+    if (!declare(name, default_text({ value }), Double(), sentence))
+      value = section->nonnegative(name);
+  }
+
+  void ParameterEntries::within(const std::string &name, double &value,
+                                const double low, const double high,
+                                const std::string &sentence, const double unit)
+  {
+    if (!declare(name, default_text({ value / unit }), Double(), sentence))
+      value = section->within(name, low, high) * unit;
+  }
+
+  void ParameterEntries::number_or(const std::string &word,
+                                   const double word_value,
+                                   const std::string &name, double &value,
+                                   const std::string &sentence)
+  {
+    if (!declare(name, value == word_value ? word : default_text({ value }),
+                 Anything(), sentence))
+      value = section->text(name) == word ? word_value
+                                          : section->numbers<1>(name).front();
+  }
+
+  void ParameterEntries::flag(const std::string &name, bool &value,
+                              const std::string &sentence)
+  {
+    if (!declare(name, value ? "yes" : "no",
+                 dealii::Patterns::Selection("yes|no|true|false"), sentence))
+      value = section->flag(name);
+  }
+
+  void ParameterEntries::text(const std::string &name, std::string &value,
+                              const std::string &sentence)
+  {
+    if (!declare(name, value, Anything(), sentence))
+      value = section->text(name);
+  }
+
+  void ParameterEntries::list(const std::string &name,
+                              std::vector<std::string> &value,
+                              const std::string &sentence)
+  {
+    if (!declare(name, "", Anything(), sentence))
+      value = section->list(name);
+  }
+
+  void ParameterEntries::pairs(
+      const std::string &name,
+      std::vector<std::pair<std::string, std::string>> &value,
+      const std::string &must_be, const std::string &sentence, bool *const all)
+  {
+    if (!declare(name, "", Anything(), sentence))
+      value = section->pairs(name, must_be, all);
+  }
+} // namespace quoin
