@@ -153,6 +153,39 @@ namespace quoin
         pair(base + offset[3]) += __builtin_shufflevector(p13, p13, 2, 3);
       }
 
+      /** The four doubles of each lane at base + scale * offset. */
+      static QUOIN_INLINE void load_rows(const char *base,
+                                         const std::size_t scale,
+                                         const std::uint16_t *offset,
+                                         Value (&row)[4])
+      {
+        for (int l = 0; l < 4; ++l)
+          row[l] = *reinterpret_cast<const Value *>(base + scale * offset[l]);
+      }
+
+      /** From rows, one for each lane, to one vector for each component, and
+          back. */
+      static QUOIN_INLINE void transpose(const Value (&row)[4],
+                                         Value (&column)[4])
+      {
+        const Value ab_0 = __builtin_shufflevector(row[0], row[1], 0, 4, 2, 6);
+        const Value ab_1 = __builtin_shufflevector(row[0], row[1], 1, 5, 3, 7);
+        const Value cd_0 = __builtin_shufflevector(row[2], row[3], 0, 4, 2, 6);
+        const Value cd_1 = __builtin_shufflevector(row[2], row[3], 1, 5, 3, 7);
+        column[0]        = __builtin_shufflevector(ab_0, cd_0, 0, 1, 4, 5);
+        column[1]        = __builtin_shufflevector(ab_1, cd_1, 0, 1, 4, 5);
+        column[2]        = __builtin_shufflevector(ab_0, cd_0, 2, 3, 6, 7);
+        column[3]        = __builtin_shufflevector(ab_1, cd_1, 2, 3, 6, 7);
+      }
+
+      /** Adds rows to what is at base + offset, one lane after the other. */
+      static QUOIN_INLINE void add_rows(char *base, const std::uint16_t *offset,
+                                        const Value (&row)[4])
+      {
+        for (int l = 0; l < 4; ++l)
+          *reinterpret_cast<Value *>(base + offset[l]) += row[l];
+      }
+
       static QUOIN_INLINE const Pair &pair(const char *p)
       {
         return *reinterpret_cast<const Pair *>(p);
@@ -257,6 +290,59 @@ namespace quoin
         Lanes<4>::add(base, offset + 4,
                       __builtin_shufflevector(x, x, 4, 5, 6, 7),
                       __builtin_shufflevector(y, y, 4, 5, 6, 7));
+      }
+
+      /** Row l has those of lane l and, behind them, of lane l + 4. */
+      static QUOIN_INLINE void load_rows(const char *base,
+                                         const std::size_t scale,
+                                         const std::uint16_t *offset,
+                                         Value (&row)[4])
+      {
+        for (int l = 0; l < 4; ++l)
+        {
+          const auto &first = *reinterpret_cast<const Lanes<4>::Value *>(
+              base + scale * offset[l]);
+          const auto &second = *reinterpret_cast<const Lanes<4>::Value *>(
+              base + scale * offset[l + 4]);
+#ifdef __AVX512F__
+          row[l] = _mm512_insertf64x4(_mm512_castpd256_pd512(first), second, 1);
+#else
+          row[l]
+              = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
+#endif
+        }
+      }
+
+      static QUOIN_INLINE void transpose(const Value (&row)[4],
+                                         Value (&column)[4])
+      {
+        const Value ab_0 = __builtin_shufflevector(row[0], row[1], 0, 8, 2, 10,
+                                                   4, 12, 6, 14);
+        const Value ab_1 = __builtin_shufflevector(row[0], row[1], 1, 9, 3, 11,
+                                                   5, 13, 7, 15);
+        const Value cd_0 = __builtin_shufflevector(row[2], row[3], 0, 8, 2, 10,
+                                                   4, 12, 6, 14);
+        const Value cd_1 = __builtin_shufflevector(row[2], row[3], 1, 9, 3, 11,
+                                                   5, 13, 7, 15);
+        column[0]
+            = __builtin_shufflevector(ab_0, cd_0, 0, 1, 8, 9, 4, 5, 12, 13);
+        column[1]
+            = __builtin_shufflevector(ab_1, cd_1, 0, 1, 8, 9, 4, 5, 12, 13);
+        column[2]
+            = __builtin_shufflevector(ab_0, cd_0, 2, 3, 10, 11, 6, 7, 14, 15);
+        column[3]
+            = __builtin_shufflevector(ab_1, cd_1, 2, 3, 10, 11, 6, 7, 14, 15);
+      }
+
+      static QUOIN_INLINE void add_rows(char *base, const std::uint16_t *offset,
+                                        const Value (&row)[4])
+      {
+        const Lanes<4>::Value r0[4]
+            = { low(row[0]), low(row[1]), low(row[2]), low(row[3]) };
+        const Lanes<4>::Value r1[4]
+            = { high(row[0]), high(row[1]), high(row[2]), high(row[3]) };
+        Lanes<4>::add_rows(base, offset, r0);
+        Lanes<4>::add_rows(base, offset + 4, r1);
       }
     };
   } // namespace

@@ -60,6 +60,19 @@ namespace quoin
     const double c11 = young / (1. - poisson * poisson);
     return { c11, poisson * c11, shear, 0. };
   }
+
+  /** Isotropic stiffness in space: Lamé's moduli. */
+  struct SpaceStiffness
+  {
+    double lambda; /**< [Pa] */
+    double mu;     /**< shear modulus [Pa] */
+  };
+
+  inline SpaceStiffness space_stiffness(const LinearElastic &material)
+  {
+    const double mu = material.young / (2. * (1. + material.poisson));
+    return { 2. * mu * material.poisson / (1. - 2. * material.poisson), mu };
+  }
 } // namespace quoin
 
 #endif

@@ -12,24 +12,34 @@ using namespace quoin;
 
 namespace
 {
-  struct Nodes
+  template <int dim>
+  struct NodeSet
   {
-    AlignedArray<NodeRecord<2>> nodes;
-    AlignedArray<NodeVector<2>> velocity, force, viscous;
+    AlignedArray<NodeRecord<dim>> nodes;
+    AlignedArray<NodeVector<dim>> velocity, force, viscous;
     std::vector<double> mass, inverse_mass;
 
-    explicit Nodes(const unsigned int n, const unsigned int seed = 1)
+    explicit NodeSet(const unsigned int n, const unsigned int seed = 1)
     {
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> uniform(-1., 1.);
+      const auto fill = [&](double(&values)[dim])
+      {
+        for (double &value : values)
+          value = uniform(random);
+      };
+      nodes.resize(n);
+      velocity.resize(n);
+      force.resize(n);
+      viscous.resize(n);
       for (unsigned int i = 0; i < n; ++i)
       {
-        const auto next = [&] { return uniform(random); };
-        nodes.push_back({ { next(), next() }, { next(), next() } });
-        velocity.push_back({ { next(), next() } });
-        force.push_back({ { next(), next() } });
-        viscous.push_back({ { next(), next() } });
-        mass.push_back(2. + next());
+        fill(nodes[i].X);
+        fill(nodes[i].u);
+        fill(velocity[i].v);
+        fill(force[i].v);
+        fill(viscous[i].v);
+        mass.push_back(2. + uniform(random));
         inverse_mass.push_back(1. / mass.back());
       }
     }
@@ -42,6 +52,8 @@ namespace
           viscous.data(), mass.data(), inverse_mass.data(), factors, dt);
     }
   };
+
+  using Nodes = NodeSet<2>;
 } // namespace
 
 TEST(NodeUpdate, UndampedStep)
@@ -222,4 +234,43 @@ TEST(NodeUpdate, ConstrainedNodesKeepTheirVelocity)
   EXPECT_DOUBLE_EQ(all.after, rest.after);
   EXPECT_DOUBLE_EQ(all.mass_power, rest.mass_power);
   EXPECT_DOUBLE_EQ(all.kinetic_change, rest.kinetic_change);
+}
+
+TEST(NodeUpdate, ThreeComponents)
+{
+  NodeSet<3> set(7), damped(7);
+  const NodeSet<3> before  = set;
+  const double dt_velocity = 0.3, dt = 0.4;
+  advance_nodes(1, 6, set.nodes.data(), set.velocity.data(), set.force.data(),
+                set.inverse_mass.data(), dt_velocity, dt);
+  // Mass-proportional damping alone: m (v1 - v0) / dt = f + fv - alpha m mean.
+  const double alpha = 0.8;
+  const auto work    = damped.damped<true>({ 0., alpha, dt, dt }, dt);
+  double taken = 0., power = 0., change = 0.;
+  for (unsigned int i = 0; i < 7; ++i)
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      const bool inside = i >= 1 && i < 6;
+      const double m = before.mass[i], f = before.force[i].v[d],
+                   v0 = before.velocity[i].v[d];
+      const double v  = v0 + (inside ? dt_velocity * f / m : 0.);
+      EXPECT_NEAR(set.velocity[i].v[d], v, 1e-15);
+      EXPECT_NEAR(set.nodes[i].u[d],
+                  before.nodes[i].u[d] + (inside ? dt * v : 0.), 1e-15);
+      EXPECT_EQ(set.nodes[i].X[d], before.nodes[i].X[d]);
+      EXPECT_EQ(set.force[i].v[d], inside ? 0. : f);
+
+      const double fv = before.viscous[i].v[d], v1 = damped.velocity[i].v[d];
+      EXPECT_NEAR(m * (v1 - v0) / dt, f + fv - alpha * m * 0.5 * (v0 + v1),
+                  1e-13);
+      EXPECT_NEAR(damped.nodes[i].u[d], before.nodes[i].u[d] + dt * v1, 1e-15);
+      EXPECT_EQ(damped.force[i].v[d], 0.);
+      EXPECT_EQ(damped.viscous[i].v[d], 0.);
+      taken += 0.5 * dt * (alpha * m * 0.5 * (v0 + v1) - fv) * (v0 + v1);
+      power += 0.25 * m * (v0 + v1) * (v0 + v1);
+      change += 0.5 * m * (v1 * v1 - v0 * v0);
+    }
+  EXPECT_NEAR(work.before + work.after, taken, 1e-13);
+  EXPECT_NEAR(work.mass_power, power, 1e-13);
+  EXPECT_NEAR(work.kinetic_change, change, 1e-13);
 }

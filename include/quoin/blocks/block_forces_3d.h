@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_blocks_block_forces_3d_h
+#define quoin_blocks_block_forces_3d_h
+
+#include <quoin/blocks/block_forces.h>
+#include <quoin/blocks/tetrahedron.h>
+
+namespace quoin
+{
+  /** What the block kernel knows of a mesh of tetrahedra. */
+  template <>
+  struct BlockForcesData<3>
+  {
+    /** Nodes of each cell, block-major; det of Tetrahedron is positive. */
+    std::vector<std::array<unsigned int, 4>> cells;
+    std::vector<unsigned int> block_first_cell; /**< n_blocks + 1 entries */
+
+    /** Nodes that each block has for itself, n_blocks + 1 entries. Its cells
+        may have others, which several blocks or tiles share. */
+    std::vector<unsigned int> block_first_node;
+
+    std::vector<SpaceStiffness> stiffness; /**< the different ones */
+
+    /** Index into stiffness of each cell; empty if there is only one. */
+    std::vector<unsigned int> cell_stiffness;
+
+    /** Stress of each cell at zero strain [Pa]; it turns with the cell.
+        Empty: none. */
+    AlignedArray<SpaceTensor> initial_stress;
+  };
+
+  /**
+   * Internal forces of blocks of linear elastic tetrahedra (tetrahedron.h has
+   * the element) that undergo any rotation; otherwise as BlockForces<2>.
+   *
+   * The cells of a tile are taken in chunks of few nodes, which are copied to
+   * the first level cache before and added to the forces after. Lane l takes
+   * the l-th part of a chunk, so that cells that are computed together have no
+   * nodes in common. Geometry is computed from the positions in each step:
+   * that is cheaper than to read it from memory.
+   */
+  template <>
+  class BlockForces<3>
+  {
+  public:
+    /** Stresses and strains: 11, 22, 33, 12, 13, 23. */
+    using Stress = SpaceTensor;
+    using Strain = SpaceTensor;
+
+    void prepare(const BlockForcesData<3> &data,
+                 const BlockForcesOptions &options = BlockForcesOptions());
+
+    unsigned int n_tiles() const
+    {
+      return tiles.size();
+    }
+
+    NodeRange tile_nodes(const unsigned int tile) const
+    {
+      return tiles[tile].nodes;
+    }
+
+    /** Cells [begin, end) of a tile. */
+    NodeRange tile_cells(const unsigned int tile) const
+    {
+      return tiles[tile].cells;
+    }
+
+    unsigned int n_cells() const
+    {
+      return data.cells.size();
+    }
+
+    /** No cell yields: no history. */
+    PlasticHistory initial_history() const
+    {
+      return {};
+    }
+
+    bool is_plastic() const
+    {
+      return false;
+    }
+
+    /** Adds the internal forces of a tile's cells; returns 0 [J]. */
+    double add_forces(unsigned int tile, const NodeRecord<3> *nodes,
+                      PlasticHistory &history, NodeVector<3> *force) const;
+
+    /** add_forces() cell by cell: what the lanes are compared with. */
+    double add_forces_by_cell(unsigned int tile, const NodeRecord<3> *nodes,
+                              PlasticHistory &history,
+                              NodeVector<3> *force) const;
+
+    /**
+     * Adds the forces of stiffness-proportional damping, cell by cell: those
+     * of the stress @p beta [s] times the stiffness times dU/dt. Linear in
+     * @p velocity, zero for rigid motion, without moment, never doing positive
+     * work.
+     */
+    void add_viscous_forces(unsigned int tile, const NodeRecord<3> *nodes,
+                            const NodeVector<3> *velocity, double beta,
+                            NodeVector<3> *force) const;
+
+    /** A cell's forces and, if @p with_stiffness, minus their derivative; entry
+        3 i + d is node i, component d. Returns true. */
+    bool linearise(unsigned int cell, const NodeRecord<3> *nodes,
+                   PlasticHistory &history, CellLinearisation &result,
+                   bool with_stiffness = true) const;
+
+    /** No history to update; returns 0 [J]. */
+    double update(const NodeRecord<3> *, PlasticHistory &) const
+    {
+      return 0.;
+    }
+
+    /** Energy of all cells [J]; minus its gradient are the forces. With
+        initial stress it counts from the undeformed state and may be
+        negative. */
+    double strain_energy(const NodeRecord<3> *nodes,
+                         const PlasticHistory &history) const;
+
+    /** Stress [Pa] and, if asked for, strain of a cell in the fixed frame,
+        R S R^T and R e R^T, with the initial stress. */
+    Stress cell_stress(const NodeRecord<3> *nodes,
+                       const PlasticHistory &history, std::size_t cell,
+                       Strain *strain = nullptr) const;
+
+    /** cell_stress() of all cells. */
+    void stresses(const NodeRecord<3> *nodes, const PlasticHistory &history,
+                  std::vector<Stress> &stress,
+                  std::vector<Strain> &strain) const;
+
+    /** Stress of a cell without strain [Pa]. */
+    Stress initial_stress(const unsigned int cell) const
+    {
+      return data.initial_stress.empty() ? Stress{} : data.initial_stress[cell];
+    }
+
+    const SpaceStiffness &cell_stiffness(const unsigned int cell) const
+    {
+      return data
+          .stiffness[data.cell_stiffness.empty() ? 0
+                                                 : data.cell_stiffness[cell]];
+    }
+
+    /**
+     * The first cell that is turned inside out, or is so in the reference
+     * configuration; n_cells() if there is none. A stress of the order of
+     * Young's modulus crushes a cell to nothing: forces are finite and push
+     * it back, but what is computed from then on means nothing.
+     */
+    unsigned int first_inverted_cell(const NodeRecord<3> *nodes) const;
+
+  private:
+    /** Cells of equal stiffness whose nodes are copied together. */
+    struct Chunk
+    {
+      std::size_t first_node; /**< into chunk_nodes */
+      std::size_t n_nodes;
+      std::size_t first_group; /**< into offsets and lane_stress */
+      std::size_t n_groups;
+      unsigned int last_mask; /**< lanes that have a cell in the last group */
+      unsigned int stiffness; /**< which of the different ones */
+    };
+
+    struct Tile
+    {
+      NodeRange nodes;
+      NodeRange cells;
+      std::size_t begin_chunk;
+      std::size_t end_chunk;
+    };
+
+    /** Cuts cells of equal stiffness into chunks. */
+    void append_chunks(const std::vector<unsigned int> &members,
+                       unsigned int stiffness, std::size_t max_cells);
+
+    /** One chunk of the cells [begin, end), whose nodes are the last of
+        chunk_nodes. */
+    void append_chunk(const unsigned int *begin, const unsigned int *end,
+                      std::size_t first_node, unsigned int stiffness);
+
+    template <int lanes>
+    void add_forces_in_lanes(const Tile &tile, const NodeRecord<3> *nodes,
+                             NodeVector<3> *force) const;
+
+    /** Geometry, rotation and strain of one cell. */
+    struct CellMotion
+    {
+      Tetrahedron<OneLane> geometry;
+      PolarDecomposition<OneLane> polar;
+    };
+    CellMotion cell_motion(const NodeRecord<3> *nodes, std::size_t cell) const;
+
+    /** Adds the forces of a first Piola-Kirchhoff stress R T [Pa]. */
+    void add_cell_forces(std::size_t cell, const Tetrahedron<OneLane> &geometry,
+                         const double (&R)[3][3], const double (&T)[3][3],
+                         NodeVector<3> *force) const;
+
+    BlockForcesData<3> data;
+    unsigned int n_lanes = 0;
+    std::vector<Tile> tiles;
+    std::vector<Chunk> chunks;
+    std::vector<std::uint32_t> chunk_nodes;
+
+    /** Nodes 0, 1, 2, 3 of each lane, in bytes into the chunk's forces. */
+    AlignedArray<std::uint16_t> offsets;
+
+    /** -1/6 of the initial stress, per group its six components in all
+        lanes. */
+    AlignedArray<double> lane_stress;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,463 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/blocks/block_forces_3d.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "tetrahedron_kernel.h"
+
+namespace quoin
+{
+  namespace
+  {
+
+    SpaceTensor elastic_stress(const SpaceStiffness &stiffness,
+                               const double (&e)[6])
+    {
+      SpaceTensor s;
+      for (unsigned int i = 0; i < 6; ++i)
+        s[i] = 2. * stiffness.mu * e[i]
+               + (i < 3 ? stiffness.lambda * (e[0] + e[1] + e[2]) : 0.);
+      return s;
+    }
+
+    /** R s R^T: from the rotating frame to the fixed one. */
+    SpaceTensor to_global(const double (&R)[3][3], const SpaceTensor &s)
+    {
+      SpaceTensor result{};
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = i; j < 3; ++j)
+          for (unsigned int k = 0; k < 3; ++k)
+            for (unsigned int l = 0; l < 3; ++l)
+              result[symmetric_index[i][j]]
+                  += R[i][k] * s[symmetric_index[k][l]] * R[j][l];
+      return result;
+    }
+
+    void copy(const SpaceTensor &from, double (&to)[6])
+    {
+      std::copy(from.begin(), from.end(), to);
+    }
+
+    /** Rate of a polar decomposition F = R U. */
+    struct PolarRate
+    {
+      double spin[3]; /**< axial vector of R^T dR/dt */
+      double U[6];    /**< dU/dt */
+
+      /** @p A: R^T dF/dt. */
+      PolarRate(const PolarDecomposition<OneLane> &polar, const double (&e)[6],
+                const double (&A)[3][3])
+      {
+        const double w[3]
+            = { A[2][1] - A[1][2], A[0][2] - A[2][0], A[1][0] - A[0][1] };
+        polar.solve_spin(w, spin);
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          double column[3], turned[3];
+          for (unsigned int r = 0; r < 3; ++r)
+            column[r] = e[symmetric_index[r][c]] + (r == c ? 1. : 0.);
+          cross(spin, column, turned);
+          for (unsigned int r = 0; r <= c; ++r)
+            U[symmetric_index[r][c]] = A[r][c] - turned[r];
+        }
+      }
+
+      static void cross(const double (&a)[3], const double (&b)[3],
+                        double (&result)[3])
+      {
+        for (unsigned int r = 0; r < 3; ++r)
+        {
+          const unsigned int p = (r + 1) % 3, q = (r + 2) % 3;
+          result[r] = a[p] * b[q] - a[q] * b[p];
+        }
+      }
+    };
+  } // namespace
+
+  void BlockForces<3>::prepare(const BlockForcesData<3> &new_data,
+                               const BlockForcesOptions &options)
+  {
+    data    = new_data;
+    n_lanes = options.n_lanes == 0 ? native_lanes : options.n_lanes;
+    tiles.clear();
+    chunks.clear();
+    chunk_nodes.clear();
+    offsets.clear();
+    lane_stress.clear();
+
+    const auto &first_node = data.block_first_node;
+    const auto &first_cell = data.block_first_cell;
+    // Node record, velocity, force, inverse mass.
+    constexpr std::size_t node_bytes
+        = sizeof(NodeRecord<3>) + 2 * sizeof(NodeVector<3>) + sizeof(double);
+    for (std::size_t begin = 0; begin + 1 < first_node.size();)
+    {
+      std::size_t end = begin + 1;
+      while (end + 1 < first_node.size()
+             && (first_node[end + 1] - first_node[begin]) * node_bytes
+                    <= options.tile_bytes)
+        ++end;
+      const std::size_t begin_chunk = chunks.size();
+      std::vector<std::vector<unsigned int>> members(data.stiffness.size());
+      for (unsigned int cell = first_cell[begin]; cell < first_cell[end];
+           ++cell)
+        members[data.cell_stiffness.empty() ? 0 : data.cell_stiffness[cell]]
+            .push_back(cell);
+      for (unsigned int s = 0; s < members.size(); ++s)
+        append_chunks(members[s], s, options.max_run_cells);
+      tiles.push_back({ { first_node[begin], first_node[end] },
+                        { first_cell[begin], first_cell[end] },
+                        begin_chunk,
+                        chunks.size() });
+      begin = end;
+    }
+  }
+
+  void BlockForces<3>::append_chunks(const std::vector<unsigned int> &members,
+                                     const unsigned int stiffness,
+                                     const std::size_t max_cells)
+  {
+    const unsigned int *const last = members.data() + members.size();
+    for (const unsigned int *begin = members.data(); begin != last;)
+    {
+      const std::size_t first_node = chunk_nodes.size();
+      const unsigned int *end      = begin;
+      for (; end != last && std::size_t(end - begin) < max_cells; ++end)
+      {
+        std::vector<std::uint32_t> more;
+        for (const unsigned int node : data.cells[*end])
+          if (std::find(chunk_nodes.begin() + first_node, chunk_nodes.end(),
+                        node)
+              == chunk_nodes.end())
+            more.push_back(node);
+        if (chunk_nodes.size() - first_node + more.size()
+            > ChunkNodes::max_size)
+          break;
+        chunk_nodes.insert(chunk_nodes.end(), more.begin(), more.end());
+      }
+      append_chunk(begin, end, first_node, stiffness);
+      begin = end;
+    }
+  }
+
+  void BlockForces<3>::append_chunk(const unsigned int *begin,
+                                    const unsigned int *end,
+                                    const std::size_t first_node,
+                                    const unsigned int stiffness)
+  {
+    const auto first = chunk_nodes.begin() + first_node;
+    std::sort(first, chunk_nodes.end());
+    const std::size_t n_cells     = end - begin;
+    const std::size_t n_groups    = (n_cells + n_lanes - 1) / n_lanes;
+    const std::size_t first_group = offsets.size() / (4 * n_lanes);
+    chunks.push_back({ first_node, chunk_nodes.size() - first_node, first_group,
+                       n_groups, 0u, stiffness });
+    offsets.resize((first_group + n_groups) * 4 * n_lanes);
+    if (!data.initial_stress.empty())
+      lane_stress.resize((first_group + n_groups) * 6 * n_lanes, 0.);
+    for (std::size_t lane = 0; lane < n_lanes; ++lane)
+    {
+      const std::size_t lane_begin = n_cells * lane / n_lanes;
+      const std::size_t lane_end   = n_cells * (lane + 1) / n_lanes;
+      for (std::size_t k = 0; k < n_groups; ++k)
+      {
+        // Pieces are equally long or end one group before the last.
+        const bool present = lane_begin + k < lane_end;
+        if (present && k + 1 == n_groups)
+          chunks.back().last_mask |= 1u << lane;
+        const unsigned int cell = begin[present ? lane_begin + k : n_cells - 1];
+        const std::size_t group = first_group + k;
+        for (unsigned int i = 0; i < 4; ++i)
+          offsets[(4 * group + i) * n_lanes + lane]
+              = sizeof(ChunkNodes::Row)
+                * (std::lower_bound(first, chunk_nodes.end(),
+                                    data.cells[cell][i])
+                   - first);
+        if (present && !data.initial_stress.empty())
+          for (unsigned int i = 0; i < 6; ++i)
+            lane_stress[(6 * group + i) * n_lanes + lane]
+                = -data.initial_stress[cell][i] / 6.;
+      }
+    }
+  }
+
+  template <int lanes>
+  void BlockForces<3>::add_forces_in_lanes(const Tile &tile,
+                                           const NodeRecord<3> *nodes,
+                                           NodeVector<3> *force) const
+  {
+    ChunkNodes copies;
+    for (std::size_t c = tile.begin_chunk; c < tile.end_chunk; ++c)
+    {
+      const Chunk &chunk         = chunks[c];
+      const std::uint32_t *names = &chunk_nodes[chunk.first_node];
+      copies.load(names, chunk.n_nodes, nodes);
+      const std::uint16_t *offset  = &offsets[4 * lanes * chunk.first_group];
+      const SpaceStiffness &moduli = data.stiffness[chunk.stiffness];
+      if (lane_stress.empty())
+        add_tetrahedra<lanes, false>(offset, chunk.n_groups, chunk.last_mask,
+                                     moduli, nullptr, copies);
+      else
+        add_tetrahedra<lanes, true>(
+            offset, chunk.n_groups, chunk.last_mask, moduli,
+            &lane_stress[6 * lanes * chunk.first_group], copies);
+      copies.add_forces(names, chunk.n_nodes, force);
+    }
+  }
+
+  double BlockForces<3>::add_forces(const unsigned int tile,
+                                    const NodeRecord<3> *nodes,
+                                    PlasticHistory &,
+                                    NodeVector<3> *force) const
+  {
+    if (n_lanes == 8)
+      add_forces_in_lanes<8>(tiles[tile], nodes, force);
+    else
+      add_forces_in_lanes<4>(tiles[tile], nodes, force);
+    return 0.;
+  }
+
+  BlockForces<3>::CellMotion
+  BlockForces<3>::cell_motion(const NodeRecord<3> *nodes,
+                              const std::size_t cell) const
+  {
+    const auto &n = data.cells[cell];
+    double e[3][3], d[3][3];
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        e[k][i] = nodes[n[k + 1]].X[i] - nodes[n[0]].X[i];
+        d[k][i] = nodes[n[k + 1]].u[i] - nodes[n[0]].u[i];
+      }
+    CellMotion motion;
+    motion.geometry.set_edges(e);
+    motion.geometry.gradient(d, motion.polar.H);
+    motion.polar.find_tensors();
+    motion.polar.find_trace();
+    return motion;
+  }
+
+  void BlockForces<3>::add_cell_forces(const std::size_t cell,
+                                       const Tetrahedron<OneLane> &geometry,
+                                       const double (&R)[3][3],
+                                       const double (&T)[3][3],
+                                       NodeVector<3> *force) const
+  {
+    double P[3][3], f[3][3];
+    for (unsigned int r = 0; r < 3; ++r)
+      for (unsigned int c = 0; c < 3; ++c)
+        P[r][c]
+            = -(R[r][0] * T[0][c] + R[r][1] * T[1][c] + R[r][2] * T[2][c]) / 6.;
+    geometry.nodal_forces(P, f);
+    const auto &n = data.cells[cell];
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        force[n[k + 1]].v[i] += f[k][i];
+        force[n[0]].v[i] -= f[k][i];
+      }
+  }
+
+  double BlockForces<3>::add_forces_by_cell(const unsigned int tile,
+                                            const NodeRecord<3> *nodes,
+                                            PlasticHistory &,
+                                            NodeVector<3> *force) const
+  {
+    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
+         ++k)
+    {
+      const CellMotion motion = cell_motion(nodes, k);
+      double R[3][3], e[6], S[6], T[3][3];
+      motion.polar.rotation_and_strain(R, e);
+      copy(initial_stress(k), S);
+      motion.polar.turning_stress(S, e, T);
+      const SpaceTensor s = elastic_stress(cell_stiffness(k), e);
+      for (unsigned int r = 0; r < 3; ++r)
+        for (unsigned int c = 0; c < 3; ++c)
+          T[r][c] += s[symmetric_index[r][c]];
+      add_cell_forces(k, motion.geometry, R, T, force);
+    }
+    return 0.;
+  }
+
+  void BlockForces<3>::add_viscous_forces(const unsigned int tile,
+                                          const NodeRecord<3> *nodes,
+                                          const NodeVector<3> *velocity,
+                                          const double beta,
+                                          NodeVector<3> *force) const
+  {
+    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
+         ++k)
+    {
+      const CellMotion motion = cell_motion(nodes, k);
+      const auto &n           = data.cells[k];
+      double R[3][3], e[6], d[3][3], L[3][3], A[3][3], S[6], T[3][3];
+      motion.polar.rotation_and_strain(R, e);
+      for (unsigned int q = 0; q < 3; ++q)
+        for (unsigned int i = 0; i < 3; ++i)
+          d[q][i] = velocity[n[q + 1]].v[i] - velocity[n[0]].v[i];
+      motion.geometry.gradient(d, L);
+      for (unsigned int r = 0; r < 3; ++r)
+        for (unsigned int c = 0; c < 3; ++c)
+          A[r][c] = R[0][r] * L[0][c] + R[1][r] * L[1][c] + R[2][r] * L[2][c];
+      const PolarRate rate(motion.polar, e, A);
+      SpaceTensor s = elastic_stress(cell_stiffness(k), rate.U);
+      for (double &component : s)
+        component *= beta;
+      copy(s, S);
+      motion.polar.turning_stress(S, e, T);
+      add_cell_forces(k, motion.geometry, R, T, force);
+    }
+  }
+
+  bool BlockForces<3>::linearise(const unsigned int cell,
+                                 const NodeRecord<3> *nodes, PlasticHistory &,
+                                 CellLinearisation &result,
+                                 const bool with_stiffness) const
+  {
+    const CellMotion motion = cell_motion(nodes, cell);
+    const auto &polar       = motion.polar;
+    const double volume     = motion.geometry.det / 6.;
+    const SpaceStiffness &C = cell_stiffness(cell);
+    double R[3][3], e[6], S0[6], T[3][3];
+    polar.rotation_and_strain(R, e);
+    copy(initial_stress(cell), S0);
+    polar.turning_stress(S0, e, T);
+    double w[3], y[3]; // of the turning stress
+    polar.commutator(S0, e, w);
+    polar.solve_spin(w, y);
+    const SpaceTensor elastic = elastic_stress(C, e);
+    for (unsigned int r = 0; r < 3; ++r)
+      for (unsigned int c = 0; c < 3; ++c)
+        T[r][c] += elastic[symmetric_index[r][c]];
+
+    double g[4][3]{};
+    for (unsigned int k = 0; k < 3; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        g[k + 1][i] = motion.geometry.cofactor[k][i] / motion.geometry.det;
+        g[0][i] -= g[k + 1][i];
+      }
+    // V (R T) grad N of all nodes.
+    const auto nodal = [&](const double(&T)[3][3], double *f)
+    {
+      for (unsigned int k = 0; k < 4; ++k)
+        for (unsigned int i = 0; i < 3; ++i)
+        {
+          f[3 * k + i] = 0.;
+          for (unsigned int r = 0; r < 3; ++r)
+            for (unsigned int c = 0; c < 3; ++c)
+              f[3 * k + i] += volume * R[i][r] * T[r][c] * g[k][c];
+        }
+    };
+    result.n_nodes    = 4;
+    result.dissipated = 0.;
+    std::copy(data.cells[cell].begin(), data.cells[cell].end(),
+              result.nodes.begin());
+    nodal(T, result.force.data());
+    for (double &f : result.force)
+      f = -f;
+    if (!with_stiffness)
+      return true;
+
+    for (unsigned int k = 0; k < 4; ++k)
+      for (unsigned int i = 0; i < 3; ++i)
+      {
+        double A[3][3], dU[6], dT[3][3];
+        for (unsigned int r = 0; r < 3; ++r)
+          for (unsigned int c = 0; c < 3; ++c)
+            A[r][c] = R[i][r] * g[k][c];
+        const PolarRate rate(polar, e, A);
+        std::copy(rate.U, rate.U + 6, dU);
+        const SpaceTensor dS = elastic_stress(C, dU);
+        // From (tr U I - U) y = w.
+        double dw[3], dy[3];
+        polar.commutator(S0, dU, dw);
+        for (unsigned int r = 0; r < 3; ++r)
+        {
+          dw[r] -= (dU[0] + dU[1] + dU[2]) * y[r];
+          for (unsigned int c = 0; c < 3; ++c)
+            dw[r] += dU[symmetric_index[r][c]] * y[c];
+        }
+        polar.solve_spin(dw, dy);
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          const double column[3] = { T[0][c], T[1][c], T[2][c] };
+          const double unit[3]
+              = { c == 0 ? 1. : 0., c == 1 ? 1. : 0., c == 2 ? 1. : 0. };
+          double turned[3], minus[3];
+          PolarRate::cross(rate.spin, column, turned);
+          PolarRate::cross(dy, unit, minus);
+          for (unsigned int r = 0; r < 3; ++r)
+            dT[r][c] = turned[r] + dS[symmetric_index[r][c]] - minus[r];
+        }
+        std::array<double, 12> column;
+        nodal(dT, column.data());
+        for (unsigned int q = 0; q < 12; ++q)
+          result.stiffness[q][3 * k + i] = column[q];
+      }
+    return true;
+  }
+
+  double BlockForces<3>::strain_energy(const NodeRecord<3> *nodes,
+                                       const PlasticHistory &) const
+  {
+    double energy = 0.;
+    for (std::size_t k = 0; k < data.cells.size(); ++k)
+    {
+      const CellMotion motion = cell_motion(nodes, k);
+      double R[3][3], e[6];
+      motion.polar.rotation_and_strain(R, e);
+      const SpaceTensor s  = elastic_stress(cell_stiffness(k), e);
+      const SpaceTensor s0 = initial_stress(k);
+      double density       = 0.;
+      for (unsigned int i = 0; i < 6; ++i)
+        density += (i < 3 ? 1. : 2.) * (0.5 * s[i] + s0[i]) * e[i];
+      energy += motion.geometry.det / 6. * density;
+    }
+    return energy;
+  }
+
+  SpaceTensor BlockForces<3>::cell_stress(const NodeRecord<3> *nodes,
+                                          const PlasticHistory &,
+                                          const std::size_t cell,
+                                          SpaceTensor *strain) const
+  {
+    double R[3][3], e[6];
+    cell_motion(nodes, cell).polar.rotation_and_strain(R, e);
+    if (strain)
+      *strain = to_global(R, { e[0], e[1], e[2], e[3], e[4], e[5] });
+    SpaceTensor s        = elastic_stress(cell_stiffness(cell), e);
+    const SpaceTensor s0 = initial_stress(cell);
+    for (unsigned int i = 0; i < 6; ++i)
+      s[i] += s0[i];
+    return to_global(R, s);
+  }
+
+  void BlockForces<3>::stresses(const NodeRecord<3> *nodes,
+                                const PlasticHistory &history,
+                                std::vector<SpaceTensor> &stress,
+                                std::vector<SpaceTensor> &strain) const
+  {
+    stress.resize(data.cells.size());
+    strain.resize(data.cells.size());
+    for (std::size_t k = 0; k < data.cells.size(); ++k)
+      stress[k] = cell_stress(nodes, history, k, &strain[k]);
+  }
+
+  unsigned int
+  BlockForces<3>::first_inverted_cell(const NodeRecord<3> *nodes) const
+  {
+    unsigned int k = 0;
+    for (; k < data.cells.size(); ++k)
+    {
+      const CellMotion motion = cell_motion(nodes, k);
+      if (!(motion.geometry.det > 0.) || !(motion.polar.j > -1.))
+        break;
+    }
+    return k;
+  }
+} // namespace quoin

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_source_blocks_tetrahedron_kernel_h
+#define quoin_source_blocks_tetrahedron_kernel_h
+
+#include <quoin/base/state.h>
+#include <quoin/blocks/tetrahedron.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "lanes.h"
+
+/** Forces of the tetrahedra of a chunk, several at once. */
+namespace quoin
+{
+  namespace
+  {
+    /** Copies of the nodes that the cells of a chunk have, where loads and
+        stores of four doubles are aligned. */
+    struct ChunkNodes
+    {
+      static constexpr unsigned int max_size = 256;
+
+      using Row = double __attribute__((vector_size(32), may_alias));
+      using UnalignedRow
+          = double __attribute__((vector_size(32), aligned(8), may_alias));
+      using UnalignedPair
+          = double __attribute__((vector_size(16), aligned(8), may_alias));
+
+      Row record[max_size][2]; /**< X, u_1 and X_3, u [m] */
+      Row force[max_size];     /**< [N]; the fourth is not used */
+
+      /** Takes @p n nodes out of the @p records, with no force yet. */
+      void load(const std::uint32_t *node, const std::size_t n,
+                const NodeRecord<3> *records)
+      {
+        static_assert(sizeof(NodeRecord<3>) == 48);
+        for (std::size_t k = 0; k < n; ++k)
+        {
+          const char *r = reinterpret_cast<const char *>(records + node[k]);
+          record[k][0]  = *reinterpret_cast<const UnalignedRow *>(r);
+          record[k][1]  = *reinterpret_cast<const UnalignedRow *>(r + 16);
+          force[k]      = Row{};
+        }
+      }
+
+      void add_forces(const std::uint32_t *node, const std::size_t n,
+                      NodeVector<3> *sums) const
+      {
+        for (std::size_t k = 0; k < n; ++k)
+        {
+          // A store of all four would delay the load of the next node.
+          double *f = sums[node[k]].v;
+          *reinterpret_cast<UnalignedPair *>(f)
+              += __builtin_shufflevector(force[k], force[k], 0, 1);
+          f[2] += force[k][2];
+        }
+      }
+    };
+
+    /** Cells that go through the lanes together. */
+    template <int lanes, bool with_stress>
+    struct TetrahedronGroup
+    {
+      using L     = Lanes<lanes>;
+      using Value = typename L::Value;
+
+      Tetrahedron<L> cell;
+      PolarDecomposition<L> polar;
+
+      /** Geometry and displacement gradients. @p offset: of nodes 0, 1, 2, 3
+          of each lane, in bytes into the forces, half of that into the
+          records. */
+      QUOIN_INLINE void load(const std::uint16_t *offset,
+                             const ChunkNodes &nodes)
+      {
+        const char *records = reinterpret_cast<const char *>(nodes.record);
+        Value e[3][3], d[3][3], X0[4], u0[4];
+        L::load_rows(records, 2, offset, X0);
+        L::load_rows(records + 32, 2, offset, u0);
+        for (int k = 0; k < 3; ++k)
+        {
+          Value X[4], u[4], column[4];
+          L::load_rows(records, 2, offset + (k + 1) * lanes, X);
+          L::load_rows(records + 32, 2, offset + (k + 1) * lanes, u);
+          for (int l = 0; l < 4; ++l)
+          {
+            X[l] -= X0[l];
+            u[l] -= u0[l];
+          }
+          L::transpose(X, column);
+          for (int i = 0; i < 3; ++i)
+            e[k][i] = column[i];
+          L::transpose(u, column);
+          for (int i = 0; i < 3; ++i)
+            d[k][i] = column[i + 1];
+        }
+        cell.set_edges(e);
+        cell.gradient(d, polar.H);
+        polar.find_tensors();
+      }
+
+      /** @p moduli and @p stress are times -1/6. */
+      QUOIN_INLINE void add_forces(const std::uint16_t *offset,
+                                   const LameModuli<L> &moduli,
+                                   const double *stress, ChunkNodes &nodes)
+      {
+        char *sums = reinterpret_cast<char *>(nodes.force);
+        Value P[3][3], f[3][3], rest[4]{};
+        polar.elastic_stress(moduli, P);
+        if constexpr (with_stress)
+        {
+          Value S[6], R[3][3], e[6], T[3][3];
+          for (int i = 0; i < 6; ++i)
+            S[i] = reinterpret_cast<const Value *>(stress)[i];
+          polar.rotation_and_strain(R, e);
+          polar.turning_stress(S, e, T);
+          for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < 3; ++c)
+              P[r][c]
+                  += R[r][0] * T[0][c] + R[r][1] * T[1][c] + R[r][2] * T[2][c];
+        }
+        cell.nodal_forces(P, f);
+        for (int k = 0; k < 3; ++k)
+        {
+          const Value column[4] = { f[k][0], f[k][1], f[k][2], Value{} };
+          Value row[4];
+          L::transpose(column, row);
+          for (int l = 0; l < 4; ++l)
+            rest[l] -= row[l];
+          L::add_rows(sums, offset + (k + 1) * lanes, row);
+        }
+        L::add_rows(sums, offset, rest);
+      }
+    };
+
+    /**
+     * Adds the forces of @p n groups to those of the nodes. Lanes without a
+     * bit in @p last_mask have no cell of their own in the last group.
+     *
+     * While the trace of one group's strain is found, a long chain of
+     * operations that wait for one another, the next one is loaded.
+     */
+    template <int lanes, bool with_stress>
+    __attribute__((noinline)) void
+    add_tetrahedra(const std::uint16_t *offset, const std::size_t n,
+                   const unsigned int last_mask,
+                   const SpaceStiffness &stiffness, const double *stress,
+                   ChunkNodes &nodes)
+    {
+      using Value                 = typename Lanes<lanes>::Value;
+      constexpr int stress_stride = with_stress ? 6 * lanes : 0;
+      LameModuli<Lanes<lanes>> moduli{ Value{} - stiffness.lambda / 6.,
+                                       Value{} - stiffness.mu / 6. };
+      TetrahedronGroup<lanes, with_stress> group[2];
+      group[0].load(offset, nodes);
+      for (std::size_t g = 0; g < n; ++g)
+      {
+        auto &now = group[g % 2];
+        now.polar.find_trace();
+        if (g + 1 < n)
+          group[(g + 1) % 2].load(offset + 4 * lanes, nodes);
+        else
+          for (int l = 0; l < lanes; ++l)
+            if (!(last_mask >> l & 1))
+              moduli.lambda[l] = moduli.mu[l] = 0.;
+        now.add_forces(offset, moduli, stress, nodes);
+        offset += 4 * lanes;
+        stress += stress_stride;
+      }
+    }
+  } // namespace
+} // namespace quoin
+
+#endif
