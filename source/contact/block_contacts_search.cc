@@ -602,9 +602,8 @@ namespace quoin
       p = node_map.point_of_block(block);       // otherwise than here
     std::ostringstream message;
     message << "block " << block << ", at rest at (" << p[0] << ", " << p[1]
-            << ") m, moves at " << speed
-            << " m/s, that is " << speed * dt << " m a step at time "
-            << state.time << " s, step " << state.step
+            << ") m, moves at " << speed << " m/s, that is " << speed * dt
+            << " m a step at time " << state.time << " s, step " << state.step
             << ": so fast that it would pass through others, whose skin is "
             << skin
             << " m. If nothing should move like that, the run is unstable: "

@@ -58,13 +58,14 @@ namespace quoin
       const auto &c = nodes.cell(cell);
       const auto e1 = nodes.point(c[1]) - nodes.point(c[0]);
       const auto e2 = nodes.point(c[2]) - nodes.point(c[0]);
-      own.push_back({ { nodes.exchange().global(a), nodes.exchange().global(b) },
-                      { nodes.point(a), nodes.point(b) },
-                      nodes.block_of_cell(cell),
-                      nodes.group_of_cell(cell),
-                      e1[0] * e2[1] - e1[1] * e2[0],
-                      joint,
-                      side });
+      own.push_back(
+          { { nodes.exchange().global(a), nodes.exchange().global(b) },
+            { nodes.point(a), nodes.point(b) },
+            nodes.block_of_cell(cell),
+            nodes.group_of_cell(cell),
+            e1[0] * e2[1] - e1[1] * e2[0],
+            joint,
+            side });
     };
     for (const JointNodes<2> &face : nodes.joint_faces())
     {
@@ -105,20 +106,19 @@ namespace quoin
     for (const Side &side : sides)
     {
       ContactEdge edge;
-      edge.nodes    = side.nodes;
-      edge.points   = side.points;
-      edge.block    = side.block;
-      edge.group    = side.group;
-      edge.previous = none;
-      edge.next     = none;
+      edge.nodes     = side.nodes;
+      edge.points    = side.points;
+      edge.block     = side.block;
+      edge.group     = side.group;
+      edge.previous  = none;
+      edge.next      = none;
       edge.interface = side.joint == none ? none : face_interface[side.joint];
-      edge.length   = side.points[0].distance(side.points[1]);
-      edge.height   = side.twice_the_area / edge.length;
+      edge.length    = side.points[0].distance(side.points[1]);
+      edge.height    = side.twice_the_area / edge.length;
       edges.push_back(edge);
     }
     std::sort(edges.begin(), edges.end(),
-              [](const ContactEdge &a, const ContactEdge &b)
-              {
+              [](const ContactEdge &a, const ContactEdge &b) {
                 return std::tie(a.block, a.nodes[0])
                        < std::tie(b.block, b.nodes[0]);
               });
@@ -175,10 +175,10 @@ namespace quoin
       {
         const ContactEdge &part = edges[side.next];
         side.length += part.length;
-        side.height   = std::min(side.height, part.height);
+        side.height    = std::min(side.height, part.height);
         side.nodes[1]  = part.nodes[1];
         side.points[1] = part.points[1];
-        side.next     = part.next;
+        side.next      = part.next;
       }
       merged.push_back(side);
     }

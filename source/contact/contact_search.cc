@@ -93,9 +93,11 @@ namespace quoin
     }
 
     /** Blocks of other ranks near those of this one, ascending. */
-    std::vector<unsigned int> blocks_within_reach(
-        const NodeMap<2> &node_map, const ContactEdges &edges,
-        const NodeRecord<2> *nodes, const AlignedArray<std::uint8_t> &left_out, const double skin)
+    std::vector<unsigned int>
+    blocks_within_reach(const NodeMap<2> &node_map, const ContactEdges &edges,
+                        const NodeRecord<2> *nodes,
+                        const AlignedArray<std::uint8_t> &left_out,
+                        const double skin)
     {
       const auto boxes  = boxes_of_blocks(node_map, edges, nodes);
       const auto box_of = [&](const unsigned int b, const double margin)

@@ -26,8 +26,7 @@ namespace quoin
         for (const std::string &curve : sets[s].curves)
         {
           const std::string name = curve == "unnamed" ? "" : curve;
-          const auto line
-              = std::find(names.begin(), names.end(), name);
+          const auto line        = std::find(names.begin(), names.end(), name);
           if (line == names.end())
             throw InputError("section 'Joints/" + sets[s].name
                              + "': the mesh has no physical curve '" + curve
@@ -43,8 +42,8 @@ namespace quoin
       return set_of_line;
     }
 
-    /** Throws an InputError if a joint face is on a line without set; @p number:
-        the first of this rank. Collective. */
+    /** Throws an InputError if a joint face is on a line without set; @p
+       number: the first of this rank. Collective. */
     void refuse_without_set(const NodeMap<2> &nodes, const unsigned int number)
     {
       const unsigned int first
@@ -57,16 +56,14 @@ namespace quoin
         if (face.number == first)
           known = { face.name, face.groups[0], face.groups[1] };
       dealii::Utilities::MPI::max(known, nodes.communicator(), known);
-      const auto &groups = nodes.table().group_names;
-      const std::string line
-          = "'" + nodes.table().face_names[known[0]] + "'";
-      throw InputError(
-          (known[0] == 0 ? std::string("a joint on no named curve")
-                         : "the joint on curve " + line)
-          + " between groups '" + groups[known[1]] + "' and '"
-          + groups[known[2]] + "' belongs to no joint set. Add "
-          + (known[0] == 0 ? "'unnamed'" : line)
-          + " to the 'Curves' of a set in section 'Joints'.");
+      const auto &groups     = nodes.table().group_names;
+      const std::string line = "'" + nodes.table().face_names[known[0]] + "'";
+      throw InputError((known[0] == 0 ? std::string("a joint on no named curve")
+                                      : "the joint on curve " + line)
+                       + " between groups '" + groups[known[1]] + "' and '"
+                       + groups[known[2]] + "' belongs to no joint set. Add "
+                       + (known[0] == 0 ? "'unnamed'" : line)
+                       + " to the 'Curves' of a set in section 'Joints'.");
     }
   } // namespace
 

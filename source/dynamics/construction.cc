@@ -121,8 +121,8 @@ namespace quoin
         continue;
       const JointNodes<2> &face
           = model.nodes().joint_faces()[joints.segment(i).face];
-      const bool lower      = step.excavate[face.groups[0]];
-      const bool upper      = step.excavate[face.groups[1]];
+      const bool lower = step.excavate[face.groups[0]];
+      const bool upper = step.excavate[face.groups[1]];
       if (!lower && !upper)
         continue;
       joints.add_traction_forces(i, state.nodes.data(), state.joints,

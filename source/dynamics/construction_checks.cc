@@ -60,13 +60,13 @@ namespace quoin
       return;
     const std::string &taken = table.group_names[met[0]];
     const std::string &stays = table.group_names[met[1]];
-        throw InputError(step.where + ": '" + parameter + "' names '" + taken
-                         + "', which has no joint to '" + stays
-                         + "' beside it: only whole blocks can come and go. "
-                           "Add "
-                         + taken + ":" + stays
-                         + " to 'Joints between' in section 'Mesh', and their "
-                           "joint to a set of section 'Joints'.");
+    throw InputError(step.where + ": '" + parameter + "' names '" + taken
+                     + "', which has no joint to '" + stays
+                     + "' beside it: only whole blocks can come and go. "
+                       "Add "
+                     + taken + ":" + stays
+                     + " to 'Joints between' in section 'Mesh', and their "
+                       "joint to a set of section 'Joints'.");
   }
 
   void Construction::check_presence()

@@ -112,7 +112,8 @@ namespace quoin
           v = 0.;
         }
       if (is_rigid)
-        std::fill_n(state.rigid_blocks[model.rigid_number(block)].velocity, 3, 0.);
+        std::fill_n(state.rigid_blocks[model.rigid_number(block)].velocity, 3,
+                    0.);
     }
     std::fill(force.begin(), force.end(), NodeVector<2>{ { 0., 0. } });
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);

@@ -166,8 +166,7 @@ namespace quoin
       if (holds[2] || blocks.empty() || *blocks.begin() != first)
         return;
       Gram gram;
-      const auto r
-          = arm(nodes.point(constraint.nodes().front()));
+      const auto r = arm(nodes.point(constraint.nodes().front()));
       if (holds[0])
         add_row(gram, 1., 0., -r[1]);
       if (holds[1])
@@ -207,8 +206,7 @@ namespace quoin
       {
         for (unsigned int d = 0; d < 2; ++d)
           force[i].v[d] += part[d];
-        double *sum
-            = &sums[4 * bodies.body(model.nodes().block_of_node(i))];
+        double *sum = &sums[4 * bodies.body(model.nodes().block_of_node(i))];
         sum[2] += part[2] / bodies.length();
         sum[3] += std::abs(part[2]) / bodies.length();
       }

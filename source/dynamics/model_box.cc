@@ -84,7 +84,7 @@ namespace quoin
 
     // Blocks that are reported may be free to go only later.
     std::vector<std::uint8_t> outside(n, 0), stays(n, 0);
-    bool is_news = false;
+    bool is_news      = false;
     const auto &parts = model.nodes().block_parts();
     for (unsigned int i = 0; i < parts.size(); ++i)
     {

@@ -33,8 +33,7 @@ namespace quoin
     std::vector<bool> result(node_map.n_local(), false);
     if (!state.block_marks.empty())
       for (unsigned int i = 0; i < result.size(); ++i)
-        result[i]
-            = state.is_absent(node_map.block_of_node(i));
+        result[i] = state.is_absent(node_map.block_of_node(i));
     return result;
   }
 

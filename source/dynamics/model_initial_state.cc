@@ -73,8 +73,8 @@ namespace quoin
           if (acts_in(group))
             for (unsigned int k = 0; k < 2; ++k)
             {
-              const auto stress = initial_stress(
-                  load, node_map.point(face.lower[k]), group);
+              const auto stress
+                  = initial_stress(load, node_map.point(face.lower[k]), group);
               for (unsigned int i = 0; i < 3; ++i)
                 face_stress[f][k][i] += 0.5 * stress[i];
             }

@@ -43,9 +43,9 @@ namespace quoin
     check_loads(state, state.load_time);
     std::ostringstream message;
     message << "the motion is no longer finite in block " << block << " at ("
-            << p[0] << ", "
-            << p[1] << ") m, found at time " << state.time << " s, step "
-            << state.step << ". The usual causes are a load that grows "
+            << p[0] << ", " << p[1] << ") m, found at time " << state.time
+            << " s, step " << state.step
+            << ". The usual causes are a load that grows "
             << "without bound, a value that is not a number in a function of "
             << "time, or a collapse: look at the last fields, reduce 'Share "
             << "of critical time step' or end the stage earlier. The last "

@@ -71,7 +71,7 @@ namespace quoin
       std::vector<unsigned int> result(lengths.size(), 1);
       for (unsigned int k = lengths.size(); k < n; ++k)
       {
-        // To the one with the longest elements.
+        // The piece with the longest elements gets one more.
         std::size_t best = 0;
         for (std::size_t i = 1; i < lengths.size(); ++i)
           if (lengths[i] / result[i]

@@ -41,7 +41,9 @@ namespace quoin
   } // namespace
 
   FarField::FarField(const std::string &name, FarFieldDomain domain,
-                     const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces, const double thickness)
+                     const NodeMap<2> &node_map,
+                     const std::vector<BoundaryFace<2>> &faces,
+                     const double thickness)
     : problem(std::move(domain)),
       transfer(problem.boundary, problem.interface, node_map, faces),
       thickness(thickness), communicator(node_map.communicator()),
@@ -211,7 +213,8 @@ namespace quoin
     FarFieldState &far  = state.far_field;
     const double begin  = double(far.n_steps) * dt;
     const VectorXd last = to_eigen(far.last_motion);
-    // By the mean velocities, so that the tractions are those that acted.
+    // Motion by the mean velocities, so that the tractions are those that
+    // acted.
     const VectorXd motion = problem.scheme == CouplingScheme::staggered
                                 ? last_u
                                 : VectorXd(last + to_eigen(far.velocity_sum));
@@ -405,7 +408,7 @@ namespace quoin
         += step.dt_velocity * v_mean;
     Eigen::Map<VectorXd>(far.traction_sum.data(), p.size()) += p;
     far.duration += step.dt_velocity;
-    // Of what the impedance adds to the frozen tractions.
+    // Work of what the impedance adds to the frozen tractions.
     far.square_sum
         += step.dt_velocity * (p - frozen).cwiseProduct(area).dot(v_mean);
     if (++far.substep == substeps)

@@ -22,7 +22,7 @@ namespace quoin
       return text.str();
     }
 
-    /** Of the segment @p element and the edge from @p a to @p b. */
+    /** Overlap of the segment @p element and the edge from @p a to @p b. */
     struct Overlap
     {
       double begin, end; /**< places on the edge, 0 to 1 */

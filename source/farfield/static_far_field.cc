@@ -21,7 +21,8 @@ namespace quoin
 
   StaticFarField::StaticFarField(const std::string &name,
                                  const FarFieldDomain &domain,
-                                 const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces,
+                                 const NodeMap<2> &node_map,
+                                 const std::vector<BoundaryFace<2>> &faces,
                                  const double thickness)
     : transfer(domain.boundary, domain.interface, node_map, faces),
       thickness(thickness),

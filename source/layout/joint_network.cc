@@ -29,10 +29,10 @@ namespace quoin
     using EdgeTree
         = bgi::rtree<std::pair<Box, unsigned int>, bgi::quadratic<16>>;
 
-    /** Of the tolerance: what is as near was meant to be there. */
+    /** Share of the tolerance within which a point counts as being there. */
     constexpr double touching = 1e-6;
     /**
-     * Of the tolerance: how near an end is to an edge that it is joined to.
+     * Share of the tolerance within which an end is joined to an edge.
      * Below 0.7, two corners of a small triangle cannot both be that near to
      * the edges across, which would take turns for ever.
      */

@@ -56,7 +56,8 @@ namespace quoin
       }
     }
 
-    /** Of lengths, which are drawn again until they are positive. */
+    /** Distribution of lengths, which are drawn again until they are positive.
+     */
     Distribution read_length(const ParameterSection &section,
                              const std::string &name)
     {

@@ -120,7 +120,7 @@ namespace quoin
         return first_point[level] + column(level, x);
       }
 
-      /** Of the line that begins at this point and runs to the right. */
+      /** Number of the line that begins at this point and runs to the right. */
       unsigned int bed_line(const unsigned int level,
                             const unsigned int i) const
       {

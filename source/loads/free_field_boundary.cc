@@ -32,9 +32,10 @@ namespace quoin
                                        const FreeFieldBase &given)
     : index(index)
   {
-    load_name        = parameters.name;
-    const auto faces = faces_of_curves(node_map, parameters.boundaries, load_name);
-    node_list        = nodes_of_faces(node_map, faces);
+    load_name = parameters.name;
+    const auto faces
+        = faces_of_curves(node_map, parameters.boundaries, load_name);
+    node_list = nodes_of_faces(node_map, faces);
     make_column(faces, ground);
     make_shares(node_map, faces, ground.thickness);
     const auto base_faces = make_foot(node_map, given);
@@ -47,8 +48,8 @@ namespace quoin
     add_dashpots(node_map, faces, impedance, ground.thickness, node_list,
                  side_dashpots);
     if (!base.is_prescribed)
-      add_dashpots(node_map, base_faces, given.impedance,
-                   ground.thickness, node_list, base_dashpots);
+      add_dashpots(node_map, base_faces, given.impedance, ground.thickness,
+                   node_list, base_dashpots);
     damping.resize(node_list.size());
     pull.resize(node_list.size());
     for (unsigned int i = 0; i < node_list.size(); ++i)
@@ -81,9 +82,9 @@ namespace quoin
     std::vector<Edge> edges;
     for (const BoundaryFace<2> &face : faces)
     {
-      const auto &a         = face.points[0];
-      const auto &b         = face.points[1];
-      const double n        = b[1] > a[1] ? 1. : -1.;
+      const auto &a  = face.points[0];
+      const auto &b  = face.points[1];
+      const double n = b[1] > a[1] ? 1. : -1.;
       if (edges.empty())
       {
         x       = a[0];
@@ -152,8 +153,7 @@ namespace quoin
     column_node.resize(node_list.size());
     for (const BoundaryFace<2> &face : faces)
     {
-      const double bottom      = std::min(face.points[0][1],
-                                          face.points[1][1]);
+      const double bottom      = std::min(face.points[0][1], face.points[1][1]);
       const unsigned int layer = node_at(bottom);
       for (unsigned int k = 0; k < 2; ++k)
       {
@@ -184,8 +184,8 @@ namespace quoin
     const double near = same_share * layers.front().height;
     for (const BoundaryFace<2> &face : faces)
     {
-      const auto &a         = face.points[0];
-      const auto &b         = face.points[1];
+      const auto &a = face.points[0];
+      const auto &b = face.points[1];
       for (const auto &p : { a, b })
       {
         if (std::abs(p[0] - x) > near || std::abs(p[1] - foot) > near)

@@ -61,8 +61,8 @@ namespace quoin
   {
     std::vector<unsigned int> groups;
     for (const auto &name : names)
-      groups.push_back(
-          position(node_map.table().group_names, name, load, "Group", "physical surface"));
+      groups.push_back(position(node_map.table().group_names, name, load,
+                                "Group", "physical surface"));
     return groups;
   }
 

@@ -49,13 +49,14 @@ namespace quoin
       communicator(node_map.communicator())
   {
     load_name = parameters.name;
-    node_list = parameters.groups.empty()
-                    ? nodes_of_faces(
-                        node_map,
-                        faces_of_curves(node_map, parameters.boundaries, load_name))
-                    : nodes_of_groups(
-                        node_map,
-                        groups_of_names(node_map, parameters.groups, load_name));
+    node_list
+        = parameters.groups.empty()
+              ? nodes_of_faces(
+                  node_map,
+                  faces_of_curves(node_map, parameters.boundaries, load_name))
+              : nodes_of_groups(
+                  node_map,
+                  groups_of_names(node_map, parameters.groups, load_name));
   }
 
   void Platen::set_mass(const std::vector<double> &mass,

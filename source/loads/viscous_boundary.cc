@@ -27,8 +27,7 @@ namespace quoin
   {
     for (const BoundaryFace<2> &face : faces)
     {
-      const auto edge
-          = face.points[1] - face.points[0];
+      const auto edge        = face.points[1] - face.points[0];
       const double half_area = 0.5 * edge.norm() * thickness;
       const auto t           = edge / edge.norm();
       const double n[2]      = { t[1], -t[0] }; // outward
@@ -37,8 +36,8 @@ namespace quoin
       {
         if (!node_map.exchange().owns(v))
           continue;
-        const auto found
-            = std::lower_bound(nodes.begin(), nodes.end(), node_map.exchange().local(v));
+        const auto found = std::lower_bound(nodes.begin(), nodes.end(),
+                                            node_map.exchange().local(v));
         if (found == nodes.end() || *found != node_map.exchange().local(v))
           continue;
         Dashpot &dashpot = dashpots[found - nodes.begin()];
@@ -117,12 +116,12 @@ namespace quoin
                                    const double thickness)
     : index(index), components(parameters.components)
   {
-    load_name        = parameters.name;
-    const auto faces = faces_of_curves(node_map, parameters.boundaries, load_name);
-    node_list        = nodes_of_faces(node_map, faces);
+    load_name = parameters.name;
+    const auto faces
+        = faces_of_curves(node_map, parameters.boundaries, load_name);
+    node_list = nodes_of_faces(node_map, faces);
     dashpots.resize(node_list.size());
-    add_dashpots(node_map, faces, impedance, thickness, node_list,
-                 dashpots);
+    add_dashpots(node_map, faces, impedance, thickness, node_list, dashpots);
   }
 
   void ViscousBoundary::begin_stage(State<2> &state, const bool continues)

@@ -66,14 +66,17 @@ namespace quoin
                     + (n_rigid == 1 ? "is rigid" : "are rigid"));
       const unsigned int n_ranks
           = dealii::Utilities::MPI::n_mpi_processes(system.communicator);
-      if (n_ranks > system.mesh_report.n_blocks)
+      if (dealii::Utilities::MPI::min(system.nodes->n_cells(),
+                                      system.communicator)
+          == 0)
         log.warning("the model has "
                     + std::to_string(system.mesh_report.n_blocks)
                     + (system.mesh_report.n_blocks == 1 ? " block" : " blocks")
                     + " and the run " + std::to_string(n_ranks)
-                    + " MPI ranks, to which whole blocks are dealt: some have "
-                      "none. Fewer ranks would be as fast, but for boundary "
-                      "elements, which all share.");
+                    + " MPI ranks, of which some have no cells: blocks stay "
+                      "whole where displacements are large, in equilibrium, "
+                      "and where stages excavate or fill. Fewer ranks would be "
+                      "as fast, but for boundary elements, which all share.");
       warn_of_mesh(system.mesh_report, log);
     }
 

@@ -21,7 +21,7 @@ namespace quoin
     using Eigen::MatrixXd;
     using Eigen::VectorXd;
 
-    /** Of the tolerance, for what is left out of a basis. */
+    /** Share of the tolerance for what is left out of a basis. */
     constexpr double basis_share = 0.01;
 
     /** Overlapping columns, each a step later than the one before. */

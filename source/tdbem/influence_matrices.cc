@@ -20,9 +20,11 @@ namespace quoin
     using Eigen::Matrix2d;
     using Eigen::Vector2d;
 
-    /** From the source and the fronts, in units of the longer element. */
+    /** Distance from the source and the fronts, in units of the longer element,
+        beyond which quadrature is used for both integrals. */
     constexpr double far_distance = 1.5;
-    /** Between elements; nearer ones are nearly singular at all times. */
+    /** Distance between elements, in the same unit, below which integrals are
+        nearly singular at all times. */
     constexpr double near_distance = 1.6;
 
     bool same(const Vector2d &a, const Vector2d &b, const double length)

@@ -46,7 +46,7 @@ namespace quoin
                                 : distance_to_segment(x, segment.a, segment.b);
     }
 
-    /** Of segments that do not cross. */
+    /** Distance of segments that do not cross [m]. */
     double distance(const Segment &e, const Segment &f)
     {
       return std::min({ distance(e.a, f), distance(e.b, f), distance(f.a, e),
@@ -211,7 +211,7 @@ namespace quoin
           integrate_apart({ corner + along_e, end_e }, { corner, end_f }, 0);
       }
 
-      /** From b = @p begin to @p end. */
+      /** Adds the integral from b = @p begin to @p end. */
       void integrate_wedge(const Point &along_e, const Point &along_f,
                            const double h, const double begin, const double end,
                            const unsigned depth)

@@ -98,8 +98,8 @@ namespace quoin
       }
     };
 
-    /** Of both sides, or two of one side: not across a corner if that can be
-        helped. */
+    /** Neighbours on both sides, or two on one side: not across a corner if
+        that can be avoided. */
     Chosen choose(const std::vector<BoundaryElement> &elements,
                   const Neighbours &neighbours, const unsigned e)
     {

@@ -8,7 +8,8 @@ on their base, rigid ones flying freely. The sled: contacts between deformable
 and rigid blocks of different ranks, some of them joints at first, some of them
 new. The patch test once more with blocks that yield. Motion with many impacts
 would not agree: it multiplies rounding. The cavity: boundary elements, whose
-history and points the ranks share. A static far field, which every rank has as a
+history and points the ranks share. A block that is distributed over several ranks,
+without and with joints inside. A static far field, which every rank has as a
 whole, and dashpots that hold what it carried. Blocks placed and excavated. A wall in equilibrium, cracking, to
 what its iterations leave, by both linear solvers.
 """
@@ -67,6 +68,17 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                             "Joints/bed/Shear stiffness=1e11",
                             "Initial motion/Velocity=1e-3*exp(-(x*x+(y+8)^2));"
                             " 0"]),
+            # a block in several ranks, with free fields and dashpots
+            "divided": (os.path.join(common.VERIFICATION, "free_field_sides",
+                                     "case.prm"),
+                        ["Initial motion/Velocity=1e-3*exp(-(x*x+(y+8)^2));"
+                         " 2e-3*x*y"]),
+            # and one with joints inside
+            "divided, cracked": (os.path.join(common.VERIFICATION,
+                                              "slipping_crack", "case.prm"),
+                                 ["Stages/cycle/Damping=none",
+                                  "Stages/cycle/Duration=5e-3",
+                                  "Histories/Interval=5e-5"]),
             "cavity": (os.path.join(common.VERIFICATION, "cavity_step",
                                     "case.prm"), ["Sampled field/Box="]),
             "hybrid": (os.path.join(common.VERIFICATION, "hybrid_hole",

@@ -14,7 +14,7 @@ namespace quoin
   /** An edge on the boundary of a block, which is on its left. */
   struct ContactEdge
   {
-    std::array<unsigned int, 2> nodes; /**< global numbers */
+    std::array<unsigned int, 2> nodes;      /**< global numbers */
     std::array<dealii::Point<2>, 2> points; /**< where they are at rest [m] */
     unsigned int block;
     unsigned int group;     /**< of the cell behind it */

@@ -16,7 +16,7 @@ namespace quoin
   struct BoundaryGeometry
   {
     Boundary boundary;
-    /** Of each element, the number of its boundary in the parameters. */
+    /** Number of each element's boundary in the parameters. */
     std::vector<unsigned int> owner;
   };
 

@@ -62,7 +62,8 @@ namespace quoin
     double grading          = 1.; /**< last element length by first */
     CirclePolygon polygon   = CirclePolygon::inscribed;
 
-    /** Of each component: given traction [Pa], or else displacement [m]. */
+    /** Whether the value is a traction [Pa] or a displacement [m], by
+     * component. */
     std::array<bool, 2> traction_is_given{ { true, true } };
     std::array<SpaceTimeFunction, 2> value;
     SpaceTimeFunction pressure; /**< pushes on the domain [Pa] */

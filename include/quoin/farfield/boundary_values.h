@@ -37,7 +37,7 @@ namespace quoin
      */
     Eigen::VectorXd operator()(double begin, double end);
 
-    /** The same with tractions, too, at the time @p time [s]. */
+    /** Displacements and tractions, both at the time @p time [s]. */
     Eigen::VectorXd at(double time);
 
     /** Throws an InputError if a displacement is not zero at t = 0. */

@@ -47,9 +47,10 @@ namespace quoin
   {
     Boundary boundary;
     ElasticMedium medium{};
-    /** Of @p boundary: the elements along the blocks. */
+    /** Elements of @p boundary along the blocks. */
     std::vector<unsigned int> interface;
-    /** Of each unknown not on the interface. */
+    /** Whether the traction is prescribed, for each unknown off the interface.
+     */
     std::vector<bool> traction_is_given;
 
     FormulationOptions formulation; /**< without time step and n_steps */
@@ -79,26 +80,29 @@ namespace quoin
   class FarField : public NodeConstraint
   {
   public:
-    /** What has happened to energy in the steps finished so far [J]. */
+    /** Energies of the steps finished so far [J]. */
     struct Ledger
     {
       /** Work of the scattered tractions on the scattered motion. */
       double radiated = 0.;
-      /** Lost in the block steps of a boundary element step: not negative. */
+      /** Energy lost in the block steps of a boundary element step: not
+       * negative. */
       double substeps = 0.;
-      /** Brought in by the incident field. */
+      /** Energy from the incident field. */
       double incident = 0.;
-      /** As radiated, of the rest of the boundary, with boundary values. */
+      /** Work like radiated on the rest of the boundary, by boundary values. */
       double given = 0.;
       /** Largest |p - (p_h + Z0 v)| by the largest p: rounding. */
       double mismatch = 0.;
     };
 
     /**
-     * @p faces: of all ranks, along the interface; see faces_of_curves(). Throws an InputError that begins with the section.
+     * @p faces: of all ranks, along the interface; see faces_of_curves().
+     * Throws an InputError that begins with the section.
      */
     FarField(const std::string &name, FarFieldDomain domain,
-             const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces, double thickness);
+             const NodeMap<2> &node_map,
+             const std::vector<BoundaryFace<2>> &faces, double thickness);
     ~FarField() override;
 
     /**
@@ -214,10 +218,10 @@ namespace quoin
     Eigen::VectorXd p_of_history;
     bool p_of_history_is_due = true;
 
-    /** Of this step: tractions [Pa], velocities [m/s] of the elements. */
+    /** Tractions [Pa] and velocities [m/s] of the elements in this step. */
     Eigen::VectorXd p, v_before, v_free, v_after, v_mean;
     Eigen::VectorXd last_u; /**< of the elements since the start [m] */
-    /** Of the step of the boundary elements under way. */
+    /** Values of the boundary elements' present step. */
     Eigen::VectorXd frozen, incident_u, incident_velocity, incident_p;
   };
 } // namespace quoin

@@ -36,7 +36,7 @@ namespace quoin
       return waves.empty();
     }
 
-    /** As IncidentField says, of all waves; on the boundary entry 2 e + i. */
+    /** Sums of IncidentField over all waves; entry 2 e + i on the boundary. */
     Eigen::Vector2d displacement(const Eigen::Vector2d &x, double time) const;
     Eigen::VectorXd displacements(double time) const;
     /**

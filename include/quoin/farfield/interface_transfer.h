@@ -98,7 +98,7 @@ namespace quoin
       return result;
     }
 
-    /** Of the elements [m]. */
+    /** Lengths of the elements [m]. */
     const std::vector<double> &lengths() const
     {
       return length;

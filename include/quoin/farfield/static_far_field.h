@@ -28,9 +28,10 @@ namespace quoin
   class StaticFarField : public NodeConstraint
   {
   public:
-    /** As FarField, of whose @p domain motion and waves are not looked at. */
+    /** As FarField; motion and waves of @p domain are not used. */
     StaticFarField(const std::string &name, const FarFieldDomain &domain,
-                   const NodeMap<2> &node_map, const std::vector<BoundaryFace<2>> &faces, double thickness);
+                   const NodeMap<2> &node_map,
+                   const std::vector<BoundaryFace<2>> &faces, double thickness);
 
     /**
      * Largest entry of the difference between the stiffness as computed and
@@ -109,7 +110,7 @@ namespace quoin
     std::vector<double> gain;    /**< velocity by force, of the nodes */
     Eigen::MatrixXd from_motion; /**< p by displacement [Pa/m] */
 
-    /** Of this step: tractions [Pa], motion of the elements since u_0 [m]. */
+    /** Tractions [Pa] and motion of the elements since u_0 [m] in this step. */
     Eigen::VectorXd p, u, mean;
     Eigen::VectorXd v_before, v_after, change; /**< of velocity [m/s] */
     Eigen::VectorXd before, after;             /**< u half a step off [m] */

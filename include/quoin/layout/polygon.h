@@ -22,7 +22,7 @@ namespace quoin
   /** Whether @p point is inside; on the edge either may be the answer. */
   bool contains(const Polygon &polygon, const dealii::Point<2> &point);
 
-  /** Of @p point from the nearest side [m]. */
+  /** Distance of @p point from the nearest side [m]. */
   double distance(const Polygon &polygon, const dealii::Point<2> &point);
 
   /** xmin, ymin, xmax, ymax. */

@@ -45,9 +45,9 @@ namespace quoin
     unsigned int first_joint_line = 1;
     std::unique_ptr<JointNetwork> network; /**< without cracks */
     std::unique_ptr<BlockFaces> faces;
-    /** Of each face: 0: rock, 1 + r: region r; none: a hole. */
+    /** Material of each face: 0: rock, 1 + r: region r; none: a hole. */
     std::vector<unsigned int> group;
-    /** Of each face: the region that prevails there, or none: plain rock. */
+    /** Region that prevails in each face, or none: plain rock. */
     std::vector<unsigned int> region;
     std::vector<JointNetwork::Edge> cracks; /**< inside of blocks */
 

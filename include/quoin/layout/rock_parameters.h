@@ -48,7 +48,7 @@ namespace quoin
     std::string name;
     Kind kind = set;
 
-    /** Of a set. Dip: anticlockwise from the x axis [deg]. */
+    /** Statistics of a set; dips are anticlockwise from the x axis [deg]. */
     Distribution dip, spacing, length, gap;
     bool is_persistent = false; /**< traces without end */
     dealii::Point<2> origin;    /**< on the first line of the set [m] */

@@ -40,10 +40,10 @@ namespace quoin
     /** y of the bed planes [m]; row i lies between i and i + 1. The lowest
      * course stands on y = 0. */
     std::vector<double> levels;
-    /** By row, from left to right. */
+    /** Units by row, from left to right. */
     std::vector<WallUnit> units;
     double length = 0.; /**< [m] */
-    /** Units that became longer because a cut piece was too short. */
+    /** Number of units that became longer because a cut piece was too short. */
     unsigned int n_joined = 0;
   };
 

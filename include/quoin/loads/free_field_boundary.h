@@ -59,8 +59,8 @@ namespace quoin
      * is not upright or in one piece, or a base that cannot drive a column.
      */
     FreeFieldBoundary(const LoadParameters &parameters, unsigned int index,
-                      const NodeMap<2> &node_map,
-                      const FreeFieldGround &ground, const FreeFieldBase &base);
+                      const NodeMap<2> &node_map, const FreeFieldGround &ground,
+                      const FreeFieldBase &base);
 
     void begin_stage(State<2> &state, bool continues) override;
     void correct(const StepContext &step,
@@ -111,10 +111,11 @@ namespace quoin
     void make_column(const std::vector<BoundaryFace<2>> &faces,
                      const FreeFieldGround &ground);
     void make_shares(const NodeMap<2> &node_map,
-                     const std::vector<BoundaryFace<2>> &faces, double thickness);
+                     const std::vector<BoundaryFace<2>> &faces,
+                     double thickness);
     /** Returns the base's faces. */
     std::vector<BoundaryFace<2>> make_foot(const NodeMap<2> &node_map,
-                                        const FreeFieldBase &given);
+                                           const FreeFieldBase &given);
     unsigned int node_at(double height) const;
     void start(const std::vector<CapturedNode> &captured,
                FreeFieldState &column);

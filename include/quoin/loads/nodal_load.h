@@ -24,8 +24,8 @@ namespace quoin
   {
   public:
     /** @p mass is that of the local nodes, unscaled [kg]. */
-    NodalLoad(const LoadParameters &parameters, const NodeMap<2> &node_map, const std::vector<double> &mass,
-              double thickness);
+    NodalLoad(const LoadParameters &parameters, const NodeMap<2> &node_map,
+              const std::vector<double> &mass, double thickness);
 
     /** Weights of gravity where masses have changed; see the constructor. */
     void set_mass(const std::vector<double> &mass);

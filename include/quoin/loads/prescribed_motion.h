@@ -14,7 +14,8 @@ namespace quoin
   class PrescribedMotion : public NodeConstraint
   {
   public:
-    PrescribedMotion(const LoadParameters &parameters, const NodeMap<2> &node_map);
+    PrescribedMotion(const LoadParameters &parameters,
+                     const NodeMap<2> &node_map);
 
     void correct(const StepContext &step,
                  const std::vector<CapturedNode> &captured,

@@ -42,7 +42,8 @@ namespace quoin
 
   /**
    * Adds to @p dashpots, those of the local nodes @p nodes (ascending), the
-   * shares of the @p faces of @p node_map; nodes that are not listed are left out.
+   * shares of the @p faces of @p node_map; nodes that are not listed are left
+   * out.
    * @p impedance: of each cell group.
    */
   void add_dashpots(const NodeMap<2> &node_map,

@@ -22,7 +22,7 @@ namespace quoin
     unsigned int n_joint_faces = 0;
     bool quadratic             = false; /**< nodes on the middle of edges */
 
-    /** By curve name; "" stands for joints without one [m]. */
+    /** Length of joints by curve name; "" stands for joints without one [m]. */
     std::map<std::string, double> joint_length;
     double total_joint_length = 0.; /**< [m] */
 

@@ -60,8 +60,8 @@ namespace quoin
     std::array<dealii::Point<dim>, dim> points;
     std::array<double, dim> shares; /**< NodeMap::face_share() of the nodes */
     unsigned int group;             /**< of the cell behind it */
-    unsigned int block; /**< of that cell */
-    unsigned int name;  /**< into BlockTable::face_names */
+    unsigned int block;             /**< of that cell */
+    unsigned int name;              /**< into BlockTable::face_names */
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)

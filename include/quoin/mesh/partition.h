@@ -18,10 +18,9 @@ namespace quoin
    * are many pieces. Rigid blocks (@p is_rigid, by block) stay whole.
    */
   template <int dim>
-  std::vector<unsigned int> partition_cells(const BlockMesh<dim> &mesh,
-                                            const std::vector<bool> &is_rigid,
-                                            unsigned int n_ranks,
-                                            bool may_divide_blocks = true);
+  std::vector<unsigned int>
+  partition_cells(const BlockMesh<dim> &mesh, const std::vector<bool> &is_rigid,
+                  unsigned int n_ranks, bool may_divide_blocks = true);
 } // namespace quoin
 
 #endif

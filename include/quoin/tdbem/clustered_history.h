@@ -137,10 +137,10 @@ namespace quoin
       unsigned row = 0, column = 0; /**< clusters */
       unsigned begin = 0, end = 0;  /**< lags that are kept */
       double surplus = 0.; /**< time since the S wave, at the end [s] */
-      /** Of the lags end - 1 to begin, side by side. */
+      /** Matrices of the lags end - 1 to begin, side by side. */
       Eigen::MatrixXd matrices;
       unsigned n_rates = 0; /**< the slowest ones */
-      /** Between the bases, side by side for a few mixtures of the rates. */
+      /** Matrices between the bases, side by side for mixtures of the rates. */
       Eigen::MatrixXd decaying;
       /** The share of each rate, a row, in each mixture. */
       Eigen::MatrixXd mixtures;

@@ -80,7 +80,8 @@ namespace quoin
                 unsigned begin, unsigned end, Eigen::MatrixXd &G,
                 Eigen::MatrixXd &H) const override;
 
-    /** By the size of the matrices: they do not vanish before an arrival. */
+    /** Judged by the size of the matrices, which do not vanish before an
+     * arrival. */
     unsigned first_lag(const ElementRange &rows, const ElementRange &columns,
                        double distance) const override;
 
@@ -94,7 +95,7 @@ namespace quoin
                           damping_.stiffness);
     }
 
-    /** The same before there is an object, to know how many lags it needs. */
+    /** first_decaying_lag() before an object exists, to size it. */
     static unsigned decaying_lag(const ElasticMedium &medium, double time_step,
                                  double distance, double share,
                                  double stiffness_damping);

@@ -42,7 +42,7 @@ namespace quoin
     struct Radial
     {
       double u_delta, u_rr;
-      /** Of delta_ij r_n + r_i n_j, n_i r_j and r_i r_j r_n, over r. */
+      /** Factors of delta_ij r_n + r_i n_j, n_i r_j, r_i r_j r_n, over r. */
       double p_sum, p_nr, p_rrn;
     };
 

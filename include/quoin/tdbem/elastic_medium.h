@@ -15,7 +15,7 @@ namespace quoin
     double c1;      /**< speed of P waves [m/s] */
     double c2;      /**< speed of S waves [m/s] */
 
-    /** From Young's modulus [Pa] and Poisson's ratio < 1/2. */
+    /** Medium with Young's modulus [Pa] and Poisson's ratio < 1/2. */
     static ElasticMedium from_young(const double density, const double young,
                                     const double poisson)
     {

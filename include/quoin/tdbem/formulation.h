@@ -31,16 +31,16 @@ namespace quoin
     Formulation formulation = Formulation::galerkin;
     double time_step        = 0.; /**< [s] */
 
-    /** Of InfluenceMatrices [1/s]; not for convolution quadrature. */
+    /** Decay of InfluenceMatrices [1/s]; not for convolution quadrature. */
     double decay = 0.;
     /** For convolution quadrature only. */
     RayleighDamping damping = {};
 
     /** Whether the history is summed directly, at growing cost. */
     bool direct_history = false;
-    /** Of the compressed history, relative. */
+    /** Relative tolerance of the compressed history. */
     double tolerance = 1e-6;
-    /** The most steps that will be taken. */
+    /** Largest number of steps. */
     unsigned long n_steps = 1000000;
   };
 

@@ -45,7 +45,7 @@ namespace quoin
     struct Radial
     {
       std::complex<double> u_delta, u_rr;
-      /** Of delta_ij r_n + r_i n_j, n_i r_j and r_i r_j r_n. */
+      /** Factors of delta_ij r_n + r_i n_j, n_i r_j and r_i r_j r_n. */
       std::complex<double> p_sum, p_nr, p_rrn;
     };
 

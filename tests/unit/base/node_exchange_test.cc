@@ -57,11 +57,11 @@ TEST(NodeExchange, GhostsAreTheNodesOfTheirOwners)
   }
 
   // the same owners, other ghosts, in an array of their own
-  const unsigned int next = n_each * ((rank + 1) % n_ranks);
-  const bool is_alone     = n_ranks == 1;
-  const NodeExchange other
-      = exchange.with_partners(is_alone ? std::vector<unsigned int>{}
-                                      : std::vector<unsigned int>{ next + 2 });
+  const unsigned int next  = n_each * ((rank + 1) % n_ranks);
+  const bool is_alone      = n_ranks == 1;
+  const NodeExchange other = exchange.with_partners(
+      is_alone ? std::vector<unsigned int>{}
+               : std::vector<unsigned int>{ next + 2 });
   std::vector<Entry> mirrored(is_alone ? 0 : 1, Entry{ 0, -1. });
   other.update_ghosts(values.data(), mirrored.data());
   for (const Entry &entry : mirrored)
