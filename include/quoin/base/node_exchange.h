@@ -28,13 +28,13 @@ namespace quoin
                  const std::vector<unsigned int> &partners,
                  MPI_Comm communicator);
 
-    /** The same with @p shared nodes, ascending; collective. */
+    /** Mirrors @p shared nodes, ascending, too. Collective. */
     NodeExchange(unsigned int first, unsigned int last, unsigned int n_global,
                  const std::vector<unsigned int> &shared,
                  const std::vector<unsigned int> &partners,
                  MPI_Comm communicator);
 
-    /** The same owned nodes with other @p partners alone; collective. */
+    /** Owns what this exchange does, mirrors @p partners alone. Collective. */
     NodeExchange with_partners(const std::vector<unsigned int> &partners) const;
 
     unsigned int n_owned() const
@@ -95,7 +95,7 @@ namespace quoin
 
     /**
      * Adds the entries of shared nodes of @p values, n_local() long, to those
-     * of their owners on other ranks. The entries here stay. @p Value is an
+     * of their owners on other ranks. The entries here stay. @p T is an
      * aggregate of doubles.
      */
     template <typename T>

@@ -68,7 +68,7 @@ namespace quoin
     {
       return joint_interfaces;
     }
-    /** Of each JointNodes::number. */
+    /** Interface of the joint face that has the number @p face. */
     unsigned int interface_of_face(const unsigned int face) const
     {
       return face_interface[face];

@@ -153,7 +153,7 @@ namespace quoin
     /** Adds what this rank has on shared nodes to their owners', and forgets
         it. Collective. */
     void add_shared_forces(AlignedArray<NodeVector<2>> &values);
-    /** Of joints, contacts and loads on owned nodes. Collective. */
+    /** Sums forces of joints, contacts and loads on nodes. Collective. */
     void find_applied_force();
     void capture(CapturedNode &node, const State<2> &state) const;
     void move_constrained_nodes(State<2> &state, const StepContext &context);
@@ -188,7 +188,7 @@ namespace quoin
     std::vector<BlockOutside> blocks_outside;
 
     std::vector<CapturedNode> captured; /**< ascending nodes */
-    /** Of each tile, the shared nodes, and of the rigid blocks. */
+    /** First entry of each tile, of shared nodes, and of rigid blocks. */
     std::vector<unsigned int> captured_begin;
 
     AlignedArray<NodeVector<2>> force;
