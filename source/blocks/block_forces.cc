@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/block_forces.h>
 
@@ -233,5 +234,24 @@ namespace quoin
       add_viscous_forces_in_lanes<8>(tiles[tile], nodes, velocity, beta, force);
     else
       add_viscous_forces_in_lanes<4>(tiles[tile], nodes, velocity, beta, force);
+  }
+
+  void BlockForces<2>::prepare(State<2> &state) const
+  {
+    if (!state.find<PlasticHistory>())
+      state.add<PlasticHistory>() = initial_history();
+  }
+
+  void BlockForces<2>::add_forces(const StepContext &step, State<2> &state,
+                                  const NodeForces<2> &forces)
+  {
+    for (unsigned int tile = 0; tile < n_tiles(); ++tile)
+    {
+      state.energy.plastic += add_forces(
+          tile, state.nodes.data(), state.get<PlasticHistory>(), forces.force);
+      if (forces.viscous)
+        add_viscous_forces(tile, state.nodes.data(), state.velocity.data(),
+                           step.stiffness_damping, forces.viscous);
+    }
   }
 } // namespace quoin

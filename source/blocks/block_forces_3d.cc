@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/archive.h>
 #include <quoin/blocks/block_forces_3d.h>
 
 #include <algorithm>
@@ -459,5 +460,24 @@ namespace quoin
         break;
     }
     return k;
+  }
+
+  void BlockForces<3>::prepare(State<3> &state) const
+  {
+    if (!state.find<PlasticHistory>())
+      state.add<PlasticHistory>() = initial_history();
+  }
+
+  void BlockForces<3>::add_forces(const StepContext &step, State<3> &state,
+                                  const NodeForces<3> &forces)
+  {
+    for (unsigned int tile = 0; tile < n_tiles(); ++tile)
+    {
+      state.energy.plastic += add_forces(
+          tile, state.nodes.data(), state.get<PlasticHistory>(), forces.force);
+      if (forces.viscous)
+        add_viscous_forces(tile, state.nodes.data(), state.velocity.data(),
+                           step.stiffness_damping, forces.viscous);
+    }
   }
 } // namespace quoin

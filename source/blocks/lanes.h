@@ -305,7 +305,10 @@ namespace quoin
           const auto &second = *reinterpret_cast<const Lanes<4>::Value *>(
               base + scale * offset[l + 4]);
 #ifdef __AVX512F__
-          row[l] = _mm512_insertf64x4(_mm512_castpd256_pd512(first), second, 1);
+          // With a mask of all lanes, because GCC 12 warns of the undefined
+          // value in the intrinsic without one.
+          row[l] = _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(first),
+                                            second, 1);
 #else
           row[l]
               = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);

@@ -4,7 +4,8 @@
 #ifndef quoin_source_blocks_strip_kernel_h
 #define quoin_source_blocks_strip_kernel_h
 
-#include <quoin/base/state.h>
+#include <quoin/base/node_vector.h>
+#include <quoin/materials/plastic_history.h>
 
 #include <algorithm>
 #include <cstddef>

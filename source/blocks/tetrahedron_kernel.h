@@ -4,7 +4,7 @@
 #ifndef quoin_source_blocks_tetrahedron_kernel_h
 #define quoin_source_blocks_tetrahedron_kernel_h
 
-#include <quoin/base/state.h>
+#include <quoin/base/node_vector.h>
 #include <quoin/blocks/tetrahedron.h>
 
 #include <cstddef>

@@ -193,7 +193,7 @@ namespace quoin
   inline DEAL_II_ALWAYS_INLINE void
   BlockContacts::add_point_forces(const unsigned int i, const unsigned int k,
                                   const Geometry &g, ContactState &contacts,
-                                  const Viscous *viscous, Losses &losses)
+                                  const double viscous_beta, Losses &losses)
   {
     ContactPair &pair    = contacts.pairs[i];
     ContactPoint &point  = pair.points[k];
@@ -237,9 +237,9 @@ namespace quoin
     const double f[2]  = { sigma * normal[0] + tau * normal[1],
                            sigma * normal[1] - tau * normal[0] };
     spread(a, b, g.lower[k], g.upper[k], f, compact_force.data());
-    if (viscous && point.state != JointState::open
+    if (viscous_beta > 0. && point.state != JointState::open
         && point.state != JointState::slipping)
-      add_viscous_forces(a, b, g, k, viscous->beta, stiffness);
+      add_viscous_forces(a, b, g, k, viscous_beta, stiffness);
   }
 
   void BlockContacts::add_viscous_forces(const Edge &a, const Edge &b,
@@ -260,11 +260,13 @@ namespace quoin
     spread(a, b, g.lower[k], g.upper[k], f, compact_viscous.data());
   }
 
-  void BlockContacts::add_forces(ContactState &contacts, EnergyAccounts &energy,
-                                 NodeVector<2> *force, const Viscous *viscous)
+  void BlockContacts::add_forces(const StepContext &step, State<2> &state,
+                                 const NodeForces<2> &forces)
   {
-    if (viscous)
-      gather_velocities(viscous->velocity);
+    ContactState &contacts    = state.get<ContactState>();
+    const double viscous_beta = forces.viscous ? step.stiffness_damping : 0.;
+    if (viscous_beta > 0.)
+      gather_velocities(state.velocity.data());
     Losses losses;
     updates += contacts.pairs.size();
     begin_contacts(contacts);
@@ -282,15 +284,15 @@ namespace quoin
         continue;
       }
       for (unsigned int k = 0; k < 2; ++k)
-        add_point_forces(i, k, g, contacts, viscous, losses);
+        add_point_forces(i, k, g, contacts, viscous_beta, losses);
     }
-    energy.friction += losses.friction;
-    energy.fracture += losses.fracture;
-    energy.contact += losses.contact;
+    state.energy.friction += losses.friction;
+    state.energy.fracture += losses.fracture;
+    state.energy.contact += losses.contact;
 
-    scatter(compact_force, force);
-    if (viscous)
-      scatter(compact_viscous, viscous->force);
+    scatter(compact_force, forces.force);
+    if (viscous_beta > 0.)
+      scatter(compact_viscous, forces.viscous);
   }
 
   void BlockContacts::spread(const Edge &a, const Edge &b, const double lower,
@@ -466,9 +468,10 @@ namespace quoin
     return false;
   }
 
-  double BlockContacts::stored_energy(const ContactState &contacts) const
+  double BlockContacts::stored_energy(const State<2> &state) const
   {
-    double energy = 0.;
+    const ContactState &contacts = state.get<ContactState>();
+    double energy                = 0.;
     for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
     {
       const ContactPair &pair = contacts.pairs[i];

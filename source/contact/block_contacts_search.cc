@@ -5,6 +5,7 @@
 // joints, searches pairs and prepares for them. block_contacts.cc has the
 // forces.
 
+#include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/wall_clock.h>
@@ -44,9 +45,10 @@ namespace quoin
   } // namespace
 
   BlockContacts::BlockContacts(const NodeMap<2> &node_map,
+                               const MatchedJoints &joints,
                                const ContactModel &model)
-    : node_map(node_map), exchange(node_map.exchange()), edges(node_map),
-      parameters(model.parameters), thickness(model.thickness),
+    : node_map(node_map), joints(joints), exchange(node_map.exchange()),
+      edges(node_map), parameters(model.parameters), thickness(model.thickness),
       skin(model.parameters.skin), materials(model.materials),
       material_of_group(model.material_of_group)
   {
@@ -129,21 +131,24 @@ namespace quoin
         }
   }
 
-  void BlockContacts::update(State<2> &state, const MatchedJoints &joints,
-                             const double dt)
+  void BlockContacts::prepare(State<2> &state) const
   {
-    ContactState &contacts = state.contacts;
+    state.add<ContactState>();
+  }
+
+  void BlockContacts::update(const StepContext &step, State<2> &state)
+  {
+    ContactState &contacts = state.get<ContactState>();
     if (state.step >= contacts.next_check)
-      check(state, joints, dt);
+      check(state, step.dt);
     if (bound_search != contacts.n_searches)
       bind(contacts);
     gather(state);
   }
 
-  void BlockContacts::check(State<2> &state, const MatchedJoints &joints,
-                            const double dt)
+  void BlockContacts::check(State<2> &state, const double dt)
   {
-    ContactState &contacts = state.contacts;
+    ContactState &contacts = state.get<ContactState>();
     const bool is_first    = contacts.n_searches == 0;
     contacts.handed_over.resize(edges.interfaces().size(), 0);
     double moved = 0., fastest = 0.;
@@ -157,7 +162,7 @@ namespace quoin
       moved                     = std::max(moved, dx * dx + dy * dy);
       fastest                   = std::max(fastest, v[0] * v[0] + v[1] * v[1]);
     }
-    const bool changed = hand_over(state, joints) || search_is_due;
+    const bool changed = hand_over(state) || search_is_due;
     search_is_due      = false;
     double values[4]   = { std::sqrt(moved), std::sqrt(fastest),
                          changed ? 1. : 0., deepest_ratio };
@@ -186,23 +191,24 @@ namespace quoin
     contacts.next_check   = state.step + static_cast<std::uint64_t>(interval);
   }
 
-  bool BlockContacts::hand_over(State<2> &state, const MatchedJoints &joints)
+  bool BlockContacts::hand_over(State<2> &state)
   {
-    ContactState &contacts = state.contacts;
+    ContactState &contacts = state.get<ContactState>();
+    JointHistory &history  = state.get<JointHistory>();
     const auto interface   = [&](const unsigned int segment)
-    { return edges.interface_of_face(joint_number(joints, segment)); };
+    { return edges.interface_of_face(joint_number(segment)); };
 
     bool changed = false;
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
-      if (state.joints.handed_over[i]
-          || (state.joints.state[2 * i] == JointState::intact
-              && state.joints.state[2 * i + 1] == JointState::intact)
+      if (history.handed_over[i]
+          || (history.state[2 * i] == JointState::intact
+              && history.state[2 * i + 1] == JointState::intact)
           || edges.interfaces()[interface(i)].has_tip)
         continue;
       const double limit
           = parameters.handover
-            * edges[edges.edges_of_face(joint_number(joints, i))[0]].length;
+            * edges[edges.edges_of_face(joint_number(i))[0]].length;
       const auto gaps = joints.gaps(state.nodes.data(), i);
       for (const auto &[opening, slip] : gaps)
         if (opening > limit || std::abs(slip) > limit)
@@ -216,13 +222,13 @@ namespace quoin
 
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
-      if (state.joints.handed_over[i] || !contacts.handed_over[interface(i)])
+      if (history.handed_over[i] || !contacts.handed_over[interface(i)])
         continue;
       const auto &segment = joints.segment(i);
       const auto gaps     = joints.gaps(state.nodes.data(), i);
       ContactPair pair;
-      pair.lower       = edges.edges_of_face(joint_number(joints, i))[0];
-      pair.upper       = edges.edges_of_face(joint_number(joints, i))[1];
+      pair.lower       = edges.edges_of_face(joint_number(i))[0];
+      pair.upper       = edges.edges_of_face(joint_number(i))[1];
       pair.set         = segment.set;
       pair.active      = 1;
       pair.was_joint   = 1;
@@ -232,23 +238,22 @@ namespace quoin
       {
         const unsigned int p  = 2 * i + k;
         ContactPoint &point   = pair.points[k];
-        point.normal_traction = state.joints.normal_traction[p];
-        point.shear_traction  = state.joints.shear_traction[p];
-        point.plastic_slip    = state.joints.plastic_slip[p];
-        point.plastic_opening = state.joints.plastic_opening[p];
-        for (unsigned int j = 0; j < state.joints.n_internal; ++j)
-          point.internal[j]
-              = state.joints.internal[p * state.joints.n_internal + j];
-        point.state = state.joints.state[p];
+        point.normal_traction = history.normal_traction[p];
+        point.shear_traction  = history.shear_traction[p];
+        point.plastic_slip    = history.plastic_slip[p];
+        point.plastic_opening = history.plastic_opening[p];
+        for (unsigned int j = 0; j < history.n_internal; ++j)
+          point.internal[j] = history.internal[p * history.n_internal + j];
+        point.state = history.state[p];
         point.area  = segment.area[k];
         // The vertices that coincided; the upper edge runs backwards.
-        point.anchor_lower              = k;
-        point.anchor_upper              = 1. - k;
-        state.joints.normal_traction[p] = 0.;
-        state.joints.shear_traction[p]  = 0.;
-        state.joints.state[p]           = JointState::open;
+        point.anchor_lower         = k;
+        point.anchor_upper         = 1. - k;
+        history.normal_traction[p] = 0.;
+        history.shear_traction[p]  = 0.;
+        history.state[p]           = JointState::open;
       }
-      state.joints.handed_over[i] = 1;
+      history.handed_over[i] = 1;
       contacts.pairs.push_back(pair);
     }
     return true;
@@ -296,7 +301,7 @@ namespace quoin
 
   void BlockContacts::search(State<2> &state)
   {
-    ContactState &contacts = state.contacts;
+    ContactState &contacts = state.get<ContactState>();
     AlignedArray<std::uint8_t> left_out(node_map.table().n_blocks());
     for (unsigned int b = 0; b < left_out.size(); ++b)
       left_out[b] = state.is_absent(b);
@@ -565,7 +570,7 @@ namespace quoin
     double told[5]{};
     if (rank == teller)
     {
-      const ContactPair &pair = state.contacts.pairs[deepest_pair];
+      const ContactPair &pair = state.get<ContactState>().pairs[deepest_pair];
       const Edge &edge        = local_edges[pair_edges[deepest_pair][0]];
       told[0]                 = edges[pair.lower].block;
       told[1]                 = edges[pair.upper].block;

@@ -4,7 +4,8 @@
 #ifndef quoin_source_contact_joint_points_h
 #define quoin_source_contact_joint_points_h
 
-#include <quoin/base/state.h>
+#include <quoin/joints/joint_history.h>
+#include <quoin/operators/energy_accounts.h>
 #include <quoin/joints/joint_law.h>
 
 #include <type_traits>

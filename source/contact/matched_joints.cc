@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/contact/matched_joints.h>
@@ -175,6 +176,22 @@ namespace quoin
         }
       }
     }
+  }
+
+  void MatchedJoints::prepare(State<2> &state) const
+  {
+    if (!state.find<JointHistory>())
+      state.add<JointHistory>() = make_history();
+  }
+
+  void MatchedJoints::add_forces(const StepContext &step, State<2> &state,
+                                 const NodeForces<2> &forces)
+  {
+    JointHistory &history = state.get<JointHistory>();
+    add_forces(state.nodes.data(), history, state.energy, forces.force);
+    if (forces.viscous)
+      add_viscous_forces(state.nodes.data(), history, state.velocity.data(),
+                         step.stiffness_damping, forces.viscous);
   }
 
   void MatchedJoints::add_forces(const NodeRecord<2> *nodes,

@@ -33,10 +33,11 @@ namespace quoin
 
   void Construction::restart()
   {
-    restore(0, State<2>());
+    restore(0, ConstructionState());
   }
 
-  void Construction::restore(const unsigned int n, const State<2> &state)
+  void Construction::restore(const unsigned int n,
+                             const ConstructionState &state)
   {
     const auto changed = [&](const unsigned int last)
     {
@@ -45,23 +46,22 @@ namespace quoin
                          { return step.changes || step.places; });
     };
     if (n != n_begun && (changed(n) || changed(n_begun)))
-      model.set_properties(n == 0 ? at_start : steps[n - 1].properties,
-                           state.construction);
+      model.set_properties(n == 0 ? at_start : steps[n - 1].properties, state);
     n_begun = n;
   }
 
   void Construction::resume_stage(const unsigned int stage,
                                   const State<2> &state)
   {
-    restore(stage + 1, state);
+    restore(stage + 1, state.get<ConstructionState>());
   }
 
   void Construction::begin_stage(const unsigned int stage, Solver &solver,
                                  State<2> &state)
   {
     const Step &step = steps[stage];
-    restore(stage, state);
-    auto &held = state.construction.held;
+    restore(stage, state.get<ConstructionState>());
+    auto &held = state.get<ConstructionState>().held;
     for (HeldForces &item : held)
       item.left = item.left_at_end;
     held.erase(std::remove_if(held.begin(), held.end(),
@@ -87,8 +87,10 @@ namespace quoin
 
   double Construction::stored_energy(const State<2> &state) const
   {
-    return model.blocks().strain_energy(state.nodes.data(), state.plastic)
-           + model.joints().stored_energy(state.nodes.data(), state.joints);
+    return model.blocks().strain_energy(state.nodes.data(),
+                                        state.get<PlasticHistory>())
+           + model.joints().stored_energy(state.nodes.data(),
+                                          state.get<JointHistory>());
   }
 
   std::vector<unsigned int>
@@ -125,9 +127,10 @@ namespace quoin
       const bool upper = step.excavate[face.groups[1]];
       if (!lower && !upper)
         continue;
-      joints.add_traction_forces(i, state.nodes.data(), state.joints,
+      joints.add_traction_forces(i, state.nodes.data(),
+                                 state.get<JointHistory>(),
                                  lower != upper ? held.data() : lost.data());
-      joints.let_go(i, state.joints);
+      joints.let_go(i, state.get<JointHistory>());
     }
     // Their energy at the present positions has what these forces did over the
     // last half step. On blocks that stay those that take their place will
@@ -153,11 +156,11 @@ namespace quoin
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         item.force.push_back(absent[i] ? 0. : held[i].v[d]);
-    for (HeldForces &earlier : state.construction.held)
+    for (HeldForces &earlier : state.get<ConstructionState>().held)
       for (std::size_t i = 0; i < earlier.force.size(); ++i)
         if (absent[i / 2])
           earlier.force[i] = 0.;
-    state.construction.held.push_back(std::move(item));
+    state.get<ConstructionState>().held.push_back(std::move(item));
   }
 
   void Construction::place(const Step &step, State<2> &state) const
@@ -167,8 +170,8 @@ namespace quoin
     for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
       if (is_in(b, step.fill))
         state.block_marks[b] = block_mark::present;
-    model.forget_initial_stress(step.fill, state.construction);
-    model.set_properties(model.properties(), state.construction);
+    model.forget_initial_stress(step.fill, state.get<ConstructionState>());
+    model.set_properties(model.properties(), state.get<ConstructionState>());
     for (const unsigned int block : blocks)
       model.place(block, state);
     model.exchange().update_ghosts(state.nodes.data());
@@ -178,7 +181,7 @@ namespace quoin
           = model.nodes().joint_faces()[joints.segment(i).face];
       if ((step.fill[face.groups[0]] || step.fill[face.groups[1]])
           && !model.is_at_absent_block(i, state))
-        joints.begin_anew(i, state.nodes.data(), state.joints);
+        joints.begin_anew(i, state.nodes.data(), state.get<JointHistory>());
     }
   }
 } // namespace quoin

@@ -22,7 +22,7 @@ namespace quoin
     }
   } // namespace
 
-  ExplicitSolver::ExplicitSolver(const Model &model,
+  ExplicitSolver::ExplicitSolver(Model &model,
                                  const std::vector<LoadParameters> &loads,
                                  const std::vector<StageParameters> &stages,
                                  std::unique_ptr<FarField> far_field,
@@ -32,10 +32,17 @@ namespace quoin
   {
     const NodeExchange &exchange = model.exchange();
     if (model.large_displacements())
-      block_contacts = std::make_unique<BlockContacts>(model.nodes(),
-                                                       model.contact_model());
+      block_contacts = std::make_unique<BlockContacts>(
+          model.nodes(), model.joints(), model.contact_model());
     force.assign(exchange.n_local(), NodeVector<2>{ { 0., 0. } });
     viscous_force.assign(exchange.n_local(), NodeVector<2>{ { 0., 0. } });
+  }
+
+  void ExplicitSolver::prepare(State<2> &state) const
+  {
+    Solver::prepare(state);
+    if (block_contacts)
+      block_contacts->prepare(state);
   }
 
   StepContext ExplicitSolver::step_context(const State<2> &state) const
@@ -66,57 +73,88 @@ namespace quoin
     if (stage.slows_loads() && requests.balance)
       requests.energies = true;
     const StepContext context = step_context(state);
-
+    const bool step_changes   = context.dt_before != context.dt;
+    time_shares.begin_step();
     state.energy += state.pending;
     state.pending = EnergyAccounts();
     if (requests.balance && box.is_given())
       look_at_box(state);
 
-    apply_forces(state, context);
-    if (state.stage_step == 0 && !loads_begun.empty())
-      find_begun_forces(context);
-
-    double strain = 0., joint = 0.;
-    if (requests.energies)
-    {
-      plastic_now = state.plastic;
-      model.blocks().update(state.nodes.data(), plastic_now);
-      strain = model.blocks().strain_energy(state.nodes.data(), plastic_now);
-      joint  = model.joints().stored_energy(state.nodes.data(), state.joints);
-      if (block_contacts)
-        joint += block_contacts->stored_energy(state.contacts);
-    }
-    const bool step_changes = context.dt_before != context.dt;
+    // 1. Who touches whom.
+    update_neighbours(state, context);
+    // 2. Forces of contacts, joints and loads on all nodes.
+    add_forces(state, context);
+    const StoredEnergies stored
+        = requests.energies ? stored_energies(state) : StoredEnergies();
     if (requests.energies || step_changes)
     {
       velocity_before = state.velocity;
-      rigid_before    = state.rigid_blocks;
+      rigid_before    = state.get<RigidBlockStates>();
     }
-    advance_blocks(state, context, requests);
+    StepSums sums;
+    if (requests.balance)
+      sums.applied = applied_force();
+    // 3. Blocks tile by tile, and the motion of the nodes that are theirs.
+    advance_tiles(state, context, requests, sums);
+    // 4. Nodes of blocks that several processes share.
+    advance_shared_nodes(state, context, requests, sums);
+    // 5. Rigid blocks.
+    advance_rigid_blocks(state, context, sums);
+    // 6. Nodes whose motion is not their own.
     move_constrained_nodes(state, context);
-    model.rigid_blocks().follow_nodes(rigid_stage, state);
+    // 7. Work and energies; positions go to the processes that mirror them.
+    book_energies(state, context, requests, stored, sums);
+    exchange_positions(state);
+    advance_time(state, context, requests);
+  }
 
-    for (const NodalLoad *load : loads_on)
+  ExplicitSolver::StoredEnergies
+  ExplicitSolver::stored_energies(const State<2> &state)
+  {
+    // The cells' internal variables are still those of the step before.
+    plastic_now = state.get<PlasticHistory>();
+    model.blocks().update(state.nodes.data(), plastic_now);
+    StoredEnergies stored;
+    stored.strain
+        = model.blocks().strain_energy(state.nodes.data(), plastic_now);
+    for (const ForceOperator<2> *forces : forces_on)
+      stored.joint += forces->stored_energy(state);
+    time_shares.lap(phases.energies);
+    return stored;
+  }
+
+  void ExplicitSolver::book_energies(State<2> &state,
+                                     const StepContext &context,
+                                     const Requests &requests,
+                                     const StoredEnergies &stored,
+                                     const StepSums &sums)
+  {
+    for (const ForceOperator<2> *forces : forces_on)
       state.pending.external
           += 0.5 * context.dt
-             * load->power(context.begin, state.velocity.data());
-    state.pending.external
-        += 0.5 * context.dt
-           * release.power(state.load_time, state.velocity.data());
-
+             * forces->external_power(context.begin, state.velocity.data());
+    state.energy.damping += sums.damping.before;
+    state.pending.damping += sums.damping.after;
+    if (stage.damping == DampingType::adaptive)
+      adapt_damping(state, sums.damping);
     if (requests.energies)
-      find_energies(state, strain, joint, kinetic_energy(state, context));
-    if (step_changes)
+      find_energies(state, stored.strain, stored.joint,
+                    kinetic_energy(state, context));
+    if (context.dt_before != context.dt)
       account_for_new_step(state, context);
     if (requests.balance)
     {
-      find_ratio(state, context, applied_force, unbalanced_force);
+      find_ratio(state, context, sums.applied, sums.unbalanced);
       check_finite(state);
       check_cells(state);
     }
+    time_shares.lap(phases.energies);
+  }
 
+  void ExplicitSolver::exchange_positions(State<2> &state)
+  {
     model.exchange().update_ghosts(state.nodes.data());
-    advance_time(state, context, requests);
+    time_shares.lap(phases.exchange);
   }
 
   double ExplicitSolver::kinetic_energy(const State<2> &state,
@@ -125,7 +163,7 @@ namespace quoin
     // 1/2 m v- v+, or the same half work on from v- if the step changed.
     const double part = context.dt_before / context.dt_velocity;
     double kinetic    = model.rigid_blocks().kinetic_energy(
-           rigid_stage, rigid_before, state.rigid_blocks, part);
+           rigid_stage, rigid_before, state.get<RigidBlockStates>(), part);
     for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -166,9 +204,10 @@ namespace quoin
     const double factor
         = (context.dt_before * context.dt_before - context.dt * context.dt)
           / (8. * context.dt_velocity * context.dt_velocity);
-    double energy = factor
-                    * model.rigid_blocks().squared_change(
-                        rigid_stage, rigid_before, state.rigid_blocks);
+    double energy
+        = factor
+          * model.rigid_blocks().squared_change(rigid_stage, rigid_before,
+                                                state.get<RigidBlockStates>());
     for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -178,39 +217,38 @@ namespace quoin
     state.pending.external += energy;
   }
 
-  void ExplicitSolver::apply_forces(State<2> &state, const StepContext &context)
+  NodeForces<2> ExplicitSolver::node_forces()
   {
-    const bool viscous = stage.stiffness_coefficient > 0.;
-    if (viscous)
-      model.exchange().update_ghosts(state.velocity.data());
+    return { force.data(), stage.stiffness_coefficient > 0.
+                               ? viscous_force.data()
+                               : nullptr };
+  }
 
-    // First, because what it hands over are joints no more.
-    if (block_contacts)
+  void ExplicitSolver::update_neighbours(State<2> &state,
+                                         const StepContext &context)
+  {
+    if (stage.stiffness_coefficient > 0.)
     {
-      block_contacts->update(state, model.joints(), context.dt);
-      const BlockContacts::Viscous rates{ state.velocity.data(),
-                                          stage.stiffness_coefficient,
-                                          viscous_force.data() };
-      block_contacts->add_forces(state.contacts, state.energy, force.data(),
-                                 viscous ? &rates : nullptr);
+      model.exchange().update_ghosts(state.velocity.data());
+      time_shares.lap(phases.exchange);
     }
-    model.joints().add_forces(state.nodes.data(), state.joints, state.energy,
-                              force.data());
-    if (viscous)
-      model.joints().add_viscous_forces(
-          state.nodes.data(), state.joints, state.velocity.data(),
-          stage.stiffness_coefficient, viscous_force.data());
-    for (const NodalLoad *load : loads_on)
+    // Before any force, because what is handed over to contacts is no joint
+    // from then on.
+    for (ForceOperator<2> *forces : forces_on)
+      forces->update(context, state);
+    time_shares.lap(phases.search);
+  }
+
+  void ExplicitSolver::add_forces(State<2> &state, const StepContext &context)
+  {
+    for (std::size_t i = 0; i < forces_on.size(); ++i)
     {
-      load->add_forces(context.begin, force.data());
-      state.energy.external
-          += 0.5 * context.dt_before
-             * load->power(context.begin, state.velocity.data());
+      forces_on[i]->add_forces(context, state, node_forces());
+      state.energy.external += 0.5 * context.dt_before
+                               * forces_on[i]->external_power(
+                                   context.begin, state.velocity.data());
+      time_shares.lap(force_phases[i]);
     }
-    release.add_forces(state.load_time, force.data());
-    state.energy.external
-        += 0.5 * context.dt_before
-           * release.power(state.load_time, state.velocity.data());
     // What acts on partners is their owners' affair.
     for (unsigned int i
          = model.exchange().n_owned() + model.exchange().n_shared();
@@ -219,6 +257,8 @@ namespace quoin
     for (const NodeRange &range : removed_nodes)
       std::fill(&force[range.begin], &force[range.begin] + range.size(),
                 NodeVector<2>{ { 0., 0. } });
+    if (state.stage_step == 0 && !loads_begun.empty())
+      find_begun_forces(context);
   }
 
   void ExplicitSolver::find_begun_forces(const StepContext &context)
@@ -227,7 +267,7 @@ namespace quoin
                                       NodeVector<2>{ { 0., 0. } });
     for (const NodalLoad *load : loads_begun)
       load->add_forces(context.begin, begun.data());
-    for (CapturedNode &node : captured)
+    for (CapturedNode<2> &node : captured)
       node.begun = begun[node.node];
   }
 
@@ -237,18 +277,20 @@ namespace quoin
                                        NodeVector<2>{ { 0., 0. } });
     if (block_contacts)
     {
-      state.contacts.next_check = -1; // search nothing for a mere look
-      block_contacts->update(state, model.joints(), time_step);
-      block_contacts->add_forces(state.contacts, state.energy, unused.data());
+      state.get<ContactState>().next_check = -1; // search nothing to look
+      const StepContext context            = step_context(state);
+      block_contacts->update(context, state);
+      block_contacts->add_forces(context, state, { unused.data(), nullptr });
     }
-    model.joints().add_forces(state.nodes.data(), state.joints, state.energy,
-                              unused.data());
-    state.energy.plastic
-        += model.blocks().update(state.nodes.data(), state.plastic);
+    model.joints().add_forces(state.nodes.data(), state.get<JointHistory>(),
+                              state.energy, unused.data());
+    state.energy.plastic += model.blocks().update(state.nodes.data(),
+                                                  state.get<PlasticHistory>());
     model.exchange().update_ghosts(state.velocity.data());
   }
 
-  void ExplicitSolver::capture(CapturedNode &node, const State<2> &state) const
+  void ExplicitSolver::capture(CapturedNode<2> &node,
+                               const State<2> &state) const
   {
     node.force   = force[node.node];
     node.viscous = viscous_force[node.node];
@@ -268,90 +310,90 @@ namespace quoin
     std::fill(begin, begin + exchange.n_shared(), NodeVector<2>{ { 0., 0. } });
   }
 
-  void ExplicitSolver::find_applied_force()
+  double ExplicitSolver::applied_force() const
   {
     AlignedArray<NodeVector<2>> total = force;
     model.exchange().add_to_owners(total.data());
+    double sum = 0.;
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
-      applied_force += norm(total[i]);
+      sum += norm(total[i]);
+    return sum;
   }
 
-  void ExplicitSolver::advance_blocks(State<2> &state,
-                                      const StepContext &context,
-                                      const Requests &requests)
+  void ExplicitSolver::advance_range(
+      State<2> &state, const StepContext &context, const Requests &requests,
+      const NodeRange &range, const unsigned int first_captured, StepSums &sums)
   {
-    const BlockForces<2> &blocks = model.blocks();
-    const bool viscous           = stage.stiffness_coefficient > 0.;
-    const bool damped            = stage.damping != DampingType::none;
+    for (unsigned int c = captured_begin[first_captured];
+         c < captured_begin[first_captured + 1]; ++c)
+      capture(captured[c], state);
+    if (requests.balance)
+      for (std::size_t i = range.begin; i < range.end; ++i)
+        if (inverse_mass[i] > 0.)
+          sums.unbalanced += norm(force[i]);
+    if (stage.damping == DampingType::none)
+      return advance_nodes(
+          range.begin, range.end, state.nodes.data(), state.velocity.data(),
+          force.data(), inverse_mass.data(), context.dt_velocity, context.dt);
     const DampingFactors factors{ context.local_damping, context.mass_damping,
                                   context.dt_before, context.dt_velocity };
-
-    applied_force = unbalanced_force = 0.;
-    if (requests.balance)
-      find_applied_force();
-
     const auto advance = stage.damping == DampingType::adaptive
                              ? advance_nodes_damped<true, 2>
                              : advance_nodes_damped<false, 2>;
-    DampingWork work;
-    const auto advance_range
-        = [&](const NodeRange &range, const unsigned int first_captured,
-              const unsigned int last_captured)
-    {
-      for (unsigned int c = first_captured; c < last_captured; ++c)
-        capture(captured[c], state);
-      if (requests.balance)
-        for (std::size_t i = range.begin; i < range.end; ++i)
-          if (inverse_mass[i] > 0.)
-            unbalanced_force += norm(force[i]);
-      if (!damped)
-        return advance_nodes(
-            range.begin, range.end, state.nodes.data(), state.velocity.data(),
-            force.data(), inverse_mass.data(), context.dt_velocity, context.dt);
-      const DampingWork w = advance(range.begin, range.end, state.nodes.data(),
-                                    state.velocity.data(), force.data(),
-                                    viscous_force.data(), moving_mass.data(),
-                                    inverse_mass.data(), factors, context.dt);
-      work.before += w.before;
-      work.after += w.after;
-      work.mass_power += w.mass_power;
-      work.kinetic_change += w.kinetic_change;
-    };
+    sums.damping += advance(range.begin, range.end, state.nodes.data(),
+                            state.velocity.data(), force.data(),
+                            viscous_force.data(), moving_mass.data(),
+                            inverse_mass.data(), factors, context.dt);
+  }
+
+  void ExplicitSolver::advance_tiles(State<2> &state,
+                                     const StepContext &context,
+                                     const Requests &requests, StepSums &sums)
+  {
+    const BlockForces<2> &blocks = model.blocks();
+    PlasticHistory &plastic      = state.get<PlasticHistory>();
+    const bool viscous           = stage.stiffness_coefficient > 0.;
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
     {
-      state.energy.plastic += blocks.add_forces(tile, state.nodes.data(),
-                                                state.plastic, force.data());
+      state.energy.plastic
+          += blocks.add_forces(tile, state.nodes.data(), plastic, force.data());
       if (viscous)
         blocks.add_viscous_forces(
             tile, state.nodes.data(), state.velocity.data(),
             stage.stiffness_coefficient, viscous_force.data());
-      advance_range(blocks.tile_nodes(tile), captured_begin[tile],
-                    captured_begin[tile + 1]);
+      advance_range(state, context, requests, blocks.tile_nodes(tile), tile,
+                    sums);
     }
+    time_shares.lap(phases.blocks);
+  }
 
-    // Nodes of blocks that are distributed over ranks, once all forces on them
-    // are there.
+  void ExplicitSolver::advance_shared_nodes(State<2> &state,
+                                            const StepContext &context,
+                                            const Requests &requests,
+                                            StepSums &sums)
+  {
     add_shared_forces(force);
-    if (viscous)
+    if (stage.stiffness_coefficient > 0.)
       add_shared_forces(viscous_force);
+    time_shares.lap(phases.exchange);
     advance_range(
+        state, context, requests,
         { model.nodes().first_shared_node(), model.n_deformable_nodes() },
-        captured_begin[blocks.n_tiles()], captured_begin[blocks.n_tiles() + 1]);
+        model.blocks().n_tiles(), sums);
+    time_shares.lap(phases.blocks);
+  }
 
+  void ExplicitSolver::advance_rigid_blocks(State<2> &state,
+                                            const StepContext &context,
+                                            StepSums &sums)
+  {
     for (unsigned int c = captured_begin.back(); c < captured.size(); ++c)
       capture(captured[c], state);
-    const RigidBlockWork rigid = model.rigid_blocks().advance(
+    const RigidBlockWork work = model.rigid_blocks().advance(
         context, rigid_stage, force.data(), viscous_force.data(), state);
-    work.before += rigid.damping.before;
-    work.after += rigid.damping.after;
-    work.mass_power += rigid.damping.mass_power;
-    work.kinetic_change += rigid.damping.kinetic_change;
-    unbalanced_force += rigid.unbalanced;
-
-    state.energy.damping += work.before;
-    state.pending.damping += work.after;
-    if (stage.damping == DampingType::adaptive)
-      adapt_damping(state, work);
+    sums.damping += work.damping;
+    sums.unbalanced += work.unbalanced;
+    time_shares.lap(phases.rigid_blocks);
   }
 
   void ExplicitSolver::move_constrained_nodes(State<2> &state,
@@ -359,7 +401,7 @@ namespace quoin
   {
     // Components that nobody prescribes move by their own force.
     const double a = 0.5 * context.dt_velocity * context.mass_damping;
-    for (const CapturedNode &node : captured)
+    for (const CapturedNode<2> &node : captured)
       for (unsigned int d = 0; d < 2; ++d)
       {
         if (node.owner[d])
@@ -377,13 +419,20 @@ namespace quoin
         state.velocity[node.node].v[d] = v1;
         state.nodes[node.node].u[d] = node.displacement.v[d] + context.dt * v1;
       }
-    for (NodeConstraint *constraint : constraints_on)
-      constraint->correct(context, captured, state);
-    for (NodeConstraint *constraint : constraints_on)
-      constraint->account(context, captured, state);
+    time_shares.lap(phases.loads);
+    for (std::size_t i = 0; i < constraints_on.size(); ++i)
+    {
+      constraints_on[i]->correct(context, captured, state);
+      time_shares.lap(constraint_phases[i]);
+    }
+    for (std::size_t i = 0; i < constraints_on.size(); ++i)
+    {
+      constraints_on[i]->account(context, captured, state);
+      time_shares.lap(constraint_phases[i]);
+    }
 
     if (stage.stiffness_coefficient > 0.)
-      for (const CapturedNode &node : captured)
+      for (const CapturedNode<2> &node : captured)
         for (unsigned int d = 0; d < 2; ++d)
         {
           const double v1 = state.velocity[node.node].v[d];
@@ -391,6 +440,8 @@ namespace quoin
                                   * node.velocity.v[d];
           state.pending.damping -= 0.5 * context.dt * node.viscous.v[d] * v1;
         }
+    model.rigid_blocks().follow_nodes(rigid_stage, state);
+    time_shares.lap(phases.loads);
   }
 
   void ExplicitSolver::adapt_damping(State<2> &state,
@@ -415,13 +466,13 @@ namespace quoin
     // What nobody moves is unbalanced by its force, what a viscous boundary or
     // a far field moves by what accelerates it, the rest of which is what that
     // load does; what is prescribed is held by a reaction.
-    for (const CapturedNode &node : captured)
+    for (const CapturedNode<2> &node : captured)
     {
       NodeVector<2> free{ { 0., 0. } }, held{ { 0., 0. } };
       for (unsigned int d = 0; d < 2; ++d)
         if (!node.owner[d])
           free.v[d] = node.force.v[d];
-        else if (node.owner[d]->holds()[d] || node.owner[d]->is_global())
+        else if (node.owner[d]->holds()[d] || node.owner[d]->is_rigid_body())
           held.v[d] = node.force.v[d];
         else
         {
@@ -435,7 +486,7 @@ namespace quoin
     }
     double sums[2] = { applied, unbalanced };
     MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM, communicator);
-    for (const NodeConstraint *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : constraints_on)
       sums[1] += constraint->unbalanced();
     state.unbalanced_ratio = sums[0] > 0. ? sums[1] / sums[0] : 0.;
   }

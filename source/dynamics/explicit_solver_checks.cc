@@ -12,15 +12,15 @@ namespace quoin
 {
   void ExplicitSolver::find_moved_blocks(const State<2> &state)
   {
-    std::vector<const NodeConstraint *> moving(constraints_on.begin(),
-                                               constraints_on.end());
+    std::vector<const MotionConstraint<2> *> moving(constraints_on.begin(),
+                                                    constraints_on.end());
     for (std::size_t i = state.stage; i < all_stages.size(); ++i)
       for (const auto &constraint : all_constraints)
         if (names_load(all_stages[i], constraint->name()))
           moving.push_back(constraint.get());
     const NodeMap<2> &nodes = model.nodes();
     moved_blocks.assign(nodes.block_parts().size(), false);
-    for (const NodeConstraint *constraint : moving)
+    for (const MotionConstraint<2> *constraint : moving)
       for (const unsigned int node : constraint->nodes())
         moved_blocks[nodes.find_part(nodes.block_of_node(node))] = true;
   }
@@ -60,18 +60,20 @@ namespace quoin
   void ExplicitSolver::remove_blocks(const std::vector<BlockOutside> &found,
                                      State<2> &state)
   {
-    state.energy.plastic
-        += model.blocks().update(state.nodes.data(), state.plastic);
+    state.energy.plastic += model.blocks().update(state.nodes.data(),
+                                                  state.get<PlasticHistory>());
     const auto stored = [&]()
     {
-      return model.joints().stored_energy(state.nodes.data(), state.joints)
-             + model.blocks().strain_energy(state.nodes.data(), state.plastic);
+      return model.joints().stored_energy(state.nodes.data(),
+                                          state.get<JointHistory>())
+             + model.blocks().strain_energy(state.nodes.data(),
+                                            state.get<PlasticHistory>());
     };
     double energy = stored();
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
       // What a removed block is still tied to was removed with it.
       if (model.is_at_absent_block(i, state))
-        model.joints().let_go(i, state.joints);
+        model.joints().let_go(i, state.get<JointHistory>());
     std::vector<unsigned int> blocks;
     for (const BlockOutside &block : found)
       if (block.removed && model.block_nodes(block.block).size() > 0)
@@ -82,7 +84,7 @@ namespace quoin
     state.energy.external -= energy - stored();
     hold_removed_blocks(state);
     model.exchange().update_ghosts(state.nodes.data());
-    block_contacts->search_anew(state.contacts);
+    block_contacts->search_anew(state.get<ContactState>());
   }
 
   double ExplicitSolver::stop_blocks(const std::vector<unsigned int> &blocks,
@@ -94,11 +96,11 @@ namespace quoin
     // energy, so both are taken as they would be after that half step.
     const double dt          = state.previous_time_step;
     const RigidBlocks &rigid = model.rigid_blocks();
-    const auto rigid_0       = state.rigid_blocks;
+    const auto rigid_0       = state.get<RigidBlockStates>();
     double energy            = 0.;
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
-      model.blocks().add_forces(tile, state.nodes.data(), state.plastic,
-                                force.data());
+      model.blocks().add_forces(tile, state.nodes.data(),
+                                state.get<PlasticHistory>(), force.data());
     for (const unsigned int block : blocks)
     {
       const NodeRange range = model.block_nodes(block);
@@ -112,13 +114,14 @@ namespace quoin
           v = 0.;
         }
       if (is_rigid)
-        std::fill_n(state.rigid_blocks[model.rigid_number(block)].velocity, 3,
-                    0.);
+        std::fill_n(
+            state.get<RigidBlockStates>()[model.rigid_number(block)].velocity,
+            3, 0.);
     }
     std::fill(force.begin(), force.end(), NodeVector<2>{ { 0., 0. } });
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
     return energy + rigid.kinetic_energy(rigid_stage, rigid_0, rigid_0, 1.)
-           - rigid.kinetic_energy(rigid_stage, state.rigid_blocks,
-                                  state.rigid_blocks, 1.);
+           - rigid.kinetic_energy(rigid_stage, state.get<RigidBlockStates>(),
+                                  state.get<RigidBlockStates>(), 1.);
   }
 } // namespace quoin

@@ -21,8 +21,9 @@ namespace quoin
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
     const auto kinetic = [&]()
     {
-      double energy = rigid.kinetic_energy(rigid_stage, state.rigid_blocks,
-                                           state.rigid_blocks, 1.);
+      double energy
+          = rigid.kinetic_energy(rigid_stage, state.get<RigidBlockStates>(),
+                                 state.get<RigidBlockStates>(), 1.);
       for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
         energy += 0.5 * mass[i]
                   * (state.velocity[i].v[0] * state.velocity[i].v[0]
@@ -60,23 +61,23 @@ namespace quoin
 
     double eigenvalue
         = model.stability().largest_eigenvalue(mass, rigid_stage.mass_factor);
-    for (const NodeConstraint *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : constraints_on)
       eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
     critical_step = StableTimeStep<2>::critical(
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
-    for (NodeConstraint *constraint : constraints_on)
-      if (auto *platen = dynamic_cast<Platen *>(constraint))
+    for (MotionConstraint<2> *constraint : constraints_on)
+      if (constraint->is_rigid_body())
       {
         double inertia = 0., spin = 0.;
         for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
         {
           const RigidBlocks::Block &block = rigid.block(b);
-          if (!std::binary_search(platen->nodes().begin(),
-                                  platen->nodes().end(), block.begin))
+          if (!std::binary_search(constraint->nodes().begin(),
+                                  constraint->nodes().end(), block.begin))
             continue;
           const double factor = rigid_stage.mass_factor[b];
-          const double omega  = state.rigid_blocks[b].velocity[2];
+          const double omega  = state.get<RigidBlockStates>()[b].velocity[2];
           inertia += factor * (block.inertia - block.lumped_inertia);
           // Velocities of nodes are those of the mean arm of the last step.
           const double mean
@@ -84,7 +85,7 @@ namespace quoin
           spin
               += factor * (block.inertia - mean * block.lumped_inertia) * omega;
         }
-        platen->set_mass(mass, inertia, spin);
+        constraint->set_mass(mass, inertia, spin);
       }
   }
 
@@ -93,21 +94,21 @@ namespace quoin
     // Nodes of absent blocks stay where they are, whatever moves others.
     const auto absent = model.absent_nodes(state);
     std::vector<unsigned int> nodes;
-    for (const NodeConstraint *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : constraints_on)
       std::copy_if(constraint->nodes().begin(), constraint->nodes().end(),
                    std::back_inserter(nodes),
                    [&](const unsigned int node) { return !absent[node]; });
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 
-    captured.assign(nodes.size(), CapturedNode{});
+    captured.assign(nodes.size(), CapturedNode<2>{});
     for (unsigned int c = 0; c < nodes.size(); ++c)
     {
       captured[c].node     = nodes[c];
       captured[c].mass     = mass[nodes[c]];
       captured[c].owner[0] = captured[c].owner[1] = nullptr;
     }
-    for (NodeConstraint *constraint : constraints_on)
+    for (MotionConstraint<2> *constraint : constraints_on)
     {
       std::vector<unsigned int> positions;
       for (const unsigned int node : constraint->nodes())
@@ -147,9 +148,28 @@ namespace quoin
     hold_removed_blocks(state);
   }
 
+  void ExplicitSolver::collect_operators()
+  {
+    forces_on.clear();
+    if (block_contacts)
+      forces_on.push_back(block_contacts.get());
+    forces_on.push_back(&model.joints());
+    for (NodalLoad &load : all_loads)
+      if (names_load(stage, load.name()))
+        forces_on.push_back(&load);
+    forces_on.push_back(&release);
+
+    force_phases.clear();
+    for (const ForceOperator<2> *forces : forces_on)
+      force_phases.push_back(time_shares.phase(forces->kind()));
+    constraint_phases.clear();
+    for (const MotionConstraint<2> *constraint : constraints_on)
+      constraint_phases.push_back(time_shares.phase(constraint->phase()));
+  }
+
   double ExplicitSolver::release_duration(const State<2> &state) const
   {
-    const auto &held = state.construction.held;
+    const auto &held = state.get<ConstructionState>().held;
     if (std::none_of(held.begin(), held.end(),
                      [](const HeldForces &item)
                      { return item.left != item.left_at_end; }))
@@ -177,7 +197,8 @@ namespace quoin
     activate(new_stage, state);
     scale_masses(stage, state);
     release = Release(state, stage, release_duration(state));
-    make_room(state);
+    prepare(state);
+    collect_operators();
     loads_begun.clear();
     for (const NodalLoad *load : loads_on)
       if (previous && !names_load(*previous, load->name()))
@@ -185,11 +206,9 @@ namespace quoin
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
       {
-        constraint->rest();
-        if (const auto *platen = dynamic_cast<const Platen *>(constraint.get()))
-          state.platens[platen->index()].active = false;
+        constraint->rest(state);
       }
-    for (NodeConstraint *constraint : constraints_on)
+    for (MotionConstraint<2> *constraint : constraints_on)
       constraint->begin_stage(state,
                               previous && acts_in(*constraint, *previous));
     collect_constrained_nodes(state);
@@ -206,10 +225,11 @@ namespace quoin
                                     State<2> &state)
   {
     activate(resumed, state);
+    collect_operators();
     const State<2> saved = state;
     scale_masses(stage, state);
     release = Release(state, stage, release_duration(state));
-    for (NodeConstraint *constraint : constraints_on)
+    for (MotionConstraint<2> *constraint : constraints_on)
       constraint->resume_stage(state);
     state = saved;
     collect_constrained_nodes(state);

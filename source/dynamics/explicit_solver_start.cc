@@ -34,13 +34,16 @@ namespace quoin
     AlignedArray<NodeVector<2>> unused(state.nodes.size(),
                                        NodeVector<2>{ { 0., 0. } });
     EnergyAccounts lost;
-    model.joints().add_forces(moving.nodes.data(), moving.joints, lost,
-                              unused.data());
-    lost.plastic = model.blocks().update(moving.nodes.data(), moving.plastic);
+    model.joints().add_forces(moving.nodes.data(), moving.get<JointHistory>(),
+                              lost, unused.data());
+    lost.plastic      = model.blocks().update(moving.nodes.data(),
+                                              moving.get<PlasticHistory>());
     const auto stored = [&](const State<2> &s)
     {
-      return model.blocks().strain_energy(s.nodes.data(), s.plastic)
-             + model.joints().stored_energy(s.nodes.data(), s.joints);
+      return model.blocks().strain_energy(s.nodes.data(),
+                                          s.get<PlasticHistory>())
+             + model.joints().stored_energy(s.nodes.data(),
+                                            s.get<JointHistory>());
     };
     double energy = stored(moving) - stored(rest) + lost.friction
                     + lost.fracture + lost.crushing + lost.plastic;

@@ -3,7 +3,6 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/free_bodies.h>
-#include <quoin/loads/platen.h>
 
 #include <deal.II/base/symmetric_tensor.h>
 
@@ -44,7 +43,7 @@ namespace quoin
     public:
       /** @p with_drag: whether dashpots and the like hold. Collective. */
       Bodies(const Model &model,
-             const std::vector<NodeConstraint *> &constraints,
+             const std::vector<MotionConstraint<2> *> &constraints,
              const State<2> &state, bool with_drag);
 
       /** The block that stands for the body of @p block. */
@@ -68,12 +67,12 @@ namespace quoin
       }
 
     private:
-      std::array<bool, 3> held_by(const NodeConstraint &constraint,
+      std::array<bool, 3> held_by(const MotionConstraint<2> &constraint,
                                   bool with_drag) const;
-      void add_nodes(const NodeConstraint &constraint,
+      void add_nodes(const MotionConstraint<2> &constraint,
                      const std::array<bool, 3> &holds);
       /** All blocks of a platen are one body, its rows go to the first. */
-      void add_platen(const NodeConstraint &constraint,
+      void add_platen(const MotionConstraint<2> &constraint,
                       const std::array<bool, 3> &holds);
       void add_joints(const State<2> &state);
       void add(const unsigned int block, const Gram &gram)
@@ -94,7 +93,7 @@ namespace quoin
     };
 
     Bodies::Bodies(const Model &model,
-                   const std::vector<NodeConstraint *> &constraints,
+                   const std::vector<MotionConstraint<2> *> &constraints,
                    const State<2> &state, const bool with_drag)
       : nodes(model.nodes()), n(nodes.table().n_blocks()),
         origin(nodes.table().box[0]), size(nodes.diagonal()),
@@ -103,14 +102,14 @@ namespace quoin
     {
       for (unsigned int b = 0; b < n; ++b)
         sets.make_set(b);
-      for (const NodeConstraint *constraint : constraints)
+      for (const MotionConstraint<2> *constraint : constraints)
       {
         const auto holds = held_by(*constraint, with_drag);
         // A platen that may turn holds its centre alone, which lies within
         // its nodes; a single row each is what it prescribes.
-        if (!constraint->is_global() || holds[2])
+        if (!constraint->is_rigid_body() || holds[2])
           add_nodes(*constraint, holds);
-        if (constraint->is_global())
+        if (constraint->is_rigid_body())
           add_platen(*constraint, holds);
       }
       dealii::Utilities::MPI::sum(entries, nodes.communicator(), entries);
@@ -121,17 +120,17 @@ namespace quoin
               += entries[6 * b + k];
     }
 
-    std::array<bool, 3> Bodies::held_by(const NodeConstraint &constraint,
+    std::array<bool, 3> Bodies::held_by(const MotionConstraint<2> &constraint,
                                         const bool with_drag) const
     {
       const bool drags
-          = with_drag && constraint.moves_all() && !constraint.is_global();
+          = with_drag && constraint.kind() == MotionKind::absorbing;
       if (constraint.supports() || drags)
         return { { true, true, false } };
       return constraint.holds();
     }
 
-    void Bodies::add_nodes(const NodeConstraint &constraint,
+    void Bodies::add_nodes(const MotionConstraint<2> &constraint,
                            const std::array<bool, 3> &holds)
     {
       for (const unsigned int node : constraint.nodes())
@@ -148,7 +147,7 @@ namespace quoin
       }
     }
 
-    void Bodies::add_platen(const NodeConstraint &constraint,
+    void Bodies::add_platen(const MotionConstraint<2> &constraint,
                             const std::array<bool, 3> &holds)
     {
       std::set<unsigned int> blocks;
@@ -190,7 +189,7 @@ namespace quoin
 
     /** Adds the force and the moment of a platen, in equal parts at its nodes,
         to @p force and, of each body, @p sums. */
-    void add_platen(const Platen &platen, const TimePoint &time,
+    void add_platen(const MotionConstraint<2> &platen, const TimePoint &time,
                     const Model &model, Bodies &bodies,
                     std::vector<NodeVector<2>> &force,
                     std::vector<double> &sums)
@@ -200,8 +199,8 @@ namespace quoin
                   unsigned(platen.nodes().size()), exchange.communicator());
       std::array<double, 3> part{};
       for (unsigned int d = 0; d < 3; ++d)
-        if (platen.parts()[d].quantity == LoadQuantity::force)
-          part[d] = platen.parts()[d].value(time) / n;
+        if ((*platen.parts())[d].quantity == LoadQuantity::force)
+          part[d] = (*platen.parts())[d].value(time) / n;
       for (const unsigned int i : platen.nodes())
       {
         for (unsigned int d = 0; d < 2; ++d)
@@ -212,10 +211,10 @@ namespace quoin
       }
     }
 
-    std::vector<Push> pushes(const Model &model, Bodies &bodies,
-                             const std::vector<NodeConstraint *> &constraints,
-                             const std::vector<const NodalLoad *> &loads,
-                             const TimePoint &time)
+    std::vector<Push>
+    pushes(const Model &model, Bodies &bodies,
+           const std::vector<MotionConstraint<2> *> &constraints,
+           const std::vector<const NodalLoad *> &loads, const TimePoint &time)
     {
       const NodeMap<2> &nodes      = model.nodes();
       const unsigned int n_blocks  = nodes.table().n_blocks();
@@ -225,9 +224,9 @@ namespace quoin
       for (const NodalLoad *load : loads)
         load->add_forces(time, force.data());
       std::vector<double> sums(4 * n_blocks, 0.);
-      for (const NodeConstraint *constraint : constraints)
-        if (const auto *platen = dynamic_cast<const Platen *>(constraint))
-          add_platen(*platen, time, model, bodies, force, sums);
+      for (const MotionConstraint<2> *constraint : constraints)
+        if (constraint->is_rigid_body())
+          add_platen(*constraint, time, model, bodies, force, sums);
       for (unsigned int i = 0; i < exchange.n_owned(); ++i)
       {
         const auto r    = bodies.arm(nodes.point(i));
@@ -275,9 +274,10 @@ namespace quoin
     }
   } // namespace
 
-  void check_no_free_bodies(const Model &model,
-                            const std::vector<NodeConstraint *> &constraints,
-                            const std::string &stage, const State<2> &state)
+  void
+  check_no_free_bodies(const Model &model,
+                       const std::vector<MotionConstraint<2> *> &constraints,
+                       const std::string &stage, const State<2> &state)
   {
     Bodies bodies(model, constraints, state, false);
     for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
@@ -299,7 +299,7 @@ namespace quoin
 
   std::vector<PushedBody>
   find_pushed_bodies(const Model &model,
-                     const std::vector<NodeConstraint *> &constraints,
+                     const std::vector<MotionConstraint<2> *> &constraints,
                      const std::vector<const NodalLoad *> &loads,
                      const std::vector<TimePoint> &times, const State<2> &state)
   {

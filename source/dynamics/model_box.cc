@@ -130,7 +130,7 @@ namespace quoin
     const MatchedJoints &joints = model.joints();
     std::vector<std::array<unsigned int, 2>> tied;
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
-      if (!state.joints.handed_over[i])
+      if (!state.get<JointHistory>().handed_over[i])
         tied.push_back(
             model.nodes().joint_faces()[joints.segment(i).face].blocks);
     std::sort(tied.begin(), tied.end());

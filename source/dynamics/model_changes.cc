@@ -52,7 +52,8 @@ namespace quoin
     if (table().is_rigid[block])
     {
       if (range.size() > 0)
-        std::fill_n(state.rigid_blocks[rigid_number(block)].velocity, 3, 0.);
+        std::fill_n(state.get<RigidBlockStates>()[rigid_number(block)].velocity,
+                    3, 0.);
       return;
     }
     double mean[2]{};
@@ -61,7 +62,7 @@ namespace quoin
         mean[d] += state.nodes[i].u[d] / range.size();
     for (std::size_t i = range.begin; i < range.end; ++i)
       std::copy(mean, mean + 2, state.nodes[i].u);
-    forget_yielding(block, state.plastic);
+    forget_yielding(block, state.get<PlasticHistory>());
   }
 
   void Model::place(const unsigned int block, State<2> &state) const
@@ -71,7 +72,7 @@ namespace quoin
     for (std::size_t i = range.begin; i < range.end; ++i)
       std::fill_n(state.nodes[i].u, 2, 0.);
     if (table().is_rigid[block] && range.size() > 0)
-      state.rigid_blocks[rigid_number(block)] = RigidBlockState();
+      state.get<RigidBlockStates>()[rigid_number(block)] = RigidBlockState();
   }
 
   bool Model::is_at_absent_block(const unsigned int segment,
@@ -127,21 +128,22 @@ namespace quoin
         laws.back().emplace(material.elastic, *material.strength,
                             parameters.plane);
     }
-    auto &initial = state.construction.initial_stress;
+    auto &initial           = state.get<ConstructionState>().initial_stress;
+    PlasticHistory &plastic = state.get<PlasticHistory>();
     for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
       const unsigned int m
           = properties.material_of_group[node_map.group_of_cell(c)];
       const MohrCoulomb *law = laws[m] ? &*laws[m] : nullptr;
       const auto before      = block_forces.stress_of_strain(
-               state.nodes.data(), state.plastic, c, block_forces.cell_stiffness(c),
+               state.nodes.data(), plastic, c, block_forces.cell_stiffness(c),
                block_forces.cell_law(c));
       const auto after = block_forces.stress_of_strain(
-          state.nodes.data(), state.plastic, c, stiffness[m], law);
+          state.nodes.data(), plastic, c, stiffness[m], law);
       const auto bears = block_forces.initial_stress(c);
       if (law)
         for (unsigned int k = 0; k < 4; ++k)
-          state.plastic.cells[c].stress[k] = bears[k] + before[k];
+          plastic.cells[c].stress[k] = bears[k] + before[k];
       if (before == after)
         continue;
       if (initial.empty())
@@ -150,7 +152,8 @@ namespace quoin
       for (unsigned int k = 0; k < 4; ++k)
         initial[4 * c + k] = bears[k] + before[k] - after[k];
     }
-    set_properties(properties, state.construction);
-    matched_joints.keep_tractions(state.nodes.data(), state.joints);
+    set_properties(properties, state.get<ConstructionState>());
+    matched_joints.keep_tractions(state.nodes.data(),
+                                  state.get<JointHistory>());
   }
 } // namespace quoin

@@ -3,6 +3,7 @@
 
 // What a Model is at the start: stresses, positions, histories.
 
+#include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/loads/nodal_load.h>
@@ -105,17 +106,18 @@ namespace quoin
   State<2> Model::initial_state() const
   {
     State<2> state;
-    state.rigid_blocks.resize(rigid.n_blocks());
+    state.add<RigidBlockStates>().resize(rigid.n_blocks());
+    state.add<ConstructionState>();
     for (unsigned int i = 0; i < node_map.n_local(); ++i)
     {
       const auto &p = node_map.point(i);
       state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
     }
     state.velocity.assign(node_map.n_local(), NodeVector<2>{ { 0., 0. } });
-    state.plastic = block_forces.initial_history();
-    state.joints  = matched_joints.make_history();
+    block_forces.prepare(state);
+    matched_joints.prepare(state);
     if (!face_stress.empty())
-      matched_joints.initialise(face_stress, state, state.joints);
+      matched_joints.initialise(face_stress, state, state.get<JointHistory>());
     if (std::find(absent_group.begin(), absent_group.end(), true)
         == absent_group.end())
       return state;
@@ -124,7 +126,7 @@ namespace quoin
                                                       : block_mark::present);
     for (unsigned int i = 0; i < matched_joints.n_segments(); ++i)
       if (is_at_absent_block(i, state))
-        matched_joints.let_go(i, state.joints);
+        matched_joints.let_go(i, state.get<JointHistory>());
     return state;
   }
 } // namespace quoin

@@ -13,7 +13,7 @@ namespace quoin
                    const double duration)
     : is_linear(stage.releases_linearly), ramp_duration(duration)
   {
-    const auto &held = state.construction.held;
+    const auto &held = state.get<ConstructionState>().held;
     for (const HeldForces &item : held)
       is_changing = is_changing || item.left != item.left_at_end;
     const std::size_t n = held.empty() ? 0 : held.front().force.size() / 2;
@@ -49,10 +49,10 @@ namespace quoin
         force[item.node].v[d] += item.start[d] + s * item.change[d];
   }
 
-  double Release::power(const double load_time,
-                        const NodeVector<2> *velocity) const
+  double Release::external_power(const TimePoint &time,
+                                 const NodeVector<2> *velocity) const
   {
-    const double s = share(load_time);
+    const double s = share(time.stage);
     double result  = 0.;
     for (const NodalForce &item : forces)
       for (unsigned int d = 0; d < 2; ++d)

@@ -218,7 +218,7 @@ namespace quoin
           force[i] = viscous[i] = NodeVector<2>{ { 0., 0. } };
         continue;
       }
-      RigidBlockState &rigid = state.rigid_blocks[b];
+      RigidBlockState &rigid = state.get<RigidBlockStates>()[b];
       const Direction before(rigid.rotation);
       const auto [f, fv] = take_forces(block, before, force, viscous);
 
@@ -261,7 +261,7 @@ namespace quoin
       if (!stage.held[b])
         continue;
       const Block &block     = blocks[b];
-      RigidBlockState &rigid = state.rigid_blocks[b];
+      RigidBlockState &rigid = state.get<RigidBlockStates>()[b];
       const double before    = rigid.rotation;
 
       // Lumped masses have the centroid of the block.

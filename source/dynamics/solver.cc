@@ -24,20 +24,16 @@ namespace quoin
 
   double Energies::throughput() const
   {
-    return std::max(
-        { std::abs(accounts.external), kinetic + strain + joint + far_field,
-          accounts.friction + accounts.fracture + accounts.crushing
-              + accounts.plastic + accounts.damping + accounts.viscous
-              + accounts.contact + accounts.radiated });
+    return std::max({ std::abs(accounts.sum(EnergyKind::given)), stored(),
+                      accounts.sum(EnergyKind::dissipated) });
   }
 
-  Solver::Solver(const Model &model, const std::vector<LoadParameters> &loads,
+  Solver::Solver(Model &model, const std::vector<LoadParameters> &loads,
                  std::unique_ptr<FarField> far_field,
                  std::unique_ptr<StaticFarField> static_field)
     : model(model), communicator(model.exchange().communicator())
   {
-    const auto &nodes      = model.nodes();
-    unsigned int n_platens = 0, n_viscous = 0;
+    const auto &nodes = model.nodes();
     for (const LoadParameters &load : loads)
     {
       known_loads.push_back(load.name);
@@ -45,16 +41,14 @@ namespace quoin
       {
       case LoadType::viscous_boundary:
         all_constraints.push_back(std::make_unique<ViscousBoundary>(
-            load, n_viscous++, nodes, model.impedance_beyond(load),
-            model.thickness()));
+            load, nodes, model.impedance_beyond(load), model.thickness()));
         break;
       case LoadType::prescribed_motion:
         all_constraints.push_back(
             std::make_unique<PrescribedMotion>(load, nodes));
         break;
       case LoadType::platen:
-        all_constraints.push_back(
-            std::make_unique<Platen>(load, n_platens++, nodes));
+        all_constraints.push_back(std::make_unique<Platen>(load, nodes));
         break;
       case LoadType::traction:
       case LoadType::gravity:
@@ -76,15 +70,14 @@ namespace quoin
     make_free_fields(loads);
 
     const State<2> rest = model.initial_state();
-    strain_at_start
-        = sum(model.blocks().strain_energy(rest.nodes.data(), rest.plastic));
-    joint_at_start
-        = sum(model.joints().stored_energy(rest.nodes.data(), rest.joints));
+    strain_at_start     = sum(model.blocks().strain_energy(
+            rest.nodes.data(), rest.get<PlasticHistory>()));
+    joint_at_start      = sum(model.joints().stored_energy(
+             rest.nodes.data(), rest.get<JointHistory>()));
   }
 
   void Solver::make_free_fields(const std::vector<LoadParameters> &loads)
   {
-    unsigned int n = 0;
     for (const LoadParameters &load : loads)
     {
       if (load.type != LoadType::free_field)
@@ -101,7 +94,7 @@ namespace quoin
                            "model, of type 'viscous boundary' or 'prescribed "
                            "motion'.");
       all_constraints.push_back(std::make_unique<FreeFieldBoundary>(
-          load, n++, model.nodes(), model.free_field_ground(),
+          load, model.nodes(), model.free_field_ground(),
           FreeFieldBase{ *base, model.impedance_beyond(*base) }));
     }
   }
@@ -127,7 +120,7 @@ namespace quoin
 
     if (stage.slows_loads())
       for (const auto &constraint : all_constraints)
-        if (constraint->moves_all() && !constraint->is_global()
+        if (constraint->kind() == MotionKind::absorbing
             && acts_in(*constraint, stage))
           throw InputError("section 'Stages/" + stage.name
                            + "': 'Kinetic energy limit' slows loads down, "
@@ -136,17 +129,13 @@ namespace quoin
                            + "' cannot follow. Set it to 0, or use that load "
                              "in another stage.");
 
-    // Viscous boundaries act first, so that what is prescribed prevails;
-    // platens last, because they move all of their nodes.
     constraints_on.clear();
-    for (const int rank : { 0, 1, 2 })
-      for (const auto &constraint : all_constraints)
-        if (acts_in(*constraint, stage)
-            && rank
-                   == (dynamic_cast<Platen *>(constraint.get()) ? 2
-                       : constraint->moves_all()                ? 0
-                                                                : 1))
-          constraints_on.push_back(constraint.get());
+    for (const auto &constraint : all_constraints)
+      if (acts_in(*constraint, stage))
+        constraints_on.push_back(constraint.get());
+    std::stable_sort(constraints_on.begin(), constraints_on.end(),
+                     [](const auto *a, const auto *b)
+                     { return a->kind() < b->kind(); });
     refuse_absent_nodes(state);
     loads_on.clear();
     for (NodalLoad &load : all_loads)
@@ -160,7 +149,7 @@ namespace quoin
       check_no_free_bodies(model, constraints_on, stage.name, state);
   }
 
-  bool Solver::acts_in(const NodeConstraint &constraint,
+  bool Solver::acts_in(const MotionConstraint<2> &constraint,
                        const StageParameters &any) const
   {
     const bool is_static = any.end == StageEnd::static_ratio;
@@ -169,28 +158,18 @@ namespace quoin
            && !(&constraint == static_far && far && !is_static);
   }
 
-  void Solver::make_room(State<2> &state) const
+  void Solver::prepare(State<2> &state) const
   {
-    unsigned int n_platens = 0, n_viscous = 0, n_free_fields = 0;
     for (const auto &constraint : all_constraints)
-    {
-      n_platens += dynamic_cast<const Platen *>(constraint.get()) != nullptr;
-      n_viscous
-          += dynamic_cast<const ViscousBoundary *>(constraint.get()) != nullptr;
-      n_free_fields += dynamic_cast<const FreeFieldBoundary *>(constraint.get())
-                       != nullptr;
-    }
-    state.platens.resize(n_platens);
-    state.viscous_boundaries.resize(n_viscous);
-    state.free_fields.resize(n_free_fields);
+      constraint->prepare(state);
   }
 
   void Solver::refuse_absent_nodes(const State<2> &state) const
   {
     const auto absent = model.absent_nodes(state);
-    for (const NodeConstraint *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : constraints_on)
     {
-      if (dynamic_cast<const PrescribedMotion *>(constraint))
+      if (constraint->kind() == MotionKind::prescribed)
         continue;
       unsigned int first = NodeMap<2>::none;
       for (const unsigned int node : constraint->nodes())
@@ -216,7 +195,7 @@ namespace quoin
     constexpr unsigned int none = NodeMap<2>::none;
     const RigidBlocks &rigid    = model.rigid_blocks();
     std::vector<bool> held(rigid.n_blocks(), false);
-    for (const NodeConstraint *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : constraints_on)
     {
       const auto &nodes  = constraint->nodes();
       unsigned int wrong = none;
@@ -228,7 +207,8 @@ namespace quoin
         const auto last = std::lower_bound(first, nodes.end(), block.end);
         if (first == last)
           continue;
-        if (constraint->is_global() && last - first == block.end - block.begin)
+        if (constraint->is_rigid_body()
+            && last - first == block.end - block.begin)
           held[b] = true;
         else if (wrong == none)
           wrong = *first;
@@ -250,10 +230,10 @@ namespace quoin
 
   void Solver::refuse_shared_platens() const
   {
-    for (const NodeConstraint *a : constraints_on)
-      for (const NodeConstraint *b : constraints_on)
+    for (const MotionConstraint<2> *a : constraints_on)
+      for (const MotionConstraint<2> *b : constraints_on)
       {
-        if (a == b || !a->is_global() || !b->is_global())
+        if (a == b || !a->is_rigid_body() || !b->is_rigid_body())
           continue;
         std::vector<unsigned int> shared;
         std::set_intersection(a->nodes().begin(), a->nodes().end(),
@@ -289,9 +269,15 @@ namespace quoin
       constraint->save(state);
   }
 
+  void Solver::discard_saved(State<2> &state) const
+  {
+    if (far)
+      state.get<FarFieldState>().history.clear();
+  }
+
   void Solver::check_start(const State<2> &state) const
   {
-    for (const NodeConstraint *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : constraints_on)
       constraint->check_start({ 0., state.time });
   }
 
@@ -302,7 +288,7 @@ namespace quoin
     std::vector<std::array<double, 3>> result;
     for (const NodalLoad *load : loads_on)
       result.push_back(load->amplitude(time));
-    for (const NodeConstraint *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : constraints_on)
       result.push_back(constraint->values(time));
     return result;
   }
@@ -331,32 +317,18 @@ namespace quoin
   void Solver::find_energies(const State<2> &state, const double strain,
                              const double joint, const double kinetic)
   {
-    double values[12] = { kinetic,
-                          strain,
-                          joint,
-                          state.energy.external,
-                          state.energy.friction,
-                          state.energy.fracture,
-                          state.energy.crushing,
-                          state.energy.damping,
-                          state.energy.viscous,
-                          state.energy.contact,
-                          state.energy.radiated,
-                          state.energy.plastic };
-    MPI_Allreduce(MPI_IN_PLACE, values, 12, MPI_DOUBLE, MPI_SUM, communicator);
-    last_energies.kinetic           = values[0];
-    last_energies.strain            = values[1] - strain_at_start;
-    last_energies.joint             = values[2] - joint_at_start;
-    last_energies.far_field         = state.static_far_field.stored;
-    last_energies.accounts.external = values[3];
-    last_energies.accounts.friction = values[4];
-    last_energies.accounts.fracture = values[5];
-    last_energies.accounts.crushing = values[6];
-    last_energies.accounts.damping  = values[7];
-    last_energies.accounts.viscous  = values[8];
-    last_energies.accounts.contact  = values[9];
-    last_energies.accounts.radiated = values[10];
-    last_energies.accounts.plastic  = values[11];
+    std::vector<double> values = { kinetic, strain, joint };
+    for (const EnergyAccount &account : energy_accounts)
+      values.push_back(state.energy.*account.value);
+    dealii::Utilities::MPI::sum(values, communicator, values);
+    last_energies.kinetic = values[0];
+    last_energies.strain  = values[1] - strain_at_start;
+    last_energies.joint   = values[2] - joint_at_start;
+    if (const auto *beyond = state.find<StaticFarFieldState>())
+      last_energies.far_field = beyond->stored;
+    unsigned int i = 3;
+    for (const EnergyAccount &account : energy_accounts)
+      last_energies.accounts.*account.value = values[i++];
   }
 
   std::array<double, 3> Solver::resultant(const std::string &load) const
@@ -367,7 +339,7 @@ namespace quoin
           && (constraint.get() != far || !static_far_field_acts()))
       {
         auto values = constraint->resultant();
-        if (!constraint->is_global())
+        if (!constraint->is_rigid_body())
           MPI_Allreduce(MPI_IN_PLACE, values.data(), 3, MPI_DOUBLE, MPI_SUM,
                         communicator);
         return values;

@@ -69,7 +69,7 @@ namespace quoin
     };
     for (const NodalLoad *load : loads_on)
       check(load->amplitude(time), load->name());
-    for (const NodeConstraint *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : constraints_on)
       check(constraint->values(time), constraint->name());
   }
 
@@ -84,7 +84,7 @@ namespace quoin
       const double length = nodes.point(a).distance(nodes.point(b));
       const auto gaps     = joints.gaps(state.nodes.data(), i);
       for (unsigned int k = 0; k < 2; ++k)
-        if (state.joints.normal_traction[2 * i + k] < 0.)
+        if (state.get<JointHistory>().normal_traction[2 * i + k] < 0.)
           largest = std::max(largest, std::abs(gaps[k][1]) / length);
     }
     return dealii::Utilities::MPI::max(largest, communicator);

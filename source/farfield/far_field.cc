@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/tdbem/plain_vector.h>
@@ -105,24 +106,29 @@ namespace quoin
 
   // -- stages ----------------------------------------------------------------
 
+  void FarField::prepare(State<2> &state) const
+  {
+    state.add<FarFieldState>();
+  }
+
   void FarField::begin_stage(State<2> &state, const bool continues)
   {
     prepared_step = 0.;
     if (!continues)
-      state.far_field = FarFieldState();
+      state.get<FarFieldState>() = FarFieldState();
     resume_stage(state);
   }
 
   void FarField::save(State<2> &state) const
   {
-    if (!marching || !state.far_field.active)
+    if (!marching || !state.get<FarFieldState>().active)
       return;
-    state.far_field.history = history->save();
+    state.get<FarFieldState>().history = history->save();
   }
 
   void FarField::resume_stage(const State<2> &state)
   {
-    const FarFieldState &far = state.far_field;
+    const FarFieldState &far = state.get<FarFieldState>();
     prepared_step            = 0.;
     if (!far.active || far.history.empty())
       return;
@@ -133,10 +139,10 @@ namespace quoin
     find_incident(far);
   }
 
-  void FarField::start(const std::vector<CapturedNode> &captured,
+  void FarField::start(const std::vector<CapturedNode<2>> &captured,
                        State<2> &state)
   {
-    FarFieldState &far = state.far_field;
+    FarFieldState &far = state.get<FarFieldState>();
     far                = FarFieldState();
     far.active         = true;
     for (const unsigned int c : captured_positions)
@@ -194,7 +200,7 @@ namespace quoin
 
   void FarField::begin_element_step(State<2> &state)
   {
-    FarFieldState &far = state.far_field;
+    FarFieldState &far = state.get<FarFieldState>();
     find_incident(far);
     const double begin  = double(far.n_steps) * dt;
     const VectorXd rest = marching->condensed_load(
@@ -210,7 +216,7 @@ namespace quoin
 
   void FarField::finish_element_step(State<2> &state)
   {
-    FarFieldState &far  = state.far_field;
+    FarFieldState &far  = state.get<FarFieldState>();
     const double begin  = double(far.n_steps) * dt;
     const VectorXd last = to_eigen(far.last_motion);
     // Motion by the mean velocities, so that the tractions are those that
@@ -258,8 +264,8 @@ namespace quoin
 
   // -- a step of the blocks --------------------------------------------------
 
-  void FarField::prepare(const StepContext &step,
-                         const std::vector<CapturedNode> &captured)
+  void FarField::prepare_step(const StepContext &step,
+                              const std::vector<CapturedNode<2>> &captured)
   {
     const bool same = step.dt_velocity == prepared_step
                       && step.mass_damping == prepared_damping;
@@ -282,21 +288,21 @@ namespace quoin
   }
 
   void FarField::correct(const StepContext &step,
-                         const std::vector<CapturedNode> &captured,
+                         const std::vector<CapturedNode<2>> &captured,
                          State<2> &state)
   {
-    FarFieldState &far = state.far_field;
+    FarFieldState &far = state.get<FarFieldState>();
     const bool begins  = !far.active;
     if (begins)
       start(captured, state);
-    prepare(step, captured);
+    prepare_step(step, captured);
     const bool staggered = problem.scheme == CouplingScheme::staggered;
     from_rest            = staggered && begins;
     if (far.substep == 0 && !from_rest)
       begin_element_step(state);
 
     const double a  = 0.5 * step.dt_velocity * step.mass_damping;
-    const auto node = [&](const unsigned int k) -> const CapturedNode &
+    const auto node = [&](const unsigned int k) -> const CapturedNode<2> &
     { return captured[captured_positions[k]]; };
     const auto free_velocity = [&](const unsigned int k)
     {
@@ -356,16 +362,16 @@ namespace quoin
   }
 
   void FarField::account(const StepContext &step,
-                         const std::vector<CapturedNode> &captured,
+                         const std::vector<CapturedNode<2>> &captured,
                          State<2> &state)
   {
-    FarFieldState &far = state.far_field;
+    FarFieldState &far = state.get<FarFieldState>();
     last_resultant     = {};
     for (unsigned int k = 0; k < node_list.size(); ++k)
     {
-      const CapturedNode &before = captured[captured_positions[k]];
-      const auto traction        = transfer.force(k, p);
-      double reaction[2]         = { 0., 0. };
+      const CapturedNode<2> &before = captured[captured_positions[k]];
+      const auto traction           = transfer.force(k, p);
+      double reaction[2]            = { 0., 0. };
       for (unsigned int d = 0; d < 2; ++d)
       {
         if (before.owner[d] != this)
@@ -417,23 +423,24 @@ namespace quoin
 
   FarField::Ledger FarField::ledger(const State<2> &state) const
   {
-    const FarFieldState &far = state.far_field;
+    const FarFieldState &far = state.get<FarFieldState>();
     return { far.radiated, far.substep_sum, far.incident, far.given,
              far.mismatch };
   }
 
   VectorXd FarField::displacement(const State<2> &state) const
   {
-    VectorXd u = to_eigen(state.far_field.displacement);
+    VectorXd u = to_eigen(state.get<FarFieldState>().displacement);
     if (incident_displacement)
-      u += incident_displacement(double(state.far_field.n_steps) * dt);
+      u += incident_displacement(double(state.get<FarFieldState>().n_steps)
+                                 * dt);
     return u;
   }
 
   VectorXd FarField::velocity(const State<2> &state) const
   {
-    VectorXd v         = to_eigen(state.far_field.velocity);
-    const auto n_steps = double(state.far_field.n_steps);
+    VectorXd v         = to_eigen(state.get<FarFieldState>().velocity);
+    const auto n_steps = double(state.get<FarFieldState>().n_steps);
     if (incident_displacement && n_steps > 0.)
       v += (incident_displacement(n_steps * dt)
             - incident_displacement((n_steps - 1.) * dt))
@@ -443,8 +450,8 @@ namespace quoin
 
   VectorXd FarField::traction(const State<2> &state) const
   {
-    VectorXd t         = to_eigen(state.far_field.traction);
-    const auto n_steps = double(state.far_field.n_steps);
+    VectorXd t         = to_eigen(state.get<FarFieldState>().traction);
+    const auto n_steps = double(state.get<FarFieldState>().n_steps);
     if (incident_displacement && n_steps > 0.)
       t += incident_traction((n_steps - 1.) * dt, n_steps * dt);
     return t;

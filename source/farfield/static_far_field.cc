@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/archive.h>
 #include <quoin/base/eigen_core.h>
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/tdbem/exterior_stiffness.h>
@@ -51,13 +52,18 @@ namespace quoin
       areas[k] = transfer.lengths()[k / 2] * thickness;
   }
 
+  void StaticFarField::prepare(State<2> &state) const
+  {
+    state.add<StaticFarFieldState>();
+  }
+
   void StaticFarField::begin_stage(State<2> &state, const bool continues)
   {
     prepared_step = 0.;
     if (continues)
       return;
-    const double stored    = state.static_far_field.stored;
-    state.static_far_field = { false, {}, {}, stored, stored };
+    const double stored              = state.get<StaticFarFieldState>().stored;
+    state.get<StaticFarFieldState>() = { false, {}, {}, stored, stored };
   }
 
   void StaticFarField::resume_stage(const State<2> &)
@@ -65,10 +71,10 @@ namespace quoin
     prepared_step = 0.;
   }
 
-  void StaticFarField::start(const std::vector<CapturedNode> &captured,
+  void StaticFarField::start(const std::vector<CapturedNode<2>> &captured,
                              State<2> &state)
   {
-    StaticFarFieldState &far = state.static_far_field;
+    StaticFarFieldState &far = state.get<StaticFarFieldState>();
     far.active               = true;
     for (const unsigned int c : captured_positions)
       for (unsigned int d = 0; d < 2; ++d)
@@ -77,9 +83,8 @@ namespace quoin
     far.origin.assign(u.data(), u.data() + u.size());
   }
 
-  void
-  StaticFarField::gather_displacement(const std::vector<CapturedNode> &captured,
-                                      VectorXd &means) const
+  void StaticFarField::gather_displacement(
+      const std::vector<CapturedNode<2>> &captured, VectorXd &means) const
   {
     transfer.gather(
         [&](const unsigned int k)
@@ -90,8 +95,9 @@ namespace quoin
         means);
   }
 
-  void StaticFarField::prepare(const StepContext &step,
-                               const std::vector<CapturedNode> &captured)
+  void
+  StaticFarField::prepare_step(const StepContext &step,
+                               const std::vector<CapturedNode<2>> &captured)
   {
     if (step.dt == prepared_step && step.dt_velocity == prepared_velocity_step)
       return;
@@ -109,15 +115,15 @@ namespace quoin
   }
 
   void StaticFarField::correct(const StepContext &step,
-                               const std::vector<CapturedNode> &captured,
+                               const std::vector<CapturedNode<2>> &captured,
                                State<2> &state)
   {
-    StaticFarFieldState &far = state.static_far_field;
+    StaticFarFieldState &far = state.get<StaticFarFieldState>();
     if (!far.active)
       start(captured, state);
-    prepare(step, captured);
+    prepare_step(step, captured);
 
-    const auto node = [&](const unsigned int k) -> const CapturedNode &
+    const auto node = [&](const unsigned int k) -> const CapturedNode<2> &
     { return captured[captured_positions[k]]; };
     transfer.gather(
         [&](const unsigned int k)
@@ -160,16 +166,16 @@ namespace quoin
   }
 
   void StaticFarField::account(const StepContext &step,
-                               const std::vector<CapturedNode> &captured,
+                               const std::vector<CapturedNode<2>> &captured,
                                State<2> &state)
   {
-    StaticFarFieldState &far = state.static_far_field;
+    StaticFarFieldState &far = state.get<StaticFarFieldState>();
     last_resultant           = {};
     for (unsigned int k = 0; k < node_list.size(); ++k)
     {
-      const CapturedNode &before = captured[captured_positions[k]];
-      const auto traction        = transfer.force(k, p);
-      double reaction[2]         = { 0., 0. };
+      const CapturedNode<2> &before = captured[captured_positions[k]];
+      const auto traction           = transfer.force(k, p);
+      double reaction[2]            = { 0., 0. };
       for (unsigned int d = 0; d < 2; ++d)
       {
         const double v0 = before.velocity.v[d];
@@ -215,7 +221,7 @@ namespace quoin
     elastic_before.noalias() = stiffness * before;
     elastic.noalias()        = 0.5 * stiffness * after;
     elastic += 0.5 * elastic_before;
-    StaticFarFieldState &far = state.static_far_field;
+    StaticFarFieldState &far = state.get<StaticFarFieldState>();
     far.stored               = far.stored_before
                  + 0.5 * elastic_before.cwiseProduct(areas).dot(before)
                  + elastic.cwiseProduct(areas).dot(v_before);
@@ -228,7 +234,7 @@ namespace quoin
 
   void StaticFarField::hold(const NodeVector<2> *force, State<2> &state) const
   {
-    StaticFarFieldState &far = state.static_far_field;
+    StaticFarFieldState &far = state.get<StaticFarFieldState>();
     if (far.active)
       return;
     far.active = true;

@@ -254,7 +254,8 @@ namespace quoin
     const auto &nodes = far_field->nodes();
     AlignedArray<NodeVector<2>> force(model.exchange().n_local(), no_force);
     balance.far_field_energy = far_field->add_forces(
-        configuration.nodes.data(), committed.static_far_field, force.data());
+        configuration.nodes.data(), committed.get<StaticFarFieldState>(),
+        force.data());
     for (const unsigned int node : nodes)
     {
       const auto &X = model.nodes().point(node);
@@ -337,8 +338,8 @@ namespace quoin
     const unsigned int n_owned = model.exchange().n_owned();
     const NodeRecord<2> *nodes = configuration.nodes.data();
     balance.lost               = EnergyAccounts();
-    balance.joints             = committed.joints;
-    balance.plastic            = committed.plastic;
+    balance.joints             = committed.get<JointHistory>();
+    balance.plastic            = committed.get<PlasticHistory>();
     balance.force.assign(model.exchange().n_local(), no_force);
     joint_force.assign(model.exchange().n_local(), no_force);
 
@@ -400,7 +401,7 @@ namespace quoin
     add_external(configuration.load_time, balance.external);
 
     const double left = 1. - configuration.released;
-    const auto &held  = committed.implicit.held;
+    const auto &held  = committed.get<ImplicitState>().held;
     balance.drives    = freedoms.drives(configuration.load_time, stage_start);
     balance.held.assign(freedoms.bodies().size(), { { 0., 0., 0. } });
     for (unsigned int i = 0; i < n_owned; ++i)
@@ -510,7 +511,7 @@ namespace quoin
 
     add_external(advance.load_time, by_given);
     const double freed = advance.released - configuration.released;
-    const auto &held   = committed.implicit.held;
+    const auto &held   = committed.get<ImplicitState>().held;
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
         by_given[i].v[d] -= balance.external[i].v[d]

@@ -51,7 +51,7 @@ namespace quoin
   }
 
   Freedoms::Freedoms(const Model &model,
-                     const std::vector<NodeConstraint *> &constraints,
+                     const std::vector<MotionConstraint<2> *> &constraints,
                      const std::vector<bool> &held, const State<2> &state)
     : model(model), communicator(model.exchange().communicator()),
       in_body(model.exchange().n_owned(), 0), absent(model.absent_nodes(state))
@@ -63,13 +63,12 @@ namespace quoin
     const unsigned int n = model.exchange().n_owned();
     std::vector<std::array<const LoadComponent *, 2>> owner(
         n, { { nullptr, nullptr } });
-    for (const NodeConstraint *constraint : constraints)
-      if (const auto *motion
-          = dynamic_cast<const PrescribedMotion *>(constraint))
-        for (const unsigned int node : motion->nodes())
+    for (const MotionConstraint<2> *constraint : constraints)
+      if (constraint->kind() == MotionKind::prescribed)
+        for (const unsigned int node : constraint->nodes())
           for (unsigned int d = 0; d < 2; ++d)
-            if (motion->holds()[d])
-              owner[node][d] = &motion->parts()[d];
+            if (constraint->holds()[d])
+              owner[node][d] = &(*constraint->parts())[d];
     for (unsigned int node = 0; node < n; ++node)
       for (unsigned int d = 0; d < 2; ++d)
         if (owner[node][d] && !in_body[node] && !absent[node])
@@ -77,15 +76,16 @@ namespace quoin
     number();
   }
 
-  void Freedoms::add_platens(const std::vector<NodeConstraint *> &constraints,
-                             const State<2> &state)
+  void
+  Freedoms::add_platens(const std::vector<MotionConstraint<2> *> &constraints,
+                        const State<2> &state)
   {
-    for (const NodeConstraint *constraint : constraints)
+    for (const MotionConstraint<2> *constraint : constraints)
     {
-      const auto *platen = dynamic_cast<const Platen *>(constraint);
-      if (!platen)
+      const MotionConstraint<2> *platen = constraint;
+      if (!platen->is_rigid_body())
         continue;
-      const PlatenState &now = state.platens[platen->index()];
+      const PlatenState &now = state.get<PlatenState>(platen->name());
       Body body;
       body.platen      = platen;
       body.rigid_block = -1;
@@ -186,16 +186,17 @@ namespace quoin
     Configuration result;
     result.nodes     = state.nodes;
     result.load_time = state.load_time;
-    result.released  = state.implicit.released;
+    result.released  = state.get<ImplicitState>().released;
     for (const Body &body : body_list)
       if (body.platen)
       {
-        const double *d = state.platens[body.platen->index()].displacement;
+        const double *d = body.platen->rigid_displacement(state);
         result.bodies.push_back({ { d[0], d[1], d[2] } });
       }
       else
       {
-        const RigidBlockState &block = state.rigid_blocks[body.rigid_block];
+        const RigidBlockState &block
+            = state.get<RigidBlockStates>()[body.rigid_block];
         result.bodies.push_back({ { block.displacement[0],
                                     block.displacement[1], block.rotation } });
       }
@@ -205,18 +206,20 @@ namespace quoin
   void Freedoms::write(const Configuration &configuration,
                        State<2> &state) const
   {
-    state.nodes             = configuration.nodes;
-    state.load_time         = configuration.load_time;
-    state.implicit.released = configuration.released;
+    state.nodes                         = configuration.nodes;
+    state.load_time                     = configuration.load_time;
+    state.get<ImplicitState>().released = configuration.released;
     for (unsigned int b = 0; b < body_list.size(); ++b)
     {
       const auto &d = configuration.bodies[b];
       if (body_list[b].platen)
-        std::copy(d.begin(), d.end(),
-                  state.platens[body_list[b].platen->index()].displacement);
+        std::copy(
+            d.begin(), d.end(),
+            state.get<PlatenState>(body_list[b].platen->name()).displacement);
       else
       {
-        RigidBlockState &block = state.rigid_blocks[body_list[b].rigid_block];
+        RigidBlockState &block
+            = state.get<RigidBlockStates>()[body_list[b].rigid_block];
         std::copy(d.begin(), d.begin() + 2, block.displacement);
         block.rotation = d[2];
       }
@@ -256,7 +259,7 @@ namespace quoin
       double change[3];
       for (unsigned int d = 0; d < 3; ++d)
         change[d]
-            = given_change(body.platen->parts()[d], configuration.load_time,
+            = given_change((*body.platen->parts())[d], configuration.load_time,
                            load_time, stage_start)
               * (d == 2 ? constants::degree : 1.);
       for (const unsigned int node : body.nodes)
@@ -298,7 +301,7 @@ namespace quoin
       for (unsigned int d = 0; d < 3; ++d)
         configuration.bodies[b][d]
             += body_list[b].given[d]
-                   ? given_change(body_list[b].platen->parts()[d], before,
+                   ? given_change((*body_list[b].platen->parts())[d], before,
                                   load_time, stage_start)
                          * (d == 2 ? constants::degree : 1.)
                    : changes[b][d];
@@ -369,8 +372,9 @@ namespace quoin
                                               { { 0., 0., 0. } });
     for (unsigned int b = 0; b < body_list.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
-        if (body_list[b].platen && !is_driven(body_list[b].platen->parts()[d]))
-          result[b][d] = body_list[b].platen->parts()[d].value(
+        if (body_list[b].platen
+            && !is_driven((*body_list[b].platen->parts())[d]))
+          result[b][d] = (*body_list[b].platen->parts())[d].value(
               { load_time, stage_start + load_time });
     return result;
   }

@@ -229,7 +229,7 @@ namespace quoin
   ImplicitSolver::Target
   ImplicitSolver::choose_target(const State<2> &state) const
   {
-    const ImplicitState<2> &now = state.implicit;
+    const ImplicitState &now = state.get<ImplicitState>();
     if (now.released < 1.)
     {
       const double next = now.released + now.step;
@@ -248,21 +248,22 @@ namespace quoin
   void ImplicitSolver::step(State<2> &state)
   {
     current_step = state.step;
-    if (!state.implicit.jumps)
+    if (!state.get<ImplicitState>().jumps)
       last_equilibrium = state;
     Configuration configuration;
     for (attempt = 0;; ++attempt)
     {
       const Target target = choose_target(state);
-      equilibrium->set_drag(state.implicit.jumps ? 1. / state.implicit.drag_step
-                                                 : 0.);
+      equilibrium->set_drag(state.get<ImplicitState>().jumps
+                                ? 1. / state.get<ImplicitState>().drag_step
+                                : 0.);
       Outcome outcome = solve(state, target, configuration);
       if (outcome == Outcome::converged && target.path > 0.
           && configuration.load_time > stage_duration)
       {
         // The stage's end is near: go there and not beyond.
-        state.implicit.follows_path = false;
-        state.implicit.step
+        state.get<ImplicitState>().follows_path = false;
+        state.get<ImplicitState>().step
             = (stage_duration - state.load_time) / stage_duration;
         continue;
       }
@@ -270,7 +271,7 @@ namespace quoin
       const double flowed
           = std::abs(balance.path) / parameters.largest_path_step;
       if (outcome == Outcome::converged
-          && (!state.implicit.jumps || flowed <= most_flow))
+          && (!state.get<ImplicitState>().jumps || flowed <= most_flow))
         break;
       ++cuts_done;
       if (!cut_step(state))
@@ -278,7 +279,7 @@ namespace quoin
     }
     const State<2> before = state;
     commit(configuration, state);
-    if (state.implicit.jumps)
+    if (state.get<ImplicitState>().jumps)
       go_on_jumping(before, state);
     else
       adapt_step(before, state);
@@ -286,7 +287,7 @@ namespace quoin
 
   void ImplicitSolver::go_on_jumping(const State<2> &before, State<2> &state)
   {
-    ImplicitState<2> &now = state.implicit;
+    ImplicitState &now = state.get<ImplicitState>();
     now.jump_loss += state.energy.damping - before.energy.damping;
     ++now.n_drag;
     if (now.n_drag >= most_drag_steps || has_gone_far(state))
@@ -332,15 +333,15 @@ namespace quoin
 
   void ImplicitSolver::give_up(State<2> &state)
   {
-    const double tried = std::abs(state.implicit.step);
-    const bool jumped  = state.implicit.jumps;
+    const double tried = std::abs(state.get<ImplicitState>().step);
+    const bool jumped  = state.get<ImplicitState>().jumps;
     state              = last_equilibrium;
     fail(state, tried, jumped);
   }
 
   bool ImplicitSolver::begin_jump(State<2> &state) const
   {
-    ImplicitState<2> &now = state.implicit;
+    ImplicitState &now = state.get<ImplicitState>();
     if (!parameters.jumps || now.released < 1.)
       return false;
     now.follows_path = false;
@@ -358,7 +359,7 @@ namespace quoin
 
   bool ImplicitSolver::cut_step(State<2> &state) const
   {
-    ImplicitState<2> &now = state.implicit;
+    ImplicitState &now = state.get<ImplicitState>();
     if (now.jumps)
     {
       now.drag_step *= drag_cut;
@@ -393,15 +394,15 @@ namespace quoin
 
   void ImplicitSolver::adapt_step(const State<2> &before, State<2> &state) const
   {
-    ImplicitState<2> &now = state.implicit;
+    ImplicitState &now = state.get<ImplicitState>();
     const double went
-        = before.implicit.released < 1.
-              ? now.released - before.implicit.released
+        = before.get<ImplicitState>().released < 1.
+              ? now.released - before.get<ImplicitState>().released
               : (state.load_time - before.load_time) / stage_duration;
     const double growth
         = std::min(most_growth, std::sqrt(double(parameters.wanted_iterations)
                                           / std::max(1U, iteration)));
-    if (before.implicit.released < 1.)
+    if (before.get<ImplicitState>().released < 1.)
     {
       now.step = std::min(growth * std::max(went, now.step),
                           parameters.largest_step);

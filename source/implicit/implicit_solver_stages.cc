@@ -4,6 +4,7 @@
 // What ImplicitSolver does where a stage begins and where a step ends;
 // implicit_solver.cc has its steps.
 
+#include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/dynamics/free_bodies.h>
@@ -41,7 +42,7 @@ namespace quoin
     }
   } // namespace
 
-  ImplicitSolver::ImplicitSolver(const Model &model,
+  ImplicitSolver::ImplicitSolver(Model &model,
                                  const std::vector<LoadParameters> &loads,
                                  const ImplicitParameters &parameters,
                                  const std::vector<std::string> &joint_sets,
@@ -78,11 +79,10 @@ namespace quoin
                        + "': 'End = static ratio', but its loads never rest. "
                          "Take 'End = time' and a 'Duration', or functions of "
                          "time that become constant.");
-    for (const NodeConstraint *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : constraints_on)
     {
-      const auto check = [&](const std::array<LoadComponent, 3> &parts)
-      {
-        for (const LoadComponent &part : parts)
+      if (constraint->parts())
+        for (const LoadComponent &part : *constraint->parts())
           if (part.quantity == LoadQuantity::velocity
               && part.value({ late_time, stage_start + late_time }) != 0.)
             throw InputError("section 'Loads/" + constraint->name()
@@ -91,12 +91,6 @@ namespace quoin
                              + stage.name
                              + "' rest, whose 'End' is 'static "
                                "ratio'. Take 'End = time' and a 'Duration'.");
-      };
-      if (const auto *platen = dynamic_cast<const Platen *>(constraint))
-        check(platen->parts());
-      else if (const auto *motion
-               = dynamic_cast<const PrescribedMotion *>(constraint))
-        check(motion->parts());
     }
     double rests = late_time, moves = 0.;
     for (double t = late_time; t > earliest; t *= 0.9)
@@ -161,28 +155,32 @@ namespace quoin
         held_blocks[b] = true;
   }
 
+  void ImplicitSolver::prepare(State<2> &state) const
+  {
+    Solver::prepare(state);
+    state.add<ImplicitState>();
+  }
+
   void ImplicitSolver::begin_stage(const StageParameters &new_stage,
                                    const StageParameters *previous,
                                    State<2> &state)
   {
     activate(new_stage, state);
-    make_room(state);
+    prepare(state);
     for (const auto &constraint : all_constraints)
-      if (const auto *platen = dynamic_cast<const Platen *>(constraint.get()))
-        if (!acts_in(*constraint, stage))
-          state.platens[platen->index()].active = false;
-    for (NodeConstraint *constraint : constraints_on)
+      if (!acts_in(*constraint, stage))
+        constraint->rest(state);
+    for (MotionConstraint<2> *constraint : constraints_on)
     {
-      if (auto *platen = dynamic_cast<Platen *>(constraint))
-        platen->set_mass(model.mass());
+      constraint->set_mass(model.mass());
       constraint->begin_stage(state,
                               previous && acts_in(*constraint, *previous));
     }
-    state.stage_start = state.time;
-    state.stage_step  = 0;
-    state.load_time   = 0.;
-    state.load_rate   = 1.;
-    state.implicit    = ImplicitState<2>();
+    state.stage_start          = state.time;
+    state.stage_step           = 0;
+    state.load_time            = 0.;
+    state.load_rate            = 1.;
+    state.get<ImplicitState>() = ImplicitState();
     prepare_stage(state);
     hold_what_is_out_of_balance(previous, state);
   }
@@ -191,30 +189,39 @@ namespace quoin
                                     State<2> &state)
   {
     activate(resumed, state);
-    for (NodeConstraint *constraint : constraints_on)
-      if (auto *platen = dynamic_cast<Platen *>(constraint))
-        platen->set_mass(model.mass());
-    if (state.implicit.jumps)
-      last_equilibrium = state.implicit.before_jump.front();
-    state.implicit.before_jump.clear();
+    for (MotionConstraint<2> *constraint : constraints_on)
+      constraint->set_mass(model.mass());
+    if (state.get<ImplicitState>().jumps)
+    {
+      last_equilibrium = state;
+      std::istringstream archived(state.get<ImplicitState>().before_jump);
+      boost::archive::binary_iarchive archive(archived);
+      archive >> last_equilibrium;
+    }
+    state.get<ImplicitState>().before_jump.clear();
     prepare_stage(state);
   }
 
   void ImplicitSolver::save(State<2> &state) const
   {
     Solver::save(state);
-    if (state.implicit.jumps)
-      state.implicit.before_jump = { last_equilibrium };
+    if (state.get<ImplicitState>().jumps)
+    {
+      std::ostringstream archived;
+      boost::archive::binary_oarchive archive(archived);
+      archive << last_equilibrium;
+      state.get<ImplicitState>().before_jump = archived.str();
+    }
   }
 
   void
   ImplicitSolver::hold_what_is_out_of_balance(const StageParameters *previous,
                                               State<2> &state)
   {
-    ImplicitState<2> &now = state.implicit;
-    now.released          = 1.;
-    now.step              = first_load_step();
-    if (static_far_field_acts() && !state.static_far_field.active)
+    ImplicitState &now = state.get<ImplicitState>();
+    now.released       = 1.;
+    now.step           = first_load_step();
+    if (static_far_field_acts() && !state.get<StaticFarFieldState>().active)
     {
       // It holds what its boundary carried until now, without loads that
       // begin here.
@@ -257,26 +264,29 @@ namespace quoin
     const double went = std::abs(configuration.load_time - state.load_time);
 
     freedoms->write(configuration, state);
-    state.joints  = balance.joints;
-    state.plastic = balance.plastic;
+    state.get<JointHistory>()   = balance.joints;
+    state.get<PlasticHistory>() = balance.plastic;
     RigidBlockStage rigid;
     rigid.held = held_blocks;
     model.rigid_blocks().follow_nodes(rigid, state);
     state.unbalanced_ratio = balance.ratio();
-    if (state.implicit.released == 1.)
-      state.implicit.held.clear();
+    if (state.get<ImplicitState>().released == 1.)
+      state.get<ImplicitState>().held.clear();
     ++state.step;
     ++state.stage_step;
     // On the way back the run's time goes on.
     state.time += went;
-    if (state.load_time == stage_duration && state.implicit.path_length == 0.
-        && balance.path == 0.)
+    if (state.load_time == stage_duration
+        && state.get<ImplicitState>().path_length == 0. && balance.path == 0.)
       state.time = state.stage_start + stage_duration;
     if (static_far_field_acts())
-      state.static_far_field.stored = balance.far_field_energy;
-    find_energies(
-        state, model.blocks().strain_energy(state.nodes.data(), state.plastic),
-        model.joints().stored_energy(state.nodes.data(), state.joints), 0.);
+      state.get<StaticFarFieldState>().stored = balance.far_field_energy;
+    find_energies(state,
+                  model.blocks().strain_energy(state.nodes.data(),
+                                               state.get<PlasticHistory>()),
+                  model.joints().stored_energy(state.nodes.data(),
+                                               state.get<JointHistory>()),
+                  0.);
   }
 
   void ImplicitSolver::book_work(const State<2> &state,
@@ -285,8 +295,8 @@ namespace quoin
   {
     // The trapezoidal rule: of loads and of the reactions of what is given;
     // what was held at the stage's start goes the way of damping.
-    const auto &held    = state.implicit.held;
-    const double left_0 = 1. - state.implicit.released;
+    const auto &held    = state.get<ImplicitState>().held;
+    const double left_0 = 1. - state.get<ImplicitState>().released;
     const double left_1 = 1. - configuration.released;
     const double mean   = 0.5 * (left_0 + left_1);
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
@@ -311,7 +321,7 @@ namespace quoin
         {
           const unsigned int node = static_far->nodes()[k];
           energy.external
-              += state.static_far_field.held[2 * k + d]
+              += state.get<StaticFarFieldState>().held[2 * k + d]
                  * (configuration.nodes[node].u[d] - state.nodes[node].u[d]);
         }
     const Configuration before = freedoms->configuration(state);
@@ -339,15 +349,15 @@ namespace quoin
     std::array<double, 3> result{};
     const auto found
         = std::find_if(constraints_on.begin(), constraints_on.end(),
-                       [&](const NodeConstraint *constraint)
+                       [&](const MotionConstraint<2> *constraint)
                        { return constraint->name() == load; });
     if (found == constraints_on.end() || balance.force.empty())
       return result;
-    if (const auto *platen = dynamic_cast<const Platen *>(*found))
+    if ((*found)->is_rigid_body())
     {
       const auto forces = freedoms->body_forces(balance.force);
       for (unsigned int b = 0; b < forces.size(); ++b)
-        if (freedoms->bodies()[b].platen == platen)
+        if (freedoms->bodies()[b].platen == *found)
           for (unsigned int d = 0; d < 3; ++d)
             result[d] = freedoms->bodies()[b].given[d] ? -forces[b][d]
                                                        : balance.drives[b][d];
@@ -355,11 +365,10 @@ namespace quoin
     }
     if (*found == static_far)
       result = balance.far_field_force;
-    else if (const auto *motion
-             = dynamic_cast<const PrescribedMotion *>(*found))
+    else if ((*found)->kind() == MotionKind::prescribed)
       for (const Freedoms::Prescribed &given : freedoms->prescribed())
       {
-        if (given.part != &motion->parts()[given.component])
+        if (given.part != &(*(*found)->parts())[given.component])
           continue;
         const auto &X      = model.nodes().point(given.node);
         const double force = -balance.force[given.node].v[given.component];
@@ -427,8 +436,8 @@ namespace quoin
     const std::string where = worst_place();
     std::ostringstream message;
     message << "no equilibrium was found beyond "
-            << (state.implicit.released < 1.
-                    ? number_text(100. * state.implicit.released)
+            << (state.get<ImplicitState>().released < 1.
+                    ? number_text(100. * state.get<ImplicitState>().released)
                           + " % of what was out of balance at the start"
                     : "the load time " + number_text(state.load_time) + " of "
                           + number_text(stage_duration) + " s")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/nodal_load.h>
@@ -26,11 +27,9 @@ namespace quoin
   } // namespace
 
   FreeFieldBoundary::FreeFieldBoundary(const LoadParameters &parameters,
-                                       const unsigned int index,
                                        const NodeMap<2> &node_map,
                                        const FreeFieldGround &ground,
                                        const FreeFieldBase &given)
-    : index(index)
   {
     load_name = parameters.name;
     const auto faces
@@ -219,13 +218,18 @@ namespace quoin
 
   // -- a step ----------------------------------------------------------------
 
+  void FreeFieldBoundary::prepare(State<2> &state) const
+  {
+    state.add<FreeFieldState>(load_name);
+  }
+
   void FreeFieldBoundary::begin_stage(State<2> &state, const bool continues)
   {
     if (!continues)
-      state.free_fields[index] = FreeFieldState();
+      state.get<FreeFieldState>(load_name) = FreeFieldState();
   }
 
-  void FreeFieldBoundary::start(const std::vector<CapturedNode> &captured,
+  void FreeFieldBoundary::start(const std::vector<CapturedNode<2>> &captured,
                                 FreeFieldState &column)
   {
     column.active = true;
@@ -302,10 +306,10 @@ namespace quoin
   }
 
   void FreeFieldBoundary::correct(const StepContext &step,
-                                  const std::vector<CapturedNode> &captured,
+                                  const std::vector<CapturedNode<2>> &captured,
                                   State<2> &state)
   {
-    FreeFieldState &column = state.free_fields[index];
+    FreeFieldState &column = state.get<FreeFieldState>(load_name);
     if (!column.active)
       start(captured, column);
     advance(step, column);
@@ -331,7 +335,7 @@ namespace quoin
   }
 
   void FreeFieldBoundary::account(const StepContext &step,
-                                  const std::vector<CapturedNode> &captured,
+                                  const std::vector<CapturedNode<2>> &captured,
                                   State<2> &state)
   {
     last_resultant = {};

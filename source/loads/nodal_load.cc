@@ -131,8 +131,8 @@ namespace quoin
         force[nodes[i]].v[d] += pressure * inward[i].v[d];
   }
 
-  double NodalLoad::power(const TimePoint &time,
-                          const NodeVector<2> *velocity) const
+  double NodalLoad::external_power(const TimePoint &time,
+                                   const NodeVector<2> *velocity) const
   {
     double sum[2] = { 0., 0. }, inflow = 0.;
     for (unsigned int i = 0; i < nodes.size(); ++i)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/archive.h>
 #include <quoin/base/constants.h>
 #include <quoin/base/local_damping.h>
 #include <quoin/loads/nodal_load.h>
@@ -43,10 +44,8 @@ namespace quoin
     }
   } // namespace
 
-  Platen::Platen(const LoadParameters &parameters, const unsigned int index,
-                 const NodeMap<2> &node_map)
-    : components(parameters.components), platen_index(index),
-      communicator(node_map.communicator())
+  Platen::Platen(const LoadParameters &parameters, const NodeMap<2> &node_map)
+    : components(parameters.components), communicator(node_map.communicator())
   {
     load_name = parameters.name;
     node_list
@@ -69,9 +68,20 @@ namespace quoin
       node_mass.push_back(mass[node]);
   }
 
+  void Platen::prepare(State<2> &state) const
+  {
+    state.add<PlatenState>(load_name);
+  }
+
+  void Platen::rest(State<2> &state)
+  {
+    MotionConstraint<2>::rest(state);
+    state.get<PlatenState>(load_name).active = false;
+  }
+
   void Platen::begin_stage(State<2> &state, const bool continues)
   {
-    PlatenState &platen = state.platens[platen_index];
+    PlatenState &platen = state.get<PlatenState>(load_name);
     std::array<double, 6> moments{};
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
@@ -123,7 +133,7 @@ namespace quoin
 
   void Platen::resume_stage(const State<2> &state)
   {
-    const auto &arms = state.platens[platen_index].arms;
+    const auto &arms = state.get<PlatenState>(load_name).arms;
     inertia          = { 0., 0., rigid_inertia };
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
@@ -137,7 +147,7 @@ namespace quoin
   }
 
   std::array<double, 3>
-  Platen::resultant(const std::vector<CapturedNode> &captured,
+  Platen::resultant(const std::vector<CapturedNode<2>> &captured,
                     const PlatenState &platen) const
   {
     const double *const arms = platen.arms.data();
@@ -195,10 +205,10 @@ namespace quoin
   }
 
   void Platen::correct(const StepContext &step,
-                       const std::vector<CapturedNode> &captured,
+                       const std::vector<CapturedNode<2>> &captured,
                        State<2> &state)
   {
-    PlatenState &platen = state.platens[platen_index];
+    PlatenState &platen = state.get<PlatenState>(load_name);
     nodal_force         = resultant(captured, platen);
     const double c0     = std::cos(platen.displacement[2]),
                  s0     = std::sin(platen.displacement[2]);
@@ -212,10 +222,10 @@ namespace quoin
                  s           = std::sin(platen.displacement[2]);
     for (unsigned int i = 0; i < node_list.size(); ++i)
     {
-      const CapturedNode &before = captured[captured_positions[i]];
-      NodeRecord<2> &node        = state.nodes[before.node];
-      const double arm[2]        = { c * arms[2 * i] - s * arms[2 * i + 1],
-                                     s * arms[2 * i] + c * arms[2 * i + 1] };
+      const CapturedNode<2> &before = captured[captured_positions[i]];
+      NodeRecord<2> &node           = state.nodes[before.node];
+      const double arm[2]           = { c * arms[2 * i] - s * arms[2 * i + 1],
+                                        s * arms[2 * i] + c * arms[2 * i + 1] };
       // The rate from the mean arm: that from positions would lose digits.
       const double mean[2]
           = { 0.5 * (arm[0] + c0 * arms[2 * i] - s0 * arms[2 * i + 1]),
@@ -230,12 +240,12 @@ namespace quoin
   }
 
   void Platen::account(const StepContext &step,
-                       const std::vector<CapturedNode> &, State<2> &state)
+                       const std::vector<CapturedNode<2>> &, State<2> &state)
   {
     // Every rank knows the platen; the first one books its work.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       return;
-    const PlatenState &platen = state.platens[platen_index];
+    const PlatenState &platen = state.get<PlatenState>(load_name);
     for (unsigned int d = 0; d < 3; ++d)
     {
       const double w0 = 0.5 * step.dt_before * velocity_before[d];

@@ -33,7 +33,7 @@ namespace quoin
   }
 
   void PrescribedMotion::correct(const StepContext &step,
-                                 const std::vector<CapturedNode> &captured,
+                                 const std::vector<CapturedNode<2>> &captured,
                                  State<2> &state)
   {
     for (unsigned int d = 0; d < 2; ++d)
@@ -48,7 +48,7 @@ namespace quoin
                       / step.dt;
       for (const unsigned int c : captured_positions)
       {
-        const CapturedNode &before       = captured[c];
+        const CapturedNode<2> &before    = captured[c];
         state.velocity[before.node].v[d] = velocity;
         state.nodes[before.node].u[d]
             = before.displacement.v[d] + step.dt * velocity;
@@ -57,14 +57,14 @@ namespace quoin
   }
 
   void PrescribedMotion::account(const StepContext &step,
-                                 const std::vector<CapturedNode> &captured,
+                                 const std::vector<CapturedNode<2>> &captured,
                                  State<2> &state)
   {
     last_resultant = {};
     for (const unsigned int c : captured_positions)
     {
-      const CapturedNode &before = captured[c];
-      double reaction[2]         = { 0., 0. };
+      const CapturedNode<2> &before = captured[c];
+      double reaction[2]            = { 0., 0. };
       for (unsigned int d = 0; d < 2; ++d)
       {
         if (before.owner[d] != this)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/operators/archive.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/viscous_boundary.h>
@@ -54,7 +55,7 @@ namespace quoin
     }
   }
 
-  void move_with_dashpot(const StepContext &step, const CapturedNode &before,
+  void move_with_dashpot(const StepContext &step, const CapturedNode<2> &before,
                          const std::array<double, 3> &damping,
                          const std::array<double, 2> &pull, State<2> &state)
   {
@@ -77,10 +78,11 @@ namespace quoin
           = before.displacement.v[d] + step.dt * after.v[d];
   }
 
-  void account_for_dashpot(const StepContext &step, const CapturedNode &before,
+  void account_for_dashpot(const StepContext &step,
+                           const CapturedNode<2> &before,
                            const std::array<double, 3> &damping,
                            const std::array<double, 2> &pull,
-                           const NodeConstraint *owner,
+                           const MotionConstraint<2> *owner,
                            std::array<double, 3> &resultant, State<2> &state)
   {
     const auto &[cxx, cyy, cxy] = damping;
@@ -110,11 +112,10 @@ namespace quoin
   }
 
   ViscousBoundary::ViscousBoundary(const LoadParameters &parameters,
-                                   const unsigned int index,
                                    const NodeMap<2> &node_map,
                                    const std::vector<Impedance> &impedance,
                                    const double thickness)
-    : index(index), components(parameters.components)
+    : components(parameters.components)
   {
     load_name = parameters.name;
     const auto faces
@@ -124,14 +125,19 @@ namespace quoin
     add_dashpots(node_map, faces, impedance, thickness, node_list, dashpots);
   }
 
+  void ViscousBoundary::prepare(State<2> &state) const
+  {
+    state.add<ViscousBoundaryState>(load_name);
+  }
+
   void ViscousBoundary::begin_stage(State<2> &state, const bool continues)
   {
     // Before the first stage nothing has been at rest.
     if (!continues)
-      state.viscous_boundaries[index] = { state.step == 0, {} };
+      state.get<ViscousBoundaryState>(load_name) = { state.step == 0, {} };
   }
 
-  void ViscousBoundary::hold(const std::vector<CapturedNode> &captured,
+  void ViscousBoundary::hold(const std::vector<CapturedNode<2>> &captured,
                              ViscousBoundaryState &own) const
   {
     own.active = true;
@@ -152,12 +158,12 @@ namespace quoin
   }
 
   void ViscousBoundary::correct(const StepContext &step,
-                                const std::vector<CapturedNode> &captured,
+                                const std::vector<CapturedNode<2>> &captured,
                                 State<2> &state)
   {
     const double vn           = components[0].value(step.begin);
     const double vs           = components[1].value(step.begin);
-    ViscousBoundaryState &own = state.viscous_boundaries[index];
+    ViscousBoundaryState &own = state.get<ViscousBoundaryState>(load_name);
     if (!own.active)
       hold(captured, own);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
@@ -166,13 +172,14 @@ namespace quoin
   }
 
   void ViscousBoundary::account(const StepContext &step,
-                                const std::vector<CapturedNode> &captured,
+                                const std::vector<CapturedNode<2>> &captured,
                                 State<2> &state)
   {
-    const double vn                 = components[0].value(step.begin);
-    const double vs                 = components[1].value(step.begin);
-    const ViscousBoundaryState &own = state.viscous_boundaries[index];
-    last_resultant                  = {};
+    const double vn = components[0].value(step.begin);
+    const double vs = components[1].value(step.begin);
+    const ViscousBoundaryState &own
+        = state.get<ViscousBoundaryState>(load_name);
+    last_resultant = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       account_for_dashpot(step, captured[captured_positions[i]],
                           dashpots[i].damping, pull(i, vn, vs, own), this,

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/problems/bandwidth.h>
-#include <quoin/base/state.h>
+#include <quoin/base/node_vector.h>
 
 #include <algorithm>
 #include <chrono>

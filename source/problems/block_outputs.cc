@@ -23,11 +23,21 @@ namespace quoin
      */
     constexpr double largest_created_share = 0.5;
 
-    const std::vector<std::string> energy_columns
-        = { "time [s]",      "kinetic [J]",  "strain [J]",   "joint [J]",
-            "friction [J]",  "fracture [J]", "crushing [J]", "plastic [J]",
-            "damping [J]",   "viscous [J]",  "contact [J]",  "radiated [J]",
-            "far field [J]", "external [J]", "residual [J]" };
+    /** Energies that the model could give back and the accounts, dissipated
+        ones first. */
+    std::vector<std::string> energy_columns()
+    {
+      std::vector<std::string> names
+          = { "time [s]", "kinetic [J]", "strain [J]", "joint [J]" };
+      for (const EnergyAccount &account : energy_accounts)
+      {
+        if (account.kind == EnergyKind::given)
+          names.push_back("far field [J]");
+        names.push_back(account.name + std::string(" [J]"));
+      }
+      names.push_back("residual [J]");
+      return names;
+    }
 
     Histories make_histories(const BlockSystem &system)
     {
@@ -53,7 +63,7 @@ namespace quoin
                         : -1.),
       history_table(
           context.tables.add("histories.csv", histories.column_names())),
-      energy_table(context.tables.add("energies.csv", energy_columns)),
+      energy_table(context.tables.add("energies.csv", energy_columns())),
       blocks(context.output, context.communicator),
       joints(context.output, context.communicator),
       contacts(context.output, context.communicator, "contacts"),
@@ -104,10 +114,15 @@ namespace quoin
 
   std::size_t BlockOutputs::n_columns() const
   {
-    return energy_columns.size() + histories.column_names().size();
+    return energy_columns().size() + histories.column_names().size();
   }
 
   void BlockOutputs::write_row(const State<2> &state)
+  {
+    measured([&]() { add_rows(state); });
+  }
+
+  void BlockOutputs::add_rows(const State<2> &state)
   {
     const auto row = histories.after_step(state);
     write_energies(row.front());
@@ -118,15 +133,18 @@ namespace quoin
 
   void BlockOutputs::write_energies(const double time)
   {
-    const Energies &energies       = system.solver->energies();
-    const EnergyAccounts &accounts = energies.accounts;
+    const Energies &energies = system.solver->energies();
     most_residual = std::max(most_residual, std::abs(energies.residual()));
-    energy_table.add_row({ time, energies.kinetic, energies.strain,
-                           energies.joint, accounts.friction, accounts.fracture,
-                           accounts.crushing, accounts.plastic,
-                           accounts.damping, accounts.viscous, accounts.contact,
-                           accounts.radiated, energies.far_field,
-                           accounts.external, energies.residual() });
+    std::vector<double> row
+        = { time, energies.kinetic, energies.strain, energies.joint };
+    for (const EnergyAccount &account : energy_accounts)
+    {
+      if (account.kind == EnergyKind::given)
+        row.push_back(energies.far_field);
+      row.push_back(energies.accounts.*account.value);
+    }
+    row.push_back(energies.residual());
+    energy_table.add_row(row);
   }
 
   void BlockOutputs::write_far_field_row(const State<2> &state)
@@ -145,8 +163,9 @@ namespace quoin
                        "'Formulation' in section 'Boundary elements' until the "
                        "passivity scan finds nothing, or damp the blocks.");
     far_field_table->add_row(
-        { state.time, double(state.far_field.n_steps), ledger.radiated,
-          ledger.substeps, ledger.incident, ledger.given, ledger.mismatch });
+        { state.time, double(state.get<FarFieldState>().n_steps),
+          ledger.radiated, ledger.substeps, ledger.incident, ledger.given,
+          ledger.mismatch });
   }
 
   void BlockOutputs::write_iterations()
@@ -163,6 +182,11 @@ namespace quoin
     if (state.time == fields_time)
       return;
     fields_time = state.time;
+    measured([&]() { add_fields(state); });
+  }
+
+  void BlockOutputs::add_fields(const State<2> &state)
+  {
     // Histories are those of the step before.
     State<2> now = state;
     system.solver->update_histories(now);
@@ -177,7 +201,7 @@ namespace quoin
 
   void BlockOutputs::write_boundary(const State<2> &state)
   {
-    if (!system.solver->far_field_acts() || !state.far_field.active)
+    if (!system.solver->far_field_acts() || !state.get<FarFieldState>().active)
       return;
     const BoundaryState fields
         = boundary_state(*system.solver->far_field(), state);

@@ -8,7 +8,7 @@
 #include <quoin/problems/explicit_stage.h>
 #include <quoin/problems/implicit_stage.h>
 #include <quoin/problems/safety_stage.h>
-#include <quoin/results/archive.h>
+#include <quoin/operators/archive.h>
 
 #include <nlohmann/json.hpp>
 
@@ -18,6 +18,12 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** Smaller shares of the time are not worth a word. */
+    constexpr double least_share = 1e-3;
+  } // namespace
+
   BlockProblem::BlockProblem(const Parameters &parameters,
                              const RunContext &run)
     : parameters(parameters), run(run), system(parameters, run.communicator),
@@ -134,8 +140,7 @@ namespace quoin
   {
     archive_all(archive);
     // Only checkpoints need them.
-    state.far_field.history.clear();
-    state.implicit.before_jump.clear();
+    system.solver->discard_saved(state);
   }
 
   void BlockProblem::load(boost::archive::binary_iarchive &archive)
@@ -179,6 +184,7 @@ namespace quoin
                        { "iterations", context.iterations },
                        { "cut steps", context.cuts } });
     summarise_searches(summary);
+    summarise_time(summary, seconds);
     if (parameters.model.contact.has_box)
     {
       const auto &marks = state.block_marks;
@@ -203,6 +209,29 @@ namespace quoin
     }
   }
 
+  void BlockProblem::summarise_time(nlohmann::json &summary,
+                                    const double seconds) const
+  {
+    const PhaseClock &clock = system.solver->time_spent();
+    std::vector<double> times;
+    for (unsigned int i = 0; i < clock.phases().size(); ++i)
+      times.push_back(clock.time(i));
+    // Processes step together: the mean of their times counts. They have the
+    // same phases, because they have the same operators.
+    dealii::Utilities::MPI::sum(times, run.communicator, times);
+    const double all
+        = seconds * dealii::Utilities::MPI::n_mpi_processes(run.communicator);
+    double other = 1.;
+    for (unsigned int i = 0; i < times.size() && all > 0.; ++i)
+    {
+      const double share = times[i] / all;
+      other -= share;
+      if (share >= least_share)
+        summary["time shares"][clock.phases()[i]] = share;
+    }
+    summary["time shares"]["other"] = std::max(other, 0.);
+  }
+
   void BlockProblem::summarise_searches(nlohmann::json &summary) const
   {
     for (unsigned int i = 0; i < searches.size(); ++i)
@@ -218,14 +247,14 @@ namespace quoin
   {
     const BlockContacts *contacts = system.solver->contacts();
     const double sums[3]
-        = { contacts->n_touching(state.contacts), double(contacts->n_updates()),
-            contacts->search_seconds() };
+        = { contacts->n_touching(state.get<ContactState>()),
+            double(contacts->n_updates()), contacts->search_seconds() };
     std::array<double, 3> all;
     MPI_Allreduce(sums, all.data(), 3, MPI_DOUBLE, MPI_SUM, run.communicator);
     summary["contacts"] = all[0];
     summary["contact updates per second"]
         = seconds > 0. ? all[1] / seconds : 0.;
-    summary["contact searches"] = state.contacts.n_searches;
+    summary["contact searches"] = state.get<ContactState>().n_searches;
     // Ranks search together: the mean of their times counts.
     summary["contact search share"]
         = seconds > 0.
@@ -266,10 +295,18 @@ namespace quoin
                      + "element updates a second")
         + ", energy residual " + number_text(context.energy_residual())
         + " of what went through");
+    std::string shares;
+    for (const auto &[phase, share] : summary["time shares"].items())
+      if (share.get<double>() >= least_share)
+        shares += (shares.empty() ? "" : ", ") + phase + " "
+                  + number_text(std::round(1e3 * share.get<double>()) / 10.)
+                  + " %";
+    run.log.message("time: " + shares);
     if (system.solver->contacts())
       run.log.message(
           "contacts: " + millions("contact updates per second")
-          + "updates a second, " + std::to_string(state.contacts.n_searches)
+          + "updates a second, "
+          + std::to_string(state.get<ContactState>().n_searches)
           + " searches that took "
           + number_text(100. * summary["contact search share"].get<double>())
           + " % of the time");

@@ -88,7 +88,7 @@ namespace quoin
       if (parameters.model.initial_stresses.empty())
         return;
       const double n = system.model->joints().n_beyond_strength(
-          context.state.joints, system.communicator);
+          context.state.get<JointHistory>(), system.communicator);
       if (n > 0.)
         log.warning(
             number_text(n) + " of "

@@ -127,6 +127,7 @@ namespace quoin
   State<2> BlockSystem::initial_state() const
   {
     State<2> state = model->initial_state();
+    solver->prepare(state);
     if (parameters.initial_motion.is_given)
       naming(parameters.file,
              [&]()
@@ -186,7 +187,7 @@ namespace quoin
   void BlockSystem::set_properties(const ModelProperties &properties,
                                    const State<2> &state)
   {
-    model->set_properties(properties, state.construction);
+    model->set_properties(properties, state.get<ConstructionState>());
     if (explicit_solver)
       explicit_solver->set_contact_laws(properties.joints);
   }

@@ -29,7 +29,7 @@ namespace quoin
   void ExplicitStage::prepare()
   {
     context.steps.choose(stage);
-    state.far_field.history.clear();
+    solver.discard_saved(state);
     over = stage.end == StageEnd::time && time_is_over();
   }
 

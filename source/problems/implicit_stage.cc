@@ -71,7 +71,8 @@ namespace quoin
                               + number_text(jump.loss) + " J");
     // What is let go at the start, and a jump, take no time: only where they
     // end there is a row.
-    if (state.implicit.released == 1. && !state.implicit.jumps)
+    const ImplicitState &now = state.get<ImplicitState>();
+    if (now.released == 1. && !now.jumps)
       write_row();
     context.outputs.check_tables();
     if (state.time > before
@@ -92,7 +93,7 @@ namespace quoin
 
   double load_share(const BlockContext &context)
   {
-    return context.state.implicit.released < 1.
+    return context.state.get<ImplicitState>().released < 1.
                ? 0.
                : context.state.load_time
                      / context.system.implicit_solver->duration();

@@ -11,9 +11,10 @@ namespace quoin
     // Blocks that were removed are left out with their nodes and cells.
     BlockFields fields;
     const NodeMap<2> &nodes = model.nodes();
+    const auto &plastic     = state.get<PlasticHistory>();
     std::vector<std::array<double, 4>> stress;
     std::vector<PlaneTensor> strain;
-    model.blocks().stresses(state.nodes.data(), state.plastic, stress, strain);
+    model.blocks().stresses(state.nodes.data(), plastic, stress, strain);
     stress.resize(nodes.n_cells(), { { 0., 0., 0., 0. } }); // rigid
     strain.resize(nodes.n_cells(), { { 0., 0., 0. } });
     std::vector<std::int32_t> number(nodes.n_local(), -1);
@@ -47,9 +48,8 @@ namespace quoin
         if (model.blocks().is_plastic())
         {
           const bool is_rigid = own >= model.n_deformable_cells();
-          fields.yielding.push_back(is_rigid ? 0 : state.plastic.yielding[own]);
-          fields.plastic_shear.push_back(is_rigid ? 0.
-                                                  : state.plastic.shear[own]);
+          fields.yielding.push_back(is_rigid ? 0 : plastic.yielding[own]);
+          fields.plastic_shear.push_back(is_rigid ? 0. : plastic.shear[own]);
         }
         fields.block.push_back(block);
         fields.material.push_back(model.material_of_cell(own));
@@ -61,6 +61,7 @@ namespace quoin
   JointFields joint_fields(const Model &model, const State<2> &state)
   {
     JointFields fields;
+    const JointHistory &history = state.get<JointHistory>();
     for (const std::string &name : model.joints().field_names())
       fields.of_laws.push_back({ name, {} });
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
@@ -68,7 +69,7 @@ namespace quoin
       const auto &segment = model.joints().segment(i);
       // A joint between two ranks is written by that of its lower side.
       if (!model.nodes().joint_faces()[segment.face].is_own[0]
-          || state.joints.handed_over[i])
+          || history.handed_over[i])
         continue;
       const auto gaps = model.joints().gaps(state.nodes.data(), i);
       fields.joint_set.push_back(segment.set);
@@ -83,11 +84,11 @@ namespace quoin
             { { 0.5 * (a.u[0] + b.u[0]), 0.5 * (a.u[1] + b.u[1]) } });
         fields.opening.push_back(gaps[k][0]);
         fields.slip.push_back(gaps[k][1]);
-        fields.normal_traction.push_back(state.joints.normal_traction[p]);
-        fields.shear_traction.push_back(state.joints.shear_traction[p]);
+        fields.normal_traction.push_back(history.normal_traction[p]);
+        fields.shear_traction.push_back(history.shear_traction[p]);
         for (auto &[name, values] : fields.of_laws)
-          values.push_back(model.joints().field(name, p, state.joints));
-        fields.state.push_back(state.joints.state[p]);
+          values.push_back(model.joints().field(name, p, history));
+        fields.state.push_back(history.state[p]);
       }
     }
     return fields;
@@ -97,12 +98,12 @@ namespace quoin
                              const State<2> &state)
   {
     JointFields fields;
-    const auto &pairs = state.contacts.pairs;
+    const ContactState &all = state.get<ContactState>();
+    const auto &pairs       = all.pairs;
     for (unsigned int i = 0; i < pairs.size(); ++i)
     {
       BlockContacts::Contact contact;
-      if (!contacts.is_own(state.contacts, i)
-          || !contacts.contact(state.contacts, i, contact))
+      if (!contacts.is_own(all, i) || !contacts.contact(all, i, contact))
         continue;
       fields.joint_set.push_back(contact.set);
       for (unsigned int k = 0; k < 2; ++k)

@@ -227,8 +227,10 @@ namespace quoin
       throw InputError(section + "'Load = " + wanted.load
                        + "' is no prescribed motion, platen or "
                          "viscous boundary. These are: "
-                       + known_names(constraints, &NodeConstraint::name) + ".");
-    probe.platen = dynamic_cast<const Platen *>(found->get());
+                       + known_names(constraints, &MotionConstraint<2>::name)
+                       + ".");
+    if ((*found)->is_rigid_body())
+      probe.platen = found->get();
     if (wanted.quantity != HistoryQuantity::reaction && !probe.platen)
       throw InputError(section + "'Load = " + wanted.load
                        + "' is no platen. Use 'reaction' for other loads.");
@@ -296,7 +298,7 @@ namespace quoin
       if (probe.entity >= model.n_deformable_cells())
         return 0.;
       const auto stress = model.blocks().cell_stress(
-          state.nodes.data(), state.plastic, probe.entity);
+          state.nodes.data(), state.get<PlasticHistory>(), probe.entity);
       if (wanted.component < 4)
         return stress[wanted.component];
       const PrincipalStress principal
@@ -309,23 +311,24 @@ namespace quoin
           || !model.blocks().cell_law(probe.entity))
         return 0.;
       const PlasticPoint point = model.blocks().cell_history(
-          state.nodes.data(), state.plastic, probe.entity);
+          state.nodes.data(), state.get<PlasticHistory>(), probe.entity);
       return wanted.component == 0 ? point.state : point.plastic_shear;
     }
     case HistoryQuantity::joint:
     {
-      const unsigned int p = probe.entity;
+      const unsigned int p        = probe.entity;
+      const JointHistory &history = state.get<JointHistory>();
       if (wanted.component < 2)
         return model.joints().gaps(state.nodes.data(),
                                    p / 2)[p % 2][wanted.component];
       if (wanted.component == 2)
-        return state.joints.normal_traction[p];
+        return history.normal_traction[p];
       if (wanted.component == 3)
-        return state.joints.shear_traction[p];
+        return history.shear_traction[p];
       if (wanted.component == 4)
-        return static_cast<double>(state.joints.state[p]);
+        return static_cast<double>(history.state[p]);
       return model.joints().field(wanted.component == 5 ? "damage" : "crushing",
-                                  p, state.joints);
+                                  p, history);
     }
     default:
       return 0.;
@@ -360,7 +363,7 @@ namespace quoin
       unsigned int b           = 0;
       while (rigid.block(b).end <= nodes[0])
         ++b;
-      return state.rigid_blocks[b].rotation;
+      return state.get<RigidBlockStates>()[b].rotation;
     }
     const NodeRecord<2> &a = state.nodes[nodes[0]], &b = state.nodes[nodes[1]],
                         &c = state.nodes[nodes[2]];
@@ -392,7 +395,7 @@ namespace quoin
                       == HistoryQuantity::platen_displacement)
       {
         const unsigned int d = probe.parameters.component;
-        row[1 + i] = state.platens[probe.platen->index()].displacement[d]
+        row[1 + i]           = probe.platen->rigid_displacement(state)[d]
                      / (d == 2 ? constants::degree : 1.);
       }
     }
@@ -414,7 +417,7 @@ namespace quoin
     for (unsigned int i = 0; i < probes.size(); ++i)
       if (probes[i].parameters.quantity == HistoryQuantity::contacts
           && solver.contacts())
-        row[1 + i] = solver.contacts()->n_touching(state.contacts);
+        row[1 + i] = solver.contacts()->n_touching(state.get<ContactState>());
     const double time          = row[0];
     std::vector<double> result = row;
     // Platen displacements are known to all ranks, points to one.
@@ -441,7 +444,7 @@ namespace quoin
         result[1 + i] = solver.energies().kinetic
                         / std::max(solver.energies().throughput(), 1e-300);
     }
-    if (of_boundary && state.far_field.active)
+    if (of_boundary && state.get<FarFieldState>().active)
       add_boundary_values(state, result);
     return result;
   }
@@ -452,7 +455,7 @@ namespace quoin
     const FarField &far  = *solver.far_field();
     BoundaryState fields = boundary_state(far, state);
     // The row is of the time before the step that is over.
-    const double since = (double(state.far_field.substep) - 1.)
+    const double since = (double(state.get<FarFieldState>().substep) - 1.)
                          * far.time_step() / far.n_substeps();
     fields.displacement += since * fields.velocity;
     const std::vector<double> values = of_boundary->row(0., fields);

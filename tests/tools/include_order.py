@@ -3,8 +3,8 @@
 # Copyright (C) 2026 The quoin authors
 """Modules include only from their left:
 
-base < mesh, layout, materials, joints < blocks, contact, loads, tdbem < farfield
-     < dynamics < implicit, results < problems < application
+base < mesh, layout, materials, joints < operators < blocks, contact, loads, tdbem
+     < farfield < dynamics < implicit, results < problems < application
 
 Modules between the same two signs do not know each other.
 """
@@ -13,6 +13,7 @@ import re
 import sys
 
 TIERS = [["base"], ["mesh", "layout", "materials", "joints"],
+         ["operators"],
          ["blocks", "contact", "loads", "tdbem"], ["farfield"], ["dynamics"],
          ["implicit", "results"], ["problems"], ["application"]]
 RANK = {name: rank for rank, tier in enumerate(TIERS) for name in tier}

@@ -10,10 +10,16 @@ namespace quoin
 {
   using WallClock = std::chrono::steady_clock;
 
+  inline double seconds_between(const WallClock::time_point start,
+                                const WallClock::time_point end)
+  {
+    return std::chrono::duration<double>(end - start).count();
+  }
+
   /** Wall-clock time since @p start [s]. */
   inline double seconds_since(const WallClock::time_point start)
   {
-    return std::chrono::duration<double>(WallClock::now() - start).count();
+    return seconds_between(start, WallClock::now());
   }
 } // namespace quoin
 

@@ -4,7 +4,8 @@
 #ifndef quoin_blocks_block_forces_h
 #define quoin_blocks_block_forces_h
 
-#include <quoin/base/state.h>
+#include <quoin/materials/plastic_history.h>
+#include <quoin/operators/force_operator.h>
 #include <quoin/blocks/triangle.h>
 #include <quoin/blocks/triangle_strips.h>
 #include <quoin/materials/linear_elastic.h>
@@ -129,11 +130,23 @@ namespace quoin
    * hands the triangles that exceed them to the law one by one.
    */
   template <>
-  class BlockForces<2>
+  class BlockForces<2> : public ForceOperator<2>
   {
   public:
     void prepare(const BlockForcesData<2> &data,
                  const BlockForcesOptions &options = BlockForcesOptions());
+
+    const char *kind() const override
+    {
+      return "blocks";
+    }
+    void prepare(State<2> &state) const override;
+    void add_forces(const StepContext &step, State<2> &state,
+                    const NodeForces<2> &forces) override;
+    double stored_energy(const State<2> &state) const override
+    {
+      return strain_energy(state.nodes.data(), state.get<PlasticHistory>());
+    }
 
     unsigned int n_tiles() const
     {

@@ -42,7 +42,7 @@ namespace quoin
    * that is cheaper than to read it from memory.
    */
   template <>
-  class BlockForces<3>
+  class BlockForces<3> : public ForceOperator<3>
   {
   public:
     /** Stresses and strains: 11, 22, 33, 12, 13, 23. */
@@ -51,6 +51,19 @@ namespace quoin
 
     void prepare(const BlockForcesData<3> &data,
                  const BlockForcesOptions &options = BlockForcesOptions());
+
+    const char *kind() const override
+    {
+      return "blocks";
+    }
+    /** Elastic cells keep nothing; the slice is empty. */
+    void prepare(State<3> &state) const override;
+    void add_forces(const StepContext &step, State<3> &state,
+                    const NodeForces<3> &forces) override;
+    double stored_energy(const State<3> &state) const override
+    {
+      return strain_energy(state.nodes.data(), state.get<PlasticHistory>());
+    }
 
     unsigned int n_tiles() const
     {

@@ -5,7 +5,7 @@
 #define quoin_blocks_node_update_h
 
 #include <quoin/base/local_damping.h>
-#include <quoin/base/state.h>
+#include <quoin/base/node_vector.h>
 
 #include <cmath>
 #include <cstddef>
@@ -69,6 +69,15 @@ namespace quoin
     double mass_power = 0.;
     /** Of the kinetic energy [J]. */
     double kinetic_change = 0.;
+
+    DampingWork &operator+=(const DampingWork &other)
+    {
+      before += other.before;
+      after += other.after;
+      mass_power += other.mass_power;
+      kinetic_change += other.kinetic_change;
+      return *this;
+    }
   };
 
   /**

@@ -4,7 +4,7 @@
 #ifndef quoin_blocks_triangle_h
 #define quoin_blocks_triangle_h
 
-#include <quoin/base/state.h>
+#include <quoin/base/node_vector.h>
 #include <quoin/materials/linear_elastic.h>
 
 #include <array>

@@ -4,7 +4,8 @@
 #ifndef quoin_contact_block_contacts_h
 #define quoin_contact_block_contacts_h
 
-#include <quoin/base/state.h>
+#include <quoin/contact/contact_state.h>
+#include <quoin/operators/force_operator.h>
 #include <quoin/contact/contact_edges.h>
 #include <quoin/contact/contact_parameters.h>
 #include <quoin/contact/matched_joints.h>
@@ -61,23 +62,30 @@ namespace quoin
    * A pair across two ranks is computed by both from the same numbers; each
    * then counts half of its energy.
    */
-  class BlockContacts
+  class BlockContacts : public ForceOperator<2>
   {
   public:
     /**
-     * Keeps a reference to @p node_map; collective. Throws an InputError about
-     * materials that no set for new contacts covers, and about laws that are
-     * not for contacts.
+     * Keeps references to @p node_map and @p joints; collective. Throws an
+     * InputError about materials that no set for new contacts covers, and
+     * about laws that are not for contacts.
      */
-    BlockContacts(const NodeMap<2> &node_map, const ContactModel &model);
+    BlockContacts(const NodeMap<2> &node_map, const MatchedJoints &joints,
+                  const ContactModel &model);
+
+    const char *kind() const override
+    {
+      return "contacts";
+    }
+
+    void prepare(State<2> &state) const override;
 
     /**
      * Takes the present positions. When due, hands over joints that slipped or
      * opened too far, and searches pairs if something moved more than half of
-     * the skin. Collective. @p dt: step to come [s]. Throws a RunError about
-     * deep overlap and runaway velocities.
+     * the skin. Throws a RunError about deep overlap and runaway velocities.
      */
-    void update(State<2> &state, const MatchedJoints &joints, double dt);
+    void update(const StepContext &step, State<2> &state) override;
 
     /** Other laws of the same joint sets, with the same stiffness. */
     void set_laws(const std::vector<JointSetParameters> &sets);
@@ -89,24 +97,11 @@ namespace quoin
       search_is_due       = true;
     }
 
-    /** Rates for stiffness-proportional damping. */
-    struct Viscous
-    {
-      const NodeVector<2> *velocity; /**< of owned nodes [m/s] */
-      double beta;                   /**< [s] */
-      NodeVector<2> *force;          /**< of owned nodes [N] */
-    };
+    /** The same for positions of update(); adds to owned nodes. */
+    void add_forces(const StepContext &step, State<2> &state,
+                    const NodeForces<2> &forces) override;
 
-    /**
-     * Brings the histories to the positions of update(), adds the forces to
-     * @p force of the owned nodes and books the dissipation. Collective if
-     * @p viscous is given.
-     */
-    void add_forces(ContactState &contacts, EnergyAccounts &energy,
-                    NodeVector<2> *force, const Viscous *viscous = nullptr);
-
-    /** Recoverable energy [J] of this rank's share, after add_forces(). */
-    double stored_energy(const ContactState &contacts) const;
+    double stored_energy(const State<2> &state) const override;
 
     /** Points that press on each other, this rank's share. */
     double n_touching(const ContactState &contacts) const;
@@ -174,9 +169,9 @@ namespace quoin
         std::visit(use, laws[set]);
     }
     void find_set_of_materials(const ContactModel &model);
-    void check(State<2> &state, const MatchedJoints &joints, double dt);
+    void check(State<2> &state, double dt);
     /** Returns whether joints of this rank became general contacts. */
-    bool hand_over(State<2> &state, const MatchedJoints &joints);
+    bool hand_over(State<2> &state);
     void search(State<2> &state);
     bool is_matched(const ContactState &contacts, unsigned int a,
                     unsigned int b) const;
@@ -219,7 +214,7 @@ namespace quoin
     };
     void gather_velocities(const NodeVector<2> *velocity);
     void add_point_forces(unsigned int pair, unsigned int k, const Geometry &g,
-                          ContactState &contacts, const Viscous *viscous,
+                          ContactState &contacts, double viscous_beta,
                           Losses &losses);
     void add_viscous_forces(const Edge &a, const Edge &b, const Geometry &g,
                             unsigned int k, double beta,
@@ -252,13 +247,13 @@ namespace quoin
     [[noreturn]] void refuse_speed(const State<2> &state, double speed,
                                    double dt) const;
 
-    unsigned int joint_number(const MatchedJoints &joints,
-                              const unsigned int segment) const
+    unsigned int joint_number(const unsigned int segment) const
     {
       return node_map.joint_faces()[joints.segment(segment).face].number;
     }
 
     const NodeMap<2> &node_map;
+    const MatchedJoints &joints;
     const NodeExchange &exchange;
     const ContactEdges edges;
     const ContactParameters parameters;

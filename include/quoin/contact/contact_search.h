@@ -4,7 +4,7 @@
 #ifndef quoin_contact_contact_search_h
 #define quoin_contact_contact_search_h
 
-#include <quoin/base/state.h>
+#include <quoin/contact/contact_state.h>
 #include <quoin/contact/contact_edges.h>
 
 #include <array>

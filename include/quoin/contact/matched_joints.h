@@ -4,7 +4,8 @@
 #ifndef quoin_contact_matched_joints_h
 #define quoin_contact_matched_joints_h
 
-#include <quoin/base/state.h>
+#include <quoin/joints/joint_history.h>
+#include <quoin/operators/force_operator.h>
 #include <quoin/joints/joint_parameters.h>
 #include <quoin/mesh/node_map.h>
 
@@ -51,7 +52,7 @@ namespace quoin
    * A segment between blocks of two ranks is computed by both, from the same
    * numbers; each then counts half of its energy.
    */
-  class MatchedJoints
+  class MatchedJoints : public ForceOperator<2>
   {
   public:
     /**
@@ -61,6 +62,22 @@ namespace quoin
      */
     void prepare(const NodeMap<2> &nodes,
                  const std::vector<JointSetParameters> &sets, double thickness);
+
+    const char *kind() const override
+    {
+      return "joints";
+    }
+
+    /** Intact points, free of traction. */
+    void prepare(State<2> &state) const override;
+
+    void add_forces(const StepContext &step, State<2> &state,
+                    const NodeForces<2> &forces) override;
+
+    double stored_energy(const State<2> &state) const override
+    {
+      return stored_energy(state.nodes.data(), state.get<JointHistory>());
+    }
 
     unsigned int n_segments() const
     {

@@ -82,7 +82,7 @@ namespace quoin
     void take_away(const Step &step, Solver &solver, State<2> &state) const;
     void place(const Step &step, State<2> &state) const;
     /** Makes the model that which @p n stages left. */
-    void restore(unsigned int n, const State<2> &state);
+    void restore(unsigned int n, const ConstructionState &state);
 
     Model &model;
     const ModelProperties at_start;

@@ -4,7 +4,7 @@
 #ifndef quoin_dynamics_explicit_solver_h
 #define quoin_dynamics_explicit_solver_h
 
-#include <quoin/base/state.h>
+#include <quoin/operators/state.h>
 #include <quoin/dynamics/model_box.h>
 #include <quoin/blocks/node_update.h>
 #include <quoin/dynamics/solver.h>
@@ -34,10 +34,12 @@ namespace quoin
      * acts in static stages. Throws an InputError about a block outside the
      * box.
      */
-    ExplicitSolver(const Model &model, const std::vector<LoadParameters> &loads,
+    ExplicitSolver(Model &model, const std::vector<LoadParameters> &loads,
                    const std::vector<StageParameters> &stages       = {},
                    std::unique_ptr<FarField> far_field              = nullptr,
                    std::unique_ptr<StaticFarField> static_far_field = nullptr);
+
+    void prepare(State<2> &state) const override;
 
     /**
      * Books the energy of @p state, which is not at rest where the run begins,
@@ -130,9 +132,11 @@ namespace quoin
     }
 
   private:
-    /** CapturedNode::begun of the stage's first step. */
+    /** CapturedNode<2>::begun of the stage's first step. */
     void find_begun_forces(const StepContext &context);
     void scale_masses(const StageParameters &stage, State<2> &state);
+    /** What acts in the stage. */
+    void collect_operators();
     void collect_constrained_nodes(const State<2> &state);
     /** How long forces of excavated blocks are let go in this stage [s]. */
     double release_duration(const State<2> &state) const;
@@ -147,16 +151,48 @@ namespace quoin
      */
     void remove_blocks(const std::vector<BlockOutside> &found, State<2> &state);
     StepContext step_context(const State<2> &state) const;
-    void apply_forces(State<2> &state, const StepContext &context);
-    void advance_blocks(State<2> &state, const StepContext &context,
-                        const Requests &requests);
+    /** Energies of a step's start, of this rank [J]. */
+    struct StoredEnergies
+    {
+      double strain = 0., joint = 0.;
+    };
+    StoredEnergies stored_energies(const State<2> &state);
+    /** What a step sums over the nodes of this rank. */
+    struct StepSums
+    {
+      DampingWork damping;
+      double applied    = 0.; /**< by joints, contacts and loads [N] */
+      double unbalanced = 0.; /**< [N] */
+    };
+
+    // The parts of a step.
+    void update_neighbours(State<2> &state, const StepContext &context);
+    void add_forces(State<2> &state, const StepContext &context);
+    void advance_tiles(State<2> &state, const StepContext &context,
+                       const Requests &requests, StepSums &sums);
+    void advance_shared_nodes(State<2> &state, const StepContext &context,
+                              const Requests &requests, StepSums &sums);
+    void advance_rigid_blocks(State<2> &state, const StepContext &context,
+                              StepSums &sums);
+    void move_constrained_nodes(State<2> &state, const StepContext &context);
+    void book_energies(State<2> &state, const StepContext &context,
+                       const Requests &requests, const StoredEnergies &stored,
+                       const StepSums &sums);
+    void exchange_positions(State<2> &state);
+
+    NodeForces<2> node_forces();
+    /** Moves free nodes of @p range; @p first_captured: into captured_begin.
+     */
+    void advance_range(State<2> &state, const StepContext &context,
+                       const Requests &requests, const NodeRange &range,
+                       unsigned int first_captured, StepSums &sums);
     /** Adds what this rank has on shared nodes to their owners', and forgets
         it. Collective. */
     void add_shared_forces(AlignedArray<NodeVector<2>> &values);
-    /** Sums forces of joints, contacts and loads on nodes. Collective. */
-    void find_applied_force();
-    void capture(CapturedNode &node, const State<2> &state) const;
-    void move_constrained_nodes(State<2> &state, const StepContext &context);
+    /** Sum of the forces of joints, contacts and loads on this rank's nodes
+        [N]. Collective. */
+    double applied_force() const;
+    void capture(CapturedNode<2> &node, const State<2> &state) const;
     /** At the time of the step [J], from velocities before and after it. */
     double kinetic_energy(const State<2> &state,
                           const StepContext &context) const;
@@ -187,7 +223,7 @@ namespace quoin
     std::vector<NodeRange> removed_nodes; /**< of removed blocks */
     std::vector<BlockOutside> blocks_outside;
 
-    std::vector<CapturedNode> captured; /**< ascending nodes */
+    std::vector<CapturedNode<2>> captured; /**< ascending nodes */
     /** First entry of each tile, of shared nodes, and of rigid blocks. */
     std::vector<unsigned int> captured_begin;
 
@@ -195,10 +231,18 @@ namespace quoin
     AlignedArray<NodeVector<2>> viscous_force;
     AlignedArray<NodeVector<2>> velocity_before; /**< when energies are due */
     std::vector<RigidBlockState> rigid_before;
-    double applied_force    = 0.;
-    double unbalanced_force = 0.;
-
     PlasticHistory plastic_now; /**< when energies are due */
+
+    /** Contacts, joints and loads of the stage, in the order of action. */
+    std::vector<ForceOperator<2> *> forces_on;
+    /** Phases of forces_on and constraints_on. */
+    std::vector<unsigned int> force_phases, constraint_phases;
+    const struct
+    {
+      unsigned int blocks, rigid_blocks, search, loads, exchange, energies;
+    } phases{ time_shares.phase("blocks"),   time_shares.phase("rigid blocks"),
+              time_shares.phase("search"),   time_shares.phase("loads"),
+              time_shares.phase("exchange"), time_shares.phase("energies") };
   };
 } // namespace quoin
 

@@ -6,7 +6,7 @@
 
 #include <quoin/dynamics/model.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 
 #include <string>
 #include <vector>
@@ -19,9 +19,10 @@ namespace quoin
    * translate or rotate: it could never come to rest. Blocks that are absent in
    * @p state do not count. @p stage is for the message. Collective.
    */
-  void check_no_free_bodies(const Model &model,
-                            const std::vector<NodeConstraint *> &constraints,
-                            const std::string &stage, const State<2> &state);
+  void
+  check_no_free_bodies(const Model &model,
+                       const std::vector<MotionConstraint<2> *> &constraints,
+                       const std::string &stage, const State<2> &state);
 
   /** A body that loads push where nothing holds it. */
   struct PushedBody
@@ -39,7 +40,7 @@ namespace quoin
    * Collective.
    */
   std::vector<PushedBody> find_pushed_bodies(
-      const Model &model, const std::vector<NodeConstraint *> &constraints,
+      const Model &model, const std::vector<MotionConstraint<2> *> &constraints,
       const std::vector<const NodalLoad *> &loads,
       const std::vector<TimePoint> &times, const State<2> &state);
 } // namespace quoin

@@ -4,7 +4,8 @@
 #ifndef quoin_dynamics_model_h
 #define quoin_dynamics_model_h
 
-#include <quoin/base/state.h>
+#include <quoin/dynamics/construction_state.h>
+#include <quoin/operators/state.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/matched_joints.h>
 #include <quoin/blocks/block_forces.h>
@@ -137,6 +138,10 @@ namespace quoin
       return parameters.large_displacements;
     }
     const MatchedJoints &joints() const
+    {
+      return matched_joints;
+    }
+    MatchedJoints &joints()
     {
       return matched_joints;
     }

@@ -17,7 +17,7 @@ namespace quoin
    * loads' clock, H = H_0 + s (H_1 - H_0) (@cite PanetGuenot1982). They act
    * and work as loads do.
    */
-  class Release
+  class Release : public ForceOperator<2>
   {
   public:
     Release() = default;
@@ -35,10 +35,18 @@ namespace quoin
     /** s [-] */
     double share(double load_time) const;
 
+    const char *kind() const override
+    {
+      return "loads";
+    }
     void add_forces(double load_time, NodeVector<2> *force) const;
-
-    /** Rate of work [W] on nodes that move with @p velocity. */
-    double power(double load_time, const NodeVector<2> *velocity) const;
+    void add_forces(const StepContext &step, State<2> &,
+                    const NodeForces<2> &forces) override
+    {
+      add_forces(step.begin.stage, forces.force);
+    }
+    double external_power(const TimePoint &time,
+                          const NodeVector<2> *velocity) const override;
 
   private:
     struct NodalForce

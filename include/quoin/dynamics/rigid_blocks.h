@@ -4,9 +4,9 @@
 #ifndef quoin_dynamics_rigid_blocks_h
 #define quoin_dynamics_rigid_blocks_h
 
-#include <quoin/base/state.h>
+#include <quoin/operators/state.h>
 #include <quoin/blocks/node_update.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 #include <quoin/materials/material_parameters.h>
 #include <quoin/mesh/node_map.h>
 
@@ -22,6 +22,32 @@ namespace quoin
   std::vector<bool>
   find_rigid_blocks(const BlockMesh<2> &mesh,
                     const std::vector<MaterialParameters> &materials);
+
+  /** A rigid block: x [m], y [m], rotation [rad, anticlockwise]. */
+  struct RigidBlockState
+  {
+    double displacement[2]{}; /**< of the centroid, from the reference */
+    double rotation = 0.;     /**< counts full turns */
+    double velocity[3]{};     /**< of the centroid and spin, at time - dt/2 */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &displacement &rotation &velocity;
+    }
+  };
+
+  /** The rigid blocks of a rank. */
+  struct RigidBlockStates : std::vector<RigidBlockState>
+  {
+    static constexpr const char *slice_name = "rigid blocks";
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &static_cast<std::vector<RigidBlockState> &>(*this);
+    }
+  };
 
   /** How the rigid blocks of a rank move in a stage. */
   struct RigidBlockStage

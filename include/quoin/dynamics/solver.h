@@ -4,7 +4,8 @@
 #ifndef quoin_dynamics_solver_h
 #define quoin_dynamics_solver_h
 
-#include <quoin/base/state.h>
+#include <quoin/base/phase_clock.h>
+#include <quoin/operators/state.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/dynamics/free_bodies.h>
@@ -12,7 +13,7 @@
 #include <quoin/dynamics/release.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/platen.h>
 
 #include <memory>
@@ -33,10 +34,14 @@ namespace quoin
     /** What the balance leaves over; zero but for rounding and kinks. */
     double residual() const
     {
-      return kinetic + strain + joint + far_field + accounts.friction
-             + accounts.fracture + accounts.crushing + accounts.plastic
-             + accounts.damping + accounts.viscous + accounts.contact
-             + accounts.radiated - accounts.external;
+      return stored() + accounts.sum(EnergyKind::dissipated)
+             - accounts.sum(EnergyKind::given);
+    }
+
+    /** What the model could give back. */
+    double stored() const
+    {
+      return kinetic + strain + joint + far_field;
     }
 
     /** All energy that went through the model, to judge the residual by. */
@@ -55,11 +60,15 @@ namespace quoin
      * @p far_field and @p static_far_field: of the load that is of the type
      * 'boundary elements', or null; the second acts in static stages.
      */
-    Solver(const Model &model, const std::vector<LoadParameters> &loads,
+    Solver(Model &model, const std::vector<LoadParameters> &loads,
            std::unique_ptr<FarField> far_field,
            std::unique_ptr<StaticFarField> static_far_field);
 
     virtual ~Solver() = default;
+
+    /** Adds the slices of its operators and constraints to @p state, of
+        Model::initial_state(), before it is read from a checkpoint. */
+    virtual void prepare(State<2> &state) const;
 
     /**
      * Brings the histories of cells, joints and contacts of @p state, a copy,
@@ -135,6 +144,8 @@ namespace quoin
 
     /** Called before a checkpoint: completes @p state. */
     virtual void save(State<2> &state) const;
+    /** Called after it: drops what only checkpoints need. */
+    virtual void discard_saved(State<2> &state) const;
 
     /** Null if displacements are small. */
     virtual const BlockContacts *contacts() const
@@ -142,8 +153,14 @@ namespace quoin
       return nullptr;
     }
 
+    /** How the steps of this process share their time. */
+    PhaseClock &time_spent()
+    {
+      return time_shares;
+    }
+
     /** Of all loads, acting in this stage or not. */
-    const std::vector<std::unique_ptr<NodeConstraint>> &constraints() const
+    const std::vector<std::unique_ptr<MotionConstraint<2>>> &constraints() const
     {
       return all_constraints;
     }
@@ -158,10 +175,8 @@ namespace quoin
     /** Of the loads in constraints_on, all but prescribed motions. */
     void refuse_absent_nodes(const State<2> &state) const;
     /** Whether @p stage names it and, of far fields, is of its kind. */
-    bool acts_in(const NodeConstraint &constraint,
+    bool acts_in(const MotionConstraint<2> &constraint,
                  const StageParameters &stage) const;
-    /** Makes room in @p state for what loads keep there. */
-    void make_room(State<2> &state) const;
     /**
      * The rigid blocks that platens of the stage move. Throws an InputError
      * about one that is held in part or by something else.
@@ -177,19 +192,21 @@ namespace quoin
     std::vector<std::array<double, 3>> load_values(double stage_start,
                                                    double load_time) const;
 
-    const Model &model;
+    Model &model;
     MPI_Comm communicator;
 
-    std::vector<std::unique_ptr<NodeConstraint>> all_constraints;
+    std::vector<std::unique_ptr<MotionConstraint<2>>> all_constraints;
     FarField *far              = nullptr; /**< one of them */
     StaticFarField *static_far = nullptr; /**< one of them */
     std::vector<NodalLoad> all_loads;
     std::vector<std::string> known_loads;
 
-    std::vector<NodeConstraint *> constraints_on; /**< in order of action */
+    std::vector<MotionConstraint<2> *>
+        constraints_on; /**< in order of action */
     std::vector<const NodalLoad *> loads_on;
     StageParameters stage;
     Release release; /**< of what was excavated */
+    PhaseClock time_shares;
 
   private:
     void make_free_fields(const std::vector<LoadParameters> &loads);

@@ -6,7 +6,7 @@
 
 #include <quoin/base/eigen_core.h>
 #include <quoin/farfield/interface_transfer.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 #include <quoin/tdbem/boundary.h>
 #include <quoin/tdbem/boundary_history.h>
 #include <quoin/tdbem/time_marching.h>
@@ -63,6 +63,42 @@ namespace quoin
     std::function<Eigen::VectorXd(double begin, double end)> given;
   };
 
+  /** Boundary elements coupled to the blocks; see FarField. */
+  struct FarFieldState
+  {
+    static constexpr const char *slice_name = "far field";
+
+    bool active           = false;    /**< whether it has begun */
+    std::uint64_t n_steps = 0;        /**< of the boundary elements, done */
+    unsigned int substep  = 0;        /**< block steps done in the next */
+    std::vector<double> held;         /**< forces on its nodes [N] */
+    std::vector<double> last_motion;  /**< of elements, interface [m] */
+    std::vector<double> origin;       /**< the same when it began [m] */
+    std::vector<double> frozen;       /**< p_h of the step under way [Pa] */
+    std::vector<double> velocity_sum; /**< over block steps [m] */
+    std::vector<double> traction_sum; /**< over block steps [Pa] */
+    double duration   = 0.;           /**< of those block steps [s] */
+    double square_sum = 0.;           /**< of v Z0 v over block steps [J] */
+    // As FarField::Ledger says.
+    double radiated    = 0.; /**< [J] */
+    double substep_sum = 0.; /**< its substeps [J] */
+    double incident    = 0.; /**< [J] */
+    double given       = 0.; /**< [J] */
+    double mismatch    = 0.; /**< [-] */
+    /** Of all boundary elements in the last step, scattered. */
+    std::vector<double> displacement, velocity, traction;
+    std::vector<double> history; /**< in checkpoints */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &n_steps &substep &held &last_motion &origin &frozen
+          &velocity_sum &traction_sum &duration &square_sum &radiated
+              &substep_sum &incident &given &mismatch &displacement &velocity
+                  &traction &history;
+    }
+  };
+
   /**
    * Boundary elements beyond the outer boundary of blocks, from which waves
    * come in and into which they leave (@cite JinWangZhang1998, Eqs. 14-18).
@@ -77,7 +113,7 @@ namespace quoin
    * unbalanced on the interface then are held from there on: so reactions of a
    * static stage, or an initial stress, do not set anything in motion.
    */
-  class FarField : public NodeConstraint
+  class FarField : public MotionConstraint<2>
   {
   public:
     /** Energies of the steps finished so far [J]. */
@@ -156,30 +192,35 @@ namespace quoin
     Eigen::VectorXd velocity(const State<2> &state) const;
     Eigen::VectorXd traction(const State<2> &state) const;
 
+    MotionKind kind() const override
+    {
+      return MotionKind::absorbing;
+    }
+    const char *phase() const override
+    {
+      return "far field";
+    }
+    void prepare(State<2> &state) const override;
     void begin_stage(State<2> &state, bool continues) override;
     void resume_stage(const State<2> &state) override;
     void save(State<2> &state) const override;
     void correct(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     void account(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     std::array<double, 3> values(const TimePoint &) const override
     {
       return {};
     }
-    std::array<bool, 3> holds() const override
-    {
-      return { { false, false, false } };
-    }
 
   private:
     using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-    void start(const std::vector<CapturedNode> &captured, State<2> &state);
-    void prepare(const StepContext &step,
-                 const std::vector<CapturedNode> &captured);
+    void start(const std::vector<CapturedNode<2>> &captured, State<2> &state);
+    void prepare_step(const StepContext &step,
+                      const std::vector<CapturedNode<2>> &captured);
     void find_incident(const FarFieldState &far);
     void begin_element_step(State<2> &state);
     void finish_element_step(State<2> &state);

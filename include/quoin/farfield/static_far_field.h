@@ -7,13 +7,31 @@
 #include <quoin/base/eigen_core.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/farfield/interface_transfer.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 
 #include <string>
 #include <vector>
 
 namespace quoin
 {
+  /** Static boundary elements beyond the blocks; see StaticFarField. */
+  struct StaticFarFieldState
+  {
+    static constexpr const char *slice_name = "static far field";
+
+    bool active = false;        /**< whether it has begun */
+    std::vector<double> held;   /**< forces on its nodes [N] */
+    std::vector<double> origin; /**< motion of elements at its start [m] */
+    double stored        = 0.;  /**< elastic energy of the domain [J] */
+    double stored_before = 0.;  /**< when it began [J] */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &held &origin &stored &stored_before;
+    }
+  };
+
   /**
    * The rock beyond the outer boundary of blocks, at rest: a static stiffness
    * on the interface. It takes the place of FarField in static stages.
@@ -25,7 +43,7 @@ namespace quoin
    * masses of the interface's nodes, which cannot lower the critical step and
    * does not change where the blocks come to rest.
    */
-  class StaticFarField : public NodeConstraint
+  class StaticFarField : public MotionConstraint<2>
   {
   public:
     /** As FarField; motion and waves of @p domain are not used. */
@@ -69,21 +87,26 @@ namespace quoin
     /** Collective. */
     NodalStiffness nodal_stiffness(const NodeExchange &exchange) const;
 
+    MotionKind kind() const override
+    {
+      return MotionKind::absorbing;
+    }
+    const char *phase() const override
+    {
+      return "far field";
+    }
+    void prepare(State<2> &state) const override;
     void begin_stage(State<2> &state, bool continues) override;
     void resume_stage(const State<2> &state) override;
     void correct(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     void account(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     std::array<double, 3> values(const TimePoint &) const override
     {
       return {};
-    }
-    std::array<bool, 3> holds() const override
-    {
-      return { { false, false, false } };
     }
     bool supports() const override
     {
@@ -91,10 +114,10 @@ namespace quoin
     }
 
   private:
-    void start(const std::vector<CapturedNode> &captured, State<2> &state);
-    void prepare(const StepContext &step,
-                 const std::vector<CapturedNode> &captured);
-    void gather_displacement(const std::vector<CapturedNode> &captured,
+    void start(const std::vector<CapturedNode<2>> &captured, State<2> &state);
+    void prepare_step(const StepContext &step,
+                      const std::vector<CapturedNode<2>> &captured);
+    void gather_displacement(const std::vector<CapturedNode<2>> &captured,
                              Eigen::VectorXd &means) const;
     void book_stored(const StepContext &step, State<2> &state);
 

@@ -4,10 +4,11 @@
 #ifndef quoin_implicit_freedoms_h
 #define quoin_implicit_freedoms_h
 
-#include <quoin/base/state.h>
+#include <quoin/implicit/implicit_state.h>
+#include <quoin/operators/state.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/platen.h>
 
 #include <deal.II/base/index_set.h>
@@ -47,7 +48,7 @@ namespace quoin
 
     struct Body
     {
-      const Platen *platen; /**< null: a rigid block */
+      const MotionConstraint<2> *platen; /**< null: a rigid block */
       unsigned int rigid_block;
       double centre[2];                /**< where displacements are zero [m] */
       std::array<bool, 3> given;       /**< by functions of time */
@@ -77,7 +78,7 @@ namespace quoin
      * @p held: of each rigid block, whether a platen moves it.
      */
     Freedoms(const Model &model,
-             const std::vector<NodeConstraint *> &constraints,
+             const std::vector<MotionConstraint<2> *> &constraints,
              const std::vector<bool> &held, const State<2> &state);
 
     const std::vector<Body> &bodies() const
@@ -158,7 +159,7 @@ namespace quoin
                                               double stage_start) const;
 
   private:
-    void add_platens(const std::vector<NodeConstraint *> &constraints,
+    void add_platens(const std::vector<MotionConstraint<2> *> &constraints,
                      const State<2> &state);
     void add_rigid_blocks(const std::vector<bool> &held);
     void number();

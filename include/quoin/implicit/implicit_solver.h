@@ -4,6 +4,7 @@
 #ifndef quoin_implicit_implicit_solver_h
 #define quoin_implicit_implicit_solver_h
 
+#include <quoin/implicit/implicit_state.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/implicit/equilibrium.h>
 #include <quoin/implicit/freedoms.h>
@@ -64,10 +65,16 @@ namespace quoin
      * or null, in all stages. Throws an InputError about loads that need
      * inertia.
      */
-    ImplicitSolver(const Model &model, const std::vector<LoadParameters> &loads,
+    ImplicitSolver(Model &model, const std::vector<LoadParameters> &loads,
                    const ImplicitParameters &parameters,
                    const std::vector<std::string> &joint_sets,
                    std::unique_ptr<StaticFarField> far_field = nullptr);
+
+    void prepare(State<2> &state) const override;
+    void discard_saved(State<2> &state) const override
+    {
+      state.get<ImplicitState>().before_jump.clear();
+    }
 
     /** As ExplicitSolver::begin_stage(). */
     void begin_stage(const StageParameters &stage,
@@ -83,7 +90,8 @@ namespace quoin
     /** A jump has loads of its end from its first step on. */
     bool is_over(const State<2> &state) const
     {
-      return state.implicit.released == 1. && !state.implicit.jumps
+      return state.get<ImplicitState>().released == 1.
+             && !state.get<ImplicitState>().jumps
              && state.load_time >= stage_duration;
     }
 

@@ -4,7 +4,7 @@
 #ifndef quoin_joints_joint_point_h
 #define quoin_joints_joint_point_h
 
-#include <quoin/base/state.h>
+#include <quoin/joints/joint_history.h>
 
 #include <deal.II/base/tensor.h>
 

@@ -5,7 +5,7 @@
 #define quoin_loads_free_field_boundary_h
 
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/viscous_boundary.h>
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/mesh/node_map.h>
@@ -33,6 +33,21 @@ namespace quoin
     std::vector<Impedance> impedance; /**< beyond it, of each cell group */
   };
 
+  /** A column beside the blocks; see FreeFieldBoundary. */
+  struct FreeFieldState
+  {
+    bool active = false;              /**< whether it has begun */
+    std::vector<double> displacement; /**< x, y of its nodes [m] */
+    std::vector<double> velocity;     /**< the same at time - dt/2 [m/s] */
+    std::vector<double> held;         /**< forces on nodes of blocks [N] */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &displacement &velocity &held;
+    }
+  };
+
   /**
    * An upright side of a model whose surroundings go on as they are (@cite
    * ZienkiewiczBicanicShen1989): beside it stands a column of the ground along
@@ -51,31 +66,32 @@ namespace quoin
    * whole column. The dashpots are those of ViscousBoundary, also where the
    * side meets a viscous base, whose part at that node is taken along.
    */
-  class FreeFieldBoundary : public NodeConstraint
+  class FreeFieldBoundary : public MotionConstraint<2>
   {
   public:
     /**
-     * @p index: of State::free_fields. Throws an InputError about a side that
-     * is not upright or in one piece, or a base that cannot drive a column.
+     * Throws an InputError about a side that is not upright or in one piece,
+     * or a base that cannot drive a column.
      */
-    FreeFieldBoundary(const LoadParameters &parameters, unsigned int index,
+    FreeFieldBoundary(const LoadParameters &parameters,
                       const NodeMap<2> &node_map, const FreeFieldGround &ground,
                       const FreeFieldBase &base);
 
+    MotionKind kind() const override
+    {
+      return MotionKind::absorbing;
+    }
+    void prepare(State<2> &state) const override;
     void begin_stage(State<2> &state, bool continues) override;
     void correct(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     void account(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     std::array<double, 3> values(const TimePoint &) const override
     {
       return {};
-    }
-    std::array<bool, 3> holds() const override
-    {
-      return { { false, false, false } };
     }
     std::string companion() const override
     {
@@ -117,14 +133,13 @@ namespace quoin
     std::vector<BoundaryFace<2>> make_foot(const NodeMap<2> &node_map,
                                            const FreeFieldBase &given);
     unsigned int node_at(double height) const;
-    void start(const std::vector<CapturedNode> &captured,
+    void start(const std::vector<CapturedNode<2>> &captured,
                FreeFieldState &column);
     void move_foot(const StepContext &step, const double *force,
                    FreeFieldState &column) const;
     /** Takes the column from t to t + dt and finds the pull at t. */
     void advance(const StepContext &step, FreeFieldState &column);
 
-    unsigned int index;
     double x       = 0.; /**< of the side [m] */
     double outward = 0.; /**< n_x: 1 or -1 */
     std::vector<double> node_height;

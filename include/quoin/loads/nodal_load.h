@@ -4,7 +4,7 @@
 #ifndef quoin_loads_nodal_load_h
 #define quoin_loads_nodal_load_h
 
-#include <quoin/base/state.h>
+#include <quoin/operators/force_operator.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/mesh/node_map.h>
 
@@ -20,7 +20,7 @@ namespace quoin
    * Tractions and pressures act on the reference area and keep their
    * direction.
    */
-  class NodalLoad
+  class NodalLoad : public ForceOperator<2>
   {
   public:
     /** @p mass is that of the local nodes, unscaled [kg]. */
@@ -30,10 +30,18 @@ namespace quoin
     /** Weights of gravity where masses have changed; see the constructor. */
     void set_mass(const std::vector<double> &mass);
 
+    const char *kind() const override
+    {
+      return "loads";
+    }
     void add_forces(const TimePoint &time, NodeVector<2> *force) const;
-
-    /** Rate of work [W] on nodes that move with @p velocity. */
-    double power(const TimePoint &time, const NodeVector<2> *velocity) const;
+    void add_forces(const StepContext &step, State<2> &,
+                    const NodeForces<2> &forces) override
+    {
+      add_forces(step.begin, forces.force);
+    }
+    double external_power(const TimePoint &time,
+                          const NodeVector<2> *velocity) const override;
 
     /** Traction x, y and pressure [Pa] or acceleration x, y [m/s^2]. */
     std::array<double, 3> amplitude(const TimePoint &time) const;

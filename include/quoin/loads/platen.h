@@ -5,68 +5,73 @@
 #define quoin_loads_platen_h
 
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 #include <quoin/mesh/node_map.h>
 
 namespace quoin
 {
+  /** Motion of a rigid platen: x [m], y [m], rotation [rad, anticlockwise]. */
+  struct PlatenState
+  {
+    bool active = false;
+    double centre[2]{};       /**< where it was when it took hold [m] */
+    double displacement[3]{}; /**< since then */
+    double stage_start[3]{};  /**< displacement at that time */
+    double velocity[3]{};     /**< at time - dt/2 */
+    std::vector<double> arms; /**< x, y of each node, from centre, then [m] */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &centre &displacement &stage_start &velocity &arms;
+    }
+  };
+
   /**
    * A rigid platen: the nodes of a boundary, or all nodes of a group of
    * blocks, move as one rigid body about their centre of mass. Each of its
    * three freedoms is driven (velocity or displacement) or loaded (force or
    * moment) or free. Its mass is that of its nodes.
    */
-  class Platen : public NodeConstraint
+  class Platen : public MotionConstraint<2>
   {
   public:
-    /** @p index is its place in State::platens. */
-    Platen(const LoadParameters &parameters, unsigned int index,
-           const NodeMap<2> &node_map);
+    Platen(const LoadParameters &parameters, const NodeMap<2> &node_map);
 
-    /**
-     * Masses of the local nodes, as they act in the stage to come [kg].
-     * Rigid blocks are no masses at nodes: @p extra_inertia [kg m^2] is what
-     * their moments of inertia have beyond those of the masses of their
-     * nodes, @p extra_spin the angular momentum that goes with it.
-     */
+    MotionKind kind() const override
+    {
+      return MotionKind::rigid_body;
+    }
+    void prepare(State<2> &state) const override;
     void set_mass(const std::vector<double> &mass, double extra_inertia = 0.,
-                  double extra_spin = 0.);
-
+                  double extra_spin = 0.) override;
+    void rest(State<2> &state) override;
     void begin_stage(State<2> &state, bool continues) override;
     void resume_stage(const State<2> &state) override;
     void correct(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     void account(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
 
-    bool is_global() const override
-    {
-      return true;
-    }
     double unbalanced() const override
     {
       return last_unbalanced;
     }
-    const std::array<LoadComponent, 3> &parts() const
+    const std::array<LoadComponent, 3> *parts() const override
     {
-      return components;
+      return &components;
+    }
+    const double *rigid_displacement(const State<2> &state) const override
+    {
+      return state.get<PlatenState>(load_name).displacement;
     }
     std::array<double, 3> values(const TimePoint &time) const override
     {
       return component_values(components, time);
     }
-    void check_start(const TimePoint &time) const override
-    {
-      check_no_jump(components, time, load_name);
-    }
     std::array<bool, 3> holds() const override;
-
-    unsigned int index() const
-    {
-      return platen_index;
-    }
 
   private:
     bool driven(const unsigned int freedom) const
@@ -76,14 +81,14 @@ namespace quoin
     }
 
     /** Force and moment [N, N m] of the nodes, of all ranks. */
-    std::array<double, 3> resultant(const std::vector<CapturedNode> &captured,
-                                    const PlatenState &platen) const;
+    std::array<double, 3>
+    resultant(const std::vector<CapturedNode<2>> &captured,
+              const PlatenState &platen) const;
     /** One component of the platen's motion, of force, drive and damping. */
     void advance_freedom(unsigned int d, const StepContext &step,
                          PlatenState &platen);
 
     std::array<LoadComponent, 3> components;
-    unsigned int platen_index;
     MPI_Comm communicator;
     std::vector<double> node_mass;
     double rigid_inertia = 0., rigid_spin = 0.;

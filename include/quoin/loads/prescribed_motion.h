@@ -5,41 +5,37 @@
 #define quoin_loads_prescribed_motion_h
 
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 #include <quoin/mesh/node_map.h>
 
 namespace quoin
 {
   /** Velocity or displacement of a boundary as a function of time. */
-  class PrescribedMotion : public NodeConstraint
+  class PrescribedMotion : public MotionConstraint<2>
   {
   public:
     PrescribedMotion(const LoadParameters &parameters,
                      const NodeMap<2> &node_map);
 
+    MotionKind kind() const override
+    {
+      return MotionKind::prescribed;
+    }
     void correct(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     void account(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
-    const std::array<LoadComponent, 3> &parts() const
+    const std::array<LoadComponent, 3> *parts() const override
     {
-      return components;
+      return &components;
     }
     std::array<double, 3> values(const TimePoint &time) const override
     {
       return component_values(components, time);
     }
-    void check_start(const TimePoint &time) const override
-    {
-      check_no_jump(components, time, load_name);
-    }
     std::array<bool, 3> holds() const override;
-    bool moves_all() const override
-    {
-      return false;
-    }
 
   private:
     std::array<LoadComponent, 3> components;

@@ -5,19 +5,13 @@
 #define quoin_loads_time_function_h
 
 #include <quoin/loads/signal.h>
+#include <quoin/operators/step_context.h>
 
 #include <functional>
 #include <string>
 
 namespace quoin
 {
-  /** Time since the stage began and since the run began [s]. */
-  struct TimePoint
-  {
-    double stage;
-    double total;
-  };
-
   /** So late in a stage that its loads rest if they ever do [s]. */
   constexpr double late_time = 1e9;
 

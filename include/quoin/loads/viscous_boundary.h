@@ -5,7 +5,7 @@
 #define quoin_loads_viscous_boundary_h
 
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/materials/plane_assumption.h>
 #include <quoin/mesh/node_map.h>
@@ -57,7 +57,7 @@ namespace quoin
    * @p damping (xx, yy, xy [N s/m]) on the mean velocity of the step:
    * (m + h c) v+ = (m - h c) v- + 2 h f, h half the step.
    */
-  void move_with_dashpot(const StepContext &step, const CapturedNode &before,
+  void move_with_dashpot(const StepContext &step, const CapturedNode<2> &before,
                          const std::array<double, 3> &damping,
                          const std::array<double, 2> &pull, State<2> &state);
 
@@ -66,11 +66,25 @@ namespace quoin
    * @p owner moved, and adds its forces [N] and their moment about the
    * origin [N m] to @p resultant.
    */
-  void account_for_dashpot(const StepContext &step, const CapturedNode &before,
+  void account_for_dashpot(const StepContext &step,
+                           const CapturedNode<2> &before,
                            const std::array<double, 3> &damping,
                            const std::array<double, 2> &pull,
-                           const NodeConstraint *owner,
+                           const MotionConstraint<2> *owner,
                            std::array<double, 3> &resultant, State<2> &state);
+
+  /** A viscous boundary that came after other stages. */
+  struct ViscousBoundaryState
+  {
+    bool active = false;      /**< whether it has begun */
+    std::vector<double> held; /**< forces on its nodes [N]; empty: none */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &active &held;
+    }
+  };
 
   /**
    * The standard viscous boundary (@cite LysmerKuhlemeyer1969) with waves
@@ -83,41 +97,38 @@ namespace quoin
    * begin with it, are held from there on: reactions of what it replaces. A
    * run that begins with it has nothing to hold.
    */
-  class ViscousBoundary : public NodeConstraint
+  class ViscousBoundary : public MotionConstraint<2>
   {
   public:
-    /**
-     * @p index: its place in State::viscous_boundaries; @p impedance: of what
-     * lies beyond each cell group of @p node_map.
-     */
-    ViscousBoundary(const LoadParameters &parameters, unsigned int index,
+    /** @p impedance: of what lies beyond each cell group of @p node_map. */
+    ViscousBoundary(const LoadParameters &parameters,
                     const NodeMap<2> &node_map,
                     const std::vector<Impedance> &impedance, double thickness);
 
+    MotionKind kind() const override
+    {
+      return MotionKind::absorbing;
+    }
+    void prepare(State<2> &state) const override;
     void begin_stage(State<2> &state, bool continues) override;
     void correct(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     void account(const StepContext &step,
-                 const std::vector<CapturedNode> &captured,
+                 const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     std::array<double, 3> values(const TimePoint &time) const override
     {
       return component_values(components, time);
     }
-    std::array<bool, 3> holds() const override
-    {
-      return { { false, false, false } };
-    }
 
   private:
-    void hold(const std::vector<CapturedNode> &captured,
+    void hold(const std::vector<CapturedNode<2>> &captured,
               ViscousBoundaryState &own) const;
     /** On the i-th node, of the wave that comes in and what is held [N]. */
     std::array<double, 2> pull(unsigned int i, double vn, double vs,
                                const ViscousBoundaryState &own) const;
 
-    unsigned int index;
     std::array<LoadComponent, 3> components;
     std::vector<Dashpot> dashpots;
   };

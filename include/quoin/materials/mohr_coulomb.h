@@ -4,7 +4,7 @@
 #ifndef quoin_materials_mohr_coulomb_h
 #define quoin_materials_mohr_coulomb_h
 
-#include <quoin/base/state.h>
+#include <quoin/materials/plastic_history.h>
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/materials/plane_assumption.h>
 

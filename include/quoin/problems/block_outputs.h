@@ -80,6 +80,15 @@ namespace quoin
     }
 
   private:
+    /** Does @p task and books its time as output. */
+    template <typename Task>
+    void measured(const Task &task)
+    {
+      PhaseClock &clock = system.solver->time_spent();
+      clock.measure(clock.phase("output"), task);
+    }
+    void add_rows(const State<2> &state);
+    void add_fields(const State<2> &state);
     void write_generated_geometry() const;
     void write_energies(double time);
     void write_far_field_row(const State<2> &state);

@@ -38,6 +38,8 @@ namespace quoin
     void make_stage(unsigned int index);
     void warn_of_slip() const;
     void summarise_searches(nlohmann::json &summary) const;
+    /** Of each phase its share of the time. Collective. */
+    void summarise_time(nlohmann::json &summary, double seconds) const;
     void summarise_contacts(nlohmann::json &summary, double seconds) const;
     void warn_of_residual() const;
 

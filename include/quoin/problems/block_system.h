@@ -4,7 +4,7 @@
 #ifndef quoin_problems_block_system_h
 #define quoin_problems_block_system_h
 
-#include <quoin/base/state.h>
+#include <quoin/operators/state.h>
 #include <quoin/dynamics/construction.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/model.h>

@@ -6,7 +6,7 @@
 
 #include <quoin/loads/space_time_function.h>
 #include <quoin/base/parameter_section.h>
-#include <quoin/base/state.h>
+#include <quoin/operators/state.h>
 
 #include <array>
 

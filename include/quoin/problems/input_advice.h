@@ -5,7 +5,7 @@
 #define quoin_problems_input_advice_h
 
 #include <quoin/problems/parameters.h>
-#include <quoin/base/state.h>
+#include <quoin/operators/state.h>
 #include <quoin/dynamics/free_bodies.h>
 #include <quoin/dynamics/model.h>
 

@@ -4,7 +4,7 @@
 #ifndef quoin_results_checkpoint_h
 #define quoin_results_checkpoint_h
 
-#include <quoin/results/archive.h>
+#include <quoin/operators/archive.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>

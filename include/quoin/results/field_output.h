@@ -6,7 +6,7 @@
 
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/results/boundary_histories.h>
-#include <quoin/base/state.h>
+#include <quoin/operators/state.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/results/block_output.h>

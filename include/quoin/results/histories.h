@@ -6,7 +6,7 @@
 
 #include <quoin/results/boundary_histories.h>
 #include <quoin/results/history_parameters.h>
-#include <quoin/base/state.h>
+#include <quoin/operators/state.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/dynamics/model.h>
 
@@ -54,9 +54,9 @@ namespace quoin
     struct Probe
     {
       HistoryParameters parameters;
-      unsigned int entity  = 0; /**< node, cell or joint point */
-      bool here            = false;
-      const Platen *platen = nullptr;
+      unsigned int entity               = 0; /**< node, cell or joint point */
+      bool here                         = false;
+      const MotionConstraint<2> *platen = nullptr;
     };
 
     void locate(Probe &probe) const;

@@ -4,7 +4,7 @@
 #ifndef quoin_results_joint_output_h
 #define quoin_results_joint_output_h
 
-#include <quoin/base/state.h>
+#include <quoin/joints/joint_history.h>
 #include <quoin/results/vtu_series.h>
 
 #include <array>

@@ -285,8 +285,8 @@ namespace
       double error = 0.;
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
-        const auto s = run->model.blocks().cell_stress(run->state.nodes.data(),
-                                                       run->state.plastic, c);
+        const auto s = run->model.blocks().cell_stress(
+            run->state.nodes.data(), run->state.get<PlasticHistory>(), c);
         for (unsigned int i = 0; i < 4; ++i)
           error = std::max(error, std::abs(s[i] - wanted[i]));
       }
@@ -314,7 +314,8 @@ TEST(PlasticBlocks, TensionInPlaneStress)
     EXPECT_LT(specimen.stress_error({ 0., weak.tension, 0., 0. }),
               1e-6 * weak.tension);
     EXPECT_NEAR(specimen.side(), -pulled_in, 1e-6 * pulled_in);
-    EXPECT_EQ(specimen.run->state.plastic.yielding[1] & yielding::shear_past,
+    EXPECT_EQ(specimen.run->state.get<PlasticHistory>().yielding[1]
+                  & yielding::shear_past,
               0);
   }
 }

@@ -4,7 +4,7 @@
 #ifndef quoin_tests_unit_dynamics_random_blocks_h
 #define quoin_tests_unit_dynamics_random_blocks_h
 
-#include <quoin/base/state.h>
+#include <quoin/base/node_vector.h>
 #include <quoin/blocks/block_forces.h>
 
 #include <algorithm>

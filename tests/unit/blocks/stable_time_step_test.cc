@@ -19,11 +19,11 @@ namespace
     AlignedArray<NodeVector<2>> force(u.size() / 2,
                                       NodeVector<2>{ { 0., 0. } });
     EnergyAccounts energy;
-    model.joints().add_forces(state.nodes.data(), state.joints, energy,
-                              force.data());
+    model.joints().add_forces(state.nodes.data(), state.get<JointHistory>(),
+                              energy, force.data());
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
-      model.blocks().add_forces(tile, state.nodes.data(), state.plastic,
-                                force.data());
+      model.blocks().add_forces(tile, state.nodes.data(),
+                                state.get<PlasticHistory>(), force.data());
     std::vector<double> result;
     for (const NodeVector<2> &f : force)
       result.insert(result.end(), { f.v[0], f.v[1] });

@@ -91,8 +91,10 @@ namespace
       : mesh(made(make)), nodes(mesh)
     {
       joints.prepare(nodes, sets, thickness);
-      contacts = std::make_unique<BlockContacts>(nodes, contact_model(sets));
-      state.joints = joints.make_history();
+      contacts
+          = std::make_unique<BlockContacts>(nodes, joints, contact_model(sets));
+      joints.prepare(state);
+      contacts->prepare(state);
       for (const auto &p : mesh.vertices)
         state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
       state.velocity.assign(mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
@@ -154,13 +156,15 @@ namespace
     void find_forces(const bool look = true)
     {
       if (look)
-        state.contacts.next_check = state.step;
+        state.get<ContactState>().next_check = state.step;
       force.assign(mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
-      joints.add_forces(state.nodes.data(), state.joints, state.energy,
-                        force.data());
+      joints.add_forces(state.nodes.data(), state.get<JointHistory>(),
+                        state.energy, force.data());
       // A look hands over: the joints' forces are those before it.
-      contacts->update(state, joints, 1e-9);
-      contacts->add_forces(state.contacts, state.energy, force.data());
+      StepContext step{};
+      step.dt = 1e-9;
+      contacts->update(step, state);
+      contacts->add_forces(step, state, { force.data(), nullptr });
       ++state.step;
     }
 
@@ -184,7 +188,7 @@ namespace
   double pressing_area(const State<2> &state)
   {
     double area = 0.;
-    for (const ContactPair &pair : state.contacts.pairs)
+    for (const ContactPair &pair : state.get<ContactState>().pairs)
       for (const ContactPoint &point : pair.points)
         if (pair.active && point.normal_traction < -0.5 * kn * closing)
           area += point.area;
@@ -403,51 +407,56 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
       scene.move(upper, 0., -closing);
       scene.turn(upper, angle, 3., 1.);
       double shear = 0.;
-      while (scene.state.contacts.n_searches < 2)
+      while (scene.state.get<ContactState>().n_searches < 2)
       {
         scene.find_forces();
         // Until it is handed over the joint is no contact.
-        if (scene.state.contacts.n_searches == 1)
+        if (scene.state.get<ContactState>().n_searches == 1)
         {
-          EXPECT_TRUE(scene.state.contacts.handed_over[0] == 0);
+          EXPECT_TRUE(scene.state.get<ContactState>().handed_over[0] == 0);
         }
         shear += 1e-4;
         scene.move(upper, 1e-4, 0.);
         ASSERT_LT(shear, 0.05);
       }
       // The forces of joints and those of contacts at one place.
-      ASSERT_TRUE(scene.state.contacts.handed_over[0]);
+      ASSERT_TRUE(scene.state.get<ContactState>().handed_over[0]);
       scene.find_forces(false);
       const auto general = scene.total(upper);
       State<2> matched   = scene.state;
-      std::fill(matched.joints.handed_over.begin(),
-                matched.joints.handed_over.end(), 0);
+      std::fill(matched.get<JointHistory>().handed_over.begin(),
+                matched.get<JointHistory>().handed_over.end(), 0);
       for (unsigned int p = 0; p < scene.joints.n_points(); ++p)
       {
         // The history of point k of a segment goes on in its pair.
         const auto &segment = scene.joints.segment(p / 2);
         const auto &face
             = scene.contacts->contact_edges().edges_of_face(segment.face);
-        for (const ContactPair &pair : scene.state.contacts.pairs)
+        for (const ContactPair &pair : scene.state.get<ContactState>().pairs)
           if (pair.lower == face[0] && pair.upper == face[1])
           {
-            const ContactPoint &point         = pair.points[p % 2];
-            matched.joints.plastic_slip[p]    = point.plastic_slip;
-            matched.joints.plastic_opening[p] = point.plastic_opening;
-            matched.joints.normal_traction[p] = point.normal_traction;
-            matched.joints.shear_traction[p]  = point.shear_traction;
-            matched.joints.state[p]           = point.state;
-            const unsigned int n              = matched.joints.n_internal;
+            const ContactPoint &point                   = pair.points[p % 2];
+            matched.get<JointHistory>().plastic_slip[p] = point.plastic_slip;
+            matched.get<JointHistory>().plastic_opening[p]
+                = point.plastic_opening;
+            matched.get<JointHistory>().normal_traction[p]
+                = point.normal_traction;
+            matched.get<JointHistory>().shear_traction[p]
+                = point.shear_traction;
+            matched.get<JointHistory>().state[p] = point.state;
+            const unsigned int n = matched.get<JointHistory>().n_internal;
             for (unsigned int i = 0; i < n; ++i)
             {
               EXPECT_TRUE(std::isfinite(point.internal[i]));
-              matched.joints.internal[p * n + i] = point.internal[i];
+              matched.get<JointHistory>().internal[p * n + i]
+                  = point.internal[i];
             }
           }
       }
       scene.force.assign(scene.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
-      scene.joints.add_forces(scene.state.nodes.data(), matched.joints,
-                              scene.state.energy, scene.force.data());
+      scene.joints.add_forces(scene.state.nodes.data(),
+                              matched.get<JointHistory>(), scene.state.energy,
+                              scene.force.data());
       const auto before = scene.total(upper);
       const double full = std::abs(before[1]);
       EXPECT_GT(full, 0.);
@@ -455,11 +464,12 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
         EXPECT_NEAR(general[d], before[d], 2e-3 * full)
             << "component " << d << ", angle " << angle;
       EXPECT_NEAR(
-          scene.contacts->stored_energy(scene.state.contacts),
-          scene.joints.stored_energy(scene.state.nodes.data(), matched.joints),
+          scene.contacts->stored_energy(scene.state),
+          scene.joints.stored_energy(scene.state.nodes.data(),
+                                     matched.get<JointHistory>()),
           2e-3
               * scene.joints.stored_energy(scene.state.nodes.data(),
-                                           matched.joints));
+                                           matched.get<JointHistory>()));
     }
 }
 
@@ -476,7 +486,7 @@ TEST(BlockContacts, HandedOverJointsGoOnFromTheirHistory)
               { plain, touching() });
   const unsigned int upper = scene.block_at(0., 2.);
   scene.move(upper, 0., -closing);
-  JointHistory twin  = scene.state.joints;
+  JointHistory twin  = scene.state.get<JointHistory>();
   const auto of_twin = [&]()
   {
     EnergyAccounts unused;
@@ -488,13 +498,13 @@ TEST(BlockContacts, HandedOverJointsGoOnFromTheirHistory)
     scene.force    = force;
     return sum;
   };
-  while (scene.state.contacts.n_searches < 2)
+  while (scene.state.get<ContactState>().n_searches < 2)
   {
     scene.find_forces();
     of_twin();
     scene.move(upper, 1e-4, 0.);
   }
-  ASSERT_TRUE(scene.state.contacts.handed_over[0]);
+  ASSERT_TRUE(scene.state.get<ContactState>().handed_over[0]);
   scene.find_forces(false);
   const double slipping = of_twin()[0];
   const double back     = 0.2 * std::abs(slipping) / (ks * 3. * thickness);
@@ -549,12 +559,12 @@ TEST(BlockContacts, SearchesChangeNothing)
   scene.move(upper, -1e-5, 0.);
   scene.find_forces(false);
   const auto before            = scene.total(upper);
-  const std::uint64_t searches = scene.state.contacts.n_searches;
-  scene.state.contacts.search_positions.assign(
-      scene.state.contacts.search_positions.size(),
+  const std::uint64_t searches = scene.state.get<ContactState>().n_searches;
+  scene.state.get<ContactState>().search_positions.assign(
+      scene.state.get<ContactState>().search_positions.size(),
       NodeVector<2>{ { 1e3, 0. } });
   scene.find_forces();
-  EXPECT_EQ(scene.state.contacts.n_searches, searches + 1);
+  EXPECT_EQ(scene.state.get<ContactState>().n_searches, searches + 1);
   const auto after = scene.total(upper);
   for (unsigned int d = 0; d < 3; ++d)
     EXPECT_NEAR(after[d], before[d], 1e-9 * std::abs(before[1]));
@@ -606,18 +616,19 @@ TEST(BlockContacts, EveryPairOfMaterialsNeedsASet)
   BlockMesh<2> mesh;
   make_blocks(mesh, { { 0., 0., 1., 1., 1, 1 } });
   const TestNodes nodes(mesh);
+  const MatchedJoints joints;
   ContactModel model = contact_model({ elastic_joint(kn, ks) });
-  EXPECT_THROW(BlockContacts(nodes, model), InputError);
+  EXPECT_THROW(BlockContacts(nodes, joints, model), InputError);
   JointSetParameters set = touching();
   set.all_new_contacts   = false;
   set.new_contacts       = { { "stone", "stone" } };
   model.sets             = { set };
-  EXPECT_NO_THROW(BlockContacts(nodes, model));
+  EXPECT_NO_THROW(BlockContacts(nodes, joints, model));
   model.sets = { set, set };
-  EXPECT_THROW(BlockContacts(nodes, model), InputError);
+  EXPECT_THROW(BlockContacts(nodes, joints, model), InputError);
   set.new_contacts = { { "stone", "wood" } };
   model.sets       = { set };
-  EXPECT_THROW(BlockContacts(nodes, model), InputError);
+  EXPECT_THROW(BlockContacts(nodes, joints, model), InputError);
 }
 
 TEST(ContactSearch, FindsWhatAllPairsAgainstAllFind)

@@ -31,7 +31,7 @@ namespace
       : nodes(mesh(nx, angle, quadratic))
     {
       joints.prepare(nodes, { set }, thickness);
-      state.joints = joints.make_history();
+      joints.prepare(state);
       for (unsigned int v = 0; v < nodes->n_local(); ++v)
         state.nodes.push_back(
             { { nodes->point(v)[0], nodes->point(v)[1] }, { 0., 0. } });
@@ -69,7 +69,8 @@ namespace
     void find_forces()
     {
       force.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
-      joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
+      joints.add_forces(state.nodes.data(), state.get<JointHistory>(), energy,
+                        force.data());
     }
 
     std::array<double, 2> total(const unsigned int block) const
@@ -163,14 +164,15 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   const double unit = kn * turn * thickness;
   EXPECT_NEAR(force, 4.5 * unit, 1e-6 * unit);
   EXPECT_NEAR(moment, 9. * unit, 1e-6 * unit);
-  EXPECT_NEAR(
-      stack.joints.stored_energy(stack.state.nodes.data(), stack.state.joints),
-      4.5 * turn * unit, 1e-6 * turn * unit);
+  EXPECT_NEAR(stack.joints.stored_energy(stack.state.nodes.data(),
+                                         stack.state.get<JointHistory>()),
+              4.5 * turn * unit, 1e-6 * turn * unit);
 
   // At the rate of this motion dampers of the joint's stiffness give the same
   // force; that of each node has its own area.
   std::vector<NodeVector<2>> viscous(stack.nodes->n_local(), { { 0., 0. } });
-  stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.state.joints,
+  stack.joints.add_viscous_forces(stack.state.nodes.data(),
+                                  stack.state.get<JointHistory>(),
                                   motion.data(), 1., viscous.data());
   std::vector<std::array<double, 3>> stiffness(stack.nodes->n_local(),
                                                { { 0., 0., 0. } });
@@ -210,8 +212,10 @@ TEST(MatchedJoints, UniformOpeningAndSlip)
   stack.expect_on_lower(area * ks * slip, area * kn * opening, 1e-6);
   for (unsigned int p = 0; p < 4; ++p)
   {
-    EXPECT_NEAR(stack.state.joints.normal_traction[p], kn * opening, 1e-6);
-    EXPECT_NEAR(stack.state.joints.shear_traction[p], ks * slip, 1e-6);
+    EXPECT_NEAR(stack.state.get<JointHistory>().normal_traction[p],
+                kn * opening, 1e-6);
+    EXPECT_NEAR(stack.state.get<JointHistory>().shear_traction[p], ks * slip,
+                1e-6);
   }
 
   // Half as much at the ends of the joint as in its middle.
@@ -223,9 +227,9 @@ TEST(MatchedJoints, UniformOpeningAndSlip)
       EXPECT_NEAR(stack.force[v].v[0], share * area * ks * slip, 1e-6);
       EXPECT_NEAR(stack.force[v].v[1], share * area * kn * opening, 1e-6);
     }
-  EXPECT_NEAR(
-      stack.joints.stored_energy(stack.state.nodes.data(), stack.state.joints),
-      0.5 * area * (kn * opening * opening + ks * slip * slip), 1e-9);
+  EXPECT_NEAR(stack.joints.stored_energy(stack.state.nodes.data(),
+                                         stack.state.get<JointHistory>()),
+              0.5 * area * (kn * opening * opening + ks * slip * slip), 1e-9);
 }
 
 TEST(MatchedJoints, NoForceOnNodesOffTheJoint)
@@ -314,23 +318,23 @@ TEST(MatchedJoints, InitialStressBecomesTraction)
     const MatchedJoints::FaceStress uniform
         = { { { { xx, yy, xy } }, { { xx, yy, xy } } } };
     stack.joints.initialise({ uniform, uniform }, stack.state,
-                            stack.state.joints);
+                            stack.state.get<JointHistory>());
     // The normal of a joint turned by the angle, and the tangent.
     const double n[2]        = { -std::sin(angle), std::cos(angle) };
     const double t[2]        = { n[1], -n[0] };
     const double traction[2] = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
     for (unsigned int p = 0; p < 4; ++p)
     {
-      EXPECT_NEAR(stack.state.joints.normal_traction[p],
+      EXPECT_NEAR(stack.state.get<JointHistory>().normal_traction[p],
                   traction[0] * n[0] + traction[1] * n[1], 1e-6);
-      EXPECT_NEAR(stack.state.joints.shear_traction[p],
+      EXPECT_NEAR(stack.state.get<JointHistory>().shear_traction[p],
                   traction[0] * t[0] + traction[1] * t[1], 1e-6);
     }
     // At rest the first step must not change it.
     stack.find_forces();
     const double area = 2. * thickness;
     stack.expect_on_lower(area * traction[0], area * traction[1], 1e-6);
-    EXPECT_EQ(stack.state.joints.state[0], JointState::intact);
+    EXPECT_EQ(stack.state.get<JointHistory>().state[0], JointState::intact);
   }
 }
 
@@ -346,11 +350,11 @@ TEST(MatchedJoints, InitialStressOfRockJoints)
     const MatchedJoints::FaceStress uniform
         = { { { { xx, yy, xy } }, { { xx, yy, xy } } } };
     stack.joints.initialise({ uniform, uniform }, stack.state,
-                            stack.state.joints);
+                            stack.state.get<JointHistory>());
     stack.find_forces();
     const double area = 2. * thickness;
     stack.expect_on_lower(area * xy, area * yy, 1e-3);
-    EXPECT_EQ(stack.state.joints.state[0], JointState::intact);
+    EXPECT_EQ(stack.state.get<JointHistory>().state[0], JointState::intact);
     // From there it closes with the stiffness at that pressure.
     const double more = 1e-8;
     stack.move_upper(0., -more);
@@ -381,10 +385,10 @@ TEST(MatchedJoints, RockJointsAreBeyondTheirStrengthIfTheyCannotHold)
           = { { { { 0., -2e6, ratio * 2e6 } },
                 { { 0., -2e6, ratio * 2e6 } } } };
       stack.joints.initialise({ uniform, uniform }, stack.state,
-                              stack.state.joints);
-      EXPECT_EQ(
-          stack.joints.n_beyond_strength(stack.state.joints, MPI_COMM_SELF),
-          n_beyond)
+                              stack.state.get<JointHistory>());
+      EXPECT_EQ(stack.joints.n_beyond_strength(stack.state.get<JointHistory>(),
+                                               MPI_COMM_SELF),
+                n_beyond)
           << ratio;
     }
 }
@@ -403,7 +407,8 @@ TEST(MatchedJoints, ViscousForcesOfRockJointsByTheStiffnessOfTheMoment)
   for (unsigned int v = stack.first_node(1); v < stack.end_node(1); ++v)
     velocity[v].v[1] = -rate;
   stack.force.assign(stack.nodes->n_local(), NodeVector<2>{ { 0., 0. } });
-  stack.joints.add_viscous_forces(stack.state.nodes.data(), stack.state.joints,
+  stack.joints.add_viscous_forces(stack.state.nodes.data(),
+                                  stack.state.get<JointHistory>(),
                                   velocity.data(), beta, stack.force.data());
   const double expected = -beta * law.closure.stiffness(s) * rate * thickness;
   stack.expect_on_lower(0., expected, 1e-9 * std::abs(expected));
@@ -466,19 +471,19 @@ TEST(MatchedJoints, ViscousForcesOfStickingPoints)
   {
     stack.force.assign(stack.nodes->n_local(), NodeVector<2>{ { 0., 0. } });
     stack.joints.add_viscous_forces(stack.state.nodes.data(),
-                                    stack.state.joints, velocity.data(), beta,
-                                    stack.force.data());
+                                    stack.state.get<JointHistory>(),
+                                    velocity.data(), beta, stack.force.data());
   };
   damp();
   stack.expect_on_lower(thickness * beta * ks * 0.3,
                         -thickness * beta * kn * 0.2, 1e-8);
 
-  stack.state.joints.state[0] = JointState::slipping;
-  stack.state.joints.state[1] = JointState::slipped;
+  stack.state.get<JointHistory>().state[0] = JointState::slipping;
+  stack.state.get<JointHistory>().state[1] = JointState::slipped;
   damp();
   stack.expect_on_lower(0.5 * thickness * beta * ks * 0.3,
                         -0.5 * thickness * beta * kn * 0.2, 1e-8);
-  stack.state.joints.state[1] = JointState::open;
+  stack.state.get<JointHistory>().state[1] = JointState::open;
   damp();
   stack.expect_on_lower(0., 0., 0.);
 }
@@ -498,7 +503,7 @@ TEST(MatchedJoints, BooksFrictionPerArea)
   EXPECT_NEAR(stack.energy.friction, area * 0.5 * sigma * 4e-3,
               1e-9 * area * sigma);
   EXPECT_EQ(stack.energy.fracture, 0.);
-  EXPECT_EQ(stack.state.joints.state[3], JointState::slipping);
+  EXPECT_EQ(stack.state.get<JointHistory>().state[3], JointState::slipping);
 }
 
 TEST(MatchedJoints, CrackTipsAreHarmless)
@@ -523,16 +528,17 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   ASSERT_NE(segment.lower[1 - tip], segment.upper[1 - tip]);
 
   State<2> state;
-  state.joints = joints.make_history();
+  joints.prepare(state);
   for (const auto &p : mesh.vertices)
     state.nodes.push_back({ { p[0], p[1] }, { 0.01 * p[0], -0.02 * p[1] } });
   state.nodes[segment.upper[1 - tip]].u[1] += 1e-4;
   joints.initialise({ { { { { 2e5, 3e5, 1e5 } }, { { 2e5, 3e5, 1e5 } } } } },
-                    state, state.joints);
+                    state, state.get<JointHistory>());
 
   AlignedArray<NodeVector<2>> force(n, NodeVector<2>{ { 0., 0. } });
   EnergyAccounts energy;
-  joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
+  joints.add_forces(state.nodes.data(), state.get<JointHistory>(), energy,
+                    force.data());
   const auto gaps = joints.gaps(state.nodes.data(), 0);
   EXPECT_EQ(gaps[tip][0], 0.);
   EXPECT_EQ(gaps[tip][1], 0.);
@@ -569,7 +575,7 @@ TEST(MatchedJoints, SetsActOnTheirOwnCurves)
       { elastic_joint(1e9, 1e8, "second"), elastic_joint(5e9, 5e8, "first") },
       1.);
   State<2> state;
-  state.joints = joints.make_history();
+  joints.prepare(state);
   for (const auto &p : mesh.vertices)
     state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
   for (unsigned int b = 1; b < 3; ++b)
@@ -578,7 +584,8 @@ TEST(MatchedJoints, SetsActOnTheirOwnCurves)
       state.nodes[v].u[0] = b * 1e-3;
   AlignedArray<NodeVector<2>> force(n, NodeVector<2>{ { 0., 0. } });
   EnergyAccounts energy;
-  joints.add_forces(state.nodes.data(), state.joints, energy, force.data());
+  joints.add_forces(state.nodes.data(), state.get<JointHistory>(), energy,
+                    force.data());
   const double expected[3] = { 5e6, 1e6 - 5e6, -1e6 };
   for (unsigned int b = 0; b < 3; ++b)
   {

@@ -47,11 +47,11 @@ namespace
   {
     AlignedArray<NodeVector<2>> result(state.nodes.size(),
                                        NodeVector<2>{ { 0., 0. } });
-    model.joints().add_forces(state.nodes.data(), state.joints, state.energy,
-                              result.data());
+    model.joints().add_forces(state.nodes.data(), state.get<JointHistory>(),
+                              state.energy, result.data());
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
-      model.blocks().add_forces(tile, state.nodes.data(), state.plastic,
-                                result.data());
+      model.blocks().add_forces(tile, state.nodes.data(),
+                                state.get<PlasticHistory>(), result.data());
     return result;
   }
 
@@ -139,9 +139,9 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
       }
     }
     construction.begin_stage(1, run.solver, run.state);
-    ASSERT_EQ(run.state.construction.held.size(), 1U);
-    EXPECT_DOUBLE_EQ(run.state.construction.held[0].left, 0.75);
-    EXPECT_EQ(run.state.construction.held[0].left_at_end, 0.);
+    ASSERT_EQ(run.state.get<ConstructionState>().held.size(), 1U);
+    EXPECT_DOUBLE_EQ(run.state.get<ConstructionState>().held[0].left, 0.75);
+    EXPECT_EQ(run.state.get<ConstructionState>().held[0].left_at_end, 0.);
   }
 }
 

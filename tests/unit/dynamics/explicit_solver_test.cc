@@ -327,7 +327,7 @@ TEST(ExplicitSolver, PlatenUnderAForce)
                        component(velocity, "0")) });
   run.begin(stage_with({ "beam" }));
   run.step(1);
-  const PlatenState &beam = run.state.platens.at(0);
+  const PlatenState &beam = run.state.get<PlatenState>("beam");
   // From rest at time zero the first half step gives the velocity.
   const double v = acceleration * 0.5 * run.dt();
   EXPECT_NEAR(beam.velocity[0], v, 1e-14 * v);
@@ -367,7 +367,8 @@ TEST(ExplicitSolver, PlatenUnderAMoment)
 
   run.step(1);
   const double omega = 5e3 / inertia * 0.5 * run.dt();
-  EXPECT_NEAR(run.state.platens[0].velocity[2], omega, 1e-12 * omega);
+  EXPECT_NEAR(run.state.get<PlatenState>("beam").velocity[2], omega,
+              1e-12 * omega);
   const unsigned int corner = run.node(3., 2.);
   EXPECT_NEAR(run.state.velocity[corner].v[0], -omega * (2. - centre[1] / mass),
               1e-6 * omega);
@@ -389,7 +390,7 @@ TEST(ExplicitSolver, PlatenTurnsItsBlockAsARigidBody)
   run.solver.set_time_step(dt);
   run.step(5000);
   const double angle = 30. * degree * 0.5;
-  EXPECT_NEAR(run.state.platens[0].displacement[2], angle, 1e-12);
+  EXPECT_NEAR(run.state.get<PlatenState>("beam").displacement[2], angle, 1e-12);
   for (const double x : { 0., 1., 2. })
   {
     const auto &node = run.state.nodes[run.node(x, 2.)];
@@ -414,25 +415,30 @@ TEST(ExplicitSolver, PlatenKeepsItsDisplacementThroughStages)
   run.begin(with);
   const double dt = run.dt();
   run.step(20);
-  EXPECT_NEAR(run.state.platens[0].displacement[0], 2. * dt, 1e-13 * dt);
-  EXPECT_NEAR(run.state.platens[0].displacement[1], 0.02 * dt, 1e-13 * dt);
+  EXPECT_NEAR(run.state.get<PlatenState>("beam").displacement[0], 2. * dt,
+              1e-13 * dt);
+  EXPECT_NEAR(run.state.get<PlatenState>("beam").displacement[1], 0.02 * dt,
+              1e-13 * dt);
 
   run.begin(with, 0.8, &with);
   run.step(10);
-  EXPECT_NEAR(run.state.platens[0].displacement[0], 3. * dt, 1e-13 * dt);
-  EXPECT_NEAR(run.state.platens[0].displacement[1], 0.03 * dt, 1e-13 * dt);
+  EXPECT_NEAR(run.state.get<PlatenState>("beam").displacement[0], 3. * dt,
+              1e-13 * dt);
+  EXPECT_NEAR(run.state.get<PlatenState>("beam").displacement[1], 0.03 * dt,
+              1e-13 * dt);
   const auto &node = run.state.nodes[run.node(1., 2.)];
   EXPECT_NEAR(node.u[0], 3. * dt, 1e-13);
 
   // Having let go it begins anew.
   run.begin(without, 0.8, &with);
-  EXPECT_FALSE(run.state.platens[0].active);
+  EXPECT_FALSE(run.state.get<PlatenState>("beam").active);
   run.step(10);
   run.begin(with, 0.8, &without);
-  EXPECT_TRUE(run.state.platens[0].active);
-  EXPECT_EQ(run.state.platens[0].displacement[0], 0.);
+  EXPECT_TRUE(run.state.get<PlatenState>("beam").active);
+  EXPECT_EQ(run.state.get<PlatenState>("beam").displacement[0], 0.);
   run.step(5);
-  EXPECT_NEAR(run.state.platens[0].displacement[0], 0.5 * dt, 1e-13 * dt);
+  EXPECT_NEAR(run.state.get<PlatenState>("beam").displacement[0], 0.5 * dt,
+              1e-13 * dt);
 }
 
 TEST(ExplicitSolver, FreeFall)
@@ -678,7 +684,7 @@ TEST(ExplicitSolver, SlipByTheEdgesThatTouch)
     if (mesh.block_of_vertex(v) == 1)
       run.state.nodes[v].u[0] = -0.7;
   EXPECT_EQ(run.solver.largest_slip_share(run.state), 0.);
-  run.state.joints.normal_traction[1] = -1.;
+  run.state.get<JointHistory>().normal_traction[1] = -1.;
   EXPECT_NEAR(run.solver.largest_slip_share(run.state), 0.7, 1e-12);
 }
 

@@ -64,7 +64,7 @@ namespace
   {
     if (run.model.table().is_rigid[1])
     {
-      double *v = run.state.rigid_blocks[1].velocity;
+      double *v = run.state.get<RigidBlockStates>()[1].velocity;
       v[0]      = x;
       v[1]      = y;
       v[2]      = spin;
@@ -86,7 +86,7 @@ namespace
   {
     for (NodeRecord<2> &node : run.state.nodes)
       node.u[1] += y;
-    for (RigidBlockState &rigid : run.state.rigid_blocks)
+    for (RigidBlockState &rigid : run.state.get<RigidBlockStates>())
       rigid.displacement[1] += y;
   }
 
@@ -191,7 +191,7 @@ TEST(ModelBox, DeletedBlockTouchesNothing)
     ASSERT_EQ(found.size(), 1U);
     EXPECT_EQ(found[0].block, 0U);
     EXPECT_TRUE(found[0].removed);
-    EXPECT_TRUE(run.state.contacts.pairs.empty());
+    EXPECT_TRUE(run.state.get<ContactState>().pairs.empty());
     EXPECT_EQ(run.solver.energies().joint, 0.);
     EXPECT_NEAR(run.solver.energies().accounts.contact - lost, stored,
                 1e-2 * stored);
@@ -252,8 +252,8 @@ TEST(ModelBox, BlocksThatLoadsMoveStay)
   run.begin(stage_with({ "held" }), 0.5);
   shift(run, 2.);
   // As a platen it remembers where it is.
-  run.state.platens[0].displacement[1] = 2.;
-  auto found                           = look(run);
+  run.state.get<PlatenState>("held").displacement[1] = 2.;
+  auto found                                         = look(run);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_FALSE(found[0].removed);
   // Free now, so it goes.

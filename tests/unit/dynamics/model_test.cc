@@ -84,7 +84,7 @@ TEST(Model, StartsAtRestInPlace)
   const Model model(nodes, two_blocks());
   const State<2> state = model.initial_state();
   ASSERT_EQ(state.nodes.size(), mesh.n_vertices());
-  ASSERT_EQ(state.joints.state.size(), 4U);
+  ASSERT_EQ(state.get<JointHistory>().state.size(), 4U);
   for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
     for (unsigned int d = 0; d < 2; ++d)
     {
@@ -92,7 +92,7 @@ TEST(Model, StartsAtRestInPlace)
       EXPECT_EQ(state.nodes[v].u[d], 0.);
       EXPECT_EQ(state.velocity[v].v[d], 0.);
     }
-  for (const double sigma : state.joints.normal_traction)
+  for (const double sigma : state.get<JointHistory>().normal_traction)
     EXPECT_EQ(sigma, 0.);
   EXPECT_EQ(state.time, 0.);
   EXPECT_EQ(state.step, 0U);
@@ -112,8 +112,8 @@ TEST(Model, InitialStressInEquilibriumStaysAtRest)
                 motion("sides", "sides", "0", "") });
   for (unsigned int p = 0; p < run.model.joints().n_points(); ++p)
   {
-    EXPECT_DOUBLE_EQ(run.state.joints.normal_traction[p], -2e6);
-    EXPECT_NEAR(run.state.joints.shear_traction[p], 0., 1e-9);
+    EXPECT_DOUBLE_EQ(run.state.get<JointHistory>().normal_traction[p], -2e6);
+    EXPECT_NEAR(run.state.get<JointHistory>().shear_traction[p], 0., 1e-9);
   }
   run.begin(stage_with({ "top", "bottom", "sides" }));
   run.step(100);
@@ -151,8 +151,8 @@ TEST(Model, InitialStressOfAGroupAndWithDepth)
   // The joint takes the mean of the cells on its sides, at y = 2/3 and 4/3.
   for (unsigned int p = 0; p < 2; ++p)
   {
-    EXPECT_NEAR(state.joints.normal_traction[p], -1e6 + 3e5, 1e-6);
-    EXPECT_NEAR(state.joints.shear_traction[p], 0.5e5, 1e-6);
+    EXPECT_NEAR(state.get<JointHistory>().normal_traction[p], -1e6 + 3e5, 1e-6);
+    EXPECT_NEAR(state.get<JointHistory>().shear_traction[p], 0.5e5, 1e-6);
   }
 }
 
@@ -179,10 +179,10 @@ TEST(Model, InitialStressOutOfThePlane)
     const double elastic = 0.2 * (-4e6 + 3e5 * y);
     const double wanted
         = mesh.block_of_cell(c) == 1 ? elastic - 7e5 + 2e5 * y : elastic;
-    EXPECT_NEAR(state.plastic.cells[c].stress[3], wanted, 1e-6);
-    EXPECT_NEAR(
-        model.blocks().cell_stress(state.nodes.data(), state.plastic, c)[3],
-        wanted, 1e-6);
+    EXPECT_NEAR(state.get<PlasticHistory>().cells[c].stress[3], wanted, 1e-6);
+    EXPECT_NEAR(model.blocks().cell_stress(state.nodes.data(),
+                                           state.get<PlasticHistory>(), c)[3],
+                wanted, 1e-6);
   }
   parameters.plane = PlaneAssumption::plane_stress;
   expect_input_error([&] { make_model(mesh, parameters); },

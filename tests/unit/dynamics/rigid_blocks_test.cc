@@ -134,8 +134,8 @@ namespace
     AlignedArray<NodeVector<2>> force(state.nodes.size(),
                                       NodeVector<2>{ { 0., 0. } });
     EnergyAccounts energy;
-    model.joints().add_forces(state.nodes.data(), state.joints, energy,
-                              force.data());
+    model.joints().add_forces(state.nodes.data(), state.get<JointHistory>(),
+                              energy, force.data());
     std::vector<double> result(q.size(), 0.);
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
       for (unsigned int i = rigid.block(b).begin; i < rigid.block(b).end; ++i)
@@ -253,7 +253,7 @@ TEST(RigidBlocks, ThrownAndSpunFreely)
   EXPECT_FALSE(std::isfinite(run.solver.critical_time_step()));
   const double dt = 1e-3;
   run.solver.set_time_step(dt);
-  RigidBlockState &block = run.state.rigid_blocks[0];
+  RigidBlockState &block = run.state.get<RigidBlockStates>()[0];
   const double start[3]  = { 3., 4., 5. };
   std::copy(start, start + 3, block.velocity);
 
@@ -291,9 +291,9 @@ TEST(RigidBlocks, FallOfASpinningBlock)
   TestRun run(mesh, one_rigid_block(), { gravity("1", "-9.81") });
   run.solver.begin_stage(stage_with({ "gravity" }), nullptr, run.state);
   run.solver.set_time_step(1e-3);
-  run.state.rigid_blocks[0].velocity[2] = 7.;
+  run.state.get<RigidBlockStates>()[0].velocity[2] = 7.;
   EXPECT_LT(residual_of_steps(run, 2000), 1e-12);
-  const RigidBlockState &block = run.state.rigid_blocks[0];
+  const RigidBlockState &block = run.state.get<RigidBlockStates>()[0];
   EXPECT_NEAR(block.displacement[0], 2., 1e-10);
   EXPECT_NEAR(block.displacement[1], -9.81 * 2., 1e-10);
   EXPECT_NEAR(block.velocity[2], 7., 1e-12); // weight has no moment
@@ -325,7 +325,7 @@ TEST(RigidBlocks, BouncesAndRocksOnElasticJoints)
       const double time    = 2.5 / omega;
       run.solver.set_time_step(time / n);
       RigidBlockState &block
-          = run.state.rigid_blocks[rigid_block(run, "middle")];
+          = run.state.get<RigidBlockStates>()[rigid_block(run, "middle")];
       const double speed = 1e-9 * omega;
       block.velocity[d]  = speed;
       run.step(n);
@@ -368,7 +368,7 @@ TEST(RigidBlocks, AccountsBalanceWithAnyDamping)
     {
       run.begin(stage, share, previous);
       if (!previous)
-        for (RigidBlockState &block : run.state.rigid_blocks)
+        for (RigidBlockState &block : run.state.get<RigidBlockStates>())
           for (unsigned int d = 0; d < 3; ++d)
             block.velocity[d] = (1. + d) * 1e-11;
       previous = &stage;
@@ -417,7 +417,7 @@ TEST(RigidBlocks, ResidualOfALargeRotationIsSmall)
     {
       const unsigned int b   = rigid_block(run, group);
       const auto &own        = model.rigid_blocks().block(b);
-      RigidBlockState &block = run.state.rigid_blocks[b];
+      RigidBlockState &block = run.state.get<RigidBlockStates>()[b];
       block.velocity[0]      = -2. * (own.centre[1] - 1.5);
       block.velocity[1]      = 2. * (own.centre[0] - 1.);
       block.velocity[2]      = 2.;
@@ -441,10 +441,11 @@ TEST(RigidBlocks, PlatenHasTheirInertia)
   run.step(1000);
   const double mass            = 2000. * 0.5 * 3.;
   const double inertia         = mass * (9. + 1.) / 12.;
-  const RigidBlockState &block = run.state.rigid_blocks[0];
+  const RigidBlockState &block = run.state.get<RigidBlockStates>()[0];
   EXPECT_NEAR(block.rotation, 0.5 * 50. / inertia, 1e-12);
   EXPECT_NEAR(block.displacement[1], 0.5 * 100. / mass, 1e-12);
-  EXPECT_NEAR(run.state.platens[0].velocity[2], block.velocity[2], 1e-14);
+  EXPECT_NEAR(run.state.get<PlatenState>("turn").velocity[2], block.velocity[2],
+              1e-14);
 }
 
 TEST(RigidBlocks, PlatenTakesOverAndReleases)
@@ -463,7 +464,7 @@ TEST(RigidBlocks, PlatenTakesOverAndReleases)
                         released = stage_with({}),
                         again    = stage_with({ "free" });
   const double dt = 1e-3, omega = 7. * pi;
-  const RigidBlockState &block = run.state.rigid_blocks[0];
+  const RigidBlockState &block = run.state.get<RigidBlockStates>()[0];
   const auto check             = [&](const double time)
   {
     EXPECT_NEAR(block.rotation, omega * time, 1e-10);
@@ -533,9 +534,9 @@ TEST(RigidBlocks, PatchWithDeformableBlocks)
     EXPECT_NEAR(stress[1], -1e5, 1e-2);
     EXPECT_NEAR(stress[2], 0., 1e-2);
   }
-  for (const double traction : run.state.joints.normal_traction)
+  for (const double traction : run.state.get<JointHistory>().normal_traction)
     EXPECT_NEAR(traction, -1e5, 1e-2);
-  EXPECT_NEAR(run.state.rigid_blocks[0].displacement[1],
+  EXPECT_NEAR(run.state.get<RigidBlockStates>()[0].displacement[1],
               -1e5 / 1e10 - 1e5 / 2e10, 1e-12);
 }
 
@@ -596,11 +597,11 @@ TEST(RigidBlocks, RunsAtTheBoundStayBounded)
     order(mesh, parameters);
     TestRun run(mesh, parameters, {});
     run.begin(stage_with({}), 0.99);
-    for (RigidBlockState &block : run.state.rigid_blocks)
+    for (RigidBlockState &block : run.state.get<RigidBlockStates>())
       block.velocity[1] = block.velocity[2] = 1e-9;
-    run.state.rigid_blocks[0].velocity[2] = -1e-9;
+    run.state.get<RigidBlockStates>()[0].velocity[2] = -1e-9;
     run.step(20000);
-    for (const RigidBlockState &block : run.state.rigid_blocks)
+    for (const RigidBlockState &block : run.state.get<RigidBlockStates>())
       for (const double v : block.velocity)
         EXPECT_LT(std::abs(v), 1e-8);
   }
@@ -639,7 +640,7 @@ TEST(RigidBlocks, MassScalingReachesTheStep)
   run.begin(stage, 0.5);
   EXPECT_NEAR(run.solver.critical_time_step(), 3. * own, 1e-9 * own);
   EXPECT_GT(run.solver.added_mass_share(), 0.);
-  for (RigidBlockState &block : run.state.rigid_blocks)
+  for (RigidBlockState &block : run.state.get<RigidBlockStates>())
     block.velocity[1] = block.velocity[2] = 1e-9;
   // The energy that scaling gives and takes is booked.
   run.step(100);
@@ -678,11 +679,11 @@ TEST(RigidBlocks, ResumesInMidStage)
   EXPECT_EQ(std::memcmp(run.state.nodes.data(), other.state.nodes.data(),
                         run.state.nodes.size() * sizeof(NodeRecord<2>)),
             0);
-  EXPECT_EQ(std::memcmp(run.state.rigid_blocks.data(),
-                        other.state.rigid_blocks.data(),
+  EXPECT_EQ(std::memcmp(run.state.get<RigidBlockStates>().data(),
+                        other.state.get<RigidBlockStates>().data(),
                         2 * sizeof(RigidBlockState)),
             0);
-  EXPECT_NE(run.state.rigid_blocks[0].displacement[1], 0.);
+  EXPECT_NE(run.state.get<RigidBlockStates>()[0].displacement[1], 0.);
 }
 
 TEST(RigidBlocks, RefusesWhatWouldDeformThem)

@@ -28,7 +28,7 @@ namespace
     const TestNodes nodes{ mesh() };
     State<2> state;
     StepContext step{};
-    std::vector<CapturedNode> captured;
+    std::vector<CapturedNode<2>> captured;
     std::unique_ptr<FarField> far;
 
     HeavyBlock()
@@ -51,6 +51,7 @@ namespace
         for (unsigned int d = 0; d < 2; ++d)
           state.nodes[i].X[d] = nodes->point(i)[d];
       far->set_time_step(step.dt, 1, 100);
+      far->prepare(state);
       far->begin_stage(state, false);
     }
 
@@ -83,7 +84,7 @@ namespace
       for (const unsigned int node : far->nodes())
       {
         positions.push_back(captured.size());
-        CapturedNode before{};
+        CapturedNode<2> before{};
         before.node     = node;
         before.mass     = 1e15;
         before.velocity = velocity;

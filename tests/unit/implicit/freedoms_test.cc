@@ -3,6 +3,7 @@
 
 #include "../dynamics/test_models.h"
 
+#include <quoin/operators/archive.h>
 #include <quoin/implicit/freedoms.h>
 #include <quoin/loads/prescribed_motion.h>
 
@@ -37,13 +38,14 @@ namespace
       nodes = std::make_unique<TestNodes>(mesh, parameters.materials);
       model = std::make_unique<Model>(*nodes, parameters);
       state = model->initial_state();
-      state.platens.resize(1);
-      beam = std::make_unique<Platen>(platen("beam", "lower", x, y, rotation),
-                                      0, *nodes);
+      beam  = std::make_unique<Platen>(platen("beam", "lower", x, y, rotation),
+                                      *nodes);
+      beam->prepare(state);
+      state.add<ImplicitState>();
       beam->set_mass(model->mass());
       beam->begin_stage(state, false);
       freedoms = std::make_unique<Freedoms>(
-          *model, std::vector<NodeConstraint *>{ beam.get() },
+          *model, std::vector<MotionConstraint<2> *>{ beam.get() },
           std::vector<bool>{ false }, state);
     }
 
@@ -142,11 +144,13 @@ TEST(Freedoms, BodiesFollowThroughLargeRotations)
   run.freedoms->write(configuration, run.state);
   for (unsigned int d = 0; d < 3; ++d)
   {
-    EXPECT_EQ(run.state.platens[0].displacement[d], configuration.bodies[0][d]);
+    EXPECT_EQ(run.state.get<PlatenState>("beam").displacement[d],
+              configuration.bodies[0][d]);
     EXPECT_EQ(run.freedoms->configuration(run.state).bodies,
               configuration.bodies);
   }
-  EXPECT_EQ(run.state.rigid_blocks[0].rotation, configuration.bodies[1][2]);
+  EXPECT_EQ(run.state.get<RigidBlockStates>()[0].rotation,
+            configuration.bodies[1][2]);
 }
 
 TEST(Freedoms, ProjectionIsTheTransposeOfTheMotion)
@@ -231,6 +235,7 @@ TEST(Freedoms, TheLastMotionOfANodePrevails)
   const TestNodes nodes(mesh);
   const Model model(nodes, two_blocks());
   State<2> state = model.initial_state();
+  state.add<ImplicitState>();
   PrescribedMotion bottom(motion("bottom", "bottom", "1", "2"), nodes);
   PrescribedMotion sides(motion("sides", "sides", "3", ""), nodes);
   const Freedoms freedoms(model, { &bottom, &sides }, {}, state);

@@ -6,7 +6,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/mesh/crossed_triangles.h>
-#include <quoin/results/archive.h>
+#include <quoin/operators/archive.h>
 
 #include <boost/archive/binary_oarchive.hpp>
 
@@ -175,7 +175,7 @@ TEST(ImplicitSolver, UniformStressIsExact)
       EXPECT_NEAR(stress[1], sy, 1e-9 * sx);
       EXPECT_NEAR(stress[2], 0., 1e-9 * sx);
     }
-    for (const double t : run.state.joints.normal_traction)
+    for (const double t : run.state.get<JointHistory>().normal_traction)
       EXPECT_NEAR(t, sx, 1e-9 * sx);
     // Length over E, and two joints.
     const double pulled = sx * (6. / 1e10 + 1. / 1e11 + 1. / 2e11);
@@ -235,7 +235,7 @@ TEST(ImplicitSolver, IterationsOfATurningBlockConvergeQuadratically)
   run.begin({ "held", "load" });
   run.solver.step(run.state);
   ASSERT_TRUE(run.solver.is_over(run.state));
-  EXPECT_LT(run.state.rigid_blocks[0].rotation, -0.1);
+  EXPECT_LT(run.state.get<RigidBlockStates>()[0].rotation, -0.1);
   expect_quadratic_convergence(run.solver.take_reports(), 1);
 }
 
@@ -262,7 +262,8 @@ TEST(ImplicitSolver, SlidingBeyondItsLimitKeepsTheLastEquilibrium)
       EXPECT_NE(text.find(part), std::string::npos) << part << ": " << text;
   }
   EXPECT_NEAR(run.state.load_time, 0.625, 1e-4);
-  last.implicit = run.state.implicit; // the step to try has become smaller
+  last.get<ImplicitState>()
+      = run.state.get<ImplicitState>(); // the step to try has become smaller
   EXPECT_EQ(bytes(run.state), bytes(last));
 }
 
@@ -282,18 +283,18 @@ TEST(ImplicitSolver, ACollapseResumedWithinItsJumpEndsTheSame)
   };
   Sliding whole(true), other(true);
   ImplicitRun &run = *whole.run;
-  while (run.state.implicit.n_drag < 3)
+  while (run.state.get<ImplicitState>().n_drag < 3)
     run.solver.step(run.state);
   run.solver.save(run.state);
   other.run->state = run.state;
-  run.state.implicit.before_jump.clear(); // of the checkpoint alone
+  run.state.get<ImplicitState>().before_jump.clear(); // of the checkpoint alone
   other.run->solver.resume_stage(stage_with({ "held", "push" }),
                                  other.run->state);
   const std::string text = collapse(run);
   EXPECT_NE(text.find("went on moving"), std::string::npos) << text;
   EXPECT_EQ(collapse(*other.run), text);
   EXPECT_TRUE(bytes(other.run->state) == bytes(run.state));
-  EXPECT_EQ(other.run->state.implicit.jumps, false);
+  EXPECT_EQ(other.run->state.get<ImplicitState>().jumps, false);
 }
 
 TEST(ImplicitSolver, ALoadThatJumpsAtTheStartRestsFromThereOn)
@@ -336,7 +337,7 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
   BlockMesh<2> mesh;
   make_stack(mesh, 4, 1);
   const TestNodes nodes(mesh);
-  const Model model(nodes, two_blocks());
+  Model model(nodes, two_blocks());
   FarFieldDomain domain;
   domain.boundary.add_curve({ { 4., 0. }, { 2., 0. }, { 0., 0. } }, false);
   domain.medium    = ElasticMedium::from_young(2500., 1e10, 0.2);
@@ -385,11 +386,11 @@ TEST(ImplicitSolver, RigidBlockUnderAnEccentricLoad)
                     gravity("0", "-10"), traction("load", "half", "", "-1e3") },
                   numbers);
   run.begin({ "held", "gravity", "load" });
-  EXPECT_EQ(run.state.implicit.released, 0.);
+  EXPECT_EQ(run.state.get<ImplicitState>().released, 0.);
   run.finish();
   // Nodal quadrature: 0.25, 0.5 and 0.25 m^2 at -1, 0 and 1 m.
   const double kn = 2e10, moment = -500. * 0.5, inertia = 0.5;
-  const RigidBlockState &block = run.state.rigid_blocks[0];
+  const RigidBlockState &block = run.state.get<RigidBlockStates>()[0];
   EXPECT_NEAR(block.displacement[1], -25.5e3 / kn, 1e-6 * 25.5e3 / kn);
   EXPECT_NEAR(block.rotation, moment / (kn * inertia), 1e-12);
   // The lower block weighs as much as the upper one.
@@ -411,21 +412,21 @@ TEST(ImplicitSolver, WhatASupportHeldIsLetGo)
   const double stiffness = section / (6. / 1e10 + 1. / 1e11 + 1. / 2e11);
   EXPECT_NEAR(run.solver.resultant("right")[0], stiffness * 1e-6,
               1e-6 * stiffness * 1e-6);
-  EXPECT_EQ(run.state.implicit.released, 1.);
+  EXPECT_EQ(run.state.get<ImplicitState>().released, 1.);
 
   run.begin({ "left" }, &pulled);
-  EXPECT_EQ(run.state.implicit.released, 0.);
+  EXPECT_EQ(run.state.get<ImplicitState>().released, 0.);
   const unsigned int end = nodes_at(run.nodes, 6., 2.)[0];
   unsigned int n         = 0;
-  for (; run.state.implicit.released < 1.; ++n)
+  for (; run.state.get<ImplicitState>().released < 1.; ++n)
   {
     EXPECT_EQ(run.state.load_time, 0.);
     EXPECT_NEAR(run.state.nodes[end].u[0],
-                1e-6 * (1. - run.state.implicit.released), 1e-12);
+                1e-6 * (1. - run.state.get<ImplicitState>().released), 1e-12);
     run.solver.step(run.state);
   }
   EXPECT_GT(n, 5U);
-  EXPECT_TRUE(run.state.implicit.held.empty());
+  EXPECT_TRUE(run.state.get<ImplicitState>().held.empty());
   EXPECT_NEAR(run.state.nodes[end].u[0], 0., 1e-14);
   // All that was stored is lost, as by a damper.
   const double stored = 0.5 * stiffness * 1e-12;

@@ -5,7 +5,7 @@
 
 #include "implicit_run.h"
 
-#include <quoin/results/archive.h>
+#include <quoin/operators/archive.h>
 
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/math/tools/roots.hpp>
@@ -113,7 +113,7 @@ namespace
     }
     double moved() const
     {
-      return run->state.platens[1].displacement[0];
+      return run->state.get<PlatenState>("pull").displacement[0];
     }
   };
 
@@ -226,7 +226,7 @@ TEST(SnapBack, AStageDoesNotEndWithinAJump)
   stage.duration        = 1.0005 * strength * compliance / speed;
   bar.run->solver.begin_stage(stage, nullptr, bar.run->state);
   bar.run->finish();
-  EXPECT_FALSE(bar.run->state.implicit.jumps);
+  EXPECT_FALSE(bar.run->state.get<ImplicitState>().jumps);
   EXPECT_NEAR(bar.stress(), stress_after(speed * stage.duration),
               1e-6 * strength);
 }

@@ -7,7 +7,7 @@
 #include "../mesh/test_nodes.h"
 
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/node_constraint.h>
+#include <quoin/loads/motion_constraint.h>
 
 #include <string>
 #include <vector>
@@ -25,7 +25,7 @@ namespace quoin::test
     BlockMesh<2> mesh          = rectangle();
     TestNodes nodes{ mesh };
     std::vector<double> mass = { 2., 1., 2., 1. }; /**< [kg] */
-    std::vector<CapturedNode> captured;
+    std::vector<CapturedNode<2>> captured;
     State<2> state;
     StepContext step{};
 
@@ -59,7 +59,7 @@ namespace quoin::test
     }
 
     /** What the solver does before it: captures the nodes, as they are. */
-    void capture(NodeConstraint &constraint,
+    void capture(MotionConstraint<2> &constraint,
                  const std::vector<NodeVector<2>> &force)
     {
       captured.clear();
@@ -67,7 +67,7 @@ namespace quoin::test
       for (const unsigned int node : constraint.nodes())
       {
         positions.push_back(captured.size());
-        CapturedNode before{};
+        CapturedNode<2> before{};
         before.node     = node;
         before.mass     = mass[node];
         before.force    = force[node];
@@ -83,7 +83,7 @@ namespace quoin::test
       constraint.bind(positions);
     }
 
-    void move(NodeConstraint &constraint)
+    void move(MotionConstraint<2> &constraint)
     {
       constraint.correct(step, captured, state);
       constraint.account(step, captured, state);

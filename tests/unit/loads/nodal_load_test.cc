@@ -79,6 +79,6 @@ TEST(NodalLoad, PressureAllAroundIsInBalanceAndDoesTheWorkOfVolume)
   std::vector<NodeVector<2>> velocity;
   for (const auto &p : rectangle.mesh.vertices)
     velocity.push_back({ { 0.1 * p[0], 0.2 * p[1] } });
-  EXPECT_NEAR(load.power({ 0., 0. }, velocity.data()), -7. * 2. * 3. * 0.3,
-              1e-13);
+  EXPECT_NEAR(load.external_power({ 0., 0. }, velocity.data()),
+              -7. * 2. * 3. * 0.3, 1e-13);
 }

@@ -21,9 +21,9 @@ namespace
 
     HeldBlock(const LoadComponent &x, const LoadComponent &y,
               const LoadComponent &rotation)
-      : platen(parameters(x, y, rotation), 0, nodes)
+      : platen(parameters(x, y, rotation), nodes)
     {
-      state.platens.resize(1);
+      platen.prepare(state);
       platen.set_mass(mass);
       platen.begin_stage(state, false);
     }
@@ -41,7 +41,7 @@ namespace
 
     std::array<double, 3> resultant() const
     {
-      return platen.NodeConstraint::resultant();
+      return platen.MotionConstraint<2>::resultant();
     }
 
     /** Of the masses, 2, 1, 2 and 1 kg, at the corners [kg m^2]. */
@@ -66,7 +66,7 @@ TEST(Platen, ForcesAndMomentsAccelerateItsMass)
   forces[3].v[1]                    = -10. / 3.;
   block.capture(block.platen, forces);
   block.move(block.platen);
-  const PlatenState &now = block.state.platens[0];
+  const PlatenState &now = block.state.get<PlatenState>("plate");
   EXPECT_NEAR(now.velocity[0], 12. / 6. * block.dt, 1e-15);
   EXPECT_NEAR(now.velocity[1], 0., 1e-15);
   EXPECT_NEAR(now.velocity[2], 30. / block.inertia() * block.dt, 1e-15);
@@ -112,7 +112,7 @@ TEST(Platen, TakesOverTheMotionOfItsNodes)
     block.state.velocity[i] = { { 4. - 3. * y, -1. + 3. * x } };
   }
   block.platen.begin_stage(block.state, false);
-  const PlatenState &now = block.state.platens[0];
+  const PlatenState &now = block.state.get<PlatenState>("plate");
   EXPECT_NEAR(now.velocity[0], 4., 1e-14);
   EXPECT_NEAR(now.velocity[1], -1., 1e-14);
   EXPECT_NEAR(now.velocity[2], 3., 1e-14);

@@ -24,7 +24,7 @@ namespace
         = BoundarySquare::component(LoadQuantity::velocity, normal);
     parameters.components[1]
         = BoundarySquare::component(LoadQuantity::velocity, shear);
-    return { parameters, 0, square.nodes, { { 300., 200. } }, 0.5 };
+    return { parameters, square.nodes, { { 300., 200. } }, 0.5 };
   }
 } // namespace
 
@@ -41,7 +41,7 @@ TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
   for (const unsigned int i : { 0U, 1U })
   {
     // Displacements of the time before the step count; both are at rest.
-    CapturedNode before{};
+    CapturedNode<2> before{};
     before.node         = i;
     before.displacement = { { 0.5 * i, -0.5 * i } };
     account_for_dashpot(step, before, { { 2., 2., 0. } }, { { 3., 5. } },
@@ -56,9 +56,9 @@ TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
 TEST(ViscousBoundary, ResistsMotionByItsImpedance)
 {
   BoundarySquare square;
-  square.mass = { 1e9, 1e9, 1e9, 1e9 };
-  square.state.viscous_boundaries.resize(1);
+  square.mass              = { 1e9, 1e9, 1e9, 1e9 };
   ViscousBoundary boundary = at_the_right(square, "0", "0");
+  boundary.prepare(square.state);
   boundary.begin_stage(square.state, false);
   for (NodeVector<2> &v : square.state.velocity)
     v = { { 2., 3. } };
@@ -80,9 +80,9 @@ TEST(ViscousBoundary, ResistsMotionByItsImpedance)
 TEST(ViscousBoundary, IncidentWavesPushWithTwiceTheirTraction)
 {
   BoundarySquare square;
-  square.mass = { 1e9, 1e9, 1e9, 1e9 };
-  square.state.viscous_boundaries.resize(1);
+  square.mass              = { 1e9, 1e9, 1e9, 1e9 };
   ViscousBoundary boundary = at_the_right(square, "2", "3");
+  boundary.prepare(square.state);
   boundary.begin_stage(square.state, false);
   square.capture(boundary,
                  std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));

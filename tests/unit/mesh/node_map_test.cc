@@ -4,7 +4,7 @@
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/mesh_report.h>
-#include <quoin/base/state.h>
+#include <quoin/base/node_vector.h>
 #include <quoin/mesh/node_map.h>
 #include <quoin/mesh/partition.h>
 

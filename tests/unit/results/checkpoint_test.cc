@@ -4,6 +4,8 @@
 #include "../base/message_of.h"
 #include "temporary_directory.h"
 
+#include <quoin/joints/joint_history.h>
+#include <quoin/operators/state.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/results/atomic_file.h>
 #include <quoin/results/checkpoint.h>
@@ -35,13 +37,14 @@ namespace
       state.nodes[i] = { { 1. / (i + 1.), -0.3 * i }, { 1e-17 * i, 5e-324 } };
       state.velocity[i] = { { std::sqrt(i + 2.), -0. } };
     }
-    state.joints.resize(n / 2, 3);
+    JointHistory &joints = state.add<JointHistory>();
+    joints.resize(n / 2, 3);
     for (std::size_t i = 0; i < n / 2; ++i)
     {
-      state.joints.normal_traction[i] = -1e6 / (i + 3.);
-      state.joints.state[i]           = static_cast<JointState>(i % 4);
+      joints.normal_traction[i] = -1e6 / (i + 3.);
+      joints.state[i]           = static_cast<JointState>(i % 4);
       for (unsigned int k = 0; k < 3; ++k)
-        state.joints.internal[3 * i + k] = 0.1 * i - k;
+        joints.internal[3 * i + k] = 0.1 * i - k;
     }
     state.energy.friction = 1. / 7.;
     return state;
@@ -71,7 +74,7 @@ namespace
     return message_of<InputError>(
         [&]()
         {
-          State<2> state;
+          State<2> state = example_state(0);
           load_checkpoint(directory.path(), MPI_COMM_SELF, other_version,
                           other_parameters, state);
         });
@@ -99,7 +102,7 @@ TEST(Checkpoint, RoundTripIsBitwise)
   save_checkpoint(directory.path(), MPI_COMM_SELF, info_at(42), before);
   EXPECT_TRUE(checkpoint_exists(directory.path()));
 
-  State<2> after;
+  State<2> after            = example_state(0);
   const CheckpointInfo info = load_checkpoint(directory.path(), MPI_COMM_SELF,
                                               version, parameters, after);
   EXPECT_EQ(info.step, 42U);
@@ -109,11 +112,13 @@ TEST(Checkpoint, RoundTripIsBitwise)
   EXPECT_EQ(after.energy.friction, before.energy.friction);
   EXPECT_TRUE(same_bytes(after.nodes, before.nodes));
   EXPECT_TRUE(same_bytes(after.velocity, before.velocity));
-  EXPECT_TRUE(
-      same_bytes(after.joints.normal_traction, before.joints.normal_traction));
-  EXPECT_TRUE(same_bytes(after.joints.state, before.joints.state));
-  EXPECT_EQ(after.joints.n_internal, 3U);
-  EXPECT_TRUE(same_bytes(after.joints.internal, before.joints.internal));
+  EXPECT_TRUE(same_bytes(after.get<JointHistory>().normal_traction,
+                         before.get<JointHistory>().normal_traction));
+  EXPECT_TRUE(same_bytes(after.get<JointHistory>().state,
+                         before.get<JointHistory>().state));
+  EXPECT_EQ(after.get<JointHistory>().n_internal, 3U);
+  EXPECT_TRUE(same_bytes(after.get<JointHistory>().internal,
+                         before.get<JointHistory>().internal));
 }
 
 TEST(Checkpoint, OnlyTheNewestIsKept)
@@ -123,7 +128,7 @@ TEST(Checkpoint, OnlyTheNewestIsKept)
   {
     save_checkpoint(directory.path(), MPI_COMM_SELF, info_at(step),
                     example_state(step));
-    State<2> state;
+    State<2> state = example_state(0);
     EXPECT_EQ(load_checkpoint(directory.path(), MPI_COMM_SELF, version,
                               parameters, state)
                   .step,
@@ -150,7 +155,7 @@ TEST(Checkpoint, AFailedOneLeavesTheOlderOneValid)
                                  { throw RunError("The disk is full."); });
       });
   EXPECT_EQ(message, "The disk is full.");
-  State<2> state;
+  State<2> state = example_state(0);
   EXPECT_EQ(load_checkpoint(directory.path(), MPI_COMM_SELF, version,
                             parameters, state)
                 .step,
@@ -270,7 +275,7 @@ TEST(Checkpoint, OfAllRanks)
   MPI_Bcast(path, sizeof(path), MPI_CHAR, 0, MPI_COMM_WORLD);
 
   save_checkpoint(path, MPI_COMM_WORLD, info_at(1), example_state(5 + rank));
-  State<2> state;
+  State<2> state = example_state(0);
   load_checkpoint(path, MPI_COMM_WORLD, version, parameters, state);
   EXPECT_EQ(state.nodes.size(), 5U + rank);
 
@@ -314,7 +319,7 @@ TEST(Checkpoint, FullDiskLeavesTheOlderOneValid)
 
   expect_mention(message, "2.tmp/rank_0.bin");
   expect_mention(message, "Free some space");
-  State<2> state;
+  State<2> state = example_state(0);
   load_checkpoint(directory.path(), MPI_COMM_SELF, version, parameters, state);
   EXPECT_EQ(state.nodes.size(), 10U);
 }

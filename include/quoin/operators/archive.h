@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_results_archive_h
-#define quoin_results_archive_h
+#ifndef quoin_operators_archive_h
+#define quoin_operators_archive_h
 
-#include <quoin/base/state.h>
+#include <quoin/base/node_vector.h>
+#include <quoin/operators/state_slices.h>
 
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
 #include <boost/serialization/array.hpp>
 #include <boost/serialization/binary_object.hpp>
 #include <boost/serialization/split_free.hpp>
 #include <boost/serialization/string.hpp>
 #include <boost/serialization/vector.hpp>
 
+#include <algorithm>
 #include <type_traits>
 
 // What Boost.Serialization needs to know about the arrays of a State: they go
@@ -56,5 +60,26 @@ namespace boost
     }
   } // namespace serialization
 } // namespace boost
+
+namespace quoin
+{
+  template <typename Slice>
+  Slice &StateSlices::add(const std::string &name)
+  {
+    if (const Slice *slice = find<Slice>(name))
+      return const_cast<Slice &>(*slice);
+    const auto data = std::make_shared<Slice>();
+    entries.push_back(
+        { name, &typeid(Slice), data,
+          [](const void *slice) -> std::shared_ptr<void> {
+            return std::make_shared<Slice>(*static_cast<const Slice *>(slice));
+          },
+          [](boost::archive::binary_oarchive &archive, const void *slice)
+          { archive << *static_cast<const Slice *>(slice); },
+          [](boost::archive::binary_iarchive &archive, void *slice)
+          { archive >> *static_cast<Slice *>(slice); } });
+    return *data;
+  }
+} // namespace quoin
 
 #endif

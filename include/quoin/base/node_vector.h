@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_base_node_vector_h
+#define quoin_base_node_vector_h
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace quoin
+{
+  /** Allocator for arrays that vector loads may touch: 64-byte aligned. */
+  template <typename T>
+  struct CacheAlignedAllocator
+  {
+    using value_type        = T;
+    CacheAlignedAllocator() = default;
+    template <typename U>
+    CacheAlignedAllocator(const CacheAlignedAllocator<U> &)
+    {
+    }
+    T *allocate(const std::size_t n)
+    {
+      return static_cast<T *>(
+          ::operator new(n * sizeof(T), std::align_val_t(64)));
+    }
+    void deallocate(T *p, std::size_t)
+    {
+      ::operator delete(p, std::align_val_t(64));
+    }
+    template <typename U>
+    bool operator==(const CacheAlignedAllocator<U> &) const
+    {
+      return true;
+    }
+    template <typename U>
+    bool operator!=(const CacheAlignedAllocator<U> &) const
+    {
+      return false;
+    }
+  };
+
+  template <typename T>
+  using AlignedArray = std::vector<T, CacheAlignedAllocator<T>>;
+
+  /**
+   * One node of a block: reference position X and displacement u [m]; the
+   * current position is X + u. Kept together, in two dimensions in 32 bytes,
+   * because the block kernel loads both of every node it enters.
+   */
+  template <int dim>
+  struct alignas(dim == 2 ? 32 : 16) NodeRecord
+  {
+    double X[dim];
+    double u[dim];
+  };
+
+  /** A pair of components per node: velocity [m/s] or force [N]. */
+  template <int dim>
+  struct alignas(dim == 2 ? 16 : 8) NodeVector
+  {
+    double v[dim];
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_base_phase_clock_h
+#define quoin_base_phase_clock_h
+
+#include <quoin/base/wall_clock.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * How the time of a run is shared by the phases of its steps. A step of a
+   * small model takes a microsecond, in which looking at a clock between all
+   * phases would be felt: so one step in many is measured and counts for all
+   * of them, while phases that come seldom, such as output, are always
+   * measured.
+   */
+  class PhaseClock
+  {
+  public:
+    /** Prime, so that what is done every tenth or hundredth step is met as
+        often as it comes. */
+    static constexpr unsigned int steps_per_sample = 17;
+
+    /** Number of the phase @p name, which it has from now on. */
+    unsigned int phase(const std::string &name)
+    {
+      const auto found = std::find(names.begin(), names.end(), name);
+      if (found != names.end())
+        return found - names.begin();
+      names.push_back(name);
+      seconds.push_back(0.);
+      return names.size() - 1;
+    }
+
+    void begin_step()
+    {
+      if (++n_steps % steps_per_sample == 0)
+      {
+        weight = steps_per_sample;
+        last   = WallClock::now();
+      }
+      else
+        weight = 0.;
+    }
+
+    /** What was done since begin_step() or the last lap belongs to @p phase.
+     */
+    void lap(const unsigned int phase)
+    {
+      if (weight == 0.)
+        return;
+      const auto now = WallClock::now();
+      seconds[phase] += weight * seconds_between(last, now);
+      last = now;
+    }
+
+    /** Does @p task and books its time; within a step it is no part of a lap.
+     */
+    template <typename Task>
+    void measure(const unsigned int phase, const Task &task)
+    {
+      const auto start = WallClock::now();
+      task();
+      const auto end = WallClock::now();
+      seconds[phase] += seconds_between(start, end);
+      last += end - start;
+    }
+
+    const std::vector<std::string> &phases() const
+    {
+      return names;
+    }
+    /** Estimated time in a phase [s]. */
+    double time(const unsigned int phase) const
+    {
+      return seconds[phase];
+    }
+
+  private:
+    std::vector<std::string> names;
+    std::vector<double> seconds;
+    WallClock::time_point last;
+    double weight        = 0.;
+    unsigned int n_steps = 0;
+  };
+} // namespace quoin
+
+#endif

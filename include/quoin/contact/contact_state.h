@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_contact_contact_state_h
+#define quoin_contact_contact_state_h
+
+#include <quoin/joints/joint_history.h>
+
+#include <cstdint>
+
+namespace quoin
+{
+  /** One end of the overlap of two edges in contact; as JointHistory. */
+  struct ContactPoint
+  {
+    double normal_traction = 0.; /**< [Pa] */
+    double shear_traction  = 0.; /**< [Pa] */
+    double plastic_slip    = 0.; /**< [m] */
+    double plastic_opening = 0.; /**< [m] */
+    double slip_offset     = 0.; /**< slip at the anchors [m] */
+    double anchor_lower    = 0.; /**< where on the edges, 0 to 1, slip is */
+    double anchor_upper    = 0.; /**< counted from */
+    double area            = 0.; /**< as last used [m^2] */
+    /** Internal variables of its law; there is room for most_internal. */
+    static constexpr unsigned int most_internal = 4;
+    double internal[most_internal]{};
+    JointState state = JointState::slipped;
+  };
+
+  /** Two edges of blocks that touch or may soon do so. */
+  struct ContactPair
+  {
+    unsigned int lower     = 0; /**< edges, see ContactEdges */
+    unsigned int upper     = 0;
+    unsigned int set       = 0; /**< of joints, whose law it follows */
+    std::uint8_t active    = 0; /**< whether the points have a history */
+    std::uint8_t was_joint = 0; /**< whether it was a matched joint */
+    std::uint8_t was_open  = 0; /**< whether the edges were seen apart */
+    /** Slip of the matched joint that became this pair [m], and what of it is
+        still allowed for in the overlap. */
+    double shift       = 0.;
+    double shift_start = 0.; /**< slip at that time [m] */
+    ContactPoint points[2];
+  };
+
+  /** Contacts that come and go; empty if displacements are small. */
+  struct ContactState
+  {
+    static constexpr const char *slice_name = "contacts";
+
+    AlignedArray<ContactPair> pairs; /**< ascending in their edges */
+
+    AlignedArray<std::uint8_t> handed_over; /**< of interfaces of joints */
+
+    /** Of the boundary nodes, when pairs were last searched [m]. */
+    AlignedArray<NodeVector<2>> search_positions;
+    std::uint64_t next_check = 0; /**< step of the next look at motions */
+    std::uint64_t n_searches = 0;
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &pairs &handed_over &search_positions &next_check &n_searches;
+    }
+  };
+} // namespace quoin
+
+#endif

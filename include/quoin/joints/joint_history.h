@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joints_joint_history_h
+#define quoin_joints_joint_history_h
+
+#include <quoin/base/node_vector.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace quoin
+{
+  /** What a joint point has been through; the order is written to output. */
+  enum class JointState : std::uint8_t
+  {
+    intact   = 0, /**< never failed */
+    slipping = 1, /**< at the shear limit now */
+    slipped  = 2, /**< failed earlier, closed and sticking now */
+    open     = 3  /**< failed in tension or open now */
+  };
+
+  /**
+   * Histories of the joint points, structure of arrays, one entry per point.
+   * Tension and opening are positive; slip is positive when the upper side
+   * moves along s = (n_y, -n_x), n the normal from the lower to the upper
+   * side: to the right on a horizontal joint.
+   */
+  struct JointHistory
+  {
+    static constexpr const char *slice_name = "joints";
+
+    AlignedArray<double> normal_traction; /**< [Pa] */
+    AlignedArray<double> shear_traction;  /**< [Pa] */
+    AlignedArray<double> plastic_slip;    /**< inelastic slip [m] */
+    AlignedArray<double> plastic_opening; /**< dilation, offsets [m] */
+    /** Of each point n_internal numbers, the internal variables of its law. */
+    AlignedArray<double> internal;
+    unsigned int n_internal = 0;
+    AlignedArray<JointState> state;
+    /** Of each segment, two points: it is a general contact by now. */
+    AlignedArray<std::uint8_t> handed_over;
+
+    void resize(const std::size_t n, const unsigned int n_internal = 0)
+    {
+      this->n_internal = n_internal;
+      internal.resize(n * n_internal, 0.);
+      normal_traction.resize(n, 0.);
+      shear_traction.resize(n, 0.);
+      plastic_slip.resize(n, 0.);
+      plastic_opening.resize(n, 0.);
+      state.resize(n, JointState::intact);
+      handed_over.resize(n / 2, 0);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &normal_traction &shear_traction &plastic_slip &plastic_opening
+          &internal &n_internal &state &handed_over;
+    }
+  };
+} // namespace quoin
+
+#endif

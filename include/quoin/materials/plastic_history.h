@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_materials_plastic_history_h
+#define quoin_materials_plastic_history_h
+
+#include <quoin/base/node_vector.h>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace quoin
+{
+  /**
+   * A cell of a material that yields, in the frame that turns with it:
+   * components xx, yy, xy (the tensor's) and zz. One cache line.
+   */
+  struct alignas(64) PlasticCell
+  {
+    double strain[4]{}; /**< plastic strain [-] */
+    double stress[4]{}; /**< as last computed, tension positive [Pa] */
+  };
+
+  /**
+   * Histories of the deformable cells of this rank; empty unless one of them
+   * yields. See MohrCoulomb.
+   */
+  struct PlasticHistory
+  {
+    static constexpr const char *slice_name = "plastic cells";
+
+    AlignedArray<PlasticCell> cells;
+    AlignedArray<double> shear;          /**< accumulated plastic shear [-] */
+    AlignedArray<std::uint8_t> yielding; /**< bits of namespace yielding */
+
+    void resize(const std::size_t n)
+    {
+      cells.resize(n);
+      shear.resize(n, 0.);
+      yielding.resize(n, 0);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &cells &shear &yielding;
+    }
+  };
+} // namespace quoin
+
+#endif
