@@ -4,6 +4,7 @@
 #ifndef quoin_tests_tetrahedron_blocks_h
 #define quoin_tests_tetrahedron_blocks_h
 
+#include <quoin/base/eigen_core.h>
 #include <quoin/blocks/block_forces_3d.h>
 #include <quoin/blocks/node_update.h>
 #include <quoin/blocks/stable_time_step.h>
