@@ -27,7 +27,6 @@ namespace quoin
 
   void ExplicitSolver::hold_removed_blocks(const State<2> &state)
   {
-    removed_nodes.clear();
     if (state.block_marks.empty())
       return;
     const auto &parts               = model.nodes().block_parts();
@@ -37,10 +36,7 @@ namespace quoin
       const unsigned int b = parts[i].number;
       if (!state.is_absent(b))
         continue;
-      removed_nodes.push_back(model.block_nodes(b));
-      const NodeRange &range = removed_nodes.back();
-      for (std::size_t node = range.begin; node < range.end; ++node)
-        moving_mass[node] = inverse_mass[node] = 0.;
+      stepper.hold(model.block_nodes(b));
       if (i >= n_deformable)
         rigid_stage.held[i - n_deformable] = true;
     }
@@ -94,13 +90,15 @@ namespace quoin
     // step yet. Those of loads and damping never will, for the block is gone;
     // those of the cells change its strain energy by as much as its kinetic
     // energy, so both are taken as they would be after that half step.
-    const double dt          = state.previous_time_step;
-    const RigidBlocks &rigid = model.rigid_blocks();
-    const auto rigid_0       = state.get<RigidBlockStates>();
-    double energy            = 0.;
+    const double dt                 = state.previous_time_step;
+    const RigidBlocks &rigid        = model.rigid_blocks();
+    const auto rigid_0              = state.get<RigidBlockStates>();
+    double energy                   = 0.;
+    NodeVector<2> *force            = stepper.node_forces().force;
+    const std::vector<double> &mass = stepper.mass();
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
       model.blocks().add_forces(tile, state.nodes.data(),
-                                state.get<PlasticHistory>(), force.data());
+                                state.get<PlasticHistory>(), force);
     for (const unsigned int block : blocks)
     {
       const NodeRange range = model.block_nodes(block);
@@ -118,7 +116,7 @@ namespace quoin
             state.get<RigidBlockStates>()[model.rigid_number(block)].velocity,
             3, 0.);
     }
-    std::fill(force.begin(), force.end(), NodeVector<2>{ { 0., 0. } });
+    std::fill_n(force, state.nodes.size(), NodeVector<2>{});
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
     return energy + rigid.kinetic_energy(rigid_stage, rigid_0, rigid_0, 1.)
            - rigid.kinetic_energy(rigid_stage, state.get<RigidBlockStates>(),

@@ -25,7 +25,7 @@ namespace quoin
           = rigid.kinetic_energy(rigid_stage, state.get<RigidBlockStates>(),
                                  state.get<RigidBlockStates>(), 1.);
       for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
-        energy += 0.5 * mass[i]
+        energy += 0.5 * stepper.mass()[i]
                   * (state.velocity[i].v[0] * state.velocity[i].v[0]
                      + state.velocity[i].v[1] * state.velocity[i].v[1]);
       return energy;
@@ -33,7 +33,7 @@ namespace quoin
 
     const double before = kinetic();
     double own = 0., scaled = 0.;
-    mass = model.mass();
+    std::vector<double> mass = model.mass();
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
     {
       double &factor = rigid_stage.mass_factor[b];
@@ -56,6 +56,7 @@ namespace quoin
       scaled += mass[i];
     }
     added_mass = sum(scaled) / sum(own) - 1.;
+    stepper.set_mass(mass);
     // Giving moving nodes another mass is work done from outside.
     state.energy.external += kinetic() - before;
 
@@ -89,82 +90,31 @@ namespace quoin
       }
   }
 
+  void ExplicitSolver::collect_operators(const StageParameters *previous)
+  {
+    std::vector<ForceOperator<2> *> forces, begun;
+    if (block_contacts)
+      forces.push_back(block_contacts.get());
+    forces.push_back(&model.joints());
+    for (NodalLoad<2> &load : all_loads)
+      if (names_load(stage, load.name()))
+      {
+        forces.push_back(&load);
+        if (previous && !names_load(*previous, load.name()))
+          begun.push_back(&load);
+      }
+    forces.push_back(&release);
+    stepper.set_operators(forces, begun, constraints_on, stage);
+  }
+
   void ExplicitSolver::collect_constrained_nodes(const State<2> &state)
   {
     // Nodes of absent blocks stay where they are, whatever moves others.
-    const auto absent = model.absent_nodes(state);
-    std::vector<unsigned int> nodes;
-    for (const MotionConstraint<2> *constraint : constraints_on)
-      std::copy_if(constraint->nodes().begin(), constraint->nodes().end(),
-                   std::back_inserter(nodes),
-                   [&](const unsigned int node) { return !absent[node]; });
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-
-    captured.assign(nodes.size(), CapturedNode<2>{});
-    for (unsigned int c = 0; c < nodes.size(); ++c)
-    {
-      captured[c].node     = nodes[c];
-      captured[c].mass     = mass[nodes[c]];
-      captured[c].owner[0] = captured[c].owner[1] = nullptr;
-    }
-    for (MotionConstraint<2> *constraint : constraints_on)
-    {
-      std::vector<unsigned int> positions;
-      for (const unsigned int node : constraint->nodes())
-      {
-        if (absent[node])
-          continue;
-        positions.push_back(std::lower_bound(nodes.begin(), nodes.end(), node)
-                            - nodes.begin());
-        for (unsigned int d = 0; d < 2; ++d)
-          if (constraint->moves_all() || constraint->holds()[d])
-            captured[positions.back()].owner[d] = constraint;
-      }
-      constraint->bind(std::move(positions));
-    }
-
+    stepper.capture_nodes(model.absent_nodes(state));
     refuse_shared_platens();
     rigid_stage.held = find_held_blocks();
-
-    captured_begin.clear();
-    for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
-      captured_begin.push_back(
-          std::lower_bound(nodes.begin(), nodes.end(),
-                           model.blocks().tile_nodes(tile).begin)
-          - nodes.begin());
-    for (const unsigned int first :
-         { model.nodes().first_shared_node(), model.n_deformable_nodes() })
-      captured_begin.push_back(
-          std::lower_bound(nodes.begin(), nodes.end(), first) - nodes.begin());
-
-    moving_mass = mass;
-    inverse_mass.resize(mass.size());
-    for (unsigned int i = 0; i < mass.size(); ++i)
-      inverse_mass[i] = 1. / mass[i];
-    for (const unsigned int node : nodes)
-      moving_mass[node] = inverse_mass[node] = 0.;
     find_moved_blocks(state);
     hold_removed_blocks(state);
-  }
-
-  void ExplicitSolver::collect_operators()
-  {
-    forces_on.clear();
-    if (block_contacts)
-      forces_on.push_back(block_contacts.get());
-    forces_on.push_back(&model.joints());
-    for (NodalLoad &load : all_loads)
-      if (names_load(stage, load.name()))
-        forces_on.push_back(&load);
-    forces_on.push_back(&release);
-
-    force_phases.clear();
-    for (const ForceOperator<2> *forces : forces_on)
-      force_phases.push_back(time_shares.phase(forces->kind()));
-    constraint_phases.clear();
-    for (const MotionConstraint<2> *constraint : constraints_on)
-      constraint_phases.push_back(time_shares.phase(constraint->phase()));
   }
 
   double ExplicitSolver::release_duration(const State<2> &state) const
@@ -198,11 +148,7 @@ namespace quoin
     scale_masses(stage, state);
     release = Release(state, stage, release_duration(state));
     prepare(state);
-    collect_operators();
-    loads_begun.clear();
-    for (const NodalLoad *load : loads_on)
-      if (previous && !names_load(*previous, load->name()))
-        loads_begun.push_back(load);
+    collect_operators(previous);
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
       {
@@ -225,7 +171,7 @@ namespace quoin
                                     State<2> &state)
   {
     activate(resumed, state);
-    collect_operators();
+    collect_operators(nullptr);
     const State<2> saved = state;
     scale_masses(stage, state);
     release = Release(state, stage, release_duration(state));

@@ -49,7 +49,7 @@ namespace quoin
                     + lost.fracture + lost.crushing + lost.plastic;
     for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
       for (const double v : state.velocity[i].v)
-        energy += 0.5 * mass[i] * v * v;
+        energy += 0.5 * stepper.mass()[i] * v * v;
     state.energy.external += energy;
   }
 } // namespace quoin

@@ -214,14 +214,15 @@ namespace quoin
     std::vector<Push>
     pushes(const Model &model, Bodies &bodies,
            const std::vector<MotionConstraint<2> *> &constraints,
-           const std::vector<const NodalLoad *> &loads, const TimePoint &time)
+           const std::vector<const NodalLoad<2> *> &loads,
+           const TimePoint &time)
     {
       const NodeMap<2> &nodes      = model.nodes();
       const unsigned int n_blocks  = nodes.table().n_blocks();
       const NodeExchange &exchange = model.exchange();
       std::vector<NodeVector<2>> force(exchange.n_local(),
                                        NodeVector<2>{ { 0., 0. } });
-      for (const NodalLoad *load : loads)
+      for (const NodalLoad<2> *load : loads)
         load->add_forces(time, force.data());
       std::vector<double> sums(4 * n_blocks, 0.);
       for (const MotionConstraint<2> *constraint : constraints)
@@ -300,7 +301,7 @@ namespace quoin
   std::vector<PushedBody>
   find_pushed_bodies(const Model &model,
                      const std::vector<MotionConstraint<2> *> &constraints,
-                     const std::vector<const NodalLoad *> &loads,
+                     const std::vector<const NodalLoad<2> *> &loads,
                      const std::vector<TimePoint> &times, const State<2> &state)
   {
     Bodies bodies(model, constraints, state, true);

@@ -4,7 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/dynamics/model.h>
-#include <quoin/blocks/triangle.h>
+#include <quoin/blocks/block_cells.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,21 +12,6 @@
 
 namespace quoin
 {
-  namespace
-  {
-    NodeRecord<2> at_rest(const dealii::Point<2> &p)
-    {
-      return { { p[0], p[1] }, { 0., 0. } };
-    }
-
-    Triangle triangle(const NodeMap<2> &nodes, const unsigned int cell)
-    {
-      const auto &[i, j, k] = nodes.cell(cell);
-      return { at_rest(nodes.point(i)), at_rest(nodes.point(j)),
-               at_rest(nodes.point(k)) };
-    }
-  } // namespace
-
   Model::Model(const NodeMap<2> &nodes, const ModelParameters &parameters)
     : node_map(nodes),
       parameters(parameters), now{ parameters.materials, {}, parameters.joints }
@@ -81,24 +66,10 @@ namespace quoin
 
   void Model::find_masses()
   {
-    std::vector<NodeVector<2>> mass(node_map.n_local());
-    for (unsigned int c = 0; c < node_map.n_cells(); ++c)
-    {
-      const double third = triangle(node_map, c).area() * parameters.thickness
-                           * now.materials[material_of_cell(c)].elastic.density
-                           / 3.;
-      for (const unsigned int node : node_map.mass_nodes(c))
-        mass[node].v[0] += third;
-    }
-    exchange().add_to_owners(mass.data());
-    exchange().update_ghosts(mass.data());
-    node_mass.clear();
-    for (const NodeVector<2> &m : mass)
-      node_mass.push_back(m.v[0]);
-
     std::vector<double> density;
     for (const unsigned int material : now.material_of_group)
       density.push_back(now.materials[material].elastic.density);
+    node_mass = lumped_masses(node_map, density, parameters.thickness);
     rigid.prepare(node_map, density, parameters.thickness);
   }
 
@@ -106,16 +77,8 @@ namespace quoin
   {
     BlockForcesData<2> data;
     data.quadratic = table().is_quadratic;
-    data.cells.assign(node_map.all_cells().begin(),
-                      node_map.all_cells().begin() + n_deformable_cells());
-    data.thickness        = parameters.thickness;
-    data.block_first_cell = { 0 };
-    data.block_first_node = { 0 };
-    for (unsigned int b = 0; b < node_map.n_deformable_block_parts(); ++b)
-    {
-      data.block_first_cell.push_back(node_map.block_parts()[b].cells[1]);
-      data.block_first_node.push_back(node_map.block_parts()[b].nodes[1]);
-    }
+    take_cells(node_map, data);
+    data.thickness = parameters.thickness;
     for (const MaterialParameters &material : now.materials)
     {
       data.stiffness.push_back(
@@ -141,24 +104,16 @@ namespace quoin
 
   void Model::find_stable_step()
   {
-    std::vector<std::array<double, 3>> bound(node_map.n_local(),
-                                             { { 0., 0., 0. } });
-    for (unsigned int c = 0; c < n_deformable_cells(); ++c)
+    std::vector<PlaneStiffness> stiffness;
+    std::vector<double> density;
+    for (const unsigned int m : now.material_of_group)
     {
-      const LinearElastic &material
-          = now.materials[material_of_cell(c)].elastic;
-      const Triangle element = triangle(node_map, c);
-      const double share
-          = largest_eigenvalue_squared_frequency(
-                element, plane_stiffness(material, parameters.plane),
-                material.density)
-            * material.density * element.area() * parameters.thickness / 3.;
-      for (const unsigned int v : node_map.cell(c))
-      {
-        bound[v][0] += share;
-        bound[v][1] += share;
-      }
+      const LinearElastic &material = now.materials[m].elastic;
+      stiffness.push_back(plane_stiffness(material, parameters.plane));
+      density.push_back(material.density);
     }
+    auto bound
+        = cell_bounds(node_map, stiffness, density, parameters.thickness);
     if (parameters.large_displacements)
       add_contact_bound(bound);
     else

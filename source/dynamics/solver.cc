@@ -40,12 +40,12 @@ namespace quoin
       switch (load.type)
       {
       case LoadType::viscous_boundary:
-        all_constraints.push_back(std::make_unique<ViscousBoundary>(
+        all_constraints.push_back(std::make_unique<ViscousBoundary<2>>(
             load, nodes, model.impedance_beyond(load), model.thickness()));
         break;
       case LoadType::prescribed_motion:
         all_constraints.push_back(
-            std::make_unique<PrescribedMotion>(load, nodes));
+            std::make_unique<PrescribedMotion<2>>(load, nodes));
         break;
       case LoadType::platen:
         all_constraints.push_back(std::make_unique<Platen>(load, nodes));
@@ -138,9 +138,9 @@ namespace quoin
                      { return a->kind() < b->kind(); });
     refuse_absent_nodes(state);
     loads_on.clear();
-    for (NodalLoad &load : all_loads)
+    for (NodalLoad<2> &load : all_loads)
       load.set_mass(model.mass());
-    for (const NodalLoad &load : all_loads)
+    for (const NodalLoad<2> &load : all_loads)
       if (names_load(stage, load.name()))
         loads_on.push_back(&load);
 
@@ -281,15 +281,18 @@ namespace quoin
       constraint->check_start({ 0., state.time });
   }
 
-  std::vector<std::array<double, 3>>
+  std::vector<std::array<double, 4>>
   Solver::load_values(const double stage_start, const double load_time) const
   {
     const TimePoint time{ load_time, stage_start + load_time };
-    std::vector<std::array<double, 3>> result;
-    for (const NodalLoad *load : loads_on)
+    std::vector<std::array<double, 4>> result;
+    for (const NodalLoad<2> *load : loads_on)
       result.push_back(load->amplitude(time));
     for (const MotionConstraint<2> *constraint : constraints_on)
-      result.push_back(constraint->values(time));
+    {
+      const auto [x, y, rotation] = constraint->values(time);
+      result.push_back({ x, y, rotation, 0. });
+    }
     return result;
   }
 

@@ -67,7 +67,7 @@ namespace quoin
                        + " s. Correct its function of time in section 'Loads/"
                        + name + "', or end the stage earlier.");
     };
-    for (const NodalLoad *load : loads_on)
+    for (const NodalLoad<2> *load : loads_on)
       check(load->amplitude(time), load->name());
     for (const MotionConstraint<2> *constraint : constraints_on)
       check(constraint->values(time), constraint->name());

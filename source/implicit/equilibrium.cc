@@ -45,7 +45,7 @@ namespace quoin
   } // namespace
 
   Equilibrium::Equilibrium(const Model &model, Freedoms &freedoms,
-                           const std::vector<const NodalLoad *> &loads,
+                           const std::vector<const NodalLoad<2> *> &loads,
                            const std::vector<bool> &path_sets,
                            const double stage_start,
                            const StaticFarField *far_field)
@@ -422,7 +422,7 @@ namespace quoin
   void Equilibrium::add_external(const double load_time,
                                  AlignedArray<NodeVector<2>> &force) const
   {
-    for (const NodalLoad *load : loads)
+    for (const NodalLoad<2> *load : loads)
       load->add_forces({ load_time, stage_start + load_time }, force.data());
     if (release)
       release->add_forces(load_time, force.data());

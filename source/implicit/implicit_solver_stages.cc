@@ -225,8 +225,8 @@ namespace quoin
     {
       // It holds what its boundary carried until now, without loads that
       // begin here.
-      std::vector<const NodalLoad *> before;
-      for (const NodalLoad *load : loads_on)
+      std::vector<const NodalLoad<2> *> before;
+      for (const NodalLoad<2> *load : loads_on)
         if (previous && names_load(*previous, load->name()))
           before.push_back(load);
       Equilibrium without(model, *freedoms, previous ? before : loads_on,

@@ -179,6 +179,7 @@ namespace quoin
     {
       if ((load.type == LoadType::prescribed_motion
            || load.type == LoadType::traction || load.type == LoadType::gravity)
+          && load.pressure.quantity == LoadQuantity::free
           && std::all_of(load.components.begin(), load.components.end(),
                          [](const LoadComponent &component)
                          { return component.quantity == LoadQuantity::free; }))
@@ -321,7 +322,7 @@ namespace quoin
             [](const ParameterSection &section, const std::string &name)
             { return platen_component(section, name, rotation_words); });
       if (entries.reads_if(is_force))
-        enter_component(entries, "Pressure", "free", load.components[2],
+        enter_component(entries, "Pressure", "free", load.pressure,
                         "Traction: pressure that pushes on the block, against "
                         "its outward normal in the mesh, and adds to "
                         "'Horizontal' and 'Vertical'; a function of time as "

@@ -26,13 +26,30 @@ namespace quoin
     }
   } // namespace
 
-  std::vector<BoundaryFace<2>>
-  faces_of_curves(const NodeMap<2> &node_map,
+  dealii::Tensor<1, 2>
+  outward_area(const std::array<dealii::Point<2>, 2> &points)
+  {
+    // The block is on the left of an edge.
+    const auto edge = points[1] - points[0];
+    return dealii::Tensor<1, 2>({ edge[1], -edge[0] });
+  }
+
+  dealii::Tensor<1, 3>
+  outward_area(const std::array<dealii::Point<3>, 3> &points)
+  {
+    return 0.5
+           * dealii::cross_product_3d(points[1] - points[0],
+                                      points[2] - points[0]);
+  }
+
+  template <int dim>
+  std::vector<BoundaryFace<dim>>
+  faces_of_curves(const NodeMap<dim> &node_map,
                   const std::vector<std::string> &names,
                   const std::string &load)
   {
     const auto &face_names = node_map.table().face_names;
-    std::vector<BoundaryFace<2>> faces;
+    std::vector<BoundaryFace<dim>> faces;
     for (const auto &name : names)
     {
       if (std::count(names.begin(), names.end(), name) > 1)
@@ -41,37 +58,43 @@ namespace quoin
                          + "' twice, and the load would act on it twice. Name "
                            "it once.");
       const unsigned int line
-          = position(face_names, name, load, "Boundary", "physical curve");
+          = position(face_names, name, load, "Boundary",
+                     dim == 2 ? "physical curve" : "physical surface");
       std::vector<bool> wanted(face_names.size(), false);
       wanted[line]     = true;
       const auto found = node_map.gather_faces(wanted);
       faces.insert(faces.end(), found.begin(), found.end());
       if (found.empty())
         throw InputError("section 'Loads/" + load + "': 'Boundary = " + name
-                         + "' has no edge on the outer boundary of a block. "
-                           "Name a boundary curve.");
+                         + (dim == 2 ? "' has no edge" : "' has no face")
+                         + " on the outer boundary of a block. Name a boundary "
+                         + (dim == 2 ? "curve." : "surface."));
     }
     return faces;
   }
 
+  template <int dim>
   std::vector<unsigned int>
-  groups_of_names(const NodeMap<2> &node_map,
+  groups_of_names(const NodeMap<dim> &node_map,
                   const std::vector<std::string> &names,
                   const std::string &load)
   {
     std::vector<unsigned int> groups;
     for (const auto &name : names)
-      groups.push_back(position(node_map.table().group_names, name, load,
-                                "Group", "physical surface"));
+      groups.push_back(
+          position(node_map.table().group_names, name, load, "Group",
+                   dim == 2 ? "physical surface" : "physical volume"));
     return groups;
   }
 
-  NodalLoad::NodalLoad(const LoadParameters &parameters,
-                       const NodeMap<2> &node_map,
-                       const std::vector<double> &mass, const double thickness)
+  template <int dim>
+  NodalLoad<dim>::NodalLoad(const LoadParameters &parameters,
+                            const NodeMap<dim> &node_map,
+                            const std::vector<double> &mass,
+                            const double thickness)
     : load_name(parameters.name),
       is_gravity(parameters.type == LoadType::gravity),
-      components(parameters.components)
+      components(parameters.components), pressure(parameters.pressure)
   {
     if (is_gravity)
     {
@@ -82,66 +105,90 @@ namespace quoin
       return;
     }
     std::map<unsigned int, double> area;
-    std::map<unsigned int, NodeVector<2>> inward_area;
-    for (const BoundaryFace<2> &face :
+    std::map<unsigned int, NodeVector<dim>> inward_area;
+    for (const BoundaryFace<dim> &face :
          faces_of_curves(node_map, parameters.boundaries, parameters.name))
     {
-      // The block is on the left of an edge.
-      const auto edge = face.points[1] - face.points[0];
-      for (unsigned int k = 0; k < 2; ++k)
+      const dealii::Tensor<1, dim> outward = outward_area(face.points);
+      for (unsigned int k = 0; k < dim; ++k)
         if (node_map.exchange().owns(face.nodes[k]))
         {
           const unsigned int node = node_map.exchange().local(face.nodes[k]);
           const double share      = face.shares[k];
-          area[node] += share * edge.norm() * thickness;
-          inward_area[node].v[0] -= share * edge[1] * thickness;
-          inward_area[node].v[1] += share * edge[0] * thickness;
+          area[node] += share * outward.norm() * thickness;
+          for (unsigned int d = 0; d < dim; ++d)
+            inward_area[node].v[d] -= share * outward[d] * thickness;
         }
     }
     for (const auto &[node, weight] : area)
     {
       nodes.push_back(node);
       weights.push_back(weight);
-      if (components[2].quantity != LoadQuantity::free)
+      if (pressure.quantity != LoadQuantity::free)
         inward.push_back(inward_area[node]);
     }
   }
 
-  void NodalLoad::set_mass(const std::vector<double> &mass)
+  template <int dim>
+  void NodalLoad<dim>::set_mass(const std::vector<double> &mass)
   {
     if (is_gravity)
       std::copy_n(mass.begin(), weights.size(), weights.begin());
   }
 
-  std::array<double, 3> NodalLoad::amplitude(const TimePoint &time) const
+  template <int dim>
+  std::array<double, 4> NodalLoad<dim>::amplitude(const TimePoint &time) const
   {
-    return component_values(components, time);
+    const auto [x, y, z] = component_values(components, time);
+    return { x, y, z,
+             pressure.quantity == LoadQuantity::free ? 0.
+                                                     : pressure.value(time) };
   }
 
-  void NodalLoad::add_forces(const TimePoint &time, NodeVector<2> *force) const
+  template <int dim>
+  void NodalLoad<dim>::add_forces(const TimePoint &time,
+                                  NodeVector<dim> *force) const
   {
-    const auto [x, y, pressure] = amplitude(time);
+    const auto values = amplitude(time);
     for (unsigned int i = 0; i < nodes.size(); ++i)
-    {
-      force[nodes[i]].v[0] += x * weights[i];
-      force[nodes[i]].v[1] += y * weights[i];
-    }
+      for (unsigned int d = 0; d < dim; ++d)
+        force[nodes[i]].v[d] += values[d] * weights[i];
     for (unsigned int i = 0; i < inward.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        force[nodes[i]].v[d] += pressure * inward[i].v[d];
+      for (unsigned int d = 0; d < dim; ++d)
+        force[nodes[i]].v[d] += values[3] * inward[i].v[d];
   }
 
-  double NodalLoad::external_power(const TimePoint &time,
-                                   const NodeVector<2> *velocity) const
+  template <int dim>
+  double NodalLoad<dim>::external_power(const TimePoint &time,
+                                        const NodeVector<dim> *velocity) const
   {
-    double sum[2] = { 0., 0. }, inflow = 0.;
+    double sum[dim]{}, inflow = 0.;
     for (unsigned int i = 0; i < nodes.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         sum[d] += weights[i] * velocity[nodes[i]].v[d];
     for (unsigned int i = 0; i < inward.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         inflow += inward[i].v[d] * velocity[nodes[i]].v[d];
-    const auto [x, y, pressure] = amplitude(time);
-    return x * sum[0] + y * sum[1] + pressure * inflow;
+    const auto values = amplitude(time);
+    double power      = values[3] * inflow;
+    for (unsigned int d = 0; d < dim; ++d)
+      power += values[d] * sum[d];
+    return power;
   }
+
+  template class NodalLoad<2>;
+  template std::vector<BoundaryFace<2>>
+  faces_of_curves(const NodeMap<2> &, const std::vector<std::string> &,
+                  const std::string &);
+  template std::vector<unsigned int>
+  groups_of_names(const NodeMap<2> &, const std::vector<std::string> &,
+                  const std::string &);
+
+  template class NodalLoad<3>;
+  template std::vector<BoundaryFace<3>>
+  faces_of_curves(const NodeMap<3> &, const std::vector<std::string> &,
+                  const std::string &);
+  template std::vector<unsigned int>
+  groups_of_names(const NodeMap<3> &, const std::vector<std::string> &,
+                  const std::string &);
 } // namespace quoin

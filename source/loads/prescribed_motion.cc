@@ -8,12 +8,13 @@
 
 namespace quoin
 {
+  template <int dim>
   std::vector<unsigned int>
-  nodes_of_faces(const NodeMap<2> &node_map,
-                 const std::vector<BoundaryFace<2>> &faces)
+  nodes_of_faces(const NodeMap<dim> &node_map,
+                 const std::vector<BoundaryFace<dim>> &faces)
   {
     std::vector<unsigned int> nodes;
-    for (const BoundaryFace<2> &face : faces)
+    for (const BoundaryFace<dim> &face : faces)
       for (const unsigned int v : face.nodes)
         if (node_map.exchange().owns(v))
           nodes.push_back(node_map.exchange().local(v));
@@ -22,21 +23,24 @@ namespace quoin
     return nodes;
   }
 
-  PrescribedMotion::PrescribedMotion(const LoadParameters &parameters,
-                                     const NodeMap<2> &node_map)
+  template <int dim>
+  PrescribedMotion<dim>::PrescribedMotion(const LoadParameters &parameters,
+                                          const NodeMap<dim> &node_map)
     : components(parameters.components)
   {
-    load_name = parameters.name;
-    node_list = nodes_of_faces(
+    this->load_name = parameters.name;
+    this->node_list = nodes_of_faces(
         node_map,
         faces_of_curves(node_map, parameters.boundaries, parameters.name));
   }
 
-  void PrescribedMotion::correct(const StepContext &step,
-                                 const std::vector<CapturedNode<2>> &captured,
-                                 State<2> &state)
+  template <int dim>
+  void
+  PrescribedMotion<dim>::correct(const StepContext &step,
+                                 const std::vector<CapturedNode<dim>> &captured,
+                                 State<dim> &state)
   {
-    for (unsigned int d = 0; d < 2; ++d)
+    for (unsigned int d = 0; d < dim; ++d)
     {
       const LoadComponent &component = components[d];
       if (component.quantity == LoadQuantity::free)
@@ -46,9 +50,9 @@ namespace quoin
                 ? step.load_rate * component.value(step.middle)
                 : (component.value(step.end) - component.value(step.begin))
                       / step.dt;
-      for (const unsigned int c : captured_positions)
+      for (const unsigned int c : this->captured_positions)
       {
-        const CapturedNode<2> &before    = captured[c];
+        const CapturedNode<dim> &before  = captured[c];
         state.velocity[before.node].v[d] = velocity;
         state.nodes[before.node].u[d]
             = before.displacement.v[d] + step.dt * velocity;
@@ -56,16 +60,18 @@ namespace quoin
     }
   }
 
-  void PrescribedMotion::account(const StepContext &step,
-                                 const std::vector<CapturedNode<2>> &captured,
-                                 State<2> &state)
+  template <int dim>
+  void
+  PrescribedMotion<dim>::account(const StepContext &step,
+                                 const std::vector<CapturedNode<dim>> &captured,
+                                 State<dim> &state)
   {
-    last_resultant = {};
-    for (const unsigned int c : captured_positions)
+    this->last_resultant = {};
+    for (const unsigned int c : this->captured_positions)
     {
-      const CapturedNode<2> &before = captured[c];
-      double reaction[2]            = { 0., 0. };
-      for (unsigned int d = 0; d < 2; ++d)
+      const CapturedNode<dim> &before = captured[c];
+      double reaction[dim]{};
+      for (unsigned int d = 0; d < dim; ++d)
       {
         if (before.owner[d] != this)
           continue;
@@ -76,16 +82,28 @@ namespace quoin
         state.energy.external
             += 0.5 * step.dt_before * reaction[d] * before.velocity.v[d];
         state.pending.external += 0.5 * step.dt * reaction[d] * after;
-        last_resultant[d] += reaction[d];
+        this->last_resultant[d] += reaction[d];
       }
-      last_resultant[2]
-          += moment_of(reaction, before, state.nodes[before.node]);
+      if constexpr (dim == 2)
+        this->last_resultant[2]
+            += moment_of(reaction, before, state.nodes[before.node]);
     }
   }
 
-  std::array<bool, 3> PrescribedMotion::holds() const
+  template <int dim>
+  std::array<bool, 3> PrescribedMotion<dim>::holds() const
   {
-    return { { components[0].quantity != LoadQuantity::free,
-               components[1].quantity != LoadQuantity::free, false } };
+    std::array<bool, 3> result{};
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = components[d].quantity != LoadQuantity::free;
+    return result;
   }
+
+  template class PrescribedMotion<2>;
+  template std::vector<unsigned int>
+  nodes_of_faces(const NodeMap<2> &, const std::vector<BoundaryFace<2>> &);
+
+  template class PrescribedMotion<3>;
+  template std::vector<unsigned int>
+  nodes_of_faces(const NodeMap<3> &, const std::vector<BoundaryFace<3>> &);
 } // namespace quoin

@@ -1,16 +1,60 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/eigen_core.h>
+#include <quoin/base/exceptions.h>
 #include <quoin/operators/archive.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/viscous_boundary.h>
+
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
 
 namespace quoin
 {
+  namespace
+  {
+    /** Of a symmetric matrix, stored as Dashpot::Damping, and a vector. */
+    template <int dim>
+    std::array<double, dim>
+    product(const typename Dashpot<dim>::Damping &matrix, const double *v)
+    {
+      if constexpr (dim == 2)
+      {
+        const auto &[xx, yy, xy] = matrix;
+        return { xx * v[0] + xy * v[1], xy * v[0] + yy * v[1] };
+      }
+      else
+      {
+        const auto &[xx, yy, zz, xy, xz, yz] = matrix;
+        return { xx * v[0] + xy * v[1] + xz * v[2],
+                 xy * v[0] + yy * v[1] + yz * v[2],
+                 xz * v[0] + yz * v[1] + zz * v[2] };
+      }
+    }
+
+    /** Solves with a symmetric positive definite matrix. */
+    void solve(const std::array<double, 3> &matrix, const double *b, double *x)
+    {
+      const auto &[xx, yy, xy] = matrix;
+      const double determinant = xx * yy - xy * xy;
+      x[0]                     = (yy * b[0] - xy * b[1]) / determinant;
+      x[1]                     = (xx * b[1] - xy * b[0]) / determinant;
+    }
+
+    void solve(const std::array<double, 6> &matrix, const double *b, double *x)
+    {
+      const auto &[xx, yy, zz, xy, xz, yz] = matrix;
+      Eigen::Matrix3d full;
+      full << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+      Eigen::Map<Eigen::Vector3d>(x, 3)
+          = full.llt().solve(Eigen::Map<const Eigen::Vector3d>(b, 3));
+    }
+  } // namespace
+
   Impedance impedance_of(const LinearElastic &material,
                          const PlaneAssumption assumption)
   {
@@ -19,20 +63,20 @@ namespace quoin
              std::sqrt(material.density * stiffness.c33) };
   }
 
-  void add_dashpots(const NodeMap<2> &node_map,
-                    const std::vector<BoundaryFace<2>> &faces,
+  template <int dim>
+  void add_dashpots(const NodeMap<dim> &node_map,
+                    const std::vector<BoundaryFace<dim>> &faces,
                     const std::vector<Impedance> &impedance,
                     const double thickness,
                     const std::vector<unsigned int> &nodes,
-                    std::vector<Dashpot> &dashpots)
+                    std::vector<Dashpot<dim>> &dashpots)
   {
-    for (const BoundaryFace<2> &face : faces)
+    for (const BoundaryFace<dim> &face : faces)
     {
-      const auto edge        = face.points[1] - face.points[0];
-      const double half_area = 0.5 * edge.norm() * thickness;
-      const auto t           = edge / edge.norm();
-      const double n[2]      = { t[1], -t[0] }; // outward
-      const Impedance &z     = impedance[face.group];
+      const dealii::Tensor<1, dim> outward = outward_area(face.points);
+      const double share                   = outward.norm() * thickness / dim;
+      const auto n                         = outward / outward.norm();
+      const Impedance &z                   = impedance[face.group];
       for (const unsigned int v : face.nodes)
       {
         if (!node_map.exchange().owns(v))
@@ -41,58 +85,63 @@ namespace quoin
                                             node_map.exchange().local(v));
         if (found == nodes.end() || *found != node_map.exchange().local(v))
           continue;
-        Dashpot &dashpot = dashpots[found - nodes.begin()];
-        const double zn = z.normal * half_area, zs = z.shear * half_area;
-        dashpot.damping[0] += zn * n[0] * n[0] + zs * t[0] * t[0];
-        dashpot.damping[1] += zn * n[1] * n[1] + zs * t[1] * t[1];
-        dashpot.damping[2] += zn * n[0] * n[1] + zs * t[0] * t[1];
-        for (unsigned int d = 0; d < 2; ++d)
+        Dashpot<dim> &dashpot = dashpots[found - nodes.begin()];
+        const double zn = z.normal * share, zs = z.shear * share;
+        unsigned int k = dim;
+        for (unsigned int d = 0; d < dim; ++d)
         {
+          dashpot.damping[d] += zn * n[d] * n[d] + zs * (1. - n[d] * n[d]);
+          for (unsigned int e = d + 1; e < dim; ++e)
+            dashpot.damping[k++] += (zn - zs) * n[d] * n[e];
           dashpot.normal[d] -= 2. * zn * n[d];
-          dashpot.shear[d] += 2. * zs * t[d];
+        }
+        if constexpr (dim == 2)
+        {
+          dashpot.shear[0] -= 2. * zs * n[1];
+          dashpot.shear[1] += 2. * zs * n[0];
         }
       }
     }
   }
 
-  void move_with_dashpot(const StepContext &step, const CapturedNode<2> &before,
-                         const std::array<double, 3> &damping,
-                         const std::array<double, 2> &pull, State<2> &state)
+  template <int dim>
+  void
+  move_with_dashpot(const StepContext &step, const CapturedNode<dim> &before,
+                    const typename Dashpot<dim>::Damping &damping,
+                    const typename Dashpot<dim>::Force &pull, State<dim> &state)
   {
-    const auto &[cxx, cyy, cxy] = damping;
     const double h = 0.5 * step.dt_velocity, m = before.mass;
-    const double a  = h * step.mass_damping * m;
-    const double vx = before.velocity.v[0], vy = before.velocity.v[1];
-    const double bx = (m - a) * vx - h * (cxx * vx + cxy * vy)
-                      + 2. * h * (before.force.v[0] + pull[0]);
-    const double by = (m - a) * vy - h * (cxy * vx + cyy * vy)
-                      + 2. * h * (before.force.v[1] + pull[1]);
-    const double axx = m + a + h * cxx, ayy = m + a + h * cyy, axy = h * cxy;
-    const double determinant = axx * ayy - axy * axy;
-
-    NodeVector<2> &after = state.velocity[before.node];
-    after.v[0]           = (ayy * bx - axy * by) / determinant;
-    after.v[1]           = (axx * by - axy * bx) / determinant;
-    for (unsigned int d = 0; d < 2; ++d)
+    const double a = h * step.mass_damping * m;
+    double b[dim];
+    const auto drag = product<dim>(damping, before.velocity.v);
+    for (unsigned int d = 0; d < dim; ++d)
+      b[d] = (m - a) * before.velocity.v[d] - h * drag[d]
+             + 2. * h * (before.force.v[d] + pull[d]);
+    auto matrix = damping;
+    for (unsigned int k = 0; k < matrix.size(); ++k)
+      matrix[k] = h * damping[k] + (k < dim ? m + a : 0.);
+    NodeVector<dim> &after = state.velocity[before.node];
+    solve(matrix, b, after.v);
+    for (unsigned int d = 0; d < dim; ++d)
       state.nodes[before.node].u[d]
           = before.displacement.v[d] + step.dt * after.v[d];
   }
 
+  template <int dim>
   void account_for_dashpot(const StepContext &step,
-                           const CapturedNode<2> &before,
-                           const std::array<double, 3> &damping,
-                           const std::array<double, 2> &pull,
-                           const MotionConstraint<2> *owner,
-                           std::array<double, 3> &resultant, State<2> &state)
+                           const CapturedNode<dim> &before,
+                           const typename Dashpot<dim>::Damping &damping,
+                           const typename Dashpot<dim>::Force &pull,
+                           const MotionConstraint<dim> *owner,
+                           std::array<double, 3> &resultant, State<dim> &state)
   {
-    const auto &[cxx, cyy, cxy] = damping;
-    const double *v0            = before.velocity.v;
-    const double *v1            = state.velocity[before.node].v;
-    const double mean[2] = { 0.5 * (v0[0] + v1[0]), 0.5 * (v0[1] + v1[1]) };
-    const double drag[2]
-        = { cxx * mean[0] + cxy * mean[1], cxy * mean[0] + cyy * mean[1] };
-    double reaction[2] = { 0., 0. };
-    for (unsigned int d = 0; d < 2; ++d)
+    const double *v0 = before.velocity.v;
+    const double *v1 = state.velocity[before.node].v;
+    double mean[dim], reaction[dim]{};
+    for (unsigned int d = 0; d < dim; ++d)
+      mean[d] = 0.5 * (v0[d] + v1[d]);
+    const auto drag = product<dim>(damping, mean);
+    for (unsigned int d = 0; d < dim; ++d)
     {
       if (before.owner[d] != owner)
         continue;
@@ -108,81 +157,120 @@ namespace quoin
       reaction[d] = pull[d] - drag[d];
       resultant[d] += reaction[d];
     }
-    resultant[2] += moment_of(reaction, before, state.nodes[before.node]);
+    if constexpr (dim == 2)
+      resultant[2] += moment_of(reaction, before, state.nodes[before.node]);
   }
 
-  ViscousBoundary::ViscousBoundary(const LoadParameters &parameters,
-                                   const NodeMap<2> &node_map,
-                                   const std::vector<Impedance> &impedance,
-                                   const double thickness)
+  template <int dim>
+  ViscousBoundary<dim>::ViscousBoundary(const LoadParameters &parameters,
+                                        const NodeMap<dim> &node_map,
+                                        const std::vector<Impedance> &impedance,
+                                        const double thickness)
     : components(parameters.components)
   {
-    load_name = parameters.name;
+    this->load_name = parameters.name;
+    if (dim == 3 && components[1].quantity != LoadQuantity::free)
+      throw InputError("section 'Loads/" + this->load_name
+                       + "': 'Shear velocity' has no direction on a surface. "
+                         "Drive waves of shear in three dimensions by a load "
+                         "with 'Type = prescribed motion'.");
     const auto faces
-        = faces_of_curves(node_map, parameters.boundaries, load_name);
-    node_list = nodes_of_faces(node_map, faces);
-    dashpots.resize(node_list.size());
-    add_dashpots(node_map, faces, impedance, thickness, node_list, dashpots);
+        = faces_of_curves(node_map, parameters.boundaries, this->load_name);
+    this->node_list = nodes_of_faces(node_map, faces);
+    dashpots.resize(this->node_list.size());
+    add_dashpots(node_map, faces, impedance, thickness, this->node_list,
+                 dashpots);
   }
 
-  void ViscousBoundary::prepare(State<2> &state) const
+  template <int dim>
+  void ViscousBoundary<dim>::prepare(State<dim> &state) const
   {
-    state.add<ViscousBoundaryState>(load_name);
+    state.template add<ViscousBoundaryState>(this->load_name);
   }
 
-  void ViscousBoundary::begin_stage(State<2> &state, const bool continues)
+  template <int dim>
+  void ViscousBoundary<dim>::begin_stage(State<dim> &state,
+                                         const bool continues)
   {
     // Before the first stage nothing has been at rest.
     if (!continues)
-      state.get<ViscousBoundaryState>(load_name) = { state.step == 0, {} };
+      state.template get<ViscousBoundaryState>(this->load_name)
+          = { state.step == 0, {} };
   }
 
-  void ViscousBoundary::hold(const std::vector<CapturedNode<2>> &captured,
+  template <int dim>
+  void
+  ViscousBoundary<dim>::hold(const std::vector<CapturedNode<dim>> &captured,
                              ViscousBoundaryState &own) const
   {
     own.active = true;
-    for (const unsigned int c : captured_positions)
-      for (unsigned int d = 0; d < 2; ++d)
+    for (const unsigned int c : this->captured_positions)
+      for (unsigned int d = 0; d < dim; ++d)
         own.held.push_back(captured[c].begun.v[d] - captured[c].force.v[d]);
   }
 
-  std::array<double, 2>
-  ViscousBoundary::pull(const unsigned int i, const double vn, const double vs,
-                        const ViscousBoundaryState &own) const
+  template <int dim>
+  std::array<double, dim>
+  ViscousBoundary<dim>::pull(const unsigned int i, const double vn,
+                             const double vs,
+                             const ViscousBoundaryState &own) const
   {
-    std::array<double, 2> result = dashpots[i].pull(vn, vs);
+    std::array<double, dim> result = dashpots[i].pull(vn, vs);
     if (!own.held.empty())
-      for (unsigned int d = 0; d < 2; ++d)
-        result[d] += own.held[2 * i + d];
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] += own.held[dim * i + d];
     return result;
   }
 
-  void ViscousBoundary::correct(const StepContext &step,
-                                const std::vector<CapturedNode<2>> &captured,
-                                State<2> &state)
+  template <int dim>
+  void
+  ViscousBoundary<dim>::correct(const StepContext &step,
+                                const std::vector<CapturedNode<dim>> &captured,
+                                State<dim> &state)
   {
-    const double vn           = components[0].value(step.begin);
-    const double vs           = components[1].value(step.begin);
-    ViscousBoundaryState &own = state.get<ViscousBoundaryState>(load_name);
+    const double vn = components[0].value(step.begin);
+    const double vs = components[1].value(step.begin);
+    ViscousBoundaryState &own
+        = state.template get<ViscousBoundaryState>(this->load_name);
     if (!own.active)
       hold(captured, own);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
-      move_with_dashpot(step, captured[captured_positions[i]],
+      move_with_dashpot(step, captured[this->captured_positions[i]],
                         dashpots[i].damping, pull(i, vn, vs, own), state);
   }
 
-  void ViscousBoundary::account(const StepContext &step,
-                                const std::vector<CapturedNode<2>> &captured,
-                                State<2> &state)
+  template <int dim>
+  void
+  ViscousBoundary<dim>::account(const StepContext &step,
+                                const std::vector<CapturedNode<dim>> &captured,
+                                State<dim> &state)
   {
     const double vn = components[0].value(step.begin);
     const double vs = components[1].value(step.begin);
     const ViscousBoundaryState &own
-        = state.get<ViscousBoundaryState>(load_name);
-    last_resultant = {};
+        = state.template get<ViscousBoundaryState>(this->load_name);
+    this->last_resultant = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
-      account_for_dashpot(step, captured[captured_positions[i]],
+      account_for_dashpot(step, captured[this->captured_positions[i]],
                           dashpots[i].damping, pull(i, vn, vs, own), this,
-                          last_resultant, state);
+                          this->last_resultant, state);
   }
+
+  template class ViscousBoundary<2>;
+
+  template class ViscousBoundary<3>;
+  template void add_dashpots(const NodeMap<2> &,
+                             const std::vector<BoundaryFace<2>> &,
+                             const std::vector<Impedance> &, double,
+                             const std::vector<unsigned int> &,
+                             std::vector<Dashpot<2>> &);
+  template void move_with_dashpot(const StepContext &, const CapturedNode<2> &,
+                                  const Dashpot<2>::Damping &,
+                                  const std::array<double, 2> &, State<2> &);
+  template void account_for_dashpot(const StepContext &,
+                                    const CapturedNode<2> &,
+                                    const Dashpot<2>::Damping &,
+                                    const std::array<double, 2> &,
+                                    const MotionConstraint<2> *,
+                                    std::array<double, 3> &, State<2> &);
 } // namespace quoin

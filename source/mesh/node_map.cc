@@ -396,6 +396,8 @@ namespace quoin
           // The linear cell at the vertex of this half.
           result.cell = first + (is_quadratic ? face[part == 0 ? 0 : 2] : 0);
           result.name = cell->face(f)->boundary_id();
+          if constexpr (dim == 3)
+            turn_outward(result.nodes, cells[result.cell]);
           outer.push_back(result);
         }
       }
@@ -404,6 +406,23 @@ namespace quoin
     std::sort(outer.begin(), outer.end(),
               [](const OuterFace<dim> &a, const OuterFace<dim> &b)
               { return a.nodes < b.nodes; });
+  }
+
+  template <int dim>
+  void NodeMap<dim>::turn_outward(
+      std::array<unsigned int, dim> &face,
+      const std::array<unsigned int, dim + 1> &cell) const
+  {
+    const auto opposite = std::find_if(
+        cell.begin(), cell.end(),
+        [&](const unsigned int node)
+        { return std::find(face.begin(), face.end(), node) == face.end(); });
+    if constexpr (dim == 3)
+      if (dealii::cross_product_3d(points[face[1]] - points[face[0]],
+                                   points[face[2]] - points[face[0]])
+              * (points[*opposite] - points[face[0]])
+          > 0.)
+        std::swap(face[1], face[2]);
   }
 
   template <int dim>

@@ -318,10 +318,10 @@ namespace quoin
                          + place_text(load, nodes);
       const auto names = component_names(load);
       for (unsigned int d = 0; d < names.size(); ++d)
-        if (load.components[d].quantity != LoadQuantity::free)
+        if (const LoadComponent function = load.functions()[d];
+            function.quantity != LoadQuantity::free)
           text += ", " + names[d][0] + " "
-                  + value_text(parameters, load, load.components[d],
-                               names[d][1]);
+                  + value_text(parameters, load, function, names[d][1]);
       if (load.type == LoadType::free_field)
         text += ", on the base " + load.base;
       lines.push_back(text);

@@ -135,8 +135,8 @@ namespace quoin
         if (names_load(stage, other.name) && other.type == load.type
             && other.boundaries == load.boundaries
             && other.groups == load.groups
-            && other.components[d].quantity == LoadQuantity::force)
-          sum += other.components[d].value({ t, start + t });
+            && other.functions()[d].quantity == LoadQuantity::force)
+          sum += other.functions()[d].value({ t, start + t });
       return sum;
     }
 
@@ -202,7 +202,7 @@ namespace quoin
           continue;
         for (unsigned int d = 0; d < 3; ++d)
         {
-          if (load->components[d].quantity != LoadQuantity::force)
+          if (load->functions()[d].quantity != LoadQuantity::force)
             continue;
           const Jump jump = jump_of(parameters, index, *load, d);
           if (jump.height == 0.)

@@ -4,9 +4,9 @@
 #ifndef quoin_dynamics_explicit_solver_h
 #define quoin_dynamics_explicit_solver_h
 
+#include <quoin/dynamics/central_differences.h>
 #include <quoin/operators/state.h>
 #include <quoin/dynamics/model_box.h>
-#include <quoin/blocks/node_update.h>
 #include <quoin/dynamics/solver.h>
 
 #include <memory>
@@ -16,8 +16,8 @@
 namespace quoin
 {
   /**
-   * Central differences with velocities at half steps (@cite
-   * JinWangZhang1998, Eqs. 4-5) for one stage after the other.
+   * Explicit steps (CentralDifferences) of blocks, joints, contacts and far
+   * fields for one stage after the other.
    *
    * Because the kinetic energy 1/2 v(t-dt/2) m v(t+dt/2) changes by exactly
    * the trapezoidal work of the forces, every account is kept with that rule
@@ -132,11 +132,9 @@ namespace quoin
     }
 
   private:
-    /** CapturedNode<2>::begun of the stage's first step. */
-    void find_begun_forces(const StepContext &context);
     void scale_masses(const StageParameters &stage, State<2> &state);
-    /** What acts in the stage. */
-    void collect_operators();
+    /** What acts in the stage; @p previous: the stage before, or null. */
+    void collect_operators(const StageParameters *previous);
     void collect_constrained_nodes(const State<2> &state);
     /** How long forces of excavated blocks are let go in this stage [s]. */
     double release_duration(const State<2> &state) const;
@@ -150,67 +148,26 @@ namespace quoin
      * had as done from outside.
      */
     void remove_blocks(const std::vector<BlockOutside> &found, State<2> &state);
-    StepContext step_context(const State<2> &state) const;
     /** Energies of a step's start, of this rank [J]. */
     struct StoredEnergies
     {
       double strain = 0., joint = 0.;
     };
     StoredEnergies stored_energies(const State<2> &state);
-    /** What a step sums over the nodes of this rank. */
-    struct StepSums
-    {
-      DampingWork damping;
-      double applied    = 0.; /**< by joints, contacts and loads [N] */
-      double unbalanced = 0.; /**< [N] */
-    };
-
-    // The parts of a step.
-    void update_neighbours(State<2> &state, const StepContext &context);
-    void add_forces(State<2> &state, const StepContext &context);
-    void advance_tiles(State<2> &state, const StepContext &context,
-                       const Requests &requests, StepSums &sums);
-    void advance_shared_nodes(State<2> &state, const StepContext &context,
-                              const Requests &requests, StepSums &sums);
     void advance_rigid_blocks(State<2> &state, const StepContext &context,
                               StepSums &sums);
-    void move_constrained_nodes(State<2> &state, const StepContext &context);
     void book_energies(State<2> &state, const StepContext &context,
                        const Requests &requests, const StoredEnergies &stored,
                        const StepSums &sums);
-    void exchange_positions(State<2> &state);
-
-    NodeForces<2> node_forces();
-    /** Moves free nodes of @p range; @p first_captured: into captured_begin.
-     */
-    void advance_range(State<2> &state, const StepContext &context,
-                       const Requests &requests, const NodeRange &range,
-                       unsigned int first_captured, StepSums &sums);
-    /** Adds what this rank has on shared nodes to their owners', and forgets
-        it. Collective. */
-    void add_shared_forces(AlignedArray<NodeVector<2>> &values);
-    /** Sum of the forces of joints, contacts and loads on this rank's nodes
-        [N]. Collective. */
-    double applied_force() const;
-    void capture(CapturedNode<2> &node, const State<2> &state) const;
-    /** At the time of the step [J], from velocities before and after it. */
-    double kinetic_energy(const State<2> &state,
-                          const StepContext &context) const;
     void account_for_new_step(State<2> &state,
                               const StepContext &context) const;
     /** Time, steps and the loads' clock of the next step. */
     void advance_time(State<2> &state, const StepContext &context,
                       const Requests &requests) const;
-    void adapt_damping(State<2> &state, const DampingWork &work) const;
-    void find_ratio(State<2> &state, const StepContext &context, double applied,
-                    double unbalanced);
 
     std::unique_ptr<BlockContacts> block_contacts;
-    std::vector<const NodalLoad *> loads_begun; /**< not on in the last one */
 
-    std::vector<double> mass;         /**< scaled, local nodes [kg] */
-    std::vector<double> moving_mass;  /**< zero at constrained nodes [kg] */
-    std::vector<double> inverse_mass; /**< zero at constrained nodes [1/kg] */
+    CentralDifferences<2> stepper;
     double critical_step = 0.;
     double added_mass    = 0.;
     double time_step     = 0.;
@@ -219,30 +176,14 @@ namespace quoin
 
     const ModelBox box;
     std::vector<StageParameters> all_stages;
-    std::vector<bool> moved_blocks;       /**< of this rank, by loads */
-    std::vector<NodeRange> removed_nodes; /**< of removed blocks */
+    std::vector<bool> moved_blocks; /**< of this rank, by loads */
     std::vector<BlockOutside> blocks_outside;
 
-    std::vector<CapturedNode<2>> captured; /**< ascending nodes */
-    /** First entry of each tile, of shared nodes, and of rigid blocks. */
-    std::vector<unsigned int> captured_begin;
-
-    AlignedArray<NodeVector<2>> force;
-    AlignedArray<NodeVector<2>> viscous_force;
-    AlignedArray<NodeVector<2>> velocity_before; /**< when energies are due */
     std::vector<RigidBlockState> rigid_before;
     PlasticHistory plastic_now; /**< when energies are due */
 
-    /** Contacts, joints and loads of the stage, in the order of action. */
-    std::vector<ForceOperator<2> *> forces_on;
-    /** Phases of forces_on and constraints_on. */
-    std::vector<unsigned int> force_phases, constraint_phases;
-    const struct
-    {
-      unsigned int blocks, rigid_blocks, search, loads, exchange, energies;
-    } phases{ time_shares.phase("blocks"),   time_shares.phase("rigid blocks"),
-              time_shares.phase("search"),   time_shares.phase("loads"),
-              time_shares.phase("exchange"), time_shares.phase("energies") };
+    const unsigned int energy_phase = time_shares.phase("energies"),
+                       rigid_phase  = time_shares.phase("rigid blocks");
   };
 } // namespace quoin
 

@@ -41,7 +41,7 @@ namespace quoin
    */
   std::vector<PushedBody> find_pushed_bodies(
       const Model &model, const std::vector<MotionConstraint<2> *> &constraints,
-      const std::vector<const NodalLoad *> &loads,
+      const std::vector<const NodalLoad<2> *> &loads,
       const std::vector<TimePoint> &times, const State<2> &state);
 } // namespace quoin
 

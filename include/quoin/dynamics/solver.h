@@ -189,7 +189,7 @@ namespace quoin
                        double kinetic);
     double sum(double value) const;
     /** Of all loads of the stage, at a time of its own clock [s]. */
-    std::vector<std::array<double, 3>> load_values(double stage_start,
+    std::vector<std::array<double, 4>> load_values(double stage_start,
                                                    double load_time) const;
 
     Model &model;
@@ -198,12 +198,12 @@ namespace quoin
     std::vector<std::unique_ptr<MotionConstraint<2>>> all_constraints;
     FarField *far              = nullptr; /**< one of them */
     StaticFarField *static_far = nullptr; /**< one of them */
-    std::vector<NodalLoad> all_loads;
+    std::vector<NodalLoad<2>> all_loads;
     std::vector<std::string> known_loads;
 
     std::vector<MotionConstraint<2> *>
         constraints_on; /**< in order of action */
-    std::vector<const NodalLoad *> loads_on;
+    std::vector<const NodalLoad<2> *> loads_on;
     StageParameters stage;
     Release release; /**< of what was excavated */
     PhaseClock time_shares;

@@ -72,7 +72,7 @@ namespace quoin
      * null.
      */
     Equilibrium(const Model &model, Freedoms &freedoms,
-                const std::vector<const NodalLoad *> &loads,
+                const std::vector<const NodalLoad<2> *> &loads,
                 const std::vector<bool> &path_sets, double stage_start,
                 const StaticFarField *far_field);
 
@@ -155,7 +155,7 @@ namespace quoin
 
     const Model &model;
     Freedoms &freedoms;
-    const std::vector<const NodalLoad *> loads;
+    const std::vector<const NodalLoad<2> *> loads;
     const std::vector<bool> path_sets;
     const double stage_start;
     const Release *release = nullptr;

@@ -70,7 +70,7 @@ namespace quoin
     {
       unsigned int node; /**< owned */
       unsigned int component;
-      const LoadComponent *part; /**< of the PrescribedMotion */
+      const LoadComponent *part; /**< of the PrescribedMotion<2> */
     };
 
     /**

@@ -157,8 +157,8 @@ namespace quoin
 
     std::vector<unsigned int> column_node; /**< of each of nodes() */
     std::vector<Share> shares;
-    std::vector<Dashpot> side_dashpots; /**< of each of nodes() */
-    std::vector<Dashpot> base_dashpots; /**< the same, of the base's edges */
+    std::vector<Dashpot<2>> side_dashpots; /**< of each of nodes() */
+    std::vector<Dashpot<2>> base_dashpots; /**< the same, of the base's edges */
 
     std::vector<std::array<double, 2>> traction; /**< xx, xy of layers [Pa] */
     std::vector<double> force;                   /**< on the column [N/m^2] */

@@ -63,10 +63,19 @@ namespace quoin
     std::vector<std::string> groups;     /**< physical surfaces */
 
     /**
-     * Horizontal, vertical and, for platens, rotation or, for tractions,
-     * pressure; for a viscous boundary the incident normal and shear velocity.
+     * Along x, y and, in three dimensions, z or, for platens, the rotation; for
+     * a viscous boundary the incident normal and shear velocity.
      */
     std::array<LoadComponent, 3> components;
+    LoadComponent pressure; /**< of tractions */
+
+    /** All functions of time of a load in the plane: the components, of
+        tractions with the pressure in the third place. */
+    std::array<LoadComponent, 3> functions() const
+    {
+      return { components[0], components[1],
+               type == LoadType::traction ? pressure : components[2] };
+    }
 
     /** Viscous boundary: of what is beyond; empty: as the cells along it. */
     std::string far_material;

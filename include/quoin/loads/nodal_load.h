@@ -13,18 +13,19 @@
 namespace quoin
 {
   /**
-   * A traction or gravity: forces a_x(t) w_i, a_y(t) w_i on nodes i with
-   * fixed weights w_i, the tributary area [m^2] (NodeMap::face_share()) or
-   * the mass [kg]. A pressure
-   * adds a_p(t) n_i, with n_i the tributary area times the inward normal.
+   * A traction or gravity: forces a(t) w_i on nodes i with fixed weights w_i,
+   * the tributary area [m^2] (NodeMap::face_share()) or the mass [kg]. A
+   * pressure adds p(t) n_i, with n_i the tributary area times the inward
+   * normal.
    * Tractions and pressures act on the reference area and keep their
    * direction.
    */
-  class NodalLoad : public ForceOperator<2>
+  template <int dim>
+  class NodalLoad : public ForceOperator<dim>
   {
   public:
     /** @p mass is that of the local nodes, unscaled [kg]. */
-    NodalLoad(const LoadParameters &parameters, const NodeMap<2> &node_map,
+    NodalLoad(const LoadParameters &parameters, const NodeMap<dim> &node_map,
               const std::vector<double> &mass, double thickness);
 
     /** Weights of gravity where masses have changed; see the constructor. */
@@ -34,17 +35,17 @@ namespace quoin
     {
       return "loads";
     }
-    void add_forces(const TimePoint &time, NodeVector<2> *force) const;
-    void add_forces(const StepContext &step, State<2> &,
-                    const NodeForces<2> &forces) override
+    void add_forces(const TimePoint &time, NodeVector<dim> *force) const;
+    void add_forces(const StepContext &step, State<dim> &,
+                    const NodeForces<dim> &forces) override
     {
       add_forces(step.begin, forces.force);
     }
     double external_power(const TimePoint &time,
-                          const NodeVector<2> *velocity) const override;
+                          const NodeVector<dim> *velocity) const override;
 
-    /** Traction x, y and pressure [Pa] or acceleration x, y [m/s^2]. */
-    std::array<double, 3> amplitude(const TimePoint &time) const;
+    /** Traction x, y, z [Pa] or acceleration [m/s^2], and pressure [Pa]. */
+    std::array<double, 4> amplitude(const TimePoint &time) const;
 
     const std::string &name() const
     {
@@ -55,24 +56,36 @@ namespace quoin
     std::string load_name;
     bool is_gravity;
     std::array<LoadComponent, 3> components;
+    LoadComponent pressure;
     std::vector<unsigned int> nodes;
     std::vector<double> weights;
-    std::vector<NodeVector<2>> inward; /**< n_i [m^2]; empty without pressure */
+    std::vector<NodeVector<dim>>
+        inward; /**< n_i [m^2]; empty without pressure */
   };
 
+  /** Normal of a face of its area, out of the block: [m] in two dimensions,
+      [m^2] in three. */
+  dealii::Tensor<1, 2>
+  outward_area(const std::array<dealii::Point<2>, 2> &points);
+  dealii::Tensor<1, 3>
+  outward_area(const std::array<dealii::Point<3>, 3> &points);
+
   /**
-   * Boundary faces of the curves @p names, those of all ranks on all ranks.
-   * Collective. Throws an InputError naming @p load if a curve does
-   * not exist or has no outer edge.
+   * Boundary faces of the curves or, in three dimensions, surfaces @p names,
+   * those of all ranks on all ranks.
+   * Collective. Throws an InputError naming @p load if one does not exist or
+   * has no outer face.
    */
-  std::vector<BoundaryFace<2>>
-  faces_of_curves(const NodeMap<2> &node_map,
+  template <int dim>
+  std::vector<BoundaryFace<dim>>
+  faces_of_curves(const NodeMap<dim> &node_map,
                   const std::vector<std::string> &names,
                   const std::string &load);
 
   /** Groups named @p names; throws an InputError naming @p load. */
+  template <int dim>
   std::vector<unsigned int>
-  groups_of_names(const NodeMap<2> &node_map,
+  groups_of_names(const NodeMap<dim> &node_map,
                   const std::vector<std::string> &names,
                   const std::string &load);
 } // namespace quoin

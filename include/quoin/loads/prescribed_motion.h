@@ -11,22 +11,23 @@
 namespace quoin
 {
   /** Velocity or displacement of a boundary as a function of time. */
-  class PrescribedMotion : public MotionConstraint<2>
+  template <int dim>
+  class PrescribedMotion : public MotionConstraint<dim>
   {
   public:
     PrescribedMotion(const LoadParameters &parameters,
-                     const NodeMap<2> &node_map);
+                     const NodeMap<dim> &node_map);
 
     MotionKind kind() const override
     {
       return MotionKind::prescribed;
     }
     void correct(const StepContext &step,
-                 const std::vector<CapturedNode<2>> &captured,
-                 State<2> &state) override;
+                 const std::vector<CapturedNode<dim>> &captured,
+                 State<dim> &state) override;
     void account(const StepContext &step,
-                 const std::vector<CapturedNode<2>> &captured,
-                 State<2> &state) override;
+                 const std::vector<CapturedNode<dim>> &captured,
+                 State<dim> &state) override;
     const std::array<LoadComponent, 3> *parts() const override
     {
       return &components;
@@ -42,9 +43,10 @@ namespace quoin
   };
 
   /** Local owned nodes on the faces @p faces of the outer boundary. */
+  template <int dim>
   std::vector<unsigned int>
-  nodes_of_faces(const NodeMap<2> &node_map,
-                 const std::vector<BoundaryFace<2>> &faces);
+  nodes_of_faces(const NodeMap<dim> &node_map,
+                 const std::vector<BoundaryFace<dim>> &faces);
 } // namespace quoin
 
 #endif

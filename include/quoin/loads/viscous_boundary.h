@@ -26,17 +26,24 @@ namespace quoin
                          PlaneAssumption assumption);
 
   /** Of one node on a viscous boundary. */
+  template <int dim>
   struct Dashpot
   {
-    std::array<double, 3> damping{}; /**< xx, yy, xy [N s/m] */
-    std::array<double, 2> normal{};  /**< force per incident normal ... */
-    std::array<double, 2> shear{};   /**< ... and shear velocity [N s/m] */
+    /** xx, yy, xy or xx, yy, zz, xy, xz, yz [N s/m] */
+    using Damping = std::array<double, dim *(dim + 1) / 2>;
+    using Force   = std::array<double, dim>; /**< [N] */
+
+    Damping damping{};
+    std::array<double, dim> normal{}; /**< force per incident normal ... */
+    std::array<double, dim> shear{};  /**< ... and shear velocity [N s/m] */
 
     /** Force of a wave that comes in with these velocities [N]. */
-    std::array<double, 2> pull(const double vn, const double vs) const
+    std::array<double, dim> pull(const double vn, const double vs) const
     {
-      return { { vn * normal[0] + vs * shear[0],
-                 vn * normal[1] + vs * shear[1] } };
+      std::array<double, dim> force;
+      for (unsigned int d = 0; d < dim; ++d)
+        force[d] = vn * normal[d] + vs * shear[d];
+      return force;
     }
   };
 
@@ -44,34 +51,41 @@ namespace quoin
    * Adds to @p dashpots, those of the local nodes @p nodes (ascending), the
    * shares of the @p faces of @p node_map; nodes that are not listed are left
    * out.
-   * @p impedance: of each cell group.
+   * @p impedance: of each cell group. The shear velocity of an incident wave
+   * is along the boundary curve; in three dimensions it has no direction and
+   * is left out.
    */
-  void add_dashpots(const NodeMap<2> &node_map,
-                    const std::vector<BoundaryFace<2>> &faces,
+  template <int dim>
+  void add_dashpots(const NodeMap<dim> &node_map,
+                    const std::vector<BoundaryFace<dim>> &faces,
                     const std::vector<Impedance> &impedance, double thickness,
                     const std::vector<unsigned int> &nodes,
-                    std::vector<Dashpot> &dashpots);
+                    std::vector<Dashpot<dim>> &dashpots);
 
   /**
    * Moves a node by the force @p pull [N] beside its own and the drag
-   * @p damping (xx, yy, xy [N s/m]) on the mean velocity of the step:
+   * @p damping [N s/m] on the mean velocity of the step:
    * (m + h c) v+ = (m - h c) v- + 2 h f, h half the step.
    */
-  void move_with_dashpot(const StepContext &step, const CapturedNode<2> &before,
-                         const std::array<double, 3> &damping,
-                         const std::array<double, 2> &pull, State<2> &state);
+  template <int dim>
+  void move_with_dashpot(const StepContext &step,
+                         const CapturedNode<dim> &before,
+                         const typename Dashpot<dim>::Damping &damping,
+                         const typename Dashpot<dim>::Force &pull,
+                         State<dim> &state);
 
   /**
    * Books the work of what move_with_dashpot() did, for the components that
    * @p owner moved, and adds its forces [N] and their moment about the
    * origin [N m] to @p resultant.
    */
+  template <int dim>
   void account_for_dashpot(const StepContext &step,
-                           const CapturedNode<2> &before,
-                           const std::array<double, 3> &damping,
-                           const std::array<double, 2> &pull,
-                           const MotionConstraint<2> *owner,
-                           std::array<double, 3> &resultant, State<2> &state);
+                           const CapturedNode<dim> &before,
+                           const typename Dashpot<dim>::Damping &damping,
+                           const typename Dashpot<dim>::Force &pull,
+                           const MotionConstraint<dim> *owner,
+                           std::array<double, 3> &resultant, State<dim> &state);
 
   /** A viscous boundary that came after other stages. */
   struct ViscousBoundaryState
@@ -97,40 +111,44 @@ namespace quoin
    * begin with it, are held from there on: reactions of what it replaces. A
    * run that begins with it has nothing to hold.
    */
-  class ViscousBoundary : public MotionConstraint<2>
+  template <int dim>
+  class ViscousBoundary : public MotionConstraint<dim>
   {
   public:
-    /** @p impedance: of what lies beyond each cell group of @p node_map. */
+    /**
+     * @p impedance: of what lies beyond each cell group of @p node_map. Throws
+     * an InputError about an incident shear velocity in three dimensions.
+     */
     ViscousBoundary(const LoadParameters &parameters,
-                    const NodeMap<2> &node_map,
+                    const NodeMap<dim> &node_map,
                     const std::vector<Impedance> &impedance, double thickness);
 
     MotionKind kind() const override
     {
       return MotionKind::absorbing;
     }
-    void prepare(State<2> &state) const override;
-    void begin_stage(State<2> &state, bool continues) override;
+    void prepare(State<dim> &state) const override;
+    void begin_stage(State<dim> &state, bool continues) override;
     void correct(const StepContext &step,
-                 const std::vector<CapturedNode<2>> &captured,
-                 State<2> &state) override;
+                 const std::vector<CapturedNode<dim>> &captured,
+                 State<dim> &state) override;
     void account(const StepContext &step,
-                 const std::vector<CapturedNode<2>> &captured,
-                 State<2> &state) override;
+                 const std::vector<CapturedNode<dim>> &captured,
+                 State<dim> &state) override;
     std::array<double, 3> values(const TimePoint &time) const override
     {
       return component_values(components, time);
     }
 
   private:
-    void hold(const std::vector<CapturedNode<2>> &captured,
+    void hold(const std::vector<CapturedNode<dim>> &captured,
               ViscousBoundaryState &own) const;
     /** On the i-th node, of the wave that comes in and what is held [N]. */
-    std::array<double, 2> pull(unsigned int i, double vn, double vs,
-                               const ViscousBoundaryState &own) const;
+    std::array<double, dim> pull(unsigned int i, double vn, double vs,
+                                 const ViscousBoundaryState &own) const;
 
     std::array<LoadComponent, 3> components;
-    std::vector<Dashpot> dashpots;
+    std::vector<Dashpot<dim>> dashpots;
   };
 } // namespace quoin
 

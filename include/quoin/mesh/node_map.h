@@ -27,7 +27,8 @@ namespace quoin
   /**
    * A face of an owned cell on the outer boundary of its block, or one half of
    * it if the cell has midside nodes. In two dimensions it runs from nodes[0]
-   * to nodes[1] with the cell on its left.
+   * to nodes[1] with the cell on its left; in three, nodes run anticlockwise
+   * for who looks from outside.
    */
   template <int dim>
   struct OuterFace
@@ -265,6 +266,10 @@ namespace quoin
     void find_ghosts();
     void pack_cells();
     void pack_faces();
+    /** Orders the nodes of a face of @p cell, in three dimensions, so that its
+        normal by the right hand points out of the cell. */
+    void turn_outward(std::array<unsigned int, dim> &face,
+                      const std::array<unsigned int, dim + 1> &cell) const;
 
     using Partners = std::vector<std::array<std::vector<unsigned int>, 2>>;
     /** Global nodes of both sides of each joint pair. */

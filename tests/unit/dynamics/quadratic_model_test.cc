@@ -39,7 +39,7 @@ namespace
     /** Sums of force and of its moment about the origin. */
     std::array<double, 3> resultant(const LoadParameters &parameters) const
     {
-      const NodalLoad load(parameters, nodes, model->mass(), thickness);
+      const NodalLoad<2> load(parameters, nodes, model->mass(), thickness);
       std::vector<NodeVector<2>> force(nodes->n_local(), { { 0., 0. } });
       load.add_forces({ 0., 0. }, force.data());
       std::array<double, 3> sum{};
@@ -96,15 +96,15 @@ TEST(QuadraticModel, TractionAndPressureHaveTheirResultants)
   EXPECT_NEAR(sum[2], (2.3 * 5. - 4. * 3.) * area, 1e-12);
 
   LoadParameters pressure = traction("push", "top", "", "");
-  pressure.components[2]  = component(LoadQuantity::force, "7");
+  pressure.pressure       = component(LoadQuantity::force, "7");
   const auto push         = stack.resultant(pressure);
   EXPECT_NEAR(push[0], 0., 1e-12);
   EXPECT_NEAR(push[1], -7. * area, 1e-12);
   EXPECT_NEAR(push[2], -7. * 2.3 * area, 1e-12);
 
   // Of each edge of 1 m: a sixth at its ends, two thirds in the middle.
-  const NodalLoad load(traction("pull", "top", "0", "1"), stack.nodes,
-                       stack.model->mass(), thickness);
+  const NodalLoad<2> load(traction("pull", "top", "0", "1"), stack.nodes,
+                          stack.model->mass(), thickness);
   std::vector<NodeVector<2>> force(stack.nodes->n_local(), { { 0., 0. } });
   load.add_forces({ 0., 0. }, force.data());
   const double expected[]

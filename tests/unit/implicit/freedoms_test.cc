@@ -236,8 +236,8 @@ TEST(Freedoms, TheLastMotionOfANodePrevails)
   const Model model(nodes, two_blocks());
   State<2> state = model.initial_state();
   state.add<ImplicitState>();
-  PrescribedMotion bottom(motion("bottom", "bottom", "1", "2"), nodes);
-  PrescribedMotion sides(motion("sides", "sides", "3", ""), nodes);
+  PrescribedMotion<2> bottom(motion("bottom", "bottom", "1", "2"), nodes);
+  PrescribedMotion<2> sides(motion("sides", "sides", "3", ""), nodes);
   const Freedoms freedoms(model, { &bottom, &sides }, {}, state);
   EXPECT_EQ(freedoms.prescribed().size(), 3U + 1U + 8U);
   Configuration configuration = freedoms.configuration(state);

@@ -352,7 +352,7 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
                component(given_force, "0"), component(given_force, "1e6*t")) },
       {}, { "joint" },
       std::make_unique<StaticFarField>(
-          "far", domain, nodes, faces_of_curves(nodes, { "bottom" }, "far"),
+          "far", domain, nodes, faces_of_curves<2>(nodes, { "bottom" }, "far"),
           model.thickness()));
   State<2> state = model.initial_state();
   solver.begin_stage(stage_with({ "far", "turn" }), nullptr, state);

@@ -36,13 +36,13 @@ namespace
       return result;
     }
 
-    NodalLoad load(const std::vector<std::string> &curves,
-                   const std::string &pressure, const double thickness) const
+    NodalLoad<2> load(const std::vector<std::string> &curves,
+                      const std::string &pressure, const double thickness) const
     {
       LoadParameters parameters;
       parameters.name       = "charge";
       parameters.boundaries = curves;
-      parameters.components[2]
+      parameters.pressure
           = { LoadQuantity::force, TimeFunction(pressure, "./") };
       return { parameters, nodes, std::vector<double>(4, 1.), thickness };
     }
@@ -52,7 +52,7 @@ namespace
 TEST(NodalLoad, PressurePushesOnTheBlock)
 {
   const Rectangle rectangle;
-  const NodalLoad load = rectangle.load({ "right" }, "2 * t", 0.5);
+  const NodalLoad<2> load = rectangle.load({ "right" }, "2 * t", 0.5);
   std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
   load.add_forces({ 3., 3. }, force.data());
   for (const unsigned int node : { 1U, 2U })
@@ -66,7 +66,7 @@ TEST(NodalLoad, PressurePushesOnTheBlock)
 TEST(NodalLoad, PressureAllAroundIsInBalanceAndDoesTheWorkOfVolume)
 {
   const Rectangle rectangle;
-  const NodalLoad load = rectangle.load({ "wall", "right" }, "7", 2.);
+  const NodalLoad<2> load = rectangle.load({ "wall", "right" }, "7", 2.);
   std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
   load.add_forces({ 0., 0. }, force.data());
   double sum[2] = { 0., 0. };

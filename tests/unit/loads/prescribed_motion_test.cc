@@ -29,8 +29,8 @@ namespace
 TEST(PrescribedMotion, ReactionIsWhatTheMassesNeed)
 {
   BoundarySquare square;
-  PrescribedMotion motion(to_the_right(LoadQuantity::velocity, "3 + 1000 * t"),
-                          square.nodes);
+  PrescribedMotion<2> motion(
+      to_the_right(LoadQuantity::velocity, "3 + 1000 * t"), square.nodes);
   ASSERT_EQ(motion.nodes(), (std::vector<unsigned int>{ 1, 2 }));
   square.state.velocity[1]   = { { 1., 7. } };
   square.state.velocity[2]   = { { 2., 8. } };
@@ -61,8 +61,8 @@ TEST(PrescribedMotion, ReactionIsWhatTheMassesNeed)
 TEST(PrescribedMotion, ADisplacementMovesByItsChange)
 {
   BoundarySquare square;
-  PrescribedMotion motion(to_the_right(LoadQuantity::displacement, "5 + 2 * t"),
-                          square.nodes);
+  PrescribedMotion<2> motion(
+      to_the_right(LoadQuantity::displacement, "5 + 2 * t"), square.nodes);
   square.capture(motion,
                  std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));
   square.move(motion);
@@ -74,8 +74,8 @@ TEST(PrescribedMotion, ADisplacementMovesByItsChange)
 TEST(PrescribedMotion, BooksNoWorkOfComponentsThatAnotherLoadMoves)
 {
   BoundarySquare square;
-  PrescribedMotion motion(to_the_right(LoadQuantity::velocity, "1"),
-                          square.nodes);
+  PrescribedMotion<2> motion(to_the_right(LoadQuantity::velocity, "1"),
+                             square.nodes);
   square.capture(motion,
                  std::vector<NodeVector<2>>(4, NodeVector<2>{ { 9., 0. } }));
   square.captured[0].owner[0] = nullptr;

@@ -13,9 +13,9 @@ using quoin::test::BoundarySquare;
 namespace
 {
   /** Dashpots at the right side, 1 m by 0.5 m: rho c1 = 300, rho c2 = 200. */
-  ViscousBoundary at_the_right(const BoundarySquare &square,
-                               const std::string &normal,
-                               const std::string &shear)
+  ViscousBoundary<2> at_the_right(const BoundarySquare &square,
+                                  const std::string &normal,
+                                  const std::string &shear)
   {
     LoadParameters parameters;
     parameters.name       = "far";
@@ -44,8 +44,8 @@ TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
     CapturedNode<2> before{};
     before.node         = i;
     before.displacement = { { 0.5 * i, -0.5 * i } };
-    account_for_dashpot(step, before, { { 2., 2., 0. } }, { { 3., 5. } },
-                        nullptr, resultant, state);
+    account_for_dashpot<2>(step, before, { { 2., 2., 0. } }, { { 3., 5. } },
+                           nullptr, resultant, state);
   }
   EXPECT_DOUBLE_EQ(resultant[0], 6.);
   EXPECT_DOUBLE_EQ(resultant[1], 10.);
@@ -56,8 +56,8 @@ TEST(ViscousBoundary, ResultantHasItsMomentAboutTheOrigin)
 TEST(ViscousBoundary, ResistsMotionByItsImpedance)
 {
   BoundarySquare square;
-  square.mass              = { 1e9, 1e9, 1e9, 1e9 };
-  ViscousBoundary boundary = at_the_right(square, "0", "0");
+  square.mass                 = { 1e9, 1e9, 1e9, 1e9 };
+  ViscousBoundary<2> boundary = at_the_right(square, "0", "0");
   boundary.prepare(square.state);
   boundary.begin_stage(square.state, false);
   for (NodeVector<2> &v : square.state.velocity)
@@ -80,8 +80,8 @@ TEST(ViscousBoundary, ResistsMotionByItsImpedance)
 TEST(ViscousBoundary, IncidentWavesPushWithTwiceTheirTraction)
 {
   BoundarySquare square;
-  square.mass              = { 1e9, 1e9, 1e9, 1e9 };
-  ViscousBoundary boundary = at_the_right(square, "2", "3");
+  square.mass                 = { 1e9, 1e9, 1e9, 1e9 };
+  ViscousBoundary<2> boundary = at_the_right(square, "2", "3");
   boundary.prepare(square.state);
   boundary.begin_stage(square.state, false);
   square.capture(boundary,

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/blocks/block_cells.h>
+#include <quoin/blocks/triangle.h>
+
+namespace quoin
+{
+  namespace
+  {
+    template <int dim>
+    NodeRecord<dim> at_rest(const dealii::Point<dim> &p)
+    {
+      NodeRecord<dim> record{};
+      for (unsigned int d = 0; d < dim; ++d)
+        record.X[d] = p[d];
+      return record;
+    }
+
+    Triangle element(const NodeMap<2> &nodes, const unsigned int cell)
+    {
+      const auto &[i, j, k] = nodes.cell(cell);
+      return { at_rest(nodes.point(i)), at_rest(nodes.point(j)),
+               at_rest(nodes.point(k)) };
+    }
+
+    double volume(const Triangle &triangle)
+    {
+      return triangle.area();
+    }
+    double volume(const Tetrahedron<OneLane> &tetrahedron)
+    {
+      return tetrahedron.det / 6.;
+    }
+
+    Tetrahedron<OneLane> element(const NodeMap<3> &nodes,
+                                 const unsigned int cell)
+    {
+      double edges[3][3];
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const auto edge = nodes.point(nodes.cell(cell)[k + 1])
+                          - nodes.point(nodes.cell(cell)[0]);
+        for (unsigned int d = 0; d < 3; ++d)
+          edges[k][d] = edge[d];
+      }
+      Tetrahedron<OneLane> result;
+      result.set_edges(edges);
+      return result;
+    }
+  } // namespace
+
+  template <int dim>
+  void take_cells(const NodeMap<dim> &nodes, BlockForcesData<dim> &data)
+  {
+    data.cells.assign(nodes.all_cells().begin(),
+                      nodes.all_cells().begin() + nodes.n_deformable_cells());
+    data.block_first_cell = { 0 };
+    data.block_first_node = { 0 };
+    for (unsigned int b = 0; b < nodes.n_deformable_block_parts(); ++b)
+    {
+      data.block_first_cell.push_back(nodes.block_parts()[b].cells[1]);
+      data.block_first_node.push_back(nodes.block_parts()[b].nodes[1]);
+    }
+  }
+
+  template <int dim>
+  std::vector<double> lumped_masses(const NodeMap<dim> &nodes,
+                                    const std::vector<double> &density,
+                                    const double thickness)
+  {
+    std::vector<NodeVector<dim>> mass(nodes.n_local());
+    for (unsigned int c = 0; c < nodes.n_cells(); ++c)
+    {
+      const double share = volume(element(nodes, c)) * thickness
+                           * density[nodes.group_of_cell(c)] / (dim + 1.);
+      for (const unsigned int node : nodes.mass_nodes(c))
+        mass[node].v[0] += share;
+    }
+    nodes.exchange().add_to_owners(mass.data());
+    nodes.exchange().update_ghosts(mass.data());
+    std::vector<double> result;
+    for (const NodeVector<dim> &m : mass)
+      result.push_back(m.v[0]);
+    return result;
+  }
+
+  template <int dim>
+  std::vector<typename StableTimeStep<dim>::Bound>
+  cell_bounds(const NodeMap<dim> &nodes,
+              const std::vector<CellStiffness<dim>> &stiffness,
+              const std::vector<double> &density, const double thickness)
+  {
+    std::vector<typename StableTimeStep<dim>::Bound> bound(
+        nodes.n_local(), typename StableTimeStep<dim>::Bound{});
+    for (unsigned int c = 0; c < nodes.n_deformable_cells(); ++c)
+    {
+      const unsigned int group = nodes.group_of_cell(c);
+      const auto cell          = element(nodes, c);
+      const double share
+          = largest_eigenvalue_squared_frequency(cell, stiffness[group],
+                                                 density[group])
+            * density[group] * volume(cell) * thickness / (dim + 1.);
+      for (const unsigned int v : nodes.cell(c))
+        for (unsigned int d = 0; d < dim; ++d)
+          bound[v][d] += share;
+    }
+    return bound;
+  }
+
+  template void take_cells(const NodeMap<2> &, BlockForcesData<2> &);
+  template void take_cells(const NodeMap<3> &, BlockForcesData<3> &);
+  template std::vector<double>
+  lumped_masses(const NodeMap<2> &, const std::vector<double> &, double);
+  template std::vector<double>
+  lumped_masses(const NodeMap<3> &, const std::vector<double> &, double);
+  template std::vector<StableTimeStep<2>::Bound>
+  cell_bounds(const NodeMap<2> &, const std::vector<PlaneStiffness> &,
+              const std::vector<double> &, double);
+  template std::vector<StableTimeStep<3>::Bound>
+  cell_bounds(const NodeMap<3> &, const std::vector<SpaceStiffness> &,
+              const std::vector<double> &, double);
+} // namespace quoin

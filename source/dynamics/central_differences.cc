@@ -1,0 +1,480 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/blocks/block_forces_3d.h>
+#include <quoin/dynamics/central_differences.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Share of the kinetic energy's rate that adaptive damping takes. */
+    constexpr double adaptive_power_share = 0.5;
+    /** Change of its coefficient in one step. */
+    constexpr double adaptive_change = 1.005;
+
+    template <int dim>
+    double norm(const NodeVector<dim> &f)
+    {
+      double square = 0.;
+      for (const double component : f.v)
+        square += component * component;
+      return std::sqrt(square);
+    }
+  } // namespace
+
+  template <int dim>
+  CentralDifferences<dim>::CentralDifferences(const NodeMap<dim> &nodes,
+                                              const BlockForces<dim> &blocks,
+                                              PhaseClock &clock)
+    : nodes(nodes), exchange(nodes.exchange()), blocks(blocks),
+      clock(clock), phases{ clock.phase("blocks"), clock.phase("search"),
+                            clock.phase("loads"), clock.phase("exchange") }
+  {
+    force.assign(exchange.n_local(), NodeVector<dim>{});
+    viscous_force.assign(exchange.n_local(), NodeVector<dim>{});
+  }
+
+  // -- a stage ---------------------------------------------------------------
+
+  template <int dim>
+  void CentralDifferences<dim>::set_mass(const std::vector<double> &mass)
+  {
+    node_mass = mass;
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::set_operators(
+      const std::vector<ForceOperator<dim> *> &new_forces,
+      const std::vector<ForceOperator<dim> *> &new_begun,
+      const std::vector<MotionConstraint<dim> *> &new_constraints,
+      const StageParameters &new_stage)
+  {
+    forces      = new_forces;
+    begun       = new_begun;
+    constraints = new_constraints;
+    stage       = new_stage;
+    force_phases.clear();
+    for (const ForceOperator<dim> *each : forces)
+      force_phases.push_back(clock.phase(each->kind()));
+    constraint_phases.clear();
+    for (const MotionConstraint<dim> *constraint : constraints)
+      constraint_phases.push_back(clock.phase(constraint->phase()));
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::capture_nodes(const std::vector<bool> &absent)
+  {
+    std::vector<unsigned int> moved;
+    for (const MotionConstraint<dim> *constraint : constraints)
+      std::copy_if(constraint->nodes().begin(), constraint->nodes().end(),
+                   std::back_inserter(moved),
+                   [&](const unsigned int node) { return !absent[node]; });
+    std::sort(moved.begin(), moved.end());
+    moved.erase(std::unique(moved.begin(), moved.end()), moved.end());
+
+    captured.assign(moved.size(), CapturedNode<dim>{});
+    for (unsigned int c = 0; c < moved.size(); ++c)
+    {
+      captured[c].node = moved[c];
+      captured[c].mass = node_mass[moved[c]];
+    }
+    for (MotionConstraint<dim> *constraint : constraints)
+    {
+      std::vector<unsigned int> positions;
+      for (const unsigned int node : constraint->nodes())
+      {
+        if (absent[node])
+          continue;
+        positions.push_back(std::lower_bound(moved.begin(), moved.end(), node)
+                            - moved.begin());
+        for (unsigned int d = 0; d < dim; ++d)
+          if (constraint->moves_all() || constraint->holds()[d])
+            captured[positions.back()].owner[d] = constraint;
+      }
+      constraint->bind(std::move(positions));
+    }
+
+    const auto first_at = [&](const unsigned int node) {
+      return std::lower_bound(moved.begin(), moved.end(), node) - moved.begin();
+    };
+    captured_begin.clear();
+    for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
+      captured_begin.push_back(first_at(blocks.tile_nodes(tile).begin));
+    captured_begin.push_back(first_at(nodes.first_shared_node()));
+    captured_begin.push_back(first_at(nodes.n_deformable_nodes()));
+
+    held.clear();
+    moving_mass = node_mass;
+    inverse_mass.resize(node_mass.size());
+    for (unsigned int i = 0; i < node_mass.size(); ++i)
+      inverse_mass[i] = 1. / node_mass[i];
+    for (const unsigned int node : moved)
+      moving_mass[node] = inverse_mass[node] = 0.;
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::hold(const NodeRange &range)
+  {
+    if (std::none_of(held.begin(), held.end(),
+                     [&](const NodeRange &other)
+                     { return other.begin == range.begin; }))
+      held.push_back(range);
+    for (std::size_t node = range.begin; node < range.end; ++node)
+      moving_mass[node] = inverse_mass[node] = 0.;
+  }
+
+  template <int dim>
+  StepContext CentralDifferences<dim>::context(const State<dim> &state,
+                                               const double dt) const
+  {
+    const double in_stage = state.load_time;
+    const double advance  = state.load_rate * dt;
+    StepContext result;
+    result.dt                = dt;
+    result.dt_before         = state.previous_time_step;
+    result.dt_velocity       = 0.5 * (dt + state.previous_time_step);
+    result.load_rate         = state.load_rate;
+    result.begin             = { in_stage, state.stage_start + in_stage };
+    result.middle            = { in_stage + 0.5 * advance,
+                                 state.stage_start + in_stage + 0.5 * advance };
+    result.stiffness_damping = stage.stiffness_coefficient;
+    result.end = { in_stage + advance, state.stage_start + in_stage + advance };
+    result.local_damping = stage.local_coefficient;
+    result.mass_damping  = stage.damping == DampingType::adaptive
+                               ? state.adaptive_damping
+                               : stage.mass_coefficient;
+    return result;
+  }
+
+  // -- the parts of a step
+  // -----------------------------------------------------
+
+  template <int dim>
+  void CentralDifferences<dim>::update_neighbours(State<dim> &state,
+                                                  const StepContext &context)
+  {
+    if (has_viscous_forces())
+    {
+      exchange.update_ghosts(state.velocity.data());
+      clock.lap(phases.exchange);
+    }
+    // Before any force, because what is handed over to contacts is no joint
+    // from then on.
+    for (ForceOperator<dim> *each : forces)
+      each->update(context, state);
+    clock.lap(phases.search);
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::add_forces(State<dim> &state,
+                                           const StepContext &context)
+  {
+    for (std::size_t i = 0; i < forces.size(); ++i)
+    {
+      forces[i]->add_forces(context, state, node_forces());
+      state.energy.external
+          += 0.5 * context.dt_before
+             * forces[i]->external_power(context.begin, state.velocity.data());
+      clock.lap(force_phases[i]);
+    }
+    // What acts on partners is their owners' affair.
+    for (unsigned int i = exchange.n_owned() + exchange.n_shared();
+         i < exchange.n_local(); ++i)
+      force[i] = viscous_force[i] = NodeVector<dim>{};
+    for (const NodeRange &range : held)
+      std::fill(&force[range.begin], &force[range.begin] + range.size(),
+                NodeVector<dim>{});
+    if (state.stage_step == 0 && !begun.empty())
+      find_begun_forces(context, state);
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::find_begun_forces(const StepContext &context,
+                                                  State<dim> &state)
+  {
+    AlignedArray<NodeVector<dim>> sum(force.size(), NodeVector<dim>{});
+    for (ForceOperator<dim> *load : begun)
+      load->add_forces(context, state, { sum.data(), nullptr });
+    for (CapturedNode<dim> &node : captured)
+      node.begun = sum[node.node];
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::capture(CapturedNode<dim> &node,
+                                        const State<dim> &state) const
+  {
+    node.force   = force[node.node];
+    node.viscous = viscous_force[node.node];
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      node.force.v[d] += node.viscous.v[d];
+      node.displacement.v[d] = state.nodes[node.node].u[d];
+    }
+    node.velocity = state.velocity[node.node];
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::add_shared_forces(
+      AlignedArray<NodeVector<dim>> &values)
+  {
+    exchange.add_to_owners(values.data());
+    const auto begin = values.begin() + exchange.n_owned();
+    std::fill(begin, begin + exchange.n_shared(), NodeVector<dim>{});
+  }
+
+  template <int dim>
+  double CentralDifferences<dim>::applied_force() const
+  {
+    AlignedArray<NodeVector<dim>> total = force;
+    exchange.add_to_owners(total.data());
+    double sum = 0.;
+    for (unsigned int i = 0; i < exchange.n_owned(); ++i)
+      sum += norm(total[i]);
+    return sum;
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::advance_range(
+      State<dim> &state, const StepContext &context, const bool balance,
+      const NodeRange &range, const unsigned int first_captured, StepSums &sums)
+  {
+    for (unsigned int c = captured_begin[first_captured];
+         c < captured_begin[first_captured + 1]; ++c)
+      capture(captured[c], state);
+    if (balance)
+      for (std::size_t i = range.begin; i < range.end; ++i)
+        if (inverse_mass[i] > 0.)
+          sums.unbalanced += norm(force[i]);
+    if (stage.damping == DampingType::none)
+      return advance_nodes(
+          range.begin, range.end, state.nodes.data(), state.velocity.data(),
+          force.data(), inverse_mass.data(), context.dt_velocity, context.dt);
+    const DampingFactors factors{ context.local_damping, context.mass_damping,
+                                  context.dt_before, context.dt_velocity };
+    const auto advance = stage.damping == DampingType::adaptive
+                             ? advance_nodes_damped<true, dim>
+                             : advance_nodes_damped<false, dim>;
+    sums.damping += advance(range.begin, range.end, state.nodes.data(),
+                            state.velocity.data(), force.data(),
+                            viscous_force.data(), moving_mass.data(),
+                            inverse_mass.data(), factors, context.dt);
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::advance_tiles(State<dim> &state,
+                                              const StepContext &context,
+                                              const bool balance,
+                                              StepSums &sums)
+  {
+    PlasticHistory &plastic = state.template get<PlasticHistory>();
+    for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
+    {
+      state.energy.plastic
+          += blocks.add_forces(tile, state.nodes.data(), plastic, force.data());
+      if (has_viscous_forces())
+        blocks.add_viscous_forces(
+            tile, state.nodes.data(), state.velocity.data(),
+            stage.stiffness_coefficient, viscous_force.data());
+      advance_range(state, context, balance, blocks.tile_nodes(tile), tile,
+                    sums);
+    }
+    clock.lap(phases.blocks);
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::advance_shared_nodes(State<dim> &state,
+                                                     const StepContext &context,
+                                                     const bool balance,
+                                                     StepSums &sums)
+  {
+    add_shared_forces(force);
+    if (has_viscous_forces())
+      add_shared_forces(viscous_force);
+    clock.lap(phases.exchange);
+    advance_range(state, context, balance,
+                  { nodes.first_shared_node(), nodes.n_deformable_nodes() },
+                  blocks.n_tiles(), sums);
+    clock.lap(phases.blocks);
+  }
+
+  template <int dim>
+  void
+  CentralDifferences<dim>::move_constrained_nodes(State<dim> &state,
+                                                  const StepContext &context)
+  {
+    // Components that nobody prescribes move by their own force.
+    const double a = 0.5 * context.dt_velocity * context.mass_damping;
+    for (const CapturedNode<dim> &node : captured)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        if (node.owner[d])
+          continue;
+        const double v0    = node.velocity.v[d];
+        const double gain  = context.dt_velocity / (1. + a) / node.mass;
+        const double w     = (1. - a) / (1. + a) * v0 + gain * node.force.v[d];
+        const double local = -local_damping_velocity(
+            context.local_damping * gain * std::abs(node.force.v[d]), v0, w);
+        const double v1 = w + local;
+        const double drag
+            = local / gain - context.mass_damping * node.mass * 0.5 * (v0 + v1);
+        state.energy.damping -= 0.5 * context.dt_before * drag * v0;
+        state.pending.damping -= 0.5 * context.dt * drag * v1;
+        state.velocity[node.node].v[d] = v1;
+        state.nodes[node.node].u[d] = node.displacement.v[d] + context.dt * v1;
+      }
+    clock.lap(phases.loads);
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      constraints[i]->correct(context, captured, state);
+      clock.lap(constraint_phases[i]);
+    }
+    for (std::size_t i = 0; i < constraints.size(); ++i)
+    {
+      constraints[i]->account(context, captured, state);
+      clock.lap(constraint_phases[i]);
+    }
+
+    if (has_viscous_forces())
+      for (const CapturedNode<dim> &node : captured)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double v1 = state.velocity[node.node].v[d];
+          state.energy.damping -= 0.5 * context.dt_before * node.viscous.v[d]
+                                  * node.velocity.v[d];
+          state.pending.damping -= 0.5 * context.dt * node.viscous.v[d] * v1;
+        }
+    clock.lap(phases.loads);
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::adapt_damping(State<dim> &state,
+                                              const StepContext &context,
+                                              const DampingWork &work) const
+  {
+    double sums[2] = { work.mass_power, work.kinetic_change };
+    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM,
+                  exchange.communicator());
+    if (state.adaptive_damping == 0.)
+      state.adaptive_damping = 1e-3 / context.dt;
+    const double power = state.adaptive_damping * sums[0];
+    const double rate  = std::abs(sums[1]) / context.dt;
+    if (power < adaptive_power_share * rate)
+      state.adaptive_damping = std::min(
+          adaptive_change * state.adaptive_damping, 0.5 / context.dt);
+    else
+      state.adaptive_damping /= adaptive_change;
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::exchange_positions(State<dim> &state)
+  {
+    exchange.update_ghosts(state.nodes.data());
+    clock.lap(phases.exchange);
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::capture_rigid_blocks(const State<dim> &state)
+  {
+    for (unsigned int c = captured_begin.back(); c < captured.size(); ++c)
+      capture(captured[c], state);
+  }
+
+  template <int dim>
+  void CentralDifferences<dim>::book_work(State<dim> &state,
+                                          const StepContext &context,
+                                          const StepSums &sums) const
+  {
+    for (const ForceOperator<dim> *each : forces)
+      state.pending.external
+          += 0.5 * context.dt
+             * each->external_power(context.begin, state.velocity.data());
+    state.energy.damping += sums.damping.before;
+    state.pending.damping += sums.damping.after;
+    if (stage.damping == DampingType::adaptive)
+      adapt_damping(state, context, sums.damping);
+  }
+
+  // -- what there is to know of a step ---------------------------------------
+
+  template <int dim>
+  double
+  CentralDifferences<dim>::kinetic_energy(const State<dim> &state,
+                                          const StepContext &context) const
+  {
+    // 1/2 m v- v+, or the same half work on from v- if the step changed.
+    const double part = context.dt_before / context.dt_velocity;
+    double kinetic    = 0.;
+    for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double before = velocity_before[i].v[d];
+        kinetic += 0.5 * node_mass[i] * before
+                   * (before + part * (state.velocity[i].v[d] - before));
+      }
+    return kinetic;
+  }
+
+  template <int dim>
+  double CentralDifferences<dim>::squared_change(const State<dim> &state) const
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double change = state.velocity[i].v[d] - velocity_before[i].v[d];
+        sum += node_mass[i] * change * change;
+      }
+    return sum;
+  }
+
+  template <int dim>
+  double CentralDifferences<dim>::stored_energy(const State<dim> &state) const
+  {
+    double sum = 0.;
+    for (const ForceOperator<dim> *each : forces)
+      sum += each->stored_energy(state);
+    return sum;
+  }
+
+  template <int dim>
+  double CentralDifferences<dim>::unbalanced_ratio(const State<dim> &state,
+                                                   const StepContext &context,
+                                                   StepSums sums) const
+  {
+    // What nobody moves is unbalanced by its force, what a viscous boundary or
+    // a far field moves by what accelerates it, the rest of which is what that
+    // load does; what is prescribed is held by a reaction.
+    for (const CapturedNode<dim> &node : captured)
+    {
+      NodeVector<dim> free{}, reaction{};
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!node.owner[d])
+          free.v[d] = node.force.v[d];
+        else if (node.owner[d]->holds()[d] || node.owner[d]->is_rigid_body())
+          reaction.v[d] = node.force.v[d];
+        else
+        {
+          free.v[d] = node.mass
+                      * (state.velocity[node.node].v[d] - node.velocity.v[d])
+                      / context.dt_velocity;
+          reaction.v[d] = free.v[d] - node.force.v[d];
+        }
+      sums.unbalanced += norm(free);
+      sums.applied += norm(reaction);
+    }
+    double all[2] = { sums.applied, sums.unbalanced };
+    MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_DOUBLE, MPI_SUM,
+                  exchange.communicator());
+    for (const MotionConstraint<dim> *constraint : constraints)
+      all[1] += constraint->unbalanced();
+    return all[0] > 0. ? all[1] / all[0] : 0.;
+  }
+
+  template class CentralDifferences<2>;
+  template class CentralDifferences<3>;
+} // namespace quoin

@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// Blocks in three dimensions, from the distributed mesh to the steps. These
+// tests also run on two and three ranks, among which the block is divided.
+
+#include "test_models.h"
+
+#include <quoin/blocks/block_cells.h>
+#include <quoin/dynamics/central_differences.h>
+#include <quoin/loads/nodal_load.h>
+#include <quoin/loads/prescribed_motion.h>
+#include <quoin/loads/viscous_boundary.h>
+#include <quoin/mesh/partition.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  using Count  = std::array<unsigned int, 3>;
+  using Vector = dealii::Tensor<1, 3>;
+
+  const std::vector<std::string> side_names
+      = { "", "x0", "x1", "y0", "y1", "z0", "z1" };
+
+  /** A box of n[0] n[1] n[2] cubes with the edge @p h [m], each cut into six
+      tetrahedra by Kuhn's division; its sides are named. */
+  BlockMesh<3> box_mesh(const Count &n, const double h)
+  {
+    BlockMesh<3> mesh;
+    mesh.group_names        = { "rock" };
+    mesh.line_names         = side_names;
+    mesh.block_first_cell   = { 0 };
+    mesh.block_first_vertex = { 0 };
+    const auto vertex       = [&](const Count &at)
+    { return (at[2] * (n[1] + 1) + at[1]) * (n[0] + 1) + at[0]; };
+    std::vector<Count> grid;
+    Count at;
+    for (at[2] = 0; at[2] <= n[2]; ++at[2])
+      for (at[1] = 0; at[1] <= n[1]; ++at[1])
+        for (at[0] = 0; at[0] <= n[0]; ++at[0])
+        {
+          mesh.vertices.emplace_back(h * at[0], h * at[1], h * at[2]);
+          grid.push_back(at);
+        }
+    const Count axes[6] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
+                            { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 } };
+    for (at[2] = 0; at[2] < n[2]; ++at[2])
+      for (at[1] = 0; at[1] < n[1]; ++at[1])
+        for (at[0] = 0; at[0] < n[0]; ++at[0])
+          for (unsigned int t = 0; t < 6; ++t)
+          {
+            Count corner = at;
+            std::array<unsigned int, 4> cell;
+            for (unsigned int k = 0; k < 4; ++k)
+            {
+              cell[k] = vertex(corner);
+              if (k < 3)
+                ++corner[axes[t][k]];
+            }
+            if (t > 2) // of odd order
+              std::swap(cell[2], cell[3]);
+            mesh.cells.push_back(cell);
+            mesh.cell_group.push_back(0);
+          }
+    mesh.block_first_cell.push_back(mesh.n_cells());
+    mesh.block_first_vertex.push_back(mesh.n_vertices());
+
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      for (unsigned int f = 0; f < 4; ++f)
+      {
+        std::array<unsigned int, 3> face;
+        for (unsigned int k = 0; k < 3; ++k)
+          face[k] = mesh.cells[c][(f + 1 + k) % 4];
+        for (unsigned int d = 0; d < 3; ++d)
+          for (const unsigned int end : { 0U, n[d] })
+            if (grid[face[0]][d] == end && grid[face[1]][d] == end
+                && grid[face[2]][d] == end)
+              mesh.boundary_faces.push_back(
+                  { face, c, 1 + 2 * d + (end == 0 ? 0 : 1) });
+      }
+    return mesh;
+  }
+
+  LoadParameters load(const std::string &name, const LoadType type,
+                      const std::vector<std::string> &sides)
+  {
+    LoadParameters result;
+    result.name       = name;
+    result.type       = type;
+    result.boundaries = sides;
+    return result;
+  }
+
+  /** A box on all ranks, with what acts on it. */
+  struct Box
+  {
+    const LinearElastic stone;
+    const BlockTriangulation<3> blocks;
+    const NodeMap<3> nodes;
+    BlockForces<3> forces;
+    PhaseClock clock;
+    CentralDifferences<3> stepper;
+    State<3> state;
+    std::vector<std::unique_ptr<ForceOperator<3>>> loads;
+    std::vector<std::unique_ptr<MotionConstraint<3>>> constraints;
+    double dt = 0., stored = 0., kinetic = 0.;
+
+    Box(const Count &n, const double h, const LinearElastic &stone)
+      : stone(stone), blocks(made(n, h)), nodes(blocks),
+        stepper(nodes, forces, clock)
+    {
+      BlockForcesData<3> data;
+      take_cells(nodes, data);
+      data.stiffness = { space_stiffness(stone) };
+      forces.prepare(data);
+      forces.prepare(state);
+      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      {
+        state.nodes.push_back({});
+        for (unsigned int d = 0; d < 3; ++d)
+          state.nodes[i].X[d] = nodes.point(i)[d];
+      }
+      state.velocity.assign(nodes.n_local(), NodeVector<3>{});
+      stepper.set_mass(lumped_masses(nodes, { stone.density }));
+
+      auto bound
+          = cell_bounds(nodes, { space_stiffness(stone) }, { stone.density });
+      nodes.exchange().add_to_owners(bound.data());
+      bound.resize(nodes.n_owned());
+      dt = 0.8
+           * StableTimeStep<3>::critical(
+               dealii::Utilities::MPI::max(
+                   StableTimeStep<3>(bound).largest_eigenvalue(stepper.mass()),
+                   MPI_COMM_WORLD),
+               0.);
+      state.previous_time_step = dt;
+    }
+
+    static BlockTriangulation<3> made(const Count &n, const double h)
+    {
+      BlockMesh<3> mesh       = box_mesh(n, h);
+      const auto rank_of_cell = partition_cells(
+          mesh, { false },
+          dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD), true);
+      return { mesh, rank_of_cell, { false }, MPI_COMM_WORLD };
+    }
+
+    void begin()
+    {
+      std::vector<ForceOperator<3> *> on;
+      for (const auto &each : loads)
+        on.push_back(each.get());
+      std::vector<MotionConstraint<3> *> moving;
+      for (const auto &each : constraints)
+        moving.push_back(each.get());
+      StageParameters stage;
+      stage.damping = DampingType::none;
+      stepper.set_operators(on, {}, moving, stage);
+      for (MotionConstraint<3> *constraint : moving)
+      {
+        constraint->prepare(state);
+        constraint->begin_stage(state, false);
+      }
+      stepper.capture_nodes(std::vector<bool>(nodes.n_local(), false));
+      nodes.exchange().update_ghosts(state.nodes.data());
+    }
+
+    /** Takes a step; energies are then those before it, of all ranks. */
+    void step()
+    {
+      const StepContext context = stepper.context(state, dt);
+      state.energy += state.pending;
+      state.pending = EnergyAccounts();
+      stepper.update_neighbours(state, context);
+      stepper.add_forces(state, context);
+      stored = sum(forces.stored_energy(state));
+      stepper.keep_velocities(state);
+      StepSums sums;
+      stepper.advance_tiles(state, context, false, sums);
+      stepper.advance_shared_nodes(state, context, false, sums);
+      stepper.move_constrained_nodes(state, context);
+      stepper.book_work(state, context, sums);
+      kinetic = sum(stepper.kinetic_energy(state, context));
+      stepper.exchange_positions(state);
+      ++state.step;
+      ++state.stage_step;
+      state.time += dt;
+      state.load_time = state.time;
+    }
+
+    /** What the balance leaves over [J]. */
+    double residual() const
+    {
+      return stored + kinetic
+             + sum(state.energy.sum(EnergyKind::dissipated)
+                   - state.energy.sum(EnergyKind::given));
+    }
+
+    static double sum(const double value)
+    {
+      return dealii::Utilities::MPI::sum(value, MPI_COMM_WORLD);
+    }
+
+    /** Sum over all nodes of mass times what @p of says of a node. */
+    Vector sum_of_mass(
+        const std::function<Vector(const Vector &x, const Vector &v)> &of) const
+    {
+      Vector result;
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      {
+        Vector x, v;
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          // Positions where velocities are: half a step ago.
+          x[d] = state.nodes[i].X[d] + state.nodes[i].u[d]
+                 - 0.5 * dt * state.velocity[i].v[d];
+          v[d] = state.velocity[i].v[d];
+        }
+        result += stepper.mass()[i] * of(x, v);
+      }
+      return dealii::Utilities::MPI::sum(result, MPI_COMM_WORLD);
+    }
+
+    /** Sets motion of all nodes by their positions. */
+    void set(const std::function<Vector(const Vector &x)> &displacement,
+             const std::function<Vector(const Vector &x)> &velocity)
+    {
+      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      {
+        const Vector u = displacement(nodes.point(i)),
+                     v = velocity(nodes.point(i));
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          state.nodes[i].u[d]    = u[d];
+          state.velocity[i].v[d] = v[d];
+        }
+      }
+    }
+  };
+
+  const LinearElastic stone{ 2500., 1e10, 0.25 };
+} // namespace
+
+TEST(SpaceBlocks, FreeFlightKeepsMomentaAndEnergy)
+{
+  for (const Vector &axis : { Vector({ 1., 0.1, 0. }), Vector({ 0., 1., 0.2 }),
+                              Vector({ 0.3, 0., 1. }) })
+  {
+    Box box({ 4, 3, 2 }, 0.5, stone);
+    const Vector drift({ 1., -2., 3. });
+    box.set([](const Vector &) { return Vector(); }, [&](const Vector &x)
+            { return drift + 40. * dealii::cross_product_3d(axis, x); });
+    box.begin();
+    const auto momentum = [](const Vector &, const Vector &v) { return v; };
+    const auto angular  = [](const Vector &x, const Vector &v)
+    { return dealii::cross_product_3d(x, v); };
+    const Vector p = box.sum_of_mass(momentum), L = box.sum_of_mass(angular);
+    box.step();
+    const double energy = box.stored + box.kinetic;
+    for (unsigned int i = 0; i < 1000; ++i)
+      box.step();
+    EXPECT_LT((box.sum_of_mass(momentum) - p).norm(), 1e-12 * p.norm());
+    // The arm of half a step ago, before the forces turned the velocity.
+    EXPECT_LT((box.sum_of_mass(angular) - L).norm(), 1e-5 * L.norm());
+    EXPECT_NEAR(box.stored + box.kinetic, energy, 1e-5 * energy);
+  }
+}
+
+// A uniform strain is in equilibrium whatever the mesh and its division.
+TEST(SpaceBlocks, PassThePatchTest)
+{
+  Box box({ 4, 4, 4 }, 0.25, stone);
+  const double A[3][3]
+      = { { 1e-4, 3e-5, -2e-5 }, { 5e-5, -2e-4, 1e-5 }, { 0., 4e-5, 3e-4 } };
+  const auto affine = [&](const Vector &x)
+  {
+    Vector u;
+    for (unsigned int d = 0; d < 3; ++d)
+      for (unsigned int e = 0; e < 3; ++e)
+        u[d] += A[d][e] * x[e];
+    return u;
+  };
+  box.set(affine, [](const Vector &) { return Vector(); });
+  LoadParameters held = load("held", LoadType::prescribed_motion,
+                             { "x0", "x1", "y0", "y1", "z0", "z1" });
+  for (LoadComponent &part : held.components)
+    part = component(LoadQuantity::velocity, "0");
+  box.constraints.push_back(
+      std::make_unique<PrescribedMotion<3>>(held, box.nodes));
+  box.begin();
+  for (unsigned int i = 0; i < 50; ++i)
+    box.step();
+  for (unsigned int i = 0; i < box.nodes.n_owned(); ++i)
+    for (unsigned int d = 0; d < 3; ++d)
+      EXPECT_NEAR(box.state.nodes[i].u[d], affine(box.nodes.point(i))[d],
+                  1e-4 * 1e-10);
+}
+
+// Held at one end and pulled at the other from t = 0 on: a wave runs to the
+// held end and back, behind which the stress has doubled. By a traction and by
+// a negative pressure, which is along the outward normal.
+TEST(SpaceBlocks, BarUnderASuddenEndLoad)
+{
+  const LinearElastic cork{ 2500., 1e10, 0. };
+  const double c = std::sqrt(cork.young / cork.density), traction = 1e5;
+  for (const bool by_pressure : { false, true })
+  {
+    Box box({ 80, 1, 1 }, 0.1, cork);
+    LoadParameters held = load("held", LoadType::prescribed_motion, { "x0" });
+    held.components[0]  = component(LoadQuantity::velocity, "0");
+    box.constraints.push_back(
+        std::make_unique<PrescribedMotion<3>>(held, box.nodes));
+    LoadParameters pull = load("pull", LoadType::traction, { "x1" });
+    (by_pressure ? pull.pressure : pull.components[0])
+        = component(LoadQuantity::force, by_pressure ? "-1e5" : "1e5");
+    box.loads.push_back(std::make_unique<NodalLoad<3>>(pull, box.nodes,
+                                                       box.stepper.mass(), 1.));
+    box.begin();
+    while (box.state.time < 8. / c)
+      box.step();
+    double end = 0., reaction = box.sum(box.constraints[0]->resultant()[0]);
+    for (unsigned int i = 0; i < box.nodes.n_owned(); ++i)
+      if (box.nodes.point(i)[0] > 7.99)
+        end = box.state.nodes[i].u[0];
+    end            = dealii::Utilities::MPI::max(end, MPI_COMM_WORLD);
+    const double v = traction / (cork.density * c);
+    EXPECT_NEAR(end, v * box.state.time, 0.01 * v * box.state.time);
+    EXPECT_LT(std::abs(box.residual()), 1e-6 * box.stored);
+    while (box.state.time < 12. / c)
+      box.step();
+    reaction = box.sum(box.constraints[0]->resultant()[0]);
+    // Twice the stress with some ringing at the front of the wave.
+    EXPECT_NEAR(reaction, -2. * traction * 0.01, 0.2 * traction * 0.01);
+    EXPECT_LT(std::abs(box.residual()), 1e-6 * box.stored);
+  }
+}
+
+TEST(SpaceBlocks, PlanePulsesLeaveThroughDashpots)
+{
+  const SpaceStiffness C = space_stiffness(stone);
+  for (const unsigned int d : { 0U, 1U }) // of P and S waves along x
+  {
+    Box box({ 160, 1, 1 }, 0.05, stone);
+    const double c
+        = std::sqrt((d == 0 ? C.lambda + 2. * C.mu : C.mu) / stone.density);
+    const Impedance beyond = impedance_of(stone, PlaneAssumption::plane_strain);
+    LoadParameters sides   = load("sides", LoadType::prescribed_motion,
+                                  { "y0", "y1", "z0", "z1" });
+    for (unsigned int e = 0; e < 3; ++e)
+      if (e != d)
+        sides.components[e] = component(LoadQuantity::velocity, "0");
+    const LoadParameters ends
+        = load("ends", LoadType::viscous_boundary, { "x0", "x1" });
+    box.constraints.push_back(std::make_unique<ViscousBoundary<3>>(
+        ends, box.nodes, std::vector<Impedance>{ beyond }, 1.));
+    box.constraints.push_back(
+        std::make_unique<PrescribedMotion<3>>(sides, box.nodes));
+    const double size = 1e-6;
+    const auto pulse  = [&](const double x)
+    { return size * std::exp(-(x - 3.) * (x - 3.) / 0.5); };
+    const auto along = [&](const double value)
+    {
+      Vector u;
+      u[d] = value;
+      return u;
+    };
+    box.set([&](const Vector &x) { return along(pulse(x[0])); },
+            [&](const Vector &x)
+            {
+              const double ahead = x[0] + 0.5 * c * box.dt; // half a step ago
+              return along(c * 4. * (ahead - 3.) * pulse(ahead));
+            });
+    box.begin();
+    box.step();
+    const double energy = box.stored + box.kinetic;
+    while (box.state.time < 3. / c)
+      box.step();
+    for (unsigned int i = 0; i < box.nodes.n_owned(); ++i)
+      EXPECT_NEAR(box.state.nodes[i].u[d],
+                  pulse(box.nodes.point(i)[0] - c * box.state.time),
+                  0.01 * size);
+    EXPECT_NEAR(box.residual(), energy, 1e-6 * energy);
+    while (box.state.time < 14. / c)
+      box.step();
+    EXPECT_LT(box.stored + box.kinetic, 1e-4 * energy);
+    EXPECT_NEAR(box.residual(), energy, 1e-6 * energy);
+    EXPECT_NEAR(box.sum(box.state.energy.viscous), energy, 1e-3 * energy);
+  }
+}
