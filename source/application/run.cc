@@ -3,10 +3,7 @@
 
 #include <quoin/application/output_directory.h>
 #include <quoin/application/run.h>
-#include <quoin/base/number_text.h>
 #include <quoin/base/wall_clock.h>
-#include <quoin/problems/block_problem.h>
-#include <quoin/problems/boundary_problem.h>
 #include <quoin/results/atomic_file.h>
 #include <quoin/results/checkpoint.h>
 #include <quoin/results/json_file.h>
@@ -30,10 +27,7 @@ namespace quoin
 
   void Run::run()
   {
-    if (parameters.is_boundary_model)
-      problem = std::make_unique<BoundaryProblem>(parameters, context);
-    else
-      problem = std::make_unique<BlockProblem>(parameters, context);
+    problem = make_problem(parameters, context);
     problem->report();
     if (options.check)
       return;
@@ -44,20 +38,21 @@ namespace quoin
       return;
     }
     checkpoint_clock.restart();
-    if (options.resume)
-      problem->resume(stage, stage_begun);
+    if (stage_begun)
+    {
+      stage = problem->make_stage(stage_index);
+      stage->resume();
+    }
+    else if (options.resume)
+      problem->restore(stage_index);
     while (!is_over())
       run_stage();
   }
 
   void Run::open_outputs()
   {
-    all_or_none<InputError>(communicator,
-                            [&]()
-                            {
-                              if (context.is_first_rank())
-                                take_output(output, options.resume, lock);
-                            });
+    context.on_first_rank<InputError>(
+        [&]() { take_output(output, options.resume, lock); });
     CheckpointInfo info;
     if (options.resume)
       info = load_checkpoint_archives(
@@ -71,36 +66,34 @@ namespace quoin
     all_or_none<RunError>(communicator, [&]()
                           { log.open(output + "/log.txt", options.resume); });
     if (options.resume)
-      log.message("resumed at time " + number_text(info.time) + " s, step "
-                  + std::to_string(info.step));
+      log.message("resumed at time ", info.time, " s, step ", info.step);
     tables.open(options.resume);
-    all_or_none<RunError>(communicator,
-                          [&]()
-                          {
-                            if (context.is_first_rank())
-                              write_text(output + "/used_parameters.prm",
-                                         parameters.effective);
-                          });
+    context.on_first_rank(
+        [&]()
+        { write_text(output + "/used_parameters.prm", parameters.effective); });
     problem->open_outputs();
   }
 
   bool Run::is_over() const
   {
-    return stage == problem->n_stages();
+    return stage_index == problem->n_stages();
   }
 
   void Run::run_stage()
   {
     if (!stage_begun)
-      problem->begin_stage(stage);
+    {
+      stage = problem->make_stage(stage_index);
+      stage->begin();
+    }
     stage_begun = true;
-    progress.start(problem->progress_figures());
-    while (!problem->stage_is_over())
+    progress.start(stage->figures());
+    while (!stage->is_over())
       take_step();
-    progress.finish(problem->progress_figures());
-    problem->end_stage();
+    progress.finish(stage->figures());
+    stage->end();
     stage_begun = false;
-    ++stage;
+    ++stage_index;
     // Before the checkpoint, after which there is nothing to resume.
     write_summary();
     save_checkpoint();
@@ -115,10 +108,10 @@ namespace quoin
       wall_time += passed;
       seconds += passed;
     };
-    Problem::Checkpoint checkpoint{};
+    Stage::Checkpoint checkpoint{};
     try
     {
-      checkpoint = problem->take_step();
+      checkpoint = stage->take_step();
     }
     catch (const FailedStep &)
     {
@@ -129,9 +122,9 @@ namespace quoin
     }
     count();
     if (progress.due())
-      progress.update(problem->progress_figures());
-    if (checkpoint == Problem::Checkpoint::wanted
-        || (checkpoint == Problem::Checkpoint::possible
+      progress.update(stage->figures());
+    if (checkpoint == Stage::Checkpoint::wanted
+        || (checkpoint == Stage::Checkpoint::possible
             && checkpoint_clock.is_due()))
       save_checkpoint();
   }
@@ -145,27 +138,27 @@ namespace quoin
             { "ranks", dealii::Utilities::MPI::n_mpi_processes(communicator) },
             { "wall time [s]", wall_time } };
     problem->summarise(summary, seconds);
-    all_or_none<RunError>(communicator,
-                          [&]()
-                          {
-                            if (context.is_first_rank())
-                              write_json(output + "/summary.json", summary);
-                          });
-    if (is_over())
-      problem->report_end(summary);
+    context.on_first_rank([&]()
+                          { write_json(output + "/summary.json", summary); });
+    if (!is_over())
+      return;
+    const Problem::LastWords words = problem->last_words(summary);
+    log.message("finished: ", words.what, " in ",
+                duration_text(summary["wall time [s]"].get<double>()), ", ",
+                words.figures);
   }
 
   template <typename Archive>
   void Run::archive_progress(Archive &archive)
   {
-    archive &stage &stage_begun &wall_time &tables;
+    archive &stage_index &stage_begun &wall_time &tables;
   }
 
   void Run::save_checkpoint()
   {
     problem->complete_state();
     tables.sync();
-    const ProgressFigures figures = problem->progress_figures();
+    const ProgressFigures figures = stage->figures();
     save_checkpoint_archives(
         output, communicator,
         { figures.step, figures.time, QUOIN_VERSION, problem->fingerprint() },

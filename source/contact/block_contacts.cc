@@ -150,7 +150,7 @@ namespace quoin
       return NodeVector<2>{ { node.X[0] + node.u[0], node.X[1] + node.u[1] } };
     };
     NodeVector<2> *to = position.data();
-    for (const unsigned int i : compact_owned)
+    for (const unsigned int i : compact_own)
       *to++ = place(state.nodes[i]);
     for (const NodeRecord<2> &node : ghost_nodes)
       *to++ = place(node);
@@ -175,7 +175,7 @@ namespace quoin
   {
     reach->update_ghosts(velocity, ghost_velocity.data());
     NodeVector<2> *to = compact_velocity.data();
-    for (const unsigned int i : compact_owned)
+    for (const unsigned int i : compact_own)
       *to++ = velocity[i];
     std::copy(ghost_velocity.begin(), ghost_velocity.end(), to);
   }
@@ -183,9 +183,9 @@ namespace quoin
   void BlockContacts::scatter(AlignedArray<NodeVector<2>> &from,
                               NodeVector<2> *to) const
   {
-    for (unsigned int j = 0; j < compact_owned.size(); ++j)
+    for (unsigned int j = 0; j < compact_own.size(); ++j)
       for (unsigned int d = 0; d < 2; ++d)
-        to[compact_owned[j]].v[d] += from[j].v[d];
+        to[compact_own[j]].v[d] += from[j].v[d];
     std::fill(from.begin(), from.end(), NodeVector<2>{ { 0., 0. } });
   }
 
@@ -436,7 +436,7 @@ namespace quoin
     for (unsigned int side = 0; side < 2; ++side)
     {
       const unsigned int shared = pair_edges[i][side];
-      const ContactEdge &edge   = edges[edge_numbers[pair_edges[i][1 - side]]];
+      const auto &beside = local_edges[pair_edges[i][1 - side]].neighbours;
       for (unsigned int j = edge_pairs_begin[shared];
            j < edge_pairs_begin[shared + 1]; ++j)
       {
@@ -445,15 +445,15 @@ namespace quoin
         if (q == i || !parent.active)
           continue;
         const unsigned int at    = pair_edges[q][0] == shared ? 1 : 0;
-        const unsigned int other = edge_numbers[pair_edges[q][at]];
-        if (other != edge.next && other != edge.previous)
+        const unsigned int other = pair_edges[q][at];
+        if (other != beside[0] && other != beside[1])
           continue;
         Geometry g;
         const Edge &a = local_edges[pair_edges[q][0]];
         const Edge &b = local_edges[pair_edges[q][1]];
         if (!geometry(parent, a, b, g))
           continue;
-        const double vertex = other == edge.next ? 0. : 1.;
+        const double vertex = other == beside[1] ? 0. : 1.;
         const double *place = at == 0 ? g.lower : g.upper;
         const unsigned int k
             = std::abs(place[0] - vertex) <= std::abs(place[1] - vertex) ? 0
@@ -530,6 +530,6 @@ namespace quoin
   bool BlockContacts::is_own(const ContactState &contacts,
                              const unsigned int pair) const
   {
-    return exchange.owns(edges[contacts.pairs[pair].lower].nodes[0]);
+    return edges.is_own(contacts.pairs[pair].lower);
   }
 } // namespace quoin

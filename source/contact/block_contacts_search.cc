@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <sstream>
 
 namespace quoin
@@ -27,14 +28,49 @@ namespace quoin
     /** Automatic skin by the median edge. */
     constexpr double automatic_skin = 0.2;
 
-    double median_length(const ContactEdges &edges)
+    /** Median of the edges of all ranks. Collective. */
+    double median_length(const ContactEdges &edges, const MPI_Comm communicator)
     {
       std::vector<double> lengths;
-      for (unsigned int e = 0; e < edges.size(); ++e)
-        lengths.push_back(edges[e].length);
-      const auto middle = lengths.begin() + lengths.size() / 2;
-      std::nth_element(lengths.begin(), middle, lengths.end());
-      return *middle;
+      for (const ContactEdge &edge : edges.own())
+        lengths.push_back(edge.length);
+      std::sort(lengths.begin(), lengths.end());
+      // Bits of positive numbers ascend as they do: bisection of those ends at
+      // the least length that more than half of the edges do not exceed.
+      std::uint64_t low = 0, high = 0x7ff0000000000000;
+      while (low < high)
+      {
+        const std::uint64_t middle = low + (high - low) / 2;
+        double length;
+        std::memcpy(&length, &middle, sizeof(length));
+        const unsigned int n_up_to
+            = std::upper_bound(lengths.begin(), lengths.end(), length)
+              - lengths.begin();
+        if (dealii::Utilities::MPI::sum(n_up_to, communicator)
+            > edges.n_global() / 2)
+          high = middle;
+        else
+          low = middle + 1;
+      }
+      double median;
+      std::memcpy(&median, &low, sizeof(median));
+      return median;
+    }
+
+    /** Owned nodes where an edge of any rank starts. Collective. */
+    std::vector<unsigned int> find_boundary_nodes(const ContactEdges &edges,
+                                                  const NodeExchange &exchange)
+    {
+      std::vector<NodeVector<1>> n_edges(exchange.n_local(),
+                                         NodeVector<1>{ { 0. } });
+      for (const auto &[first, last] : edges.local_nodes())
+        n_edges[first].v[0] += 1.;
+      exchange.add_to_owners(n_edges.data());
+      std::vector<unsigned int> result;
+      for (unsigned int i = 0; i < exchange.n_owned(); ++i)
+        if (n_edges[i].v[0] > 0.)
+          result.push_back(i);
+      return result;
     }
 
     std::array<unsigned int, 2> key(const ContactPair &pair)
@@ -53,12 +89,10 @@ namespace quoin
       material_of_group(model.material_of_group)
   {
     if (skin == 0.)
-      skin = automatic_skin * median_length(edges);
+      skin = automatic_skin * median_length(edges, node_map.communicator());
     set_laws(model.sets);
     find_set_of_materials(model);
-    for (unsigned int e = 0; e < edges.size(); ++e)
-      if (exchange.owns(edges[e].nodes[0]))
-        boundary_nodes.push_back(exchange.local(edges[e].nodes[0]));
+    boundary_nodes = find_boundary_nodes(edges, exchange);
   }
 
   void BlockContacts::set_laws(const std::vector<JointSetParameters> &sets)
@@ -139,10 +173,10 @@ namespace quoin
   void BlockContacts::update(const StepContext &step, State<2> &state)
   {
     ContactState &contacts = state.get<ContactState>();
-    if (state.step >= contacts.next_check)
-      check(state, step.dt);
     if (bound_search != contacts.n_searches)
       bind(contacts);
+    if (state.step >= contacts.next_check)
+      check(state, step.dt);
     gather(state);
   }
 
@@ -150,7 +184,7 @@ namespace quoin
   {
     ContactState &contacts = state.get<ContactState>();
     const bool is_first    = contacts.n_searches == 0;
-    contacts.handed_over.resize(edges.interfaces().size(), 0);
+    contacts.handed_over.resize(node_map.table().joined.size(), 0);
     double moved = 0., fastest = 0.;
     for (unsigned int i = 0; i < boundary_nodes.size() && !is_first; ++i)
     {
@@ -162,12 +196,14 @@ namespace quoin
       moved                     = std::max(moved, dx * dx + dy * dy);
       fastest                   = std::max(fastest, v[0] * v[0] + v[1] * v[1]);
     }
-    const bool changed = hand_over(state) || search_is_due;
+    const bool changed = find_handovers(state) || search_is_due;
     search_is_due      = false;
     double values[4]   = { std::sqrt(moved), std::sqrt(fastest),
                          changed ? 1. : 0., deepest_ratio };
     MPI_Allreduce(MPI_IN_PLACE, values, 4, MPI_DOUBLE, MPI_MAX,
                   exchange.communicator());
+    if (values[2] > 0.)
+      hand_over(state);
     const double step_length = values[1] * dt;
     if (values[3] > 1.)
       refuse_depth(state, values[3]);
@@ -191,44 +227,49 @@ namespace quoin
     contacts.next_check   = state.step + static_cast<std::uint64_t>(interval);
   }
 
-  bool BlockContacts::hand_over(State<2> &state)
+  bool BlockContacts::find_handovers(State<2> &state) const
   {
-    ContactState &contacts = state.get<ContactState>();
-    JointHistory &history  = state.get<JointHistory>();
-    const auto interface   = [&](const unsigned int segment)
-    { return edges.interface_of_face(joint_number(segment)); };
-
-    bool changed = false;
+    ContactState &contacts      = state.get<ContactState>();
+    const JointHistory &history = state.get<JointHistory>();
+    bool found                  = false;
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
+      const JointEdges &joint = edges.joint_edges(joints.segment(i).face);
       if (history.handed_over[i]
           || (history.state[2 * i] == JointState::intact
               && history.state[2 * i + 1] == JointState::intact)
-          || edges.interfaces()[interface(i)].has_tip)
+          || edges.has_tip(joint.interface))
         continue;
-      const double limit
-          = parameters.handover
-            * edges[edges.edges_of_face(joint_number(i))[0]].length;
-      const auto gaps = joints.gaps(state.nodes.data(), i);
+      const double limit = parameters.handover * edges[joint.edges[0]].length;
+      const auto gaps    = joints.gaps(state.nodes.data(), i);
       for (const auto &[opening, slip] : gaps)
         if (opening > limit || std::abs(slip) > limit)
         {
-          contacts.handed_over[interface(i)] = 1;
-          changed                            = true;
+          contacts.handed_over[joint.interface] = 1;
+          found                                 = true;
         }
     }
-    if (!changed)
-      return false;
+    return found;
+  }
 
+  void BlockContacts::hand_over(State<2> &state) const
+  {
+    ContactState &contacts = state.get<ContactState>();
+    JointHistory &history  = state.get<JointHistory>();
+    // Joints between two blocks go together, whatever their ranks.
+    MPI_Allreduce(MPI_IN_PLACE, contacts.handed_over.data(),
+                  contacts.handed_over.size(), MPI_UINT8_T, MPI_MAX,
+                  exchange.communicator());
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
-      if (history.handed_over[i] || !contacts.handed_over[interface(i)])
+      const JointEdges &joint = edges.joint_edges(joints.segment(i).face);
+      if (history.handed_over[i] || !contacts.handed_over[joint.interface])
         continue;
       const auto &segment = joints.segment(i);
       const auto gaps     = joints.gaps(state.nodes.data(), i);
       ContactPair pair;
-      pair.lower       = edges.edges_of_face(joint_number(i))[0];
-      pair.upper       = edges.edges_of_face(joint_number(i))[1];
+      pair.lower       = joint.edges[0];
+      pair.upper       = joint.edges[1];
       pair.set         = segment.set;
       pair.active      = 1;
       pair.was_joint   = 1;
@@ -256,7 +297,6 @@ namespace quoin
       history.handed_over[i] = 1;
       contacts.pairs.push_back(pair);
     }
-    return true;
   }
 
   bool BlockContacts::is_matched(const ContactState &contacts,
@@ -266,7 +306,7 @@ namespace quoin
     std::array<unsigned int, 2> blocks = { edges[a].block, edges[b].block };
     std::sort(blocks.begin(), blocks.end());
     for (const unsigned int i : { edges[a].interface, edges[b].interface })
-      if (i != none && edges.interfaces()[i].blocks == blocks
+      if (i != none && node_map.table().joined[i] == blocks
           && !contacts.handed_over[i])
         return true;
     return false;
@@ -331,9 +371,7 @@ namespace quoin
     for (const auto &[i, j] : near_edges(edges, ends, skin))
     {
       const unsigned int a = ends[i].edge, b = ends[j].edge;
-      if ((!exchange.owns(edges[a].nodes[0])
-           && !exchange.owns(edges[b].nodes[0]))
-          || is_matched(contacts, a, b))
+      if (is_matched(contacts, a, b))
         continue;
       const std::array<unsigned int, 2> found = { a, b };
       for (; next != old.end() && key(*next) < found; ++next)
@@ -390,14 +428,14 @@ namespace quoin
       for (unsigned int side = 0; side < 2 && pair.shift == 0.; ++side)
       {
         const unsigned int shared = pair_edges[i][side];
-        const ContactEdge &edge = edges[edge_numbers[pair_edges[i][1 - side]]];
+        const auto &beside = local_edges[pair_edges[i][1 - side]].neighbours;
         for (unsigned int j = begin[shared]; j < begin[shared + 1]; ++j)
         {
           const unsigned int q      = parents[j];
           const ContactPair &parent = contacts.pairs[q];
           const unsigned int other
-              = edge_numbers[pair_edges[q][pair_edges[q][0] == shared ? 1 : 0]];
-          if (other == edge.next || other == edge.previous)
+              = pair_edges[q][pair_edges[q][0] == shared ? 1 : 0];
+          if (other == beside[0] || other == beside[1])
           {
             pair.shift       = parent.shift;
             pair.shift_start = parent.shift_start;
@@ -430,9 +468,7 @@ namespace quoin
 
   float BlockContacts::share(const ContactPair &pair) const
   {
-    return 0.5f
-           * (exchange.owns(edges[pair.lower].nodes[0])
-              + exchange.owns(edges[pair.upper].nodes[0]));
+    return 0.5f * (edges.is_own(pair.lower) + edges.is_own(pair.upper));
   }
 
   void BlockContacts::bind(const ContactState &contacts)
@@ -452,15 +488,28 @@ namespace quoin
 
   void BlockContacts::bind_edges(const ContactState &contacts)
   {
+    // What a resumed run or one of these pairs needs and the last search did
+    // not meet comes from its rank: first the edges, then their neighbours.
+    const auto find = [this](std::vector<unsigned int> &numbers)
+    {
+      std::sort(numbers.begin(), numbers.end());
+      numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+      edges.fetch(numbers);
+    };
     edge_numbers.clear();
     for (const ContactPair &pair : contacts.pairs)
-      for (const unsigned int e : { pair.lower, pair.upper })
-        for (const unsigned int used : { e, edges[e].previous, edges[e].next })
-          if (used != none)
-            edge_numbers.push_back(used);
-    std::sort(edge_numbers.begin(), edge_numbers.end());
-    edge_numbers.erase(std::unique(edge_numbers.begin(), edge_numbers.end()),
-                       edge_numbers.end());
+      edge_numbers.insert(edge_numbers.end(), { pair.lower, pair.upper });
+    find(edge_numbers);
+    const unsigned int n_edges = edge_numbers.size();
+    for (unsigned int e = 0; e < n_edges; ++e)
+    {
+      const ContactEdge &edge = edges[edge_numbers[e]];
+      for (const unsigned int neighbour : { edge.previous, edge.next })
+        if (neighbour != none)
+          edge_numbers.push_back(neighbour);
+    }
+    find(edge_numbers);
+    edges.keep(edge_numbers);
 
     local_edges.assign(edge_numbers.size(), Edge());
     reference_lengths.clear();
@@ -485,34 +534,45 @@ namespace quoin
 
   void BlockContacts::bind_nodes()
   {
-    // Owned nodes first, then ghosts, both ascending.
-    std::vector<unsigned int> owned, ghosts;
+    // Nodes of own edges first, then those of foreign ones, both ascending.
+    std::vector<unsigned int> ghosts;
+    compact_own.clear();
     for (const unsigned int e : edge_numbers)
-      for (const unsigned int v : edges[e].nodes)
-        (exchange.owns(v) ? owned : ghosts).push_back(v);
-    for (auto *list : { &owned, &ghosts })
+      if (edges.is_own(e))
+        for (const unsigned int i : edges.local_nodes()[edges.own_place(e)])
+          compact_own.push_back(i);
+      else
+        for (const unsigned int v : edges[e].nodes)
+          ghosts.push_back(v);
+    for (auto *list : { &compact_own, &ghosts })
     {
       std::sort(list->begin(), list->end());
       list->erase(std::unique(list->begin(), list->end()), list->end());
     }
-    reach = std::make_unique<NodeExchange>(exchange.with_partners(ghosts));
-    const auto compact = [&](const unsigned int v) -> unsigned int
-    {
-      return exchange.owns(v)
-                 ? std::lower_bound(owned.begin(), owned.end(), v)
-                       - owned.begin()
-                 : owned.size() + reach->local(v) - reach->n_owned();
-    };
+    if (dealii::Utilities::MPI::max(!reach || ghosts != far_nodes ? 1U : 0U,
+                                    exchange.communicator())
+        > 0)
+      reach = std::make_unique<NodeExchange>(exchange.with_partners(ghosts));
+    far_nodes = ghosts;
+
+    const auto place = [](const std::vector<unsigned int> &list,
+                          const unsigned int node) -> unsigned int
+    { return std::lower_bound(list.begin(), list.end(), node) - list.begin(); };
     for (unsigned int e = 0; e < edge_numbers.size(); ++e)
       for (unsigned int k = 0; k < 2; ++k)
-        local_edges[e].nodes[k] = compact(edges[edge_numbers[e]].nodes[k]);
+      {
+        const unsigned int number = edge_numbers[e];
+        local_edges[e].nodes[k]
+            = edges.is_own(number)
+                  ? place(compact_own,
+                          edges.local_nodes()[edges.own_place(number)][k])
+                  : compact_own.size()
+                        + place(far_nodes, edges[number].nodes[k]);
+      }
 
-    compact_owned.clear();
-    for (const unsigned int v : owned)
-      compact_owned.push_back(exchange.local(v));
     ghost_nodes.resize(ghosts.size());
     ghost_velocity.resize(ghosts.size());
-    const unsigned int n_nodes = owned.size() + ghosts.size();
+    const unsigned int n_nodes = compact_own.size() + ghosts.size();
     position.resize(n_nodes);
     compact_velocity.resize(n_nodes);
     compact_force.assign(n_nodes, NodeVector<2>{ { 0., 0. } });

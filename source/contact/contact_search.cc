@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace quoin
@@ -59,66 +60,144 @@ namespace quoin
              <= facing_cosine * std::hypot(ax, ay) * std::hypot(bx, by);
     }
 
-    /** xmin, ymin, xmax, ymax of all blocks. */
-    std::vector<std::array<double, 4>>
-    boxes_of_blocks(const NodeMap<2> &node_map, const ContactEdges &edges,
-                    const NodeRecord<2> *nodes)
+    /** xmin, ymin, xmax, ymax [m]; far inside out: empty. */
+    using Bounds         = std::array<double, 4>;
+    constexpr double far = std::numeric_limits<double>::max();
+    constexpr Bounds nothing{ { far, far, -far, -far } };
+
+    void enclose(const EdgeEnds &edge, Bounds &bounds)
     {
-      // Upper corners with the other sign: one minimum finds both.
-      constexpr double far = std::numeric_limits<double>::max();
-      std::vector<std::array<double, 4>> boxes(node_map.table().n_blocks(),
-                                               { { far, far, far, far } });
-      for (const BlockPart &part : node_map.block_parts())
+      for (unsigned int k = 0; k < 2; ++k)
       {
-        const unsigned int b = part.number;
-        for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1);
-             ++e)
-        {
-          const NodeRecord<2> &node
-              = nodes[node_map.exchange().local(edges[e].nodes[0])];
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            const double x  = node.X[d] + node.u[d];
-            boxes[b][d]     = std::min(boxes[b][d], x);
-            boxes[b][2 + d] = std::min(boxes[b][2 + d], -x);
-          }
-        }
+        bounds[0] = std::min(bounds[0], edge.x[k]);
+        bounds[1] = std::min(bounds[1], edge.y[k]);
+        bounds[2] = std::max(bounds[2], edge.x[k]);
+        bounds[3] = std::max(bounds[3], edge.y[k]);
       }
-      MPI_Allreduce(MPI_IN_PLACE, boxes.data(), 4 * boxes.size(), MPI_DOUBLE,
-                    MPI_MIN, node_map.communicator());
-      for (auto &box : boxes)
-        for (unsigned int d = 2; d < 4; ++d)
-          box[d] = -box[d];
+    }
+
+    bool are_near(const Bounds &a, const Bounds &b, const double skin)
+    {
+      for (unsigned int d = 0; d < 2; ++d)
+        if (!(a[d] - skin <= b[2 + d] && b[d] - skin <= a[2 + d]))
+          return false;
+      return true;
+    }
+
+    Box box_of(const Bounds &bounds, const double margin)
+    {
+      return { Point(bounds[0] - margin, bounds[1] - margin),
+               Point(bounds[2] + margin, bounds[3] + margin) };
+    }
+
+    /** Of so many consecutive edges other ranks see the box. */
+    constexpr unsigned int edges_of_box = 16;
+
+    /** Boxes of edges of one block each. */
+    std::vector<Bounds> boxes_of(const ContactEdges &edges,
+                                 const std::vector<EdgeEnds> &ends)
+    {
+      std::vector<Bounds> boxes;
+      unsigned int block = ContactEdges::none, n = 0;
+      for (const EdgeEnds &edge : ends)
+      {
+        const unsigned int new_block = edges[edge.edge].block;
+        if (new_block != block || n == edges_of_box)
+        {
+          boxes.push_back(nothing);
+          block = new_block;
+          n     = 0;
+        }
+        enclose(edge, boxes.back());
+        ++n;
+      }
       return boxes;
     }
 
-    /** Blocks of other ranks near those of this one, ascending. */
-    std::vector<unsigned int>
-    blocks_within_reach(const NodeMap<2> &node_map, const ContactEdges &edges,
-                        const NodeRecord<2> *nodes,
-                        const AlignedArray<std::uint8_t> &left_out,
-                        const double skin)
+    /** An edge and where it is, as one rank tells another. */
+    struct EdgeThere
     {
-      const auto boxes  = boxes_of_blocks(node_map, edges, nodes);
-      const auto box_of = [&](const unsigned int b, const double margin)
+      ContactEdge edge;
+      std::array<double, 2> x, y;
+
+      template <typename Archive>
+      void serialize(Archive &archive, const unsigned int)
       {
-        return Box(Point(boxes[b][0] - margin, boxes[b][1] - margin),
-                   Point(boxes[b][2] + margin, boxes[b][3] + margin));
-      };
-      const unsigned int n_blocks = node_map.table().n_blocks();
-      std::vector<bool> is_own(n_blocks, false);
-      for (const BlockPart &part : node_map.block_parts())
-        is_own[part.number] = true;
+        archive &edge &x &y;
+      }
+    };
+
+    /** Those of @p ends that reach into @p boxes, and their neighbours. */
+    std::vector<EdgeThere> edges_in(const std::vector<Bounds> &boxes,
+                                    const ContactEdges &edges,
+                                    const std::vector<EdgeEnds> &ends,
+                                    const double skin)
+    {
+      Bounds all = nothing;
       std::vector<Entry> entries;
-      for (unsigned int b = 0; b < n_blocks; ++b)
-        if (is_own[b] && !left_out[b])
-          entries.emplace_back(box_of(b, skin), b);
+      for (unsigned int i = 0; i < boxes.size(); ++i)
+      {
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          all[d]     = std::min(all[d], boxes[i][d]);
+          all[2 + d] = std::max(all[2 + d], boxes[i][2 + d]);
+        }
+        entries.emplace_back(box_of(boxes[i], skin), i);
+      }
       const Tree tree(entries);
-      std::vector<unsigned int> result;
-      for (unsigned int b = 0; b < n_blocks; ++b)
-        if (!is_own[b] && !left_out[b]
-            && tree.qbegin(bgi::intersects(box_of(b, 0.))) != tree.qend())
-          result.push_back(b);
+      std::vector<unsigned int> found;
+      const auto add = [&](const unsigned int edge)
+      {
+        if (edge != ContactEdges::none && edges.is_own(edge))
+          found.push_back(edge);
+      };
+      for (const EdgeEnds &edge : ends)
+      {
+        Bounds bounds = nothing;
+        enclose(edge, bounds);
+        if (!are_near(bounds, all, skin)
+            || tree.qbegin(bgi::intersects(box_of(edge, 0.))) == tree.qend())
+          continue;
+        add(edge.edge);
+        add(edges[edge.edge].previous);
+        add(edges[edge.edge].next);
+      }
+      std::sort(found.begin(), found.end());
+      found.erase(std::unique(found.begin(), found.end()), found.end());
+
+      std::vector<EdgeThere> result;
+      auto place = ends.begin();
+      for (const unsigned int edge : found)
+      {
+        while (place->edge < edge)
+          ++place;
+        result.push_back({ edges[edge],
+                           { place->x[0], place->x[1] },
+                           { place->y[0], place->y[1] } });
+      }
+      return result;
+    }
+
+    std::vector<EdgeEnds> own_ends(const ContactEdges &edges,
+                                   const NodeRecord<2> *nodes,
+                                   const AlignedArray<std::uint8_t> &left_out)
+    {
+      std::vector<EdgeEnds> result;
+      result.reserve(edges.own().size());
+      for (unsigned int e = 0; e < edges.own().size(); ++e)
+      {
+        if (left_out[edges.own()[e].block])
+          continue;
+        EdgeEnds ends;
+        ends.edge = edges.own()[e].number;
+        for (unsigned int k = 0; k < 2; ++k)
+        {
+          const NodeRecord<2> &node = nodes[edges.local_nodes()[e][k]];
+          ends.x[k]                 = node.X[0] + node.u[0];
+          ends.y[k]                 = node.X[1] + node.u[1];
+        }
+        result.push_back(ends);
+      }
       return result;
     }
   } // namespace
@@ -136,49 +215,54 @@ namespace quoin
   }
 
   std::vector<EdgeEnds>
-  edges_within_reach(const NodeMap<2> &node_map, const ContactEdges &edges,
+  edges_within_reach(const NodeMap<2> &node_map, ContactEdges &edges,
                      const NodeRecord<2> *nodes,
                      const AlignedArray<std::uint8_t> &left_out,
                      const double skin)
   {
-    std::vector<unsigned int> blocks;
-    std::vector<unsigned int> ghosts;
-    if (dealii::Utilities::MPI::n_mpi_processes(node_map.communicator()) > 1)
-    {
-      blocks = blocks_within_reach(node_map, edges, nodes, left_out, skin);
-      for (const unsigned int b : blocks)
-        for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1);
-             ++e)
-          ghosts.push_back(edges[e].nodes[0]);
-      std::sort(ghosts.begin(), ghosts.end());
-    }
-    for (const BlockPart &part : node_map.block_parts())
-      if (!left_out[part.number])
-        blocks.push_back(part.number);
-    std::sort(blocks.begin(), blocks.end());
+    namespace mpi                = dealii::Utilities::MPI;
+    const MPI_Comm communicator  = node_map.communicator();
+    const unsigned int n_ranks   = mpi::n_mpi_processes(communicator);
+    const unsigned int rank      = mpi::this_mpi_process(communicator);
+    std::vector<EdgeEnds> result = own_ends(edges, nodes, left_out);
+    if (n_ranks == 1)
+      return result;
 
-    const NodeExchange reach = node_map.exchange().with_partners(ghosts);
-    std::vector<NodeRecord<2>> ghost_nodes(ghosts.size());
-    reach.update_ghosts(nodes, ghost_nodes.data());
+    // Boxes of ranks, then those of edges to the ranks that are near. What is
+    // nearer than the skin is decided later, by both ranks from the same
+    // numbers: boxes must not miss it by rounding.
+    const double margin = 1.001 * skin;
+    std::vector<Bounds> rank_bounds(n_ranks, nothing);
+    for (const EdgeEnds &edge : result)
+      enclose(edge, rank_bounds[rank]);
+    MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, rank_bounds.data(), 4,
+                  MPI_DOUBLE, communicator);
+    std::map<unsigned int, std::vector<Bounds>> boxes_for;
+    const std::vector<Bounds> boxes = boxes_of(edges, result);
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      if (r != rank)
+        for (const Bounds &box : boxes)
+          if (are_near(box, rank_bounds[r], margin))
+            boxes_for[r].push_back(box);
 
-    std::vector<EdgeEnds> result;
-    for (const unsigned int b : blocks)
-      for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1);
-           ++e)
+    std::map<unsigned int, std::vector<EdgeThere>> edges_for;
+    for (const auto &[r, their_boxes] :
+         mpi::some_to_some(communicator, boxes_for))
+      edges_for[r] = edges_in(their_boxes, edges, result, margin);
+    std::vector<ContactEdge> met;
+    for (const auto &[r, theirs] : mpi::some_to_some(communicator, edges_for))
+      for (const EdgeThere &there : theirs)
       {
-        EdgeEnds ends;
-        ends.edge = e;
-        for (unsigned int k = 0; k < 2; ++k)
-        {
-          const unsigned int i      = reach.local(edges[e].nodes[k]);
-          const NodeRecord<2> &node = i < reach.n_owned()
-                                          ? nodes[i]
-                                          : ghost_nodes[i - reach.n_owned()];
-          ends.x[k]                 = node.X[0] + node.u[0];
-          ends.y[k]                 = node.X[1] + node.u[1];
-        }
-        result.push_back(ends);
+        met.push_back(there.edge);
+        result.push_back({ there.edge.number,
+                           { there.x[0], there.x[1] },
+                           { there.y[0], there.y[1] },
+                           false });
       }
+    edges.add(met);
+    std::sort(result.begin(), result.end(),
+              [](const EdgeEnds &a, const EdgeEnds &b)
+              { return a.edge < b.edge; });
     return result;
   }
 
@@ -207,23 +291,28 @@ namespace quoin
              const double skin)
   {
     std::vector<Entry> entries;
+    std::vector<std::array<unsigned int, 2>> nodes;
     entries.reserve(ends.size());
+    nodes.reserve(ends.size());
     for (unsigned int i = 0; i < ends.size(); ++i)
+    {
       entries.emplace_back(box_of(ends[i], 0.), i);
+      nodes.push_back(edges[ends[i].edge].nodes);
+    }
     const Tree tree(entries);
 
     std::vector<std::array<unsigned int, 2>> pairs;
     for (unsigned int i = 0; i < ends.size(); ++i)
     {
-      const auto &[a, b]      = edges[ends[i].edge].nodes;
+      const auto &[a, b]      = nodes[i];
       const std::size_t first = pairs.size();
       for (auto found = tree.qbegin(bgi::intersects(box_of(ends[i], skin)));
            found != tree.qend(); ++found)
       {
         const unsigned int j = found->second;
-        if (j <= i)
+        if (j <= i || !(ends[i].is_own || ends[j].is_own))
           continue;
-        const auto &[c, d] = edges[ends[j].edge].nodes;
+        const auto &[c, d] = nodes[j];
         if (a != c && a != d && b != c && b != d
             && face_each_other(ends[i], ends[j])
             && distance(ends[i], ends[j]) <= skin)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 namespace quoin
 {
@@ -87,5 +88,18 @@ namespace quoin
   {
     return (stable > 0. && failing - stable <= parameters.tolerance)
            || stable >= parameters.highest || failing <= parameters.lowest;
+  }
+
+  std::string FactorSearch::table() const
+  {
+    std::ostringstream text;
+    text.precision(12);
+    text << "factor [-],stable,decided,steps,unbalanced ratio [-],largest "
+            "displacement [m]\n";
+    for (const SafetyTrial &trial : all_trials)
+      text << trial.factor << "," << trial.is_stable << "," << trial.is_decided
+           << "," << trial.n_steps << "," << trial.unbalanced_ratio << ","
+           << trial.displacement << "\n";
+    return text.str();
   }
 } // namespace quoin

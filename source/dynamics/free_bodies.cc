@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/number_text.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/free_bodies.h>
 
@@ -337,5 +338,24 @@ namespace quoin
         result.push_back(found[i]);
       }
     return result;
+  }
+
+  std::string pushed_body_text(const std::vector<PushedBody> &bodies)
+  {
+    const PushedBody &first = bodies.front();
+    std::string text = text_of("block ", first.block, ", at (", first.centre[0],
+                               ", ", first.centre[1], ") m");
+    if (first.n_blocks > 1)
+      text += ", and the " + count_text(first.n_blocks - 1, "block")
+              + " joined to it,";
+    text += first.is_loose ? " is held by nothing"
+                           : " is not held where its loads push it";
+    text += ": it will move away as a rigid body.";
+    if (bodies.size() > 1)
+      text += " So will " + std::to_string(bodies.size() - 1) + " more.";
+    return text
+           + " Join it to its neighbours ('Joints along' in section 'Mesh'), "
+             "hold it by a load, or, if it lies on other blocks, take "
+             "'Displacements = large' in section 'Contact'.";
   }
 } // namespace quoin

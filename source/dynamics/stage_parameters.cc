@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/dynamics/stage_parameters.h>
+
+#include <boost/algorithm/string/join.hpp>
 
 namespace quoin
 {
@@ -183,6 +186,57 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    std::string damping_text(const StageParameters &stage)
+    {
+      switch (stage.damping)
+      {
+      case DampingType::local:
+        return text_of("local damping ", stage.local_coefficient);
+      case DampingType::adaptive:
+        return "adaptive damping";
+      case DampingType::rayleigh:
+        return text_of("Rayleigh damping, alpha ", stage.mass_coefficient,
+                       " 1/s, beta ", stage.stiffness_coefficient, " s");
+      default:
+        return "no damping";
+      }
+    }
+
+    std::string end_text(const StageParameters &stage, const bool is_implicit)
+    {
+      if (stage.safety)
+        return "looks for the factor of safety";
+      if (stage.end == StageEnd::time)
+        return text_of("lasts ", stage.duration, " s",
+                       stage.slows_loads() ? " of the loads' clock" : "");
+      return is_implicit ? "until the loads rest"
+                         : text_of("until unbalanced forces are ",
+                                   stage.static_ratio, " of the applied ones");
+    }
+  } // namespace
+
+  std::string StageParameters::text(const bool is_implicit) const
+  {
+    using boost::algorithm::join;
+    std::string text
+        = "stage " + name + ": "
+          + (loads.empty() ? "no loads" : "loads " + join(loads, ", ")) + "; "
+          + end_text(*this, is_implicit);
+    if (!is_implicit)
+      text += "; " + damping_text(*this);
+    if (!excavate.empty())
+      text += "; excavates " + join(excavate, ", ");
+    if (!fill.empty())
+      text += "; fills " + join(fill, ", ");
+    for (const auto &[group, material] : materials)
+      text += "; " + group + " becomes " + material;
+    for (const auto &[set, other] : joint_properties)
+      text += "; joints " + set + " become " + other;
+    return text;
+  }
+
   void StageParameters::declare(dealii::ParameterHandler &prm)
   {
     declare_entries(prm, enter);
@@ -204,5 +258,15 @@ namespace quoin
       if (!stages[i].safety)
         return &stages[i];
     return nullptr;
+  }
+
+  double start_of_stage(const std::vector<StageParameters> &stages,
+                        const unsigned int index)
+  {
+    double start = 0.;
+    for (unsigned int i = 0; i < index; ++i)
+      if (stages[i].end == StageEnd::time)
+        start += stages[i].duration;
+    return start;
   }
 } // namespace quoin

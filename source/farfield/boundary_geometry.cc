@@ -585,6 +585,16 @@ namespace quoin
                   <= std::min(std::max(a.y(), b.y()), std::max(c.y(), d.y()));
   }
 
+  std::vector<Eigen::Vector2d>
+  BoundaryGeometry::middles(const unsigned int k) const
+  {
+    std::vector<Eigen::Vector2d> result;
+    for (unsigned int e = 0; e < owner.size(); ++e)
+      if (owner[e] == k)
+        result.push_back(boundary.elements[e].middle());
+    return result;
+  }
+
   BoundaryGeometry
   make_boundary_geometry(const BoundaryElementParameters &parameters,
                          const MeshData &mesh)

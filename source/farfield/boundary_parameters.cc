@@ -3,12 +3,14 @@
 
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
+#include <quoin/base/named_sections.h>
 #include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/farfield/boundary_parameters.h>
 
+#include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace quoin
 {
@@ -19,14 +21,8 @@ namespace quoin
     SpaceTimeFunction function(const ParameterSection &section,
                                const std::string &name, const std::string &text)
     {
-      try
-      {
-        return SpaceTimeFunction(text, section.folder());
-      }
-      catch (const InputError &error)
-      {
-        section.fail(name, error.what());
-      }
+      return section.made(
+          name, [&]() { return SpaceTimeFunction(text, section.folder()); });
     }
 
     /** "traction EXPRESSION" or "displacement EXPRESSION". */
@@ -260,6 +256,12 @@ namespace quoin
         boundary.traction_is_given = { { false, false } };
     }
 
+    const std::vector<std::pair<std::string, IncidentWaveType>> wave_words
+        = { { "plane P", IncidentWaveType::plane_p },
+            { "plane SV", IncidentWaveType::plane_sv },
+            { "Rayleigh", IncidentWaveType::rayleigh },
+            { "line source", IncidentWaveType::line_source } };
+
     void check_wave(const ParameterSection &section,
                     const IncidentWaveParameters &wave)
     {
@@ -308,11 +310,7 @@ namespace quoin
     void enter_wave(ParameterEntries &entries, IncidentWaveParameters &wave)
     {
       using Type = IncidentWaveType;
-      entries.choice("Type", wave.type,
-                     { { "plane P", Type::plane_p },
-                       { "plane SV", Type::plane_sv },
-                       { "Rayleigh", Type::rayleigh },
-                       { "line source", Type::line_source } },
+      entries.choice("Type", wave.type, wave_words,
                      "Plane P: motion along the direction of propagation; "
                      "plane SV: across it; Rayleigh: along the free surface; "
                      "line source: an explosion in the domain.");
@@ -345,16 +343,10 @@ namespace quoin
       if (!section)
         return;
       check_wave(*section, wave);
-      try
-      {
-        wave.signal = TimeFunction(signal.empty() ? displacement : signal,
-                                   section->folder())
-                          .signal();
-      }
-      catch (const InputError &error)
-      {
-        section->fail(wave.signal_entry, error.what());
-      }
+      const std::string &text = signal.empty() ? displacement : signal;
+      wave.signal             = section->made(
+                      wave.signal_entry,
+                      [&]() { return TimeFunction(text, section->folder()).signal(); });
     }
 
     void check_box(const ParameterSection &section,
@@ -367,12 +359,10 @@ namespace quoin
           = (1. + (field.box[2] - field.box[0]) / field.spacing)
             * (1. + (field.box[3] - field.box[1]) / field.spacing);
       if (n_points > 1e6)
-      {
-        std::ostringstream why;
-        why << "makes " << n_points
-            << " points, more than a million: give a larger one.";
-        section.fail("Spacing", why.str());
-      }
+        section.fail("Spacing",
+                     text_of("makes ", n_points,
+                             " points, more than a million: give a larger "
+                             "one."));
     }
 
     void enter_field(ParameterEntries &entries, SampledFieldParameters &field)
@@ -542,6 +532,12 @@ namespace quoin
     return wave;
   }
 
+  std::string IncidentWaveParameters::type_text() const
+  {
+    return word_of(wave_words, type)
+           + (type == IncidentWaveType::line_source ? "" : " wave");
+  }
+
   std::function<double(double)>
   IncidentWaveParameters::function(const double begin, const double end,
                                    const double step) const
@@ -566,13 +562,105 @@ namespace quoin
     declare_entries(prm, enter_section);
   }
 
-  BoundaryElementParameters
-  BoundaryElementParameters::read(const ParameterSection &section,
-                                  const bool coupled)
+  namespace
   {
-    const auto parameters = read_entries(section, enter_section);
-    check_coupling(section, parameters, coupled);
+    /** The medium of the domain, from the material that is named. */
+    void find_medium(const ParameterSection &section,
+                     const std::vector<MaterialParameters> &materials,
+                     const bool coupled, BoundaryElementParameters &boundary)
+    {
+      if (boundary.material.empty() && materials.size() == 1)
+        boundary.material = materials.front().name;
+      const MaterialParameters *material
+          = find_named(materials, boundary.material);
+      if (material == nullptr)
+        section.fail("Material", "is no material: name one of the 'Names' of "
+                                 "section 'Materials'.");
+      if (material->rigid)
+        section.fail("Material", "leads to '" + material->name
+                                     + "', which is rigid: boundary elements "
+                                       "need 'Law = linear elastic'.");
+      if (material->strength && !coupled)
+        section.fail("Material", "leads to '" + material->name
+                                     + "', whose law is Mohr-Coulomb: "
+                                       "boundary elements alone are elastic, "
+                                       "they need 'Law = linear elastic'.");
+      boundary.medium = ElasticMedium::from_young(material->elastic.density,
+                                                  material->elastic.young,
+                                                  material->elastic.poisson);
+    }
+
+    /** Sizes of elements and steps that are left to the program. */
+    void choose_resolution(const ParameterSection &section,
+                           BoundaryElementParameters &boundary)
+    {
+      const ElasticMedium &medium = boundary.medium;
+      if (boundary.highest_frequency > 0.)
+        boundary.element_length = medium.c2 / boundary.highest_frequency / 10.;
+      // Where the discrete operators are passive, or nearly so, and accurate.
+      if (boundary.step_ratio == 0.)
+        boundary.step_ratio
+            = boundary.formulation == Formulation::convolution_quadrature
+                  ? 0.5
+                  : std::clamp(medium.c1 / (std::sqrt(3.) * medium.c2), 1.,
+                               1.5);
+      for (const BoundaryCurveParameters &curve : boundary.boundaries)
+        if (curve.shape != BoundaryShape::mesh
+            && curve.shape != BoundaryShape::interface && curve.n_elements == 0
+            && curve.element_length == 0. && boundary.element_length == 0.)
+          ParameterSection(section, curve.name)
+              .fail("Elements", "leaves the size of the elements open: give "
+                                "their number, an 'Element length' or a "
+                                "'Highest frequency'.");
+    }
+  } // namespace
+
+  BoundaryElementParameters BoundaryElementParameters::read(
+      const ParameterSection &top,
+      const std::vector<MaterialParameters> &materials, const bool coupled)
+  {
+    BoundaryElementParameters parameters;
+    {
+      const ParameterSection section(top, "Boundary elements");
+      parameters = read_entries(section, enter_section);
+      check_coupling(section, parameters, coupled);
+    }
+    parameters.boundaries
+        = read_named<BoundaryCurveParameters>(top, "Boundary elements");
+    parameters.waves
+        = read_named<IncidentWaveParameters>(top, "Incident waves");
+    parameters.sampled_field
+        = SampledFieldParameters::read(ParameterSection(top, "Sampled field"));
+    const ParameterSection section(top, "Boundary elements");
+    if (parameters.boundaries.empty())
+      section.fail("Names", "must list at least one boundary.");
+    find_medium(section, materials, coupled, parameters);
+    choose_resolution(section, parameters);
     return parameters;
+  }
+
+  bool BoundaryElementParameters::has(const BoundaryShape shape) const
+  {
+    return std::any_of(boundaries.begin(), boundaries.end(),
+                       [=](const BoundaryCurveParameters &curve)
+                       { return curve.shape == shape; });
+  }
+
+  std::vector<std::string> BoundaryElementParameters::interface_curves() const
+  {
+    std::vector<std::string> result;
+    for (const BoundaryCurveParameters &curve : boundaries)
+      if (curve.shape == BoundaryShape::interface)
+        result.insert(result.end(), curve.curves.begin(), curve.curves.end());
+    return result;
+  }
+
+  double
+  BoundaryElementParameters::wanted_time_step(const Boundary &boundary) const
+  {
+    return time_step > 0.
+               ? time_step
+               : step_ratio * boundary.lengths().minCoeff() / medium.c1;
   }
 
   FormulationOptions BoundaryElementParameters::formulation_options() const

@@ -6,6 +6,7 @@
 #include <quoin/tdbem/gauss_legendre.h>
 
 #include <cmath>
+#include <memory>
 #include <sstream>
 
 namespace quoin
@@ -141,5 +142,25 @@ namespace quoin
             throw InputError(message.str());
           }
       }
+  }
+
+  FarFieldDomain far_field_domain(const BoundaryGeometry &geometry,
+                                  const BoundaryElementParameters &settings)
+  {
+    FarFieldDomain domain;
+    domain.boundary    = geometry.boundary;
+    domain.medium      = settings.medium;
+    domain.formulation = settings.formulation_options();
+    domain.scheme      = settings.coupling;
+    for (unsigned int e = 0; e < geometry.owner.size(); ++e)
+      if (settings.boundaries[geometry.owner[e]].shape
+          == BoundaryShape::interface)
+        domain.interface.push_back(e);
+    const auto given = std::make_shared<BoundaryValues>(geometry, settings);
+    given->check_start();
+    domain.traction_is_given = given->traction_is_given();
+    domain.given             = [given](const double begin, const double end)
+    { return (*given)(begin, end); };
+    return domain;
   }
 } // namespace quoin

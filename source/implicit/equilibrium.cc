@@ -12,7 +12,7 @@ namespace quoin
 {
   namespace
   {
-    using Index = Freedoms::Index;
+    using Index = DofMap::Index;
     constexpr NodeVector<2> no_force{ { 0., 0. } };
 
     /** Of all nodes, as a share of the model's size: forces that this needs
@@ -23,33 +23,14 @@ namespace quoin
     {
       return std::hypot(f.v[0], f.v[1]);
     }
-
-    /** One unknown on which a component of a node depends, and how. */
-    struct Term
-    {
-      Index unknown;
-      double factor;
-    };
-
-    /** Those of component @p d of a node: none, one or two. */
-    unsigned int terms(const Freedoms::Node &node, const unsigned int d,
-                       Term (&result)[2])
-    {
-      unsigned int n = 0;
-      if (node.unknown[d] != Freedoms::nothing)
-        result[n++] = { node.unknown[d], 1. };
-      if (node.unknown[2] != Freedoms::nothing)
-        result[n++] = { node.unknown[2], d == 0 ? -node.arm[1] : node.arm[0] };
-      return n;
-    }
   } // namespace
 
-  Equilibrium::Equilibrium(const Model &model, Freedoms &freedoms,
+  Equilibrium::Equilibrium(const Model &model, DofMap &dof_map,
                            const std::vector<const NodalLoad<2> *> &loads,
                            const std::vector<bool> &path_sets,
                            const double stage_start,
                            const StaticFarField *far_field)
-    : model(model), freedoms(freedoms), loads(loads), path_sets(path_sets),
+    : model(model), dof_map(dof_map), loads(loads), path_sets(path_sets),
       stage_start(stage_start), communicator(model.exchange().communicator()),
       far_field(far_field)
   {
@@ -63,35 +44,16 @@ namespace quoin
     make_pattern();
   }
 
-  Equilibrium::Vector Equilibrium::make_vector() const
-  {
-    return Vector(freedoms.owned(), communicator);
-  }
-
   void Equilibrium::make_pattern()
   {
-    // Rows of platens get entries from all ranks.
-    dealii::IndexSet rows = freedoms.owned();
-    for (const Freedoms::Body &body : freedoms.bodies())
-      if (body.platen)
-        rows.add_range(body.first, body.first + 4);
     dealii::TrilinosWrappers::SparsityPattern pattern(
-        freedoms.owned(), freedoms.owned(), rows, communicator);
-    const unsigned int n_owned = model.exchange().n_owned();
+        dof_map.owned(), dof_map.owned(), dof_map.relevant(), communicator);
     const auto add = [&](const unsigned int *nodes, const unsigned int n)
     {
-      std::vector<Index> columns;
-      for (unsigned int j = 0; j < n; ++j)
-        for (const Index unknown : freedoms.nodes()[nodes[j]].unknown)
-          if (unknown != Freedoms::nothing)
-            columns.push_back(unknown);
-      std::sort(columns.begin(), columns.end());
-      columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
-      for (unsigned int i = 0; i < n; ++i)
-        if (nodes[i] < n_owned)
-          for (const Index row : freedoms.nodes()[nodes[i]].unknown)
-            if (row != Freedoms::nothing)
-              pattern.add_entries(row, columns.begin(), columns.end(), true);
+      element_dofs.resize(2 * n);
+      dof_map.get_dofs(nodes, n, element_dofs);
+      dof_map.constraints().add_entries_local_to_global(element_dofs, pattern,
+                                                        false);
     };
     CellLinearisation cell;
     PlasticHistory history = model.blocks().initial_history();
@@ -104,7 +66,7 @@ namespace quoin
         for (unsigned int i = 0; i < 2 * cell.n_nodes; ++i)
           sums[0] += 0.5 * cell.stiffness[i][i];
       }
-    for (unsigned int i = 0; i < n_owned; ++i)
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
       sums[1] += model.mass()[i];
     sums[2] = model.n_deformable_nodes();
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
@@ -127,18 +89,10 @@ namespace quoin
     if (far_field)
     {
       find_far_stiffness();
-      std::vector<Index> columns;
-      for (const Index unknown : far_unknowns)
-        if (unknown != Freedoms::nothing)
-          columns.push_back(unknown);
-      std::sort(columns.begin(), columns.end());
-      for (const unsigned int node : far_field->nodes())
-        for (unsigned int d = 0; d < 2; ++d)
-          if (freedoms.is_free(node, d))
-            pattern.add_entries(freedoms.nodes()[node].unknown[d],
-                                columns.begin(), columns.end(), true);
+      for (const Index row : far_rows)
+        pattern.add_entries(row, far_columns.begin(), far_columns.end());
     }
-    for (const Index row : freedoms.owned())
+    for (const Index row : dof_map.owned())
       pattern.add(row, row);
     pattern.compress();
     matrix.reinit(pattern);
@@ -146,40 +100,50 @@ namespace quoin
 
   void Equilibrium::find_far_stiffness()
   {
-    const auto stiffness = far_field->nodal_stiffness(model.exchange());
-    far_stiffness        = stiffness.rows;
-    far_unknowns.assign(2 * stiffness.nodes.size(), 0);
-    for (unsigned int j = 0; j < stiffness.nodes.size(); ++j)
-      if (model.exchange().owns(stiffness.nodes[j]))
-      {
-        const unsigned int node = model.exchange().local(stiffness.nodes[j]);
-        for (unsigned int d = 0; d < 2; ++d)
-          if (freedoms.is_free(node, d))
-            far_unknowns[2 * j + d] = 1 + freedoms.nodes()[node].unknown[d];
-      }
-    dealii::Utilities::MPI::sum(far_unknowns, communicator, far_unknowns);
-    for (Index &unknown : far_unknowns)
-      unknown = unknown == 0 ? Freedoms::nothing : unknown - 1;
-
+    auto stiffness       = far_field->nodal_stiffness(model.exchange());
+    const Eigen::Index n = stiffness.nodes.size();
     // Nothing resists a translation of all if nothing but the far field holds
     // the model. Forces without resultant leave it where it is; so that the
     // equations do so too, it gets a stiffness, in the derivative alone.
     unsigned int held[2] = { 0, 0 };
-    for (const Freedoms::Prescribed &given : freedoms.prescribed())
+    for (const DofMap::Prescribed &given : dof_map.prescribed())
       held[given.component] = 1;
-    for (const Freedoms::Body &body : freedoms.bodies())
+    for (const DofMap::Body &body : dof_map.bodies())
       for (unsigned int d = 0; d < 2; ++d)
         if (body.given[d])
           held[d] = 1;
     MPI_Allreduce(MPI_IN_PLACE, held, 2, MPI_UNSIGNED, MPI_MAX, communicator);
-    const Eigen::Index n = stiffness.nodes.size();
-    const double size    = dealii::Utilities::MPI::max(
-           far_stiffness.size() > 0 ? far_stiffness.cwiseAbs().maxCoeff() : 0.,
+    const double size = dealii::Utilities::MPI::max(
+        stiffness.rows.size() > 0 ? stiffness.rows.cwiseAbs().maxCoeff() : 0.,
         communicator);
-    for (Eigen::Index k = 0; k < far_stiffness.rows(); ++k)
+    for (Eigen::Index k = 0; k < stiffness.rows.rows(); ++k)
       if (!held[k % 2])
         for (Eigen::Index j = 0; j < n; ++j)
-          far_stiffness(k, 2 * j + k % 2) += size / double(n);
+          stiffness.rows(k, 2 * j + k % 2) += size / double(n);
+
+    std::vector<Eigen::Index> rows, columns;
+    std::vector<Index> dofs(2 * n, 0); // one more; 0: not free
+    for (unsigned int k = 0; k < far_field->nodes().size(); ++k)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        const unsigned int node = far_field->nodes()[k];
+        if (!dof_map.is_free(node, d))
+          continue;
+        rows.push_back(2 * k + d);
+        far_rows.push_back(dof_map.dof(node, d));
+        const auto place
+            = std::lower_bound(stiffness.nodes.begin(), stiffness.nodes.end(),
+                               model.exchange().global(node));
+        dofs[2 * (place - stiffness.nodes.begin()) + d] = 1 + far_rows.back();
+      }
+    dealii::Utilities::MPI::sum(dofs, communicator, dofs);
+    for (Eigen::Index j = 0; j < 2 * n; ++j)
+      if (dofs[j] > 0)
+      {
+        columns.push_back(j);
+        far_columns.push_back(dofs[j] - 1);
+      }
+    far_stiffness = stiffness.rows(rows, columns);
   }
 
   double Equilibrium::joint_stiffness() const
@@ -198,54 +162,26 @@ namespace quoin
   template <std::size_t size>
   void Equilibrium::add_stiffness(
       const unsigned int *nodes, const unsigned int n,
-      const std::array<std::array<double, size>, size> &element)
+      const std::array<std::array<double, size>, size> &element,
+      const double share, DofMap::Vector &by_advance)
   {
-    std::array<Index, 2 * size> columns;
-    std::array<double, 2 * size> values;
-    Term by_row[2], by_column[2];
-    for (unsigned int i = 0; i < n; ++i)
+    if (element_dofs.size() != 2 * n || element_matrix.m() != 2 * n)
     {
-      if (nodes[i] >= model.exchange().n_owned())
-        continue;
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        const auto &row = element[2 * i + d];
-        double &lift    = by_given[nodes[i]].v[d];
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int e = 0; e < 2; ++e)
-            lift -= row[2 * j + e] * under_way->given[nodes[j]].v[e];
-
-        const unsigned int n_rows
-            = terms(freedoms.nodes()[nodes[i]], d, by_row);
-        if (n_rows == 0)
-          continue;
-        unsigned int n_columns = 0;
-        for (unsigned int j = 0; j < n; ++j)
-          for (unsigned int e = 0; e < 2; ++e)
-          {
-            const unsigned int m
-                = terms(freedoms.nodes()[nodes[j]], e, by_column);
-            for (unsigned int k = 0; k < m; ++k)
-            {
-              columns[n_columns]  = by_column[k].unknown;
-              values[n_columns++] = row[2 * j + e] * by_column[k].factor;
-            }
-          }
-        for (unsigned int k = 0; k < n_rows; ++k)
-        {
-          std::array<double, 2 * size> scaled;
-          for (unsigned int j = 0; j < n_columns; ++j)
-            scaled[j] = by_row[k].factor * values[j];
-          matrix.add(by_row[k].unknown, n_columns, columns.data(),
-                     scaled.data(), false, false);
-        }
-      }
+      element_dofs.resize(2 * n);
+      element_matrix.reinit(2 * n, 2 * n);
+      no_load.reinit(2 * n);
     }
+    dof_map.get_dofs(nodes, n, element_dofs);
+    for (unsigned int i = 0; i < 2 * n; ++i)
+      for (unsigned int j = 0; j < 2 * n; ++j)
+        element_matrix(i, j) = share * element[i][j];
+    dof_map.constraints().distribute_local_to_global(
+        element_matrix, no_load, element_dofs, matrix, by_advance);
   }
 
   void Equilibrium::add_far_field(const State<2> &committed,
                                   const Configuration &configuration,
-                                  Balance &balance, const bool with_derivatives)
+                                  Balance &balance, const Slopes *slopes)
   {
     balance.far_field_energy = 0.;
     balance.far_field_force  = { { 0., 0., 0. } };
@@ -263,37 +199,21 @@ namespace quoin
       {
         const double by_far_field = force[node].v[d];
         joint_force[node].v[d] += by_far_field;
-        if (!freedoms.is_free(node, d))
+        if (!dof_map.is_free(node, d))
           continue;
         balance.far_field_force[d] += by_far_field;
         balance.far_field_force[2]
             += d == 0 ? -X[1] * by_far_field : X[0] * by_far_field;
       }
     }
-    if (!with_derivatives)
-      return;
-    std::vector<Index> columns;
-    for (const auto unknown : far_unknowns)
-      if (unknown != Freedoms::nothing)
-        columns.push_back(unknown);
-    std::vector<double> row;
-    for (unsigned int k = 0; k < nodes.size(); ++k)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        if (!freedoms.is_free(nodes[k], d))
-          continue;
-        row.clear();
-        for (unsigned int j = 0; j < far_unknowns.size(); ++j)
-          if (far_unknowns[j] != Freedoms::nothing)
-            row.push_back(far_stiffness(2 * k + d, j));
-        matrix.add(freedoms.nodes()[nodes[k]].unknown[d], columns.size(),
-                   columns.data(), row.data(), false, false);
-      }
+    for (unsigned int k = 0; slopes && k < far_rows.size(); ++k)
+      matrix.add(far_rows[k], far_columns.size(), far_columns.data(),
+                 far_stiffness.row(k).data(), false, false);
   }
 
   void Equilibrium::add_drag(const State<2> &committed,
                              const Configuration &configuration,
-                             Balance &balance, const bool with_derivatives)
+                             Balance &balance, Slopes *slopes)
   {
     balance.drag.assign(model.exchange().n_local(), no_force);
     if (drag == 0.)
@@ -305,25 +225,26 @@ namespace quoin
         balance.drag[i].v[d]
             = -stiffness
               * (configuration.nodes[i].u[d] - committed.nodes[i].u[d]);
-      if (!with_derivatives)
+      if (!slopes)
         continue;
       std::array<std::array<double, 2>, 2> element{};
       element[0][0] = element[1][1] = stiffness;
-      add_stiffness(&i, 1, element);
+      add_stiffness(&i, 1, element, 1., slopes->by_advance);
     }
   }
 
   void Equilibrium::add_turning(const AlignedArray<NodeVector<2>> &force)
   {
     // The arms turn with the body: r x f changes by -r . f per radian.
-    for (const Freedoms::Body &body : freedoms.bodies())
+    for (const DofMap::Body &body : dof_map.bodies())
     {
       if (body.given[2])
         continue;
       double sum = 0.;
-      for (const unsigned int node : body.nodes)
+      for (unsigned int i = 0; i < body.nodes.size(); ++i)
       {
-        const double *f = force[node].v, *arm = freedoms.nodes()[node].arm;
+        const double *f = force[body.nodes[i]].v;
+        const auto &arm = body.present_arms[i];
         sum += arm[0] * f[0] + arm[1] * f[1];
       }
       matrix.add(body.first + 2, body.first + 2, sum);
@@ -333,9 +254,8 @@ namespace quoin
   void Equilibrium::add_forces(const State<2> &committed,
                                const Configuration &configuration,
                                const std::vector<std::uint8_t> &broken,
-                               Balance &balance, const bool with_derivatives)
+                               Balance &balance, Slopes *slopes)
   {
-    const unsigned int n_owned = model.exchange().n_owned();
     const NodeRecord<2> *nodes = configuration.nodes.data();
     balance.lost               = EnergyAccounts();
     balance.joints             = committed.get<JointHistory>();
@@ -348,28 +268,30 @@ namespace quoin
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
     {
       model.joints().linearise(i, nodes, broken, balance.joints, balance.lost,
-                               segment, with_derivatives);
+                               segment, slopes);
       for (unsigned int k = 0; k < 4; ++k)
-        if (segment.nodes[k] < n_owned)
-          for (unsigned int d = 0; d < 2; ++d)
-            joint_force[segment.nodes[k]].v[d] += segment.force[2 * k + d];
+        for (unsigned int d = 0; d < 2; ++d)
+          joint_force[segment.nodes[k]].v[d] += segment.force[2 * k + d];
       const auto &data = model.joints().segment(i);
       if (path_sets[data.set])
         path += data.share * segment.inelastic;
-      if (!with_derivatives)
+      if (!slopes)
         continue;
-      add_stiffness(segment.nodes.data(), 4, segment.stiffness);
-      if (path_sets[data.set])
-        for (unsigned int k = 0; k < 4; ++k)
-          for (unsigned int d = 0; d < 2; ++d)
-          {
-            const double slope
-                = segment.inelastic_gradient[2 * k + d] / path_area;
-            if (segment.nodes[k] < n_owned)
-              path_gradient[segment.nodes[k]].v[d] += slope;
-            path_by_given
-                += data.share * slope * under_way->given[segment.nodes[k]].v[d];
-          }
+      add_stiffness(segment.nodes.data(), 4, segment.stiffness, data.share,
+                    slopes->by_advance);
+      if (!path_sets[data.set])
+        continue;
+      auto &slope = segment.inelastic_gradient;
+      for (unsigned int j = 0; j < 8; ++j)
+      {
+        slope[j] *= data.share / path_area;
+        slopes->path_by_advance
+            += slope[j]
+               * dof_map.constraints().get_inhomogeneity(element_dofs[j]);
+      }
+      dof_map.constraints().distribute_local_to_global(
+          slope.begin(), slope.end(), element_dofs.begin(),
+          slopes->path_by_dof);
     }
     balance.path
         = path_area > 0.
@@ -379,17 +301,19 @@ namespace quoin
     CellLinearisation cell;
     for (unsigned int c = 0; c < model.blocks().n_cells(); ++c)
     {
-      if (freedoms.is_absent(model.nodes().cell(c)[0])
-          || !model.blocks().linearise(c, nodes, balance.plastic, cell,
-                                       with_derivatives))
+      if (dof_map.is_absent(model.nodes().cell(c)[0])
+          || !model.blocks().linearise(c, nodes, balance.plastic, cell, slopes))
         continue;
       balance.lost.plastic += cell.dissipated;
       for (unsigned int k = 0; k < cell.n_nodes; ++k)
         for (unsigned int d = 0; d < 2; ++d)
           balance.force[cell.nodes[k]].v[d] += cell.force[2 * k + d];
-      if (with_derivatives)
-        add_stiffness(cell.nodes.data(), cell.n_nodes, cell.stiffness);
+      if (slopes)
+        add_stiffness(cell.nodes.data(), cell.n_nodes, cell.stiffness, 1.,
+                      slopes->by_advance);
     }
+    model.exchange().add_to_owners(joint_force.data());
+    model.exchange().add_to_owners(balance.force.data());
   }
 
   void Equilibrium::add_loads(const State<2> &committed,
@@ -402,8 +326,8 @@ namespace quoin
 
     const double left = 1. - configuration.released;
     const auto &held  = committed.get<ImplicitState>().held;
-    balance.drives    = freedoms.drives(configuration.load_time, stage_start);
-    balance.held.assign(freedoms.bodies().size(), { { 0., 0., 0. } });
+    balance.drives    = dof_map.drives(configuration.load_time);
+    balance.held.assign(dof_map.bodies().size(), { { 0., 0., 0. } });
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -413,7 +337,7 @@ namespace quoin
           balance.force[i].v[d] += left * held[2 * i + d];
       }
     if (!held.empty())
-      for (unsigned int b = 0; b < freedoms.bodies().size(); ++b)
+      for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
         for (unsigned int d = 0; d < 3; ++d)
           balance.held[b][d] = left * held[2 * n_owned + 3 * b + d];
     find_ratio(joint_force, balance);
@@ -427,7 +351,7 @@ namespace quoin
     if (release)
       release->add_forces(load_time, force.data());
     for (unsigned int i = 0; i < force.size(); ++i)
-      if (freedoms.is_absent(i))
+      if (dof_map.is_absent(i))
         force[i] = no_force;
   }
 
@@ -445,19 +369,19 @@ namespace quoin
       sums[2] += norm(balance.drag[i]);
       NodeVector<2> free = total[i], given = total[i];
       for (unsigned int d = 0; d < 2; ++d)
-        (freedoms.is_free(i, d) ? given : free).v[d] = 0.;
+        (dof_map.is_free(i, d) ? given : free).v[d] = 0.;
       sums[0] += norm(free);
       sums[1] += norm(given);
     }
-    const auto bodies = freedoms.body_forces(total);
+    const auto bodies = dof_map.body_forces(total);
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const Freedoms::Body &body = freedoms.bodies()[b];
+      const DofMap::Body &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
       double size = 0.;
-      for (const double arm : body.arms)
-        size = std::max(size, std::abs(arm));
+      for (const auto &[x, y] : body.arms)
+        size = std::max({ size, std::abs(x), std::abs(y) });
       for (unsigned int d = 0; d < 3; ++d)
         if (!body.given[d] && (d < 2 || size > 0.))
           sums[0] += std::abs(bodies[b][d] + balance.drives[b][d]
@@ -475,10 +399,10 @@ namespace quoin
                                 const std::vector<std::uint8_t> &broken,
                                 Balance &balance)
   {
-    freedoms.update_arms(configuration);
-    add_forces(committed, configuration, broken, balance, false);
-    add_drag(committed, configuration, balance, false);
-    add_far_field(committed, configuration, balance, false);
+    dof_map.update_arms(configuration);
+    add_forces(committed, configuration, broken, balance, nullptr);
+    add_drag(committed, configuration, balance, nullptr);
+    add_far_field(committed, configuration, balance, nullptr);
     add_loads(committed, configuration, balance);
   }
 
@@ -486,43 +410,43 @@ namespace quoin
                               const Configuration &configuration,
                               const std::vector<std::uint8_t> &broken,
                               const Advance &advance, Balance &balance,
-                              Vector &by_advance, Vector &by_unknown,
-                              double &path_by_advance)
+                              Slopes &slopes)
   {
     const unsigned int n_owned = model.exchange().n_owned();
-    freedoms.update_arms(configuration);
-    matrix    = 0.;
-    under_way = &advance;
-    by_given.assign(model.exchange().n_local(), no_force);
-    path_gradient.assign(model.exchange().n_local(), no_force);
-    path_by_given = 0.;
-    add_forces(committed, configuration, broken, balance, true);
-    add_drag(committed, configuration, balance, true);
-    add_far_field(committed, configuration, balance, true);
+    dof_map.update_constraints(configuration, advance.load_time);
+    matrix                 = 0.;
+    slopes.by_advance      = 0.;
+    slopes.path_by_dof     = 0.;
+    slopes.path_by_advance = 0.;
+    add_forces(committed, configuration, broken, balance, &slopes);
+    add_drag(committed, configuration, balance, &slopes);
+    add_far_field(committed, configuration, balance, &slopes);
     add_loads(committed, configuration, balance);
     add_turning(balance.force);
     matrix.compress(dealii::VectorOperation::add);
     fill_unused_rows();
 
-    std::vector<std::array<double, 3>> drives(freedoms.bodies().size(),
-                                              { { 0., 0., 0. } });
-    freedoms.project(path_gradient, drives, by_unknown);
-    path_by_advance = dealii::Utilities::MPI::sum(path_by_given, communicator);
+    slopes.path_by_dof.compress(dealii::VectorOperation::add);
+    slopes.path_by_advance
+        = dealii::Utilities::MPI::sum(slopes.path_by_advance, communicator);
 
-    add_external(advance.load_time, by_given);
+    AlignedArray<NodeVector<2>> change(n_owned, no_force);
+    add_external(advance.load_time, change);
     const double freed = advance.released - configuration.released;
     const auto &held   = committed.get<ImplicitState>().held;
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        by_given[i].v[d] -= balance.external[i].v[d]
-                            + (held.empty() ? 0. : freed * held[2 * i + d]);
-    drives = freedoms.drives(advance.load_time, stage_start);
+        change[i].v[d] -= balance.external[i].v[d]
+                          + (held.empty() ? 0. : freed * held[2 * i + d]);
+    auto drives = dof_map.drives(advance.load_time);
     for (unsigned int b = 0; b < drives.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
         drives[b][d]
             -= balance.drives[b][d]
                + (held.empty() ? 0. : freed * held[2 * n_owned + 3 * b + d]);
-    freedoms.project(by_given, drives, by_advance);
+    dof_map.add_forces(change, slopes.by_advance);
+    dof_map.add_body_forces(drives, slopes.by_advance);
+    slopes.by_advance.compress(dealii::VectorOperation::add);
   }
 
   void Equilibrium::fill_unused_rows()
@@ -530,8 +454,8 @@ namespace quoin
     // Rows that are not free are those of the unit matrix, at a size that
     // leaves the condition as it is.
     const double size
-        = matrix.frobenius_norm() / std::sqrt(double(freedoms.n_unknowns()));
-    for (const Index row : freedoms.owned())
+        = matrix.frobenius_norm() / std::sqrt(double(dof_map.n_dofs()));
+    for (const Index row : dof_map.owned())
       if (matrix.diag_element(row) == 0.)
         matrix.set(row, row, size > 0. ? size : 1.);
     matrix.compress(dealii::VectorOperation::insert);

@@ -44,21 +44,24 @@ namespace quoin
 
   bool ImplicitSolver::find_correction(const Target &target,
                                        const Configuration &configuration,
-                                       const bool is_first,
-                                       const double path_by_advance,
-                                       double &share)
+                                       const bool is_first, double &share)
   {
-    auto loads = balance.drives;
-    for (unsigned int b = 0; b < loads.size(); ++b)
-      for (unsigned int d = 0; d < 3; ++d)
-        loads[b][d] += balance.held[b][d];
-    AlignedArray<NodeVector<2>> total = balance.force;
-    for (unsigned int i = 0; i < total.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        total[i].v[d] += balance.drag[i].v[d];
-    freedoms->project(total, loads, residual);
-    if (!linear_solver->prepare(equilibrium->stiffness(), configuration)
-        || !linear_solver->solve(residual, correction))
+    residual = 0.;
+    dof_map->add_forces(balance.force, residual);
+    dof_map->add_forces(balance.drag, residual);
+    dof_map->add_body_forces(balance.drives, residual);
+    dof_map->add_body_forces(balance.held, residual);
+    residual.compress(dealii::VectorOperation::add);
+    bool is_solved = false;
+    time_shares.measure(solver_phase,
+                        [&]()
+                        {
+                          is_solved
+                              = linear_solver->prepare(equilibrium->stiffness(),
+                                                       configuration)
+                                && linear_solver->solve(residual, correction);
+                        });
+    if (!is_solved)
       return false;
 
     const bool on_path = target.path > 0.;
@@ -69,15 +72,17 @@ namespace quoin
                              : 0.;
     if (on_path || share != 0.)
     {
-      if (!linear_solver->solve(by_advance, advanced))
+      if (!linear_solver->solve(slopes.by_advance, advanced))
         return false;
     }
     if (on_path && !is_first)
     {
-      const double slope = by_unknown * advanced + path_by_advance;
+      const double slope
+          = slopes.path_by_dof * advanced + slopes.path_by_advance;
       // Until a joint flows there is no path to measure: go on ahead.
       if (slope != 0.)
-        share = (target.path - balance.path - by_unknown * correction) / slope;
+        share = (target.path - balance.path - slopes.path_by_dof * correction)
+                / slope;
     }
     if (share != 0.)
       correction.add(share, advanced);
@@ -98,8 +103,7 @@ namespace quoin
                 ? advance.load_time
                 : from.load_time
                       + eta * share * (advance.load_time - from.load_time);
-      freedoms->move(correction, eta, load_time, state.stage_start,
-                     configuration);
+      dof_map->move(correction, eta, load_time, configuration);
     };
     last_share = 1.;
     if (!parameters.line_search || iteration == 0)
@@ -113,7 +117,9 @@ namespace quoin
     for (double eta = 1.; eta >= least_search_share;)
     {
       go(eta);
-      equilibrium->find_forces(state, configuration, broken, trial);
+      time_shares.measure(
+          assembly_phase, [&]()
+          { equilibrium->find_forces(state, configuration, broken, trial); });
       if (trial.unbalanced < best)
       {
         best       = trial.unbalanced;
@@ -133,22 +139,20 @@ namespace quoin
                                                   const Target &target,
                                                   Configuration &configuration)
   {
-    double path_by_advance = 0.;
     std::vector<double> ratios;
     for (unsigned int i = 0;; ++i)
     {
-      // Given motion turns arms, which may be those of a line search yet or,
-      // in a resumed run, of nothing.
-      freedoms->update_arms(configuration);
       advance.load_time = target.load_time;
       advance.released  = target.released;
       if (target.path > 0.) // the load time is an unknown
         advance.load_time
             = configuration.load_time + target.load_time - state.load_time;
-      advance.given = freedoms->given_motion(configuration, advance.load_time,
-                                             state.stage_start);
-      equilibrium->linearise(state, configuration, broken, advance, balance,
-                             by_advance, by_unknown, path_by_advance);
+      time_shares.measure(assembly_phase,
+                          [&]()
+                          {
+                            equilibrium->linearise(state, configuration, broken,
+                                                   advance, balance, slopes);
+                          });
       if (iteration == 0)
         start = balance;
       const double ratio = balance.ratio();
@@ -170,8 +174,7 @@ namespace quoin
         return Outcome::failed;
 
       double share = 0.;
-      if (!find_correction(target, configuration, iteration == 0,
-                           path_by_advance, share))
+      if (!find_correction(target, configuration, iteration == 0, share))
         return Outcome::failed;
       correct(state, share, configuration);
       ++iteration;
@@ -181,16 +184,14 @@ namespace quoin
 
   void ImplicitSolver::try_iteration(const State<2> &state)
   {
-    const Configuration configuration = freedoms->configuration(state);
+    const Configuration configuration = dof_map->configuration(state);
     const Target target               = choose_target(state);
-    double path_by_advance = 0., share = 0.;
-    advance.load_time = target.load_time;
-    advance.released  = target.released;
-    advance.given     = freedoms->given_motion(configuration, advance.load_time,
-                                               state.stage_start);
+    double share                      = 0.;
+    advance.load_time                 = target.load_time;
+    advance.released                  = target.released;
     equilibrium->linearise(state, configuration, broken, advance, balance,
-                           by_advance, by_unknown, path_by_advance);
-    find_correction(target, configuration, true, path_by_advance, share);
+                           slopes);
+    find_correction(target, configuration, true, share);
   }
 
   bool ImplicitSolver::break_joints()
@@ -214,7 +215,7 @@ namespace quoin
                                                 const Target &target,
                                                 Configuration &configuration)
   {
-    configuration = freedoms->configuration(state);
+    configuration = dof_map->configuration(state);
     broken.assign(model.joints().n_points(), 0);
     iteration  = 0;
     last_share = 1.;

@@ -134,16 +134,16 @@ namespace quoin
                       stage.release_duration >= 0. ? stage.release_duration
                                                    : stage_duration);
     rests   = rests && !release.changes();
-    freedoms
-        = std::make_unique<Freedoms>(model, constraints_on, held_blocks, state);
+    dof_map
+        = std::make_unique<DofMap>(model, constraints_on, held_blocks, state);
     equilibrium = std::make_unique<Equilibrium>(
-        model, *freedoms, loads_on, path_sets, stage_start,
+        model, *dof_map, loads_on, path_sets, stage_start,
         static_far_field_acts() ? static_far : nullptr);
     equilibrium->set_release(release);
     linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver,
-                                                   model, *freedoms);
-    residual      = equilibrium->make_vector();
-    by_advance = by_unknown = correction = advanced = residual;
+                                                   model, *dof_map);
+    residual.reinit(dof_map->owned(), communicator);
+    slopes.by_advance = slopes.path_by_dof = correction = advanced = residual;
     broken.assign(model.joints().n_points(), 0);
   }
 
@@ -229,14 +229,14 @@ namespace quoin
       for (const NodalLoad<2> *load : loads_on)
         if (previous && names_load(*previous, load->name()))
           before.push_back(load);
-      Equilibrium without(model, *freedoms, previous ? before : loads_on,
+      Equilibrium without(model, *dof_map, previous ? before : loads_on,
                           path_sets, stage_start, nullptr);
       without.set_release(release);
-      without.find_forces(state, freedoms->configuration(state), broken,
+      without.find_forces(state, dof_map->configuration(state), broken,
                           balance);
       static_far->hold(balance.force.data(), state);
     }
-    equilibrium->find_forces(state, freedoms->configuration(state), broken,
+    equilibrium->find_forces(state, dof_map->configuration(state), broken,
                              balance);
     if (balance.ratio() <= parameters.force_ratio)
       return;
@@ -245,12 +245,12 @@ namespace quoin
     const unsigned int n_owned = model.exchange().n_owned();
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        now.held.push_back(freedoms->is_free(i, d) ? -balance.force[i].v[d]
-                                                   : 0.);
-    const auto forces = freedoms->body_forces(balance.force);
+        now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i].v[d]
+                                                  : 0.);
+    const auto forces = dof_map->body_forces(balance.force);
     for (unsigned int b = 0; b < forces.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
-        now.held.push_back(freedoms->bodies()[b].given[d]
+        now.held.push_back(dof_map->bodies()[b].given[d]
                                ? 0.
                                : -forces[b][d] - balance.drives[b][d]);
   }
@@ -263,7 +263,7 @@ namespace quoin
     state.energy += done;
     const double went = std::abs(configuration.load_time - state.load_time);
 
-    freedoms->write(configuration, state);
+    dof_map->write(configuration, state);
     state.get<JointHistory>()   = balance.joints;
     state.get<PlasticHistory>() = balance.plastic;
     RigidBlockStage rigid;
@@ -307,9 +307,9 @@ namespace quoin
             = 0.5 * (start.external[i].v[d] + balance.external[i].v[d]);
         const double out_of_balance
             = 0.5 * (start.force[i].v[d] + balance.force[i].v[d]);
-        if (freedoms->is_free(i, d))
+        if (dof_map->is_free(i, d))
           energy.damping += out_of_balance * u;
-        else if (!freedoms->is_in_body(i))
+        else if (!dof_map->is_in_body(i))
           force -= out_of_balance;
         energy.external += force * u;
         if (!held.empty())
@@ -324,12 +324,12 @@ namespace quoin
               += state.get<StaticFarFieldState>().held[2 * k + d]
                  * (configuration.nodes[node].u[d] - state.nodes[node].u[d]);
         }
-    const Configuration before = freedoms->configuration(state);
-    const auto forces_0        = freedoms->body_forces(start.force);
-    const auto forces_1        = freedoms->body_forces(balance.force);
+    const Configuration before = dof_map->configuration(state);
+    const auto forces_0        = dof_map->body_forces(start.force);
+    const auto forces_1        = dof_map->body_forces(balance.force);
     for (unsigned int b = 0; b < before.bodies.size(); ++b)
     {
-      const Freedoms::Body &body = freedoms->bodies()[b];
+      const DofMap::Body &body = dof_map->bodies()[b];
       if (!body.counts)
         continue;
       for (unsigned int d = 0; d < 3; ++d)
@@ -355,18 +355,18 @@ namespace quoin
       return result;
     if ((*found)->is_rigid_body())
     {
-      const auto forces = freedoms->body_forces(balance.force);
+      const auto forces = dof_map->body_forces(balance.force);
       for (unsigned int b = 0; b < forces.size(); ++b)
-        if (freedoms->bodies()[b].platen == *found)
+        if (dof_map->bodies()[b].platen == *found)
           for (unsigned int d = 0; d < 3; ++d)
-            result[d] = freedoms->bodies()[b].given[d] ? -forces[b][d]
-                                                       : balance.drives[b][d];
+            result[d] = dof_map->bodies()[b].given[d] ? -forces[b][d]
+                                                      : balance.drives[b][d];
       return result;
     }
     if (*found == static_far)
       result = balance.far_field_force;
     else if ((*found)->kind() == MotionKind::prescribed)
-      for (const Freedoms::Prescribed &given : freedoms->prescribed())
+      for (const DofMap::Prescribed &given : dof_map->prescribed())
       {
         if (given.part != &(*(*found)->parts())[given.component])
           continue;
@@ -406,15 +406,15 @@ namespace quoin
     {
       double square = 0.;
       for (unsigned int d = 0; d < 2; ++d)
-        if (freedoms->is_free(i, d))
+        if (dof_map->is_free(i, d))
           square += balance.force[i].v[d] * balance.force[i].v[d];
-      if (!freedoms->is_in_body(i))
+      if (!dof_map->is_in_body(i))
         look(i, std::sqrt(square));
     }
-    const auto forces = freedoms->body_forces(balance.force);
+    const auto forces = dof_map->body_forces(balance.force);
     for (unsigned int b = 0; b < forces.size(); ++b)
       for (unsigned int d = 0; d < 2; ++d)
-        if (const Freedoms::Body &body = freedoms->bodies()[b];
+        if (const DofMap::Body &body = dof_map->bodies()[b];
             !body.given[d] && !body.nodes.empty())
           look(body.nodes.front(), std::abs(forces[b][d] + balance.drives[b][d]
                                             + balance.held[b][d]));

@@ -12,7 +12,7 @@ namespace quoin
   namespace
   {
     /** Beyond, LU factors cost more than iterations [unknowns]. */
-    constexpr Freedoms::Index largest_direct = 200000;
+    constexpr DofMap::Index largest_direct = 200000;
 
     /** Of the residual; Newton's iterations must not see it [-]. */
     constexpr double iterative_tolerance   = 1e-10;
@@ -20,11 +20,11 @@ namespace quoin
   } // namespace
 
   LinearSolver::LinearSolver(const LinearSolverType type, const Model &model,
-                             const Freedoms &freedoms)
-    : model(model), freedoms(freedoms),
+                             const DofMap &dof_map)
+    : model(model), dof_map(dof_map),
       direct(type == LinearSolverType::direct
              || (type == LinearSolverType::automatic
-                 && freedoms.n_unknowns() <= largest_direct)),
+                 && dof_map.n_dofs() <= largest_direct)),
       control(most_iterations, 0.)
   {
   }
@@ -70,17 +70,17 @@ namespace quoin
   {
     rigid_motions = std::make_unique<Epetra_MultiVector>(
         stiffness.trilinos_matrix().DomainMap(), 3);
-    const auto set = [&](const unsigned int mode, const Freedoms::Index unknown,
+    const auto set = [&](const unsigned int mode, const DofMap::Index dof,
                          const double value)
     {
-      const int row = stiffness.trilinos_matrix().DomainMap().LID(
-          static_cast<int>(unknown));
+      const int row
+          = stiffness.trilinos_matrix().DomainMap().LID(static_cast<int>(dof));
       (*rigid_motions)[mode][row] = value;
     };
     // About a corner of the model, in units of its size.
     const auto origin = model.table().box[0];
     const double size = model.nodes().diagonal();
-    const auto place  = [&](const Freedoms::Index first, const double x,
+    const auto place  = [&](const DofMap::Index first, const double x,
                            const double y, const bool(&free)[2])
     {
       if (free[0])
@@ -97,13 +97,13 @@ namespace quoin
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
     {
       const NodeRecord<2> &node = configuration.nodes[i];
-      const bool free[2] = { freedoms.is_free(i, 0), freedoms.is_free(i, 1) };
-      place(2 * Freedoms::Index(model.exchange().global(i)),
-            node.X[0] + node.u[0], node.X[1] + node.u[1], free);
+      const bool free[2] = { dof_map.is_free(i, 0), dof_map.is_free(i, 1) };
+      place(dof_map.dof(i, 0), node.X[0] + node.u[0], node.X[1] + node.u[1],
+            free);
     }
-    for (unsigned int b = 0; b < freedoms.bodies().size(); ++b)
+    for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
     {
-      const Freedoms::Body &body = freedoms.bodies()[b];
+      const DofMap::Body &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
       const auto &d      = configuration.bodies[b];

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/base/unread_parameters.h>
 #include <quoin/loads/load_parameters.h>
@@ -18,17 +19,51 @@ namespace quoin
 {
   namespace
   {
+    /** Words of 'Type'; an in-situ stress is an initial one by depth. */
+    const std::vector<std::pair<std::string, LoadType>> type_words
+        = { { "prescribed motion", LoadType::prescribed_motion },
+            { "traction", LoadType::traction },
+            { "viscous boundary", LoadType::viscous_boundary },
+            { "free-field boundary", LoadType::free_field },
+            { "platen", LoadType::platen },
+            { "gravity", LoadType::gravity },
+            { "initial stress", LoadType::initial_stress },
+            { "in-situ stress", LoadType::initial_stress },
+            { "boundary elements", LoadType::boundary_elements } };
+
+    /** What a component is called, and the unit that it has as a force. */
+    struct ComponentWord
+    {
+      std::string name, force_unit;
+    };
+    std::vector<ComponentWord> component_words(const LoadType type)
+    {
+      switch (type)
+      {
+      case LoadType::traction:
+        return { { "Horizontal", "Pa" },
+                 { "Vertical", "Pa" },
+                 { "Pressure", "Pa" } };
+      case LoadType::gravity:
+        return { { "Horizontal", "m/s^2" }, { "Vertical", "m/s^2" } };
+      case LoadType::viscous_boundary:
+        return { { "Incident normal velocity", "" },
+                 { "Incident shear velocity", "" } };
+      case LoadType::prescribed_motion:
+      case LoadType::platen:
+        return { { "Horizontal", "N" },
+                 { "Vertical", "N" },
+                 { "Rotation", "N m" } };
+      default:
+        return {};
+      }
+    }
+
     TimeFunction time_function(const ParameterSection &section,
                                const std::string &name, const std::string &text)
     {
-      try
-      {
-        return TimeFunction(text, section.folder());
-      }
-      catch (const InputError &error)
-      {
-        section.fail(name, error.what());
-      }
+      return section.made(name, [&]()
+                          { return TimeFunction(text, section.folder()); });
     }
 
     /** Refuses a record of the PEER database, whose name says what it is, as
@@ -209,19 +244,15 @@ namespace quoin
   void check_no_jump(const std::array<LoadComponent, 3> &components,
                      const TimePoint &time, const std::string &load)
   {
-    const auto values         = component_values(components, time);
-    const std::string names[] = { "Horizontal", "Vertical", "Rotation" };
+    const auto values = component_values(components, time);
     for (unsigned int d = 0; d < 3; ++d)
       if (components[d].quantity == LoadQuantity::displacement
           && std::abs(values[d]) > 1e-14)
-      {
-        std::ostringstream message;
-        message << "section 'Loads/" << load << "': the displacement '"
-                << names[d] << "' is " << values[d]
-                << " where the stage begins. It counts from there, so it must "
-                   "begin at 0: let it rise from 0.";
-        throw InputError(message.str());
-      }
+        throw InputError(text_of(
+            "section 'Loads/", load, "': the displacement '",
+            component_words(LoadType::platen)[d].name, "' is ", values[d],
+            " where the stage begins. It counts from there, so it must begin "
+            "at 0: let it rise from 0."));
   }
 
   std::array<double, 4>
@@ -242,16 +273,7 @@ namespace quoin
   {
     void enter_place(ParameterEntries &entries, LoadParameters &load)
     {
-      entries.choice("Type", load.type,
-                     { { "prescribed motion", LoadType::prescribed_motion },
-                       { "traction", LoadType::traction },
-                       { "viscous boundary", LoadType::viscous_boundary },
-                       { "free-field boundary", LoadType::free_field },
-                       { "platen", LoadType::platen },
-                       { "gravity", LoadType::gravity },
-                       { "initial stress", LoadType::initial_stress },
-                       { "in-situ stress", LoadType::initial_stress },
-                       { "boundary elements", LoadType::boundary_elements } },
+      entries.choice("Type", load.type, type_words,
                      "What the load is. Boundary elements: as section "
                      "'Boundary elements' says.");
       entries.list("Boundary", load.boundaries,
@@ -406,6 +428,33 @@ namespace quoin
         refuse_idle(*section, load);
     }
   } // namespace
+
+  std::string LoadParameters::type_text() const
+  {
+    return in_situ ? "in-situ stress" : word_of(type_words, type);
+  }
+
+  std::vector<LoadParameters::NamedComponent>
+  LoadParameters::given_components() const
+  {
+    const auto words = component_words(type);
+    std::vector<NamedComponent> result;
+    for (unsigned int d = 0; d < words.size(); ++d)
+    {
+      const LoadComponent &part
+          = d == 2 && type == LoadType::traction ? pressure : components[d];
+      if (part.quantity == LoadQuantity::free)
+        continue;
+      const std::string length = words[d].name == "Rotation" ? "degrees" : "m";
+      result.push_back({ boost::algorithm::to_lower_copy(words[d].name),
+                         part.quantity == LoadQuantity::velocity ? length + "/s"
+                         : part.quantity == LoadQuantity::displacement
+                             ? length
+                             : words[d].force_unit,
+                         part });
+    }
+    return result;
+  }
 
   void LoadParameters::declare(dealii::ParameterHandler &prm)
   {

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/materials/material_parameters.h>
 
@@ -96,6 +97,31 @@ namespace quoin
     if (material.groups == std::vector<std::string>{ "none" })
       material.groups.clear();
     return material;
+  }
+
+  std::string material_text(const MaterialParameters &material,
+                            const PlaneAssumption plane)
+  {
+    using constants::degree;
+    const LinearElastic &elastic = material.elastic;
+    if (material.rigid)
+      return text_of("rigid, density ", elastic.density, " kg/m^3");
+    const WaveSpeeds speeds = wave_speeds(elastic, plane);
+    const std::string text  = text_of(
+         material.strength ? "Mohr-Coulomb" : "elastic", ", E ", elastic.young,
+        " Pa, nu ", elastic.poisson, ", density ", elastic.density,
+        " kg/m^3, P waves ", speeds.p, " m/s, S waves ", speeds.s, " m/s");
+    if (!material.strength)
+      return text;
+    const MohrCoulombStrength &strength = *material.strength;
+    return text_of(
+        text, ", ", named_number("cohesion", strength.cohesion, "Pa"), ", ",
+        named_number("friction angle", strength.friction_angle / degree,
+                     "degrees"),
+        ", ",
+        named_number("dilation angle", strength.dilation_angle / degree,
+                     "degrees"),
+        ", ", named_number("tensile strength", strength.tension, "Pa"));
   }
 
   MaterialParameters reduced(const MaterialParameters &material,

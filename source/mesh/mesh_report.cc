@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/constants.h>
+#include <quoin/base/number_text.h>
 #include <quoin/mesh/mesh_report.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -284,15 +285,33 @@ namespace quoin
               "single edges inside a block";
     if (n_reoriented_cells > 0)
       text << '\n' << n_reoriented_cells << " clockwise triangles turned over";
-    if (unmatched_length > 0.)
-      text << '\n'
-           << "outer edges lie on each other along " << unmatched_length
-           << " m without matching, first at (" << unmatched_position[0] << ", "
-           << unmatched_position[1]
-           << "): there is no joint there. Give both sides the same nodes";
-    if (overlaps)
-      text << "\nblocks overlap, first near (" << overlap_position[0] << ", "
-           << overlap_position[1] << ")";
     return text.str();
+  }
+
+  std::vector<std::string> MeshReport::warnings() const
+  {
+    std::vector<std::string> result;
+    if (unmatched_length > 0.)
+      result.push_back(
+          text_of("outer edges lie on each other over ", unmatched_length,
+                  " m without matching nodes, the first near (",
+                  unmatched_position[0], ", ", unmatched_position[1],
+                  ") m: no joint is made there. Mesh both sides alike."));
+    // A double has 16 digits.
+    double farthest = 0.;
+    for (unsigned int d = 0; d < 2; ++d)
+      farthest = std::max(
+          { farthest, std::abs(lower_left[d]), std::abs(upper_right[d]) });
+    if (shortest_edge < 1e-8 * farthest)
+      result.push_back(text_of(
+          "coordinates of up to ", farthest, " m leave few digits to edges of ",
+          shortest_edge, " m. Move the model nearer to the origin."));
+    if (overlaps)
+      result.push_back(text_of(
+          "blocks overlap near (", overlap_position[0], ", ",
+          overlap_position[1],
+          ") m, where both then have their mass and stiffness. Take the "
+          "surface out that is there twice, or cut it out of the other."));
+    return result;
   }
 } // namespace quoin

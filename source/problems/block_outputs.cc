@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/number_text.h>
 #include <quoin/mesh/gmsh_reader.h>
 #include <quoin/problems/block_outputs.h>
 #include <quoin/results/atomic_file.h>
-#include <quoin/results/collective.h>
 #include <quoin/results/field_output.h>
 
 #include <algorithm>
@@ -42,40 +40,33 @@ namespace quoin
     Histories make_histories(const BlockSystem &system)
     {
       const Parameters &parameters = system.parameters;
-      try
-      {
-        return Histories(parameters.histories, *system.model, *system.solver,
-                         system.boundary_geometry, parameters.boundary,
-                         system.construction->absent_in_the_end());
-      }
-      catch (const InputError &error)
-      {
-        throw InputError(parameters.file + ", " + error.what());
-      }
+      return naming(parameters.file,
+                    [&]()
+                    {
+                      return Histories(
+                          parameters.histories, *system.model, *system.solver,
+                          system.boundary_geometry, parameters.boundary,
+                          system.construction->absent_in_the_end());
+                    });
     }
   } // namespace
 
-  BlockOutputs::BlockOutputs(BlockSystem &system, const RunContext &context)
-    : system(system), context(context), histories(make_histories(system)),
-      history_control(system.parameters.history_interval),
-      field_control(system.parameters.field_interval > 0.
-                        ? system.parameters.field_interval
-                        : -1.),
-      history_table(
-          context.tables.add("histories.csv", histories.column_names())),
-      energy_table(context.tables.add("energies.csv", energy_columns())),
-      blocks(context.output, context.communicator),
-      joints(context.output, context.communicator),
-      contacts(context.output, context.communicator, "contacts"),
-      boundary(context.output, MPI_COMM_SELF)
+  BlockOutputs::BlockOutputs(BlockSystem &system, const RunContext &run)
+    : system(system), run(run), histories(make_histories(system)),
+      row_times(system.parameters.row_times()),
+      field_times(system.parameters.field_times()),
+      history_table(run.tables.add("histories.csv", histories.column_names())),
+      energy_table(run.tables.add("energies.csv", energy_columns())),
+      fields(run.output, *system.model, *system.solver),
+      boundary(run.output, MPI_COMM_SELF)
   {
     if (system.solver->far_field())
-      far_field_table = &context.tables.add(
+      far_field_table = &run.tables.add(
           "far_field.csv",
           { "time [s]", "steps [-]", "radiated [J]", "substeps [J]",
             "incident [J]", "given [J]", "mismatch [-]" });
     if (system.implicit_solver)
-      convergence_table = &context.tables.add(
+      convergence_table = &run.tables.add(
           "convergence.csv", { "step [-]", "attempt [-]", "iteration [-]",
                                "load time [s]", "unbalanced ratio [-]",
                                "line search [-]", "linear iterations [-]" });
@@ -83,20 +74,15 @@ namespace quoin
 
   void BlockOutputs::open()
   {
-    all_or_none<RunError>(context.communicator,
-                          [&]()
-                          {
-                            if (!context.is_first_rank())
-                              return;
-                            if (system.solver->far_field())
-                              boundary.start();
-                            if (!context.options.resume)
-                              write_generated_geometry();
-                          });
-    blocks.start();
-    joints.start();
-    if (system.solver->contacts())
-      contacts.start();
+    run.on_first_rank(
+        [&]()
+        {
+          if (system.solver->far_field())
+            boundary.start();
+          if (!run.options.resume)
+            write_generated_geometry();
+        });
+    fields.start();
   }
 
   void BlockOutputs::write_generated_geometry() const
@@ -104,7 +90,7 @@ namespace quoin
     const GeneratedGeometry &made = system.parameters.generated;
     if (made.geometry.empty())
       return;
-    const std::string begin = context.output + "/" + made.name;
+    const std::string begin = run.output + "/" + made.name;
     write_text(begin + ".geo", made.geometry);
     if (!made.statistics.empty())
       write_text(begin + "_statistics.csv", made.statistics);
@@ -155,13 +141,13 @@ namespace quoin
                    { largest_throughput, std::abs(ledger.radiated), std::abs(ledger.given),
                      system.solver->energies().throughput() });
     if (taken < -largest_created_share * largest_throughput)
-      throw RunError("the boundary elements have created energy, "
-                     + number_text(-taken) + " J of "
-                     + number_text(largest_throughput)
-                     + " J that went through the model: their discrete "
-                       "impedance is not passive. Change 'Step ratio' or "
-                       "'Formulation' in section 'Boundary elements' until the "
-                       "passivity scan finds nothing, or damp the blocks.");
+      throw RunError(
+          text_of("the boundary elements have created energy, ", -taken,
+                  " J of an energy throughput of ", largest_throughput,
+                  " J: their discrete impedance is not passive. Change 'Step "
+                  "ratio' or 'Formulation' in section 'Boundary elements' "
+                  "until the passivity scan finds nothing, or damp the "
+                  "blocks."));
     far_field_table->add_row(
         { state.time, double(state.get<FarFieldState>().n_steps),
           ledger.radiated, ledger.substeps, ledger.incident, ledger.given,
@@ -182,67 +168,32 @@ namespace quoin
     if (state.time == fields_time)
       return;
     fields_time = state.time;
-    measured([&]() { add_fields(state); });
-  }
-
-  void BlockOutputs::add_fields(const State<2> &state)
-  {
-    // Histories are those of the step before.
-    State<2> now = state;
-    system.solver->update_histories(now);
-    blocks.write(state.time, block_fields(*system.model, now));
-    joints.write(state.time, joint_fields(*system.model, now));
-    if (const BlockContacts *all = system.solver->contacts())
-      contacts.write(state.time, contact_fields(*all, now));
+    measured([&]() { fields.write(state.time, state); });
     if (system.solver->far_field())
       write_boundary(state);
-    context.tables.flush();
+    run.tables.flush();
   }
 
   void BlockOutputs::write_boundary(const State<2> &state)
   {
     if (!system.solver->far_field_acts() || !state.get<FarFieldState>().active)
       return;
-    const BoundaryState fields
+    const BoundaryState on_boundary
         = boundary_state(*system.solver->far_field(), state);
-    all_or_none<RunError>(
-        context.communicator,
+    run.on_first_rank(
         [&]()
         {
-          if (context.is_first_rank())
-            boundary.write(state.time,
-                           boundary_fields(system.boundary_geometry, fields));
+          boundary.write(state.time, boundary_fields(system.boundary_geometry,
+                                                     on_boundary));
         });
   }
 
   void BlockOutputs::write_mechanism(const State<2> &state,
                                      const State<2> &base, const double factor)
   {
-    State<2> now = state;
-    system.solver->update_histories(now);
-    BlockFields fields = block_fields(*system.model, now);
-    // Of the blocks that are left.
-    State<2> begin          = base;
-    begin.block_marks       = now.block_marks;
-    const BlockFields start = block_fields(*system.model, begin);
-    for (std::size_t i = 0; i < fields.position.size(); ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-      {
-        fields.position[i][d] += start.displacement[i][d];
-        fields.displacement[i][d] -= start.displacement[i][d];
-      }
-    const std::string folder = context.output + "/mechanism";
-    BlockOutput block_series(folder, context.communicator);
-    block_series.start();
-    block_series.write(factor, fields);
-    JointOutput joint_series(folder, context.communicator);
-    joint_series.start();
-    joint_series.write(factor, joint_fields(*system.model, now));
-    if (const BlockContacts *all = system.solver->contacts())
-    {
-      JointOutput contact_series(folder, context.communicator, "contacts");
-      contact_series.start();
-      contact_series.write(factor, contact_fields(*all, now));
-    }
+    ModelOutput mechanism(run.output + "/mechanism", *system.model,
+                          *system.solver);
+    mechanism.start();
+    mechanism.write(factor, state, &base);
   }
 } // namespace quoin

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/number_text.h>
-#include <quoin/problems/bandwidth.h>
+#include <quoin/farfield/boundary_report.h>
+#include <quoin/problems/advice.h>
 #include <quoin/problems/block_problem.h>
-#include <quoin/problems/block_report.h>
-#include <quoin/problems/explicit_stage.h>
-#include <quoin/problems/implicit_stage.h>
-#include <quoin/problems/safety_stage.h>
+#include <quoin/problems/costs.h>
+#include <quoin/problems/model_summary.h>
 #include <quoin/operators/archive.h>
 
 #include <nlohmann/json.hpp>
@@ -15,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace quoin
 {
@@ -22,19 +21,44 @@ namespace quoin
   {
     /** Smaller shares of the time are not worth a word. */
     constexpr double least_share = 1e-3;
+
+    std::string step_text(const BlockContext &context,
+                          const StageParameters &stage)
+    {
+      const ExplicitSolver &solver = *context.system.explicit_solver;
+      const double dt              = solver.get_time_step();
+      const double critical        = solver.critical_time_step();
+      const double added           = solver.added_mass_share();
+      std::string text = text_of("stage ", stage.name, ": time step ", dt,
+                                 " s, ", 100. * dt / critical,
+                                 " % of the critical ", critical, " s");
+      if (stage.end == StageEnd::time)
+        text += text_of(", ", context.steps.n_steps(),
+                        stage.slows_loads() ? " steps or more" : " steps");
+      if (added > 0.)
+        text += text_of(", mass scaling adds ", 100. * added, " % of mass");
+      return text;
+    }
+
+    std::string unknowns_text(const ImplicitSolver &solver,
+                              const StageParameters &stage)
+    {
+      return text_of("stage ", stage.name, ": equilibrium up to the load time ",
+                     solver.duration(), " s, ", solver.n_unknowns(),
+                     " degrees of freedom, ",
+                     solver.is_direct() ? "LU factors"
+                                        : "GMRES with multigrid");
+    }
   } // namespace
 
   BlockProblem::BlockProblem(const Parameters &parameters,
                              const RunContext &run)
-    : parameters(parameters), run(run), system(parameters, run.communicator),
-      steps(system, run.log), outputs(system, run),
-      state(system.initial_state()), context{ run, system, steps, outputs,
-                                              state },
-      searches(parameters.stages.size())
+    : Problem(parameters, run), context(parameters, run),
+      system(context.system), state(context.state)
   {
   }
 
-  std::string BlockProblem::fingerprint() const
+  const std::string &BlockProblem::fingerprint() const
   {
     return system.fingerprint;
   }
@@ -44,83 +68,98 @@ namespace quoin
     return parameters.stages.size();
   }
 
-  void BlockProblem::report()
+  void BlockProblem::report_model()
   {
-    report_model(context);
-    report_stages(context);
-    // Nobody would read it.
-    if (run.options.check && !run.options.quiet)
-      report_costs(context);
+    if (!parameters.generated.report.empty())
+      run.log.message(parameters.generated.report);
+    run.log.message(system.mesh_report.to_text());
+    if (const unsigned int n_rigid = system.n_rigid_blocks(); n_rigid > 0)
+      run.log.message(n_rigid, " of the blocks ",
+                      n_rigid == 1 ? "is rigid" : "are rigid");
+    if (const StaticFarField *far = system.solver->static_far_field())
+      run.log.message("static boundary elements: their forces' matrix was "
+                      "symmetric to ",
+                      far->asymmetry(), " of its largest entry");
+    if (run.options.check)
+      for (const auto &lines :
+           { material_lines(parameters, *system.nodes,
+                            system.model->properties().material_of_group),
+             joint_lines(parameters, system.mesh_report),
+             load_lines(parameters, *system.nodes),
+             boundary_lines(
+                 parameters.boundary, system.boundary_geometry,
+                 start_of_stage(parameters.stages, parameters.stages.size())) })
+        run.log.messages(lines);
+    run.log.warnings(
+        model_advice(parameters, system.mesh_report, *system.model, state));
+    report_stages();
+  }
+
+  void BlockProblem::report_stages()
+  {
+    // Stages are begun with a copy, to find what is wrong with them.
+    State<2> begun     = state;
+    bool time_is_known = true; // until a stage ends when it has settled
+    for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+    {
+      const StageParameters &stage = parameters.stages[i];
+      system.begin_stage(i, begun, time_is_known);
+      if (run.options.check)
+        run.log.message(stage.text(parameters.is_implicit));
+      if (const ImplicitSolver *solver = system.implicit_solver)
+      {
+        run.log.message(unknowns_text(*solver, stage));
+        begun.time += solver->duration();
+        continue;
+      }
+      context.steps.choose(stage);
+      run.log.message(step_text(context, stage));
+      advise_about_stage(i, begun);
+      time_is_known &= stage.end == StageEnd::time && !stage.slows_loads();
+      if (time_is_known)
+        begun.time += double(context.steps.n_steps())
+                      * system.explicit_solver->get_time_step();
+    }
+    system.construction->restart();
+    if (system.implicit_solver)
+      run.log.message("inertia, damping and mass scaling are left out");
+  }
+
+  void BlockProblem::advise_about_stage(const unsigned int index,
+                                        const State<2> &begun) const
+  {
+    const StageParameters &stage = parameters.stages[index];
+    if (stage.end == StageEnd::time && !system.model->large_displacements())
+      if (const auto bodies = system.solver->pushed_bodies(begun);
+          !bodies.empty())
+        run.log.warning("stage ", stage.name, ": ", pushed_body_text(bodies));
+    run.log.warnings(stage_advice(parameters, index, *system.model, begun,
+                                  system.explicit_solver->get_time_step()));
+    if (system.solver->far_field_acts())
+      run.log.warnings(boundary_advice(
+          parameters.boundary, system.boundary_geometry, stage.duration));
+  }
+
+  void BlockProblem::report_costs()
+  {
+    report_block_costs(context);
   }
 
   void BlockProblem::open_outputs()
   {
-    outputs.open();
+    context.outputs.open();
   }
 
-  void BlockProblem::make_stage(const unsigned int index)
+  std::unique_ptr<Stage> BlockProblem::make_stage(const unsigned int index)
   {
-    if (parameters.stages[index].safety)
-      stage = std::make_unique<SafetyStage>(context, index, searches[index]);
-    else if (system.implicit_solver)
-      stage = std::make_unique<ImplicitStage>(context, index);
-    else
-      stage = std::make_unique<ExplicitStage>(context, index);
+    return parameters.stages[index].safety ? make_safety_stage(context, index)
+           : system.implicit_solver        ? make_implicit_stage(context, index)
+                                    : make_explicit_stage(context, index);
   }
 
-  void BlockProblem::resume(const unsigned int index, const bool has_begun)
+  void BlockProblem::restore(const unsigned int index)
   {
-    if (!has_begun)
-      return system.restore(index, state);
-    make_stage(index);
-    stage->resume();
-  }
-
-  void BlockProblem::begin_stage(const unsigned int index)
-  {
-    make_stage(index);
-    stage->begin();
-  }
-
-  bool BlockProblem::stage_is_over() const
-  {
-    return stage->is_over();
-  }
-
-  Problem::Checkpoint BlockProblem::take_step()
-  {
-    return stage->take_step();
-  }
-
-  ProgressFigures BlockProblem::progress_figures() const
-  {
-    return stage->figures();
-  }
-
-  void BlockProblem::end_stage()
-  {
-    stage->end();
-    system.solver->check_finite(state);
-    system.solver->check_cells(state);
-    warn_of_slip();
-    ++state.stage;
-    outputs.write_fields(state);
-  }
-
-  void BlockProblem::warn_of_slip() const
-  {
-    /** Half of the blocks' edges is left on each other. */
-    constexpr double most = 0.5;
-    if (system.model->large_displacements())
-      return;
-    const double share = system.solver->largest_slip_share(state);
-    if (share > most)
-      run.log.warning(
-          "stage " + parameters.stages[state.stage].name
-          + ": joints have slipped by up to " + number_text(100. * share)
-          + " % of the edges that touch, but small displacements leave "
-            "blocks where they are: areas and neighbours no longer "
-            "hold. Take 'Displacements = large' in section 'Contact'.");
+    context.system.restore(index, state);
   }
 
   void BlockProblem::complete_state()
@@ -133,7 +172,8 @@ namespace quoin
   template <typename Archive>
   void BlockProblem::archive_all(Archive &archive)
   {
-    archive &state &outputs &context.iterations &context.cuts &searches;
+    archive &state &context.outputs &context.iterations &context.cuts &context
+        .searches;
   }
 
   void BlockProblem::save(boost::archive::binary_oarchive &archive)
@@ -153,8 +193,6 @@ namespace quoin
   {
     const MeshReport &report = system.mesh_report;
     const Energies &energies = system.solver->energies();
-    const auto rate
-        = [&](const double n) { return seconds > 0. ? n / seconds : 0.; };
     summary.update(
         { { "blocks", report.n_blocks },
           { "rigid blocks", system.n_rigid_blocks() },
@@ -169,7 +207,7 @@ namespace quoin
           { "unbalanced ratio", state.unbalanced_ratio },
           { "energy throughput [J]", energies.throughput() },
           { "energy residual [J]", energies.residual() },
-          { "largest energy residual [J]", outputs.largest_residual() },
+          { "largest energy residual [J]", context.outputs.largest_residual() },
           { "energy residual share", context.energy_residual() },
           { "solver", system.implicit_solver ? "implicit" : "explicit" } });
     if (const ExplicitSolver *solver = system.explicit_solver)
@@ -178,7 +216,9 @@ namespace quoin
             { "critical time step [s]", solver->critical_time_step() },
             { "added mass share", solver->added_mass_share() },
             { "element updates per second",
-              rate(double(report.n_cells) * double(context.n_done)) } });
+              seconds > 0.
+                  ? double(report.n_cells) * double(context.n_done) / seconds
+                  : 0. } });
     if (const ImplicitSolver *solver = system.implicit_solver)
       summary.update({ { "unknowns", solver->n_unknowns() },
                        { "iterations", context.iterations },
@@ -196,17 +236,7 @@ namespace quoin
     if (system.solver->contacts())
       summarise_contacts(summary, seconds);
     if (summary["finished"] && parameters.measure_bandwidth)
-    {
-      const double bytes    = step_bytes(report.n_nodes, report.n_cells);
-      const double measured = dealii::Utilities::MPI::sum(
-          memory_bandwidth(
-              bytes
-              / dealii::Utilities::MPI::n_mpi_processes(run.communicator)),
-          run.communicator);
-      const double used                 = rate(bytes * double(context.n_done));
-      summary["memory bandwidth [B/s]"] = measured;
-      summary["share of memory bandwidth"] = used / measured;
-    }
+      summarise_bandwidth(summary, seconds);
   }
 
   void BlockProblem::summarise_time(nlohmann::json &summary,
@@ -219,8 +249,10 @@ namespace quoin
     // Processes step together: the mean of their times counts. They have the
     // same phases, because they have the same operators.
     dealii::Utilities::MPI::sum(times, run.communicator, times);
-    const double all
-        = seconds * dealii::Utilities::MPI::n_mpi_processes(run.communicator);
+    // Samples of a short run may say more than there was.
+    const double all = std::max(
+        seconds * dealii::Utilities::MPI::n_mpi_processes(run.communicator),
+        std::accumulate(times.begin(), times.end(), 0.));
     double other = 1.;
     for (unsigned int i = 0; i < times.size() && all > 0.; ++i)
     {
@@ -234,12 +266,15 @@ namespace quoin
 
   void BlockProblem::summarise_searches(nlohmann::json &summary) const
   {
-    for (unsigned int i = 0; i < searches.size(); ++i)
-      if (std::isfinite(searches[i].lowest_failing()))
+    for (unsigned int i = 0; i < context.searches.size(); ++i)
+    {
+      const FactorSearch &search = context.searches[i];
+      if (std::isfinite(search.lowest_failing()))
         summary["factor of safety"][parameters.stages[i].name]
-            = { { "stable at", searches[i].highest_stable() },
-                { "failing at", searches[i].lowest_failing() },
-                { "trials", searches[i].trials().size() } };
+            = { { "stable at", search.highest_stable() },
+                { "failing at", search.lowest_failing() },
+                { "trials", search.trials().size() } };
+    }
   }
 
   void BlockProblem::summarise_contacts(nlohmann::json &summary,
@@ -251,64 +286,68 @@ namespace quoin
             double(contacts->n_updates()), contacts->search_seconds() };
     std::array<double, 3> all;
     MPI_Allreduce(sums, all.data(), 3, MPI_DOUBLE, MPI_SUM, run.communicator);
-    summary["contacts"] = all[0];
-    summary["contact updates per second"]
-        = seconds > 0. ? all[1] / seconds : 0.;
-    summary["contact searches"] = state.get<ContactState>().n_searches;
     // Ranks search together: the mean of their times counts.
-    summary["contact search share"]
-        = seconds > 0.
-              ? all[2]
-                    / dealii::Utilities::MPI::n_mpi_processes(run.communicator)
-                    / seconds
-              : 0.;
+    all[2] /= dealii::Utilities::MPI::n_mpi_processes(run.communicator);
+    const auto rate
+        = [&](const double n) { return seconds > 0. ? n / seconds : 0.; };
+    summary["contacts"]                   = all[0];
+    summary["contact updates per second"] = rate(all[1]);
+    summary["contact searches"]     = state.get<ContactState>().n_searches;
+    summary["contact search share"] = rate(all[2]);
   }
 
-  void BlockProblem::warn_of_residual() const
+  void BlockProblem::summarise_bandwidth(nlohmann::json &summary,
+                                         const double seconds) const
   {
+    namespace MPI = dealii::Utilities::MPI;
+    const double bytes
+        = step_bytes(system.mesh_report.n_nodes, system.mesh_report.n_cells);
+    const double measured = MPI::sum(
+        memory_bandwidth(bytes / MPI::n_mpi_processes(run.communicator)),
+        run.communicator);
+    summary["memory bandwidth [B/s]"] = measured;
+    summary["share of memory bandwidth"]
+        = seconds > 0. ? bytes * double(context.n_done) / seconds / measured
+                       : 0.;
+  }
+
+  Problem::LastWords
+  BlockProblem::last_words(const nlohmann::json &summary) const
+  {
+    const auto millions = [&](const char *name)
+    { return text_of(summary[name].get<double>() / 1e6, " million "); };
     /** By the energy throughput; user_guide.md, "Judge the result". */
     constexpr double largest = 1e-3;
     const double residual    = context.energy_residual();
     if (std::abs(residual) > largest)
       run.log.warning(
-          "the energy residual is " + number_text(100. * residual)
-          + " % of what went through, more than 0.1 %: energy came or "
-            "went that no account knows of. Compare with a run with "
-            "half the 'Share of critical time step'"
-          + (system.model->large_displacements()
-                 ? "."
-                 : "; blocks that turn or slide far need "
-                   "'Displacements = large' in section 'Contact'."));
-  }
-
-  void BlockProblem::report_end(const nlohmann::json &summary)
-  {
-    const auto millions = [&](const char *name)
-    { return number_text(summary[name].get<double>() / 1e6) + " million "; };
-    warn_of_residual();
-    run.log.message(
-        "finished: " + std::to_string(state.step) + " steps in "
-        + duration_text(summary["wall time [s]"].get<double>()) + ", "
-        + (system.implicit_solver
-               ? std::to_string(context.iterations) + " iterations"
-               : millions("element updates per second")
-                     + "element updates a second")
-        + ", energy residual " + number_text(context.energy_residual())
-        + " of what went through");
+          "the energy balance error is ", 100. * residual,
+          " % of the energy throughput, more than 0.1 %. Compare with a run "
+          "with half the 'Share of critical time step'",
+          system.model->large_displacements()
+              ? "."
+              : "; blocks that turn or slide far need 'Displacements = large' "
+                "in section 'Contact'.");
+    LastWords words{ text_of(state.step, " steps"),
+                     text_of(system.implicit_solver
+                                 ? text_of(context.iterations, " iterations")
+                                 : millions("element updates per second")
+                                       + "element updates a second",
+                             ", energy balance error ", 100. * residual,
+                             " % of the energy throughput") };
     std::string shares;
     for (const auto &[phase, share] : summary["time shares"].items())
       if (share.get<double>() >= least_share)
-        shares += (shares.empty() ? "" : ", ") + phase + " "
-                  + number_text(std::round(1e3 * share.get<double>()) / 10.)
-                  + " %";
-    run.log.message("time: " + shares);
+        shares += text_of(shares.empty() ? "" : ", ", phase, " ",
+                          std::round(1e3 * share.get<double>()) / 10., " %");
+    words.figures += "\ntime: " + shares;
     if (system.solver->contacts())
-      run.log.message(
-          "contacts: " + millions("contact updates per second")
-          + "updates a second, "
-          + std::to_string(state.get<ContactState>().n_searches)
-          + " searches that took "
-          + number_text(100. * summary["contact search share"].get<double>())
-          + " % of the time");
+      words.figures
+          += text_of("\ncontacts: ", millions("contact updates per second"),
+                     "updates a second, ", state.get<ContactState>().n_searches,
+                     " searches that took ",
+                     100. * summary["contact search share"].get<double>(),
+                     " % of the time");
+    return words;
   }
 } // namespace quoin

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/farfield/boundary_values.h>
+#include <quoin/loads/nodal_load.h>
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
 #include <quoin/mesh/partition.h>
 #include <quoin/problems/block_system.h>
-#include <quoin/problems/far_field_setup.h>
 #include <quoin/problems/problem.h>
-#include <quoin/problems/run_fingerprint.h>
-#include <quoin/results/collective.h>
 
 #include <algorithm>
 
@@ -29,14 +28,11 @@ namespace quoin
                                                           : "section Rock",
                                       communicator, parameters.triangles);
     }
-  } // namespace
 
-  namespace
-  {
-    /** Contacts, equilibrium and construction want whole blocks. */
+    /** Contacts and construction want whole blocks. */
     bool may_divide_blocks(const Parameters &parameters)
     {
-      return !parameters.is_implicit && !parameters.model.large_displacements
+      return !parameters.model.large_displacements
              && std::none_of(parameters.stages.begin(), parameters.stages.end(),
                              [](const StageParameters &stage) {
                                return !stage.excavate.empty()
@@ -82,6 +78,9 @@ namespace quoin
           split_into_blocks(as_read, parameters.split, mesh);
           as_read     = MeshData();
           mesh_report = make_mesh_report(mesh);
+          // What touches without matching is in contact then.
+          if (parameters.model.large_displacements)
+            mesh_report.unmatched_length = 0.;
           naming(parameters.file,
                  [&]()
                  {
@@ -103,8 +102,8 @@ namespace quoin
 
   void BlockSystem::make_solver(const MeshData &curves)
   {
-    auto far = make_far_field(parameters, curves, *model, boundary_geometry);
-    auto static_far = make_static_far_field(parameters, *model, far.get());
+    auto far        = make_far_field(curves);
+    auto static_far = make_static_far_field(far.get());
     if (parameters.is_implicit)
     {
       std::vector<std::string> joint_sets;
@@ -122,6 +121,52 @@ namespace quoin
         std::move(static_far));
     explicit_solver = made.get();
     solver          = std::move(made);
+  }
+
+  std::unique_ptr<FarField> BlockSystem::make_far_field(const MeshData &curves)
+  {
+    const auto load
+        = std::find_if(parameters.loads.begin(), parameters.loads.end(),
+                       [](const LoadParameters &candidate) {
+                         return candidate.type == LoadType::boundary_elements;
+                       });
+    if (load == parameters.loads.end())
+      return nullptr;
+
+    const BoundaryElementParameters &settings = parameters.boundary;
+    boundary_geometry     = make_boundary_geometry(settings, curves);
+    FarFieldDomain domain = far_field_domain(boundary_geometry, settings);
+    try
+    {
+      return std::make_unique<FarField>(
+          load->name, std::move(domain), *nodes,
+          faces_of_curves(*nodes, settings.interface_curves(), load->name),
+          model->thickness());
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(std::string("section 'Boundary elements': ")
+                       + error.what());
+    }
+  }
+
+  std::unique_ptr<StaticFarField>
+  BlockSystem::make_static_far_field(const FarField *far) const
+  {
+    const auto needs_it = [&](const StageParameters &stage)
+    {
+      return (stage.end == StageEnd::static_ratio || parameters.is_implicit)
+             && names_load(stage, far->name());
+    };
+    if (!far
+        || std::none_of(parameters.stages.begin(), parameters.stages.end(),
+                        needs_it))
+      return nullptr;
+    return std::make_unique<StaticFarField>(
+        far->name(), far->domain(), *nodes,
+        faces_of_curves(*nodes, parameters.boundary.interface_curves(),
+                        far->name()),
+        model->thickness());
   }
 
   State<2> BlockSystem::initial_state() const

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/exceptions.h>
-#include <quoin/base/number_text.h>
+#include <quoin/farfield/boundary_report.h>
 #include <quoin/mesh/gmsh_reader.h>
-#include <quoin/problems/boundary_report.h>
 #include <quoin/problems/boundary_system.h>
 #include <quoin/problems/problem.h>
-#include <quoin/problems/run_fingerprint.h>
-#include <quoin/problems/step_count.h>
 
 #include <algorithm>
 
@@ -17,69 +13,48 @@ namespace quoin
   using Eigen::Vector2d;
   using Eigen::VectorXd;
 
-  namespace
-  {
-    /**
-     * Where tractions are given: c_2 dt / L from which no growth has been seen
-     * outside of holes in 30000 steps, for boundaries of up to 64 elements and
-     * for longer ones; and for how many steps none was seen with any. Bounded
-     * domains may grow at any ratio (doc/boundary_elements.md).
-     */
-    constexpr double stable_shear_ratio         = 0.55;
-    constexpr double stable_shear_ratio_of_many = 0.85;
-    constexpr std::size_t few_elements          = 64;
-    constexpr std::uint64_t steady_steps        = 500;
-  } // namespace
-
   BoundarySystem::BoundarySystem(const Parameters &parameters,
                                  const MPI_Comm communicator)
     : parameters(parameters), settings(parameters.boundary),
-      communicator(communicator)
+      communicator(communicator), medium(settings.medium)
   {
-    naming(
-        parameters.file,
-        [&]()
-        {
-          for (const MaterialParameters &material : parameters.model.materials)
-            if (material.name == settings.material)
-              medium = ElasticMedium::from_young(material.elastic.density,
-                                                 material.elastic.young,
-                                                 material.elastic.poisson);
-          MeshData mesh;
-          if (!parameters.mesh_file.empty())
-            mesh = read_gmsh(parameters.mesh_file, communicator);
-          using dealii::Utilities::MPI::broadcast;
-          fingerprint
-              = broadcast(communicator, run_fingerprint(parameters, mesh));
-          mesh      = broadcast(communicator, curves_of(mesh));
-          geometry  = make_boundary_geometry(settings, mesh);
-          histories = std::make_unique<BoundaryHistories>(
-              parameters.histories, geometry, settings,
-              parameters.model.thickness);
-          hoop_stress
-              = std::make_unique<TangentialStress>(geometry.boundary, medium);
-          given = std::make_unique<BoundaryValues>(geometry, settings);
-          sampled
-              = make_domain_points(settings.sampled_field, geometry.boundary);
-          if (settings.is_static)
-            return;
-          choose_time_step();
-          given->check_start();
-          waves = std::make_unique<IncidentWaves>(
-              settings, medium, geometry.boundary, points_in_domain(),
-              settings.duration, dt);
-        });
+    naming(parameters.file,
+           [&]()
+           {
+             MeshData mesh;
+             if (!parameters.mesh_file.empty())
+               mesh = read_gmsh(parameters.mesh_file, communicator);
+             using dealii::Utilities::MPI::broadcast;
+             fingerprint
+                 = broadcast(communicator, run_fingerprint(parameters, mesh));
+             mesh      = broadcast(communicator, curves_of(mesh));
+             geometry  = make_boundary_geometry(settings, mesh);
+             histories = std::make_unique<BoundaryHistories>(
+                 parameters.histories, geometry, settings,
+                 parameters.model.thickness);
+             hoop_stress = std::make_unique<TangentialStress>(geometry.boundary,
+                                                              medium);
+             given       = std::make_unique<BoundaryValues>(geometry, settings);
+             sampled     = make_domain_points(settings.sampled_field,
+                                              geometry.boundary);
+             if (settings.is_static)
+               return;
+             choose_time_step();
+             given->check_start();
+             waves = std::make_unique<IncidentWaves>(
+                 settings, medium, geometry.boundary, points_in_domain(),
+                 settings.duration, dt);
+           });
   }
 
   void BoundarySystem::choose_time_step()
   {
-    const double wanted = wanted_time_step(settings, geometry.boundary, medium);
     // The run ends at a step, not near one.
-    const double steps
-        = count_steps(settings.duration, wanted, 1e9,
-                      "section 'Boundary elements': 'Duration = "
-                          + number_text(settings.duration) + "'",
-                      "Give a larger 'Time step', or a shorter duration.");
+    const double steps = count_steps(
+        settings.duration, settings.wanted_time_step(geometry.boundary), 1e9,
+        text_of("section 'Boundary elements': 'Duration = ", settings.duration,
+                "'"),
+        "Give a larger 'Time step', or a shorter duration.");
     n_steps = std::uint64_t(steps);
     dt      = settings.duration / steps;
   }
@@ -101,46 +76,7 @@ namespace quoin
            });
     if (passivity)
       log.message(passivity->advice());
-    report_stability(log);
-  }
-
-  void BoundarySystem::report_stability(Log &log) const
-  {
-    const auto &of_traction = given->traction_is_given();
-    if (settings.formulation == Formulation::convolution_quadrature
-        || std::none_of(of_traction.begin(), of_traction.end(),
-                        [](const bool given) { return given; }))
-      return;
-    const double ratio
-        = medium.c2 * dt / geometry.boundary.lengths().maxCoeff();
-    const double needed = geometry.boundary.n_elements() <= few_elements
-                              ? stable_shear_ratio
-                              : stable_shear_ratio_of_many;
-    if (settings.formulation == Formulation::collocation)
-      log.message("Tractions are given: with collocation motion may grow "
-                  "without end. Take Galerkin or convolution quadrature.");
-    else if (n_steps > steady_steps && (is_bounded() || ratio < needed))
-      log.message(
-          "Tractions are given"
-          + (is_bounded() ? std::string(" on a bounded domain")
-                          : " and c2 dt / L is " + number_text(ratio)
-                                + " on the longest element, below "
-                                + number_text(needed))
-          + ": motion may grow slowly after some hundred to thousand steps. "
-          + (is_bounded() ? "" : "Take longer steps, or ")
-          + (is_bounded() ? "Take " : "")
-          + "convolution quadrature for long runs.");
-  }
-
-  bool BoundarySystem::is_bounded() const
-  {
-    return std::any_of(settings.boundaries.begin(), settings.boundaries.end(),
-                       [](const BoundaryCurveParameters &curve)
-                       { return curve.domain == DomainSide::inside; })
-           || std::none_of(settings.boundaries.begin(),
-                           settings.boundaries.end(),
-                           [](const BoundaryCurveParameters &curve)
-                           { return curve.domain == DomainSide::outside; });
+    log.messages(stability_lines(settings, geometry.boundary, dt, n_steps));
   }
 
   VectorXd BoundarySystem::scattered_values(const double begin,

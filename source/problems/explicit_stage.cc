@@ -1,149 +1,171 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/number_text.h>
-#include <quoin/problems/explicit_stage.h>
+#include <quoin/problems/block_stage.h>
 #include <quoin/results/checkpoint_clock.h>
 
 namespace quoin
 {
-  ExplicitStage::ExplicitStage(BlockContext &context, const unsigned int index)
-    : context(context), index(index),
-      stage(context.system.parameters.stages[index]), state(context.state),
-      solver(*context.system.explicit_solver)
+  namespace
   {
-  }
-
-  void ExplicitStage::begin()
-  {
-    context.system.begin_stage(index, state);
-    prepare();
-  }
-
-  void ExplicitStage::resume()
-  {
-    context.system.resume_stage(index, state);
-    prepare();
-  }
-
-  void ExplicitStage::prepare()
-  {
-    context.steps.choose(stage);
-    solver.discard_saved(state);
-    over = stage.end == StageEnd::time && time_is_over();
-  }
-
-  Problem::Checkpoint ExplicitStage::take_step()
-  {
-    const double dt = solver.get_time_step();
-    const bool balance
-        = state.stage_step % ExplicitSolver::balance_interval == 0;
-    if (context.outputs.fields_are_due(state.time, dt))
-      context.outputs.write_fields(state);
-
-    const bool row_is_due = context.outputs.row_is_due(state.time, dt);
-    ExplicitSolver::Requests requests;
-    requests.energies = row_is_due || may_be_last(balance);
-    requests.balance
-        = balance || (row_is_due && context.outputs.row_needs_balance());
-    if (requests.energies)
-      context.outputs.before_row(state);
-    try
+    class ExplicitStage : public BlockStage
     {
-      solver.step(state, requests);
+    public:
+      ExplicitStage(BlockContext &context, const unsigned int index)
+        : BlockStage(context, index), solver(*system.explicit_solver)
+      {
+      }
+
+      void begin() override
+      {
+        system.begin_stage(index, state);
+        prepare();
+      }
+      void resume() override
+      {
+        system.resume_stage(index, state);
+        prepare();
+      }
+      bool is_over() const override
+      {
+        return over;
+      }
+      Checkpoint take_step() override;
+      ProgressFigures figures() const override
+      {
+        return figures_at(stage.end == StageEnd::time
+                              ? state.load_time / stage.duration
+                              : -1.);
+      }
+
+    private:
+      /** The step is chosen, and a stage may be over before it. */
+      void prepare();
+      /** Whether the stage's last row is due at the next step. */
+      bool may_be_last(bool balance) const;
+      /** Of a stage that slows its loads, whether it ends at @p load_time [s].
+       */
+      bool loads_are_over(double load_time) const;
+      /** Of a stage that ends by time. */
+      bool time_is_over() const;
+      /** Throws a RunError if the stage has taken too many steps. */
+      bool ends_here(bool balance) const;
+      void report_blocks_outside();
+
+      ExplicitSolver &solver;
+      bool over = false;
+    };
+
+    void ExplicitStage::prepare()
+    {
+      context.steps.choose(stage);
+      solver.discard_saved(state);
+      over = stage.end == StageEnd::time && time_is_over();
     }
-    catch (const RunError &error)
+
+    Stage::Checkpoint ExplicitStage::take_step()
     {
-      throw RunError("stage '" + stage.name + "': " + error.what());
+      const double dt = solver.get_time_step();
+      const bool balance
+          = state.stage_step % ExplicitSolver::balance_interval == 0;
+      if (outputs.fields_are_due(state.time, dt))
+        outputs.write_fields(state);
+
+      const bool row_is_due = outputs.row_is_due(state.time, dt);
+      ExplicitSolver::Requests requests;
+      requests.energies = row_is_due || may_be_last(balance);
+      requests.balance = balance || (row_is_due && outputs.row_needs_balance());
+      if (requests.energies)
+        outputs.before_row(state);
+      try
+      {
+        solver.step(state, requests);
+      }
+      catch (const RunError &error)
+      {
+        throw RunError("stage '" + stage.name + "': " + error.what());
+      }
+      ++context.n_done;
+      report_blocks_outside();
+      over = ends_here(balance);
+      if (row_is_due || over)
+      {
+        solver.check_finite(state);
+        outputs.write_row(state);
+      }
+      if (balance || over)
+        outputs.check_tables();
+      return state.stage_step % CheckpointClock::steps_between_looks == 0
+                 ? Checkpoint::possible
+                 : Checkpoint::no;
     }
-    ++context.n_done;
-    report_blocks_outside();
-    over = ends_here(balance);
-    if (row_is_due || over)
+
+    bool ExplicitStage::may_be_last(const bool balance) const
     {
-      solver.check_finite(state);
-      context.outputs.write_row(state);
+      if (stage.slows_loads())
+        return loads_are_over(state.load_time
+                              + (1. + 1e-6) * state.load_rate
+                                    * solver.get_time_step());
+      // A static stage may find only afterwards that this was its last step.
+      return stage.end == StageEnd::time
+                 ? state.stage_step + 1 == context.steps.n_steps()
+                 : balance;
     }
-    if (balance || over)
-      context.outputs.check_tables();
-    return state.stage_step % CheckpointClock::steps_between_looks == 0
-               ? Problem::Checkpoint::possible
-               : Problem::Checkpoint::no;
-  }
 
-  bool ExplicitStage::may_be_last(const bool balance) const
-  {
-    if (stage.slows_loads())
-      return loads_are_over(state.load_time
-                            + (1. + 1e-6) * state.load_rate
-                                  * solver.get_time_step());
-    // A static stage may find only afterwards that this was its last step.
-    return stage.end == StageEnd::time
-               ? state.stage_step + 1 == context.steps.n_steps()
-               : balance;
-  }
-
-  bool ExplicitStage::loads_are_over(const double load_time) const
-  {
-    return load_time >= (1. - 1e-12) * stage.duration;
-  }
-
-  bool ExplicitStage::time_is_over() const
-  {
-    return stage.slows_loads() ? loads_are_over(state.load_time)
-                               : state.stage_step >= context.steps.n_steps();
-  }
-
-  bool ExplicitStage::ends_here(const bool balance) const
-  {
-    if (stage.end == StageEnd::time)
+    bool ExplicitStage::loads_are_over(const double load_time) const
     {
-      if (time_is_over())
+      return load_time >= (1. - 1e-12) * stage.duration;
+    }
+
+    bool ExplicitStage::time_is_over() const
+    {
+      return stage.slows_loads() ? loads_are_over(state.load_time)
+                                 : state.stage_step >= context.steps.n_steps();
+    }
+
+    bool ExplicitStage::ends_here(const bool balance) const
+    {
+      const bool by_time = stage.end == StageEnd::time;
+      if (by_time ? time_is_over() : balance && has_settled())
         return true;
-      if (stage.slows_loads() && state.stage_step >= stage.maximum_steps)
-        throw RunError(
-            "stage '" + stage.name + "' has not come to its end within "
-            + std::to_string(stage.maximum_steps) + " steps: its loads are at "
-            + number_text(state.load_time) + " of "
-            + number_text(stage.duration) + " s and go on at the rate "
-            + number_text(state.load_rate)
-            + ". Raise 'Kinetic energy limit' or 'Maximum steps', or damp "
-              "more.");
-      return false;
+      if (state.stage_step < stage.maximum_steps
+          || (by_time && !stage.slows_loads()))
+        return false;
+      if (by_time)
+        throw RunError(text_of(
+            "stage '", stage.name, "' has not come to its end within ",
+            stage.maximum_steps, " steps: its loads are at ", state.load_time,
+            " of ", stage.duration, " s and go on at the rate ",
+            state.load_rate,
+            ". Raise 'Kinetic energy limit' or 'Maximum steps', or damp "
+            "more."));
+      throw RunError(
+          text_of("stage '", stage.name, "' has not settled within ",
+                  stage.maximum_steps, " steps: the unbalanced ratio is ",
+                  state.unbalanced_ratio, " instead of ", stage.static_ratio,
+                  ". The model may have no equilibrium under these loads; "
+                  "otherwise raise 'Maximum steps' or damp more."));
     }
-    if (balance && has_settled(context, stage))
-      return true;
-    if (state.stage_step >= stage.maximum_steps)
-      throw RunError("stage '" + stage.name + "' has not settled within "
-                     + std::to_string(stage.maximum_steps)
-                     + " steps: the unbalanced ratio is "
-                     + number_text(state.unbalanced_ratio) + " instead of "
-                     + number_text(stage.static_ratio)
-                     + ". The model may have no equilibrium under these "
-                       "loads; otherwise raise 'Maximum steps' or damp more.");
-    return false;
-  }
 
-  void ExplicitStage::report_blocks_outside()
-  {
-    const bool removes = context.system.parameters.model.contact.outside
-                         == ContactParameters::Outside::remove;
-    for (const BlockOutside &block : solver.take_blocks_outside())
-      context.run.log.warning(
-          "block " + std::to_string(block.block) + ", at ("
-          + number_text(block.position[0]) + ", "
-          + number_text(block.position[1]) + ") m, has left the box at time "
-          + number_text(block.time) + " s"
-          + (block.removed ? " and is deleted"
-             : removes     ? "; it stays in the model, because a load moves it "
-                             "or joints tie it to a block that stays"
-                           : ""));
-  }
+    void ExplicitStage::report_blocks_outside()
+    {
+      const bool removes = system.parameters.model.contact.outside
+                           == ContactParameters::Outside::remove;
+      for (const BlockOutside &block : solver.take_blocks_outside())
+        log.warning("block ", block.block, ", at (", block.position[0], ", ",
+                    block.position[1], ") m, has left the box at time ",
+                    block.time, " s",
+                    block.removed ? " and is deleted"
+                    : removes
+                        ? "; it stays in the model, because a load moves it or "
+                          "joints tie it to a block that stays"
+                        : "");
+    }
+  } // namespace
 
-  ProgressFigures ExplicitStage::figures() const
+  std::unique_ptr<Stage> make_explicit_stage(BlockContext &context,
+                                             const unsigned int index)
   {
-    return context.progress_figures(
-        stage,
-        stage.end == StageEnd::time ? state.load_time / stage.duration : -1.);
+    return std::make_unique<ExplicitStage>(context, index);
   }
 } // namespace quoin

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/exceptions.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/layout/rock_layout.h>
 #include <quoin/layout/wall_layout.h>
-#include <quoin/problems/mesh_parameters.h>
+#include <quoin/problems/model_parameters.h>
+#include <quoin/problems/problem.h>
 
 #include <filesystem>
 #include <utility>
@@ -31,15 +31,11 @@ namespace quoin
       parameters.split.joints_along = geometry.joint_curves;
     }
 
-    WallParameters read_wall(const ParameterSection &top)
-    {
-      return WallParameters::read(ParameterSection(top, "Wall"));
-    }
-
     /** Lays the wall or the rock, if the file has one. */
     bool read_generated(const ParameterSection &top, Parameters &parameters)
     {
-      const WallParameters wall = read_wall(top);
+      const WallParameters wall
+          = WallParameters::read(ParameterSection(top, "Wall"));
       const RockParameters rock = RockParameters::read(top);
       const bool has_wall       = wall.bond != WallBond::none;
       const bool has_rock       = !rock.outline.empty();
@@ -50,37 +46,24 @@ namespace quoin
                   "empty, or set 'Wall/Bond = none'.");
       if (!has_wall && !has_rock)
         return false;
-      {
-        const ParameterSection section(top, "Mesh");
-        if (!section.text("File").empty())
-          section.fail("File",
-                       "does not go with a wall of section 'Wall' or rock of "
-                       "section 'Rock': leave it empty, or set 'Wall/Bond = "
-                       "none' and 'Rock/Outline' empty.");
-      }
-      try
-      {
-        if (has_wall)
-          lay(wall, parameters);
-        else
-          lay(rock, parameters);
-      }
-      catch (const InputError &error)
-      {
-        throw InputError(top.file() + ", " + error.what());
-      }
+      if (const ParameterSection section(top, "Mesh");
+          !section.text("File").empty())
+        section.fail("File",
+                     "does not go with a wall of section 'Wall' or rock of "
+                     "section 'Rock': leave it empty, or set 'Wall/Bond = "
+                     "none' and 'Rock/Outline' empty.");
+      naming(top.file(), [&]()
+             { has_wall ? lay(wall, parameters) : lay(rock, parameters); });
       return true;
     }
 
     void check_mesh_file(const ParameterSection &section,
                          Parameters &parameters)
     {
-      const std::string name = parameters.mesh_file;
-      if (name.empty())
+      if (parameters.mesh_file.empty())
         section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
                              "a bond, or section 'Rock' an outline.");
-      parameters.mesh_file
-          = name.front() == '/' ? name : section.folder() + name;
+      parameters.mesh_file = section.in_folder(parameters.mesh_file);
       std::error_code error; // a name may be too long for any file
       if (!std::filesystem::exists(parameters.mesh_file, error))
         section.fail("File",
@@ -129,17 +112,7 @@ namespace quoin
 
   void declare_mesh(dealii::ParameterHandler &prm)
   {
-    prm.enter_subsection("Mesh");
     declare_entries(prm, enter_mesh);
-    prm.leave_subsection();
-
-    prm.enter_subsection("Wall");
-    WallParameters::declare(prm);
-    prm.leave_subsection();
-
-    prm.enter_subsection("Rock");
-    RockParameters::declare(prm);
-    prm.leave_subsection();
   }
 
   void read_mesh(const ParameterSection &top, Parameters &parameters)
@@ -154,17 +127,11 @@ namespace quoin
       check_mesh_file(section, parameters);
     else if (parameters.split.joints_along.empty())
       parameters.split.joints_along = joints_of_layout;
-  }
-
-  void check_triangles(const ParameterSection &top,
-                       const Parameters &parameters)
-  {
     if (parameters.triangles == TriangleKind::quadratic
         && !parameters.is_implicit)
-      ParameterSection(top, "Mesh")
-          .fail("Triangles",
-                "needs 'Solver = implicit': explicit steps divide forces by "
-                "masses of nodes, and the corners of quadratic triangles have "
-                "none. Take 'plain' or 'crossed'.");
+      section.fail("Triangles",
+                   "needs 'Solver = implicit': explicit steps divide forces by "
+                   "masses of nodes, and the corners of quadratic triangles "
+                   "have none. Take 'plain' or 'crossed'.");
   }
 } // namespace quoin

@@ -1,62 +1,33 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/problems/mesh_parameters.h>
-#include <quoin/problems/model_parameters.h>
-#include <quoin/problems/parameter_file.h>
-#include <quoin/problems/parameters.h>
-#include <quoin/base/exceptions.h>
 #include <quoin/base/named_sections.h>
 #include <quoin/base/parameter_entries.h>
+#include <quoin/base/parameter_file.h>
 #include <quoin/layout/rock_parameters.h>
+#include <quoin/layout/wall_parameters.h>
+#include <quoin/problems/model_parameters.h>
 
 #include <filesystem>
-#include <functional>
-#include <set>
 #include <sstream>
-#include <utility>
 
 namespace quoin
 {
   namespace
   {
     using dealii::ParameterHandler;
-    using dealii::Patterns::Anything;
 
-    /** The sections whose subsections the user names. */
-    struct NamedSection
-    {
-      std::string name;
-      std::function<void(ParameterHandler &)> declare_one;
-    };
-
-    const std::vector<NamedSection> &named_sections()
-    {
-      static const std::vector<NamedSection> sections
-          = { { "Rock regions", RockRegion::declare },
-              { "Rock joints", RockJoints::declare },
-              { "Materials", MaterialParameters::declare },
-              { "Joints", JointSetParameters::declare },
-              { "Loads", LoadParameters::declare },
-              { "Stages", StageParameters::declare },
-              { "Boundary elements", BoundaryCurveParameters::declare },
-              { "Incident waves", IncidentWaveParameters::declare },
-              { "Histories", HistoryParameters::declare } };
-      return sections;
-    }
-
-    void declare_names(ParameterHandler &prm)
-    {
-      for (const NamedSection &section : named_sections())
-      {
-        prm.enter_subsection(section.name);
-        prm.declare_entry("Names", "", Anything(),
-                          "Comma-separated names; each is a subsection.");
-        prm.leave_subsection();
-      }
-    }
-
-    using Enter = void (*)(ParameterEntries &, Parameters &);
+    /** Sections with subsections that the user names, which these declare. */
+    const std::vector<SectionEntries> named_sections
+        = { { "Rock regions", RockRegion::declare },
+            { "Rock joints", RockJoints::declare },
+            { "Materials", MaterialParameters::declare },
+            { "Joints", JointSetParameters::declare },
+            { "Loads", LoadParameters::declare },
+            { "Stages", StageParameters::declare },
+            { "Boundary elements", BoundaryCurveParameters::declare },
+            { "Incident waves", IncidentWaveParameters::declare },
+            { "Histories", HistoryParameters::declare } };
 
     void enter_top(ParameterEntries &entries, Parameters &parameters)
     {
@@ -118,66 +89,46 @@ namespace quoin
                    "and the share of it that the run used is written.");
     }
 
-    /** Sections of the run itself, without names. */
-    const std::vector<std::pair<std::string, Enter>> run_sections
-        = { { "Time stepping", enter_time_stepping },
-            { "Histories", enter_histories },
-            { "Output", enter_output } };
+    /** Declares the entries of @p enter, a function of this file. */
+    template <void (*enter)(ParameterEntries &, Parameters &)>
+    void declare_with(ParameterHandler &prm)
+    {
+      declare_entries(prm, enter);
+    }
 
-    /** Sections with a struct of their own. */
-    const std::vector<NamedSection> other_sections
-        = { { "Contact", ContactParameters::declare },
+    /** Sections without names. */
+    const std::vector<SectionEntries> other_sections
+        = { { "Mesh", declare_mesh },
+            { "Wall", WallParameters::declare },
+            { "Rock", RockParameters::declare },
+            { "Contact", ContactParameters::declare },
             { "Boundary elements", BoundaryElementParameters::declare },
             { "Sampled field", SampledFieldParameters::declare },
             { "Initial motion", InitialMotion::declare },
-            { "Implicit", ImplicitParameters::declare } };
+            { "Implicit", ImplicitParameters::declare },
+            { "Time stepping", declare_with<enter_time_stepping> },
+            { "Histories", declare_with<enter_histories> },
+            { "Output", declare_with<enter_output> } };
 
     void declare_fixed(ParameterHandler &prm)
     {
       declare_entries(prm, enter_top);
-      declare_mesh(prm);
-      for (const NamedSection &section : other_sections)
-      {
-        prm.enter_subsection(section.name);
-        section.declare_one(prm);
-        prm.leave_subsection();
-      }
-      for (const auto &[name, enter] : run_sections)
-      {
-        prm.enter_subsection(name);
-        declare_entries(prm, enter);
-        prm.leave_subsection();
-      }
+      declare_sections(other_sections, prm);
+      declare_names(named_sections, prm);
     }
 
-    void read_run_sections(const ParameterSection &top, Parameters &parameters)
+    void read_section(const ParameterSection &top, const std::string &name,
+                      void (*enter)(ParameterEntries &, Parameters &),
+                      Parameters &parameters)
     {
-      for (const auto &[name, enter] : run_sections)
-      {
-        const ParameterSection section(top, name);
-        ParameterEntries entries(section);
-        enter(entries, parameters);
-      }
-    }
-
-    /** Whether the section that @p prm is in has a parameter @p name. */
-    bool has_entry(ParameterHandler &prm, const std::string &name)
-    {
-      try
-      {
-        // get() gives an empty text for what is not there.
-        prm.set(name, prm.get(name));
-        return true;
-      }
-      catch (const dealii::ExceptionBase &)
-      {
-        return false;
-      }
+      const ParameterSection section(top, name);
+      ParameterEntries entries(section);
+      enter(entries, parameters);
     }
 
     /** The tables and records that values of @p text name and that exist. */
     std::vector<std::string> time_files(const std::string &text,
-                                        const std::string &folder)
+                                        const ParameterSection &top)
     {
       std::vector<std::string> result;
       std::istringstream lines(text);
@@ -191,11 +142,9 @@ namespace quoin
               = dealii::Utilities::trim(line.substr(place + word.size()));
           // What follows: of a table a factor, of a record options.
           name = name.substr(0, name.find(word == " table " ? " times " : " "));
-          if (!name.empty() && name.front() != '/')
-            name = folder + name;
           std::error_code error;
-          if (std::filesystem::is_regular_file(name, error))
-            result.push_back(name);
+          if (std::filesystem::is_regular_file(top.in_folder(name), error))
+            result.push_back(top.in_folder(name));
         }
       return result;
     }
@@ -206,39 +155,12 @@ namespace quoin
   {
     const ParameterFile input(file, overrides);
     ParameterHandler names;
-    declare_names(names);
+    declare_names(named_sections, names);
     input.parse(names, true);
 
     ParameterHandler prm;
     declare_fixed(prm);
-    declare_names(prm);
-    for (const NamedSection &section : named_sections())
-    {
-      names.enter_subsection(section.name);
-      const auto listed
-          = dealii::Utilities::split_string_list(names.get("Names"), ',');
-      names.leave_subsection();
-      prm.enter_subsection(section.name);
-      std::set<std::string> seen;
-      for (const std::string &name : listed)
-      {
-        if (name.empty())
-          continue;
-        if (!seen.insert(name).second)
-          throw InputError(file + ", section '" + section.name
-                           + "': 'Names' lists '" + name
-                           + "' twice. Names must differ.");
-        if (has_entry(prm, name))
-          throw InputError(file + ", section '" + section.name
-                           + "': 'Names' lists '" + name
-                           + "', which is a parameter of this section. Take "
-                             "another name.");
-        prm.enter_subsection(name);
-        section.declare_one(prm);
-        prm.leave_subsection();
-      }
-      prm.leave_subsection();
-    }
+    declare_listed(named_sections, file, names, prm);
     input.parse(prm, false);
 
     Parameters parameters;
@@ -246,9 +168,7 @@ namespace quoin
     const ParameterSection top(prm, file);
     ParameterEntries entries(top);
     enter_top(entries, parameters);
-    if (parameters.output_directory.empty()
-        || parameters.output_directory.front() != '/')
-      parameters.output_directory = top.folder() + parameters.output_directory;
+    parameters.output_directory = top.in_folder(parameters.output_directory);
     if (parameters.is_implicit && parameters.is_boundary_model)
       top.fail("Solver", "is for blocks: with 'Model = boundary elements' "
                          "leave it 'explicit'; statics of these is 'Analysis = "
@@ -262,17 +182,18 @@ namespace quoin
                        + ", section 'Materials': 'Names' must list at "
                          "least one material.");
     parameters.histories = read_named<HistoryParameters>(top, "Histories");
-    read_run_sections(top, parameters);
+    read_section(top, "Time stepping", enter_time_stepping, parameters);
+    read_section(top, "Histories", enter_histories, parameters);
+    read_section(top, "Output", enter_output, parameters);
     if (parameters.is_boundary_model)
       read_boundary_model(top, parameters);
     else
       read_block_model(top, parameters);
-    check_triangles(top, parameters);
 
     std::ostringstream effective;
     prm.print_parameters(effective, ParameterHandler::ShortPRM);
     parameters.effective  = effective.str();
-    parameters.time_files = time_files(parameters.effective, top.folder());
+    parameters.time_files = time_files(parameters.effective, top);
     return parameters;
   }
 
@@ -280,15 +201,7 @@ namespace quoin
   {
     ParameterHandler prm;
     declare_fixed(prm);
-    declare_names(prm);
-    for (const NamedSection &section : named_sections())
-    {
-      prm.enter_subsection(section.name);
-      prm.enter_subsection("NAME");
-      section.declare_one(prm);
-      prm.leave_subsection();
-      prm.leave_subsection();
-    }
+    declare_examples(named_sections, prm);
     std::ostringstream text;
     prm.print_parameters(text, ParameterHandler::PRM
                                    | ParameterHandler::KeepDeclarationOrder);

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What input_advice.h says about stages.
-
-#include <quoin/problems/input_advice.h>
-#include <quoin/problems/model_summary.h>
-#include <quoin/problems/shaking.h>
-#include <quoin/problems/signal_frequency.h>
-#include <quoin/base/number_text.h>
-#include <quoin/dynamics/solver.h>
+#include <quoin/base/known_names.h>
+#include <quoin/problems/advice.h>
 
 #include <algorithm>
 #include <array>
@@ -19,111 +13,103 @@ namespace quoin
 {
   namespace
   {
-    std::string of_stage(const StageParameters &stage)
+    /** A stage, when it begins, as far as it is known, and its loads. */
+    struct StageOfRun
     {
-      return "stage " + stage.name + ": ";
-    }
-
-    /** Whether waves, not equilibria, are what a stage computes. */
-    bool is_dynamic(const StageParameters &stage)
-    {
-      return stage.end == StageEnd::time && !stage.slows_loads()
-             && stage.scaled_time_step == 0.
-             && (stage.damping == DampingType::none
-                 || stage.damping == DampingType::rayleigh);
-    }
-
-    bool brings_waves(const Parameters &parameters, const unsigned int index)
-    {
-      const StageParameters &stage = parameters.stages[index];
-      const double start           = start_of_stage(parameters.stages, index);
-      for (const std::string &name : stage.loads)
+      StageOfRun(const Parameters &parameters, const unsigned int index)
+        : parameters(parameters), index(index), stage(parameters.stages[index]),
+          before(previous_stage(parameters.stages, index)),
+          start(start_of_stage(parameters.stages, index))
       {
-        const LoadParameters *load = find_load(parameters, name);
-        if (!load)
-          continue;
-        if (load->type == LoadType::boundary_elements
-            && !parameters.boundary.waves.empty())
-          return true;
-        if (load->type == LoadType::viscous_boundary)
-          for (const LoadComponent &component : load->components)
-            if (component.quantity != LoadQuantity::free)
-            {
-              const auto values = sampled(
-                  [&](const double t) {
-                    return component.value({ t, start + t });
-                  },
-                  stage.duration, 1025);
-              if (std::any_of(values.begin(), values.end(),
-                              [](const double v) { return v != 0.; }))
-                return true;
-            }
+        for (const std::string &name : stage.loads)
+          if (const LoadParameters *load = find_named(parameters.loads, name))
+            loads.push_back(load);
       }
+
+      bool has(const LoadType type) const
+      {
+        return std::any_of(loads.begin(), loads.end(),
+                           [=](const LoadParameters *load)
+                           { return load->type == type; });
+      }
+
+      /** A component by the time since the begin of the stage. */
+      FunctionOfTime function(const LoadComponent &component) const
+      {
+        return [&component, begin = start](const double t) {
+          return component.value({ t, begin + t });
+        };
+      }
+
+      const Parameters &parameters;
+      const unsigned int index;
+      const StageParameters &stage;
+      const StageParameters *before; /**< that left the model so, or null */
+      const double start;            /**< [s] */
+      std::vector<const LoadParameters *> loads;
+    };
+
+    bool brings_waves(const StageOfRun &run)
+    {
+      if (run.has(LoadType::boundary_elements)
+          && !run.parameters.boundary.waves.empty())
+        return true;
+      for (const LoadParameters *load : run.loads)
+        if (load->type == LoadType::viscous_boundary)
+          for (const auto &given : load->given_components())
+          {
+            const auto values = sampled(run.function(given.component),
+                                        run.stage.duration, 1025);
+            if (std::any_of(values.begin(), values.end(),
+                            [](const double v) { return v != 0.; }))
+              return true;
+          }
       return false;
     }
 
-    void advise_about_damping(const Parameters &parameters,
-                              const unsigned int index,
-                              std::vector<std::string> &advice)
+    void check_damping(const StageOfRun &run, Checks &checks)
     {
-      const StageParameters &stage = parameters.stages[index];
-      if (stage.end == StageEnd::time
-          && (stage.damping == DampingType::local
-              || stage.damping == DampingType::adaptive)
-          && brings_waves(parameters, index))
-        advice.push_back(of_stage(stage)
-                         + "waves come in, and "
-                           "'Damping = local' or 'adaptive', which is meant "
-                           "for equilibria, takes their energy. Take 'none' or "
-                           "'Rayleigh'.");
+      const StageParameters &stage = run.stage;
+      const bool is_of_equilibria  = stage.damping == DampingType::local
+                                    || stage.damping == DampingType::adaptive;
+      checks.warn_if(
+          stage.end == StageEnd::time && is_of_equilibria && brings_waves(run),
+          "waves come in, and 'Damping = local' or 'adaptive', which is meant "
+          "for equilibria, takes their energy. Take 'none' or 'Rayleigh'.");
+      checks.warn_if(
+          stage.scaled_time_step > 0. && stage.end == StageEnd::time
+              && !stage.slows_loads() && !is_of_equilibria,
+          "'Mass scaling' changes how the model moves, and this stage follows "
+          "its motion. Remove it: it is for stages that seek an equilibrium, "
+          "with 'Damping = local' or 'adaptive'.");
     }
 
-    void advise_about_mass_scaling(const StageParameters &stage,
-                                   std::vector<std::string> &advice)
+    /** Waves neither come in nor leave by dashpots where motion is given. */
+    void check_supports(const StageOfRun &run, Checks &checks)
     {
-      if (stage.scaled_time_step > 0. && stage.end == StageEnd::time
-          && !stage.slows_loads()
-          && (stage.damping == DampingType::none
-              || stage.damping == DampingType::rayleigh))
-        advice.push_back(of_stage(stage)
-                         + "'Mass scaling' changes how the model moves, and "
-                           "this stage follows its motion. Remove it: it is "
-                           "for stages that seek an equilibrium, with 'Damping "
-                           "= local' or 'adaptive'.");
-    }
-
-    /** Of dashpots under what is held: waves neither come in nor leave. */
-    void advise_about_supports(const Parameters &parameters,
-                               const StageParameters &stage,
-                               std::vector<std::string> &advice)
-    {
-      for (const LoadParameters &held : parameters.loads)
-        for (const LoadParameters &open : parameters.loads)
+      for (const LoadParameters *held : run.loads)
+        for (const LoadParameters *open : run.loads)
         {
-          if (!names_load(stage, held.name) || !names_load(stage, open.name)
-              || held.type != LoadType::prescribed_motion
-              || (open.type != LoadType::viscous_boundary
-                  && open.type != LoadType::free_field)
-              || held.components[0].quantity == LoadQuantity::free
-              || held.components[1].quantity == LoadQuantity::free)
+          if (held->type != LoadType::prescribed_motion
+              || (open->type != LoadType::viscous_boundary
+                  && open->type != LoadType::free_field)
+              || held->given_components().size() < 2)
             continue;
-          for (const std::string &curve : open.boundaries)
-            if (std::count(held.boundaries.begin(), held.boundaries.end(),
-                           curve)
-                > 0)
-            {
-              advice.push_back(of_stage(stage) + "the load " + held.name
-                               + " prescribes the motion of the curve " + curve
-                               + ", so the load " + open.name
-                               + " there does nothing: no wave comes in or "
-                                 "leaves. Take one of them out of 'Loads'.");
-              break;
-            }
+          const auto shared
+              = std::find_if(open->boundaries.begin(), open->boundaries.end(),
+                             [&](const std::string &curve)
+                             { return is_among(curve, held->boundaries); });
+          if (shared != open->boundaries.end())
+            checks.warn_if(true, "the load ", held->name,
+                           " prescribes the motion of the curve ", *shared,
+                           ", so the load ", open->name,
+                           " there does nothing: no wave comes in or leaves. "
+                           "Take one of them out of 'Loads'.");
         }
     }
 
     /**
-     * Freedom @p d of all loads of @p stage that act where @p load does, in
+     * Component @p d of all loads of @p stage that act where @p load does, in
      * the same way, at @p t of a stage that began at @p start [s].
      */
     double force_like(const Parameters &parameters,
@@ -141,125 +127,144 @@ namespace quoin
     }
 
     /** Of a force; without height if there is none worth a word. */
-    Jump jump_of(const Parameters &parameters, const unsigned int index,
-                 const LoadParameters &load, const unsigned int d)
+    Jump jump_of(const StageOfRun &run, const LoadParameters &load,
+                 const unsigned int d)
     {
       /** Share of the largest value that counts as a jump. */
       constexpr double smallest    = 0.2;
-      const StageParameters &stage = parameters.stages[index];
-      const double start           = start_of_stage(parameters.stages, index);
+      const Parameters &parameters = run.parameters;
       const FunctionOfTime value   = [&](const double t)
-      { return force_like(parameters, stage, load, d, t, start); };
+      { return force_like(parameters, run.stage, load, d, t, run.start); };
       double largest = 0.;
-      for (const double v : sampled(value, stage.duration, 1025))
+      for (const double v : sampled(value, run.stage.duration, 1025))
         largest = std::max(largest, std::abs(v));
-      Jump jump                     = largest_jump(value, stage.duration);
-      const StageParameters *before = previous_stage(parameters.stages, index);
-      double last                   = 0.;
-      if (before && before->end == StageEnd::time)
-        last = force_like(parameters, *before, load, d, before->duration,
-                          start - before->duration);
-      else if (before)
-        last = force_like(parameters, *before, load, d, late_time, start);
+      Jump jump   = largest_jump(value, run.stage.duration);
+      double last = 0.;
+      if (run.before && run.before->end == StageEnd::time)
+        last
+            = force_like(parameters, *run.before, load, d, run.before->duration,
+                         run.start - run.before->duration);
+      else if (run.before)
+        last = force_like(parameters, *run.before, load, d, late_time,
+                          run.start);
       // At the start of the run it may be what the initial stress bears.
       const bool is_borne
-          = index == 0 && !parameters.model.initial_stresses.empty();
+          = run.index == 0 && !parameters.model.initial_stresses.empty();
       if (!is_borne && std::abs(value(0.) - last) > jump.height)
         jump = { 0., std::abs(value(0.) - last) };
       return jump.height > smallest * largest ? jump : Jump();
     }
 
-    /** What moves with its weight alone is not shaken by it. */
-    bool holds_anything(const Parameters &parameters,
-                        const StageParameters &stage)
+    /** @p rise: how long a force may take to rise [s]. */
+    void check_jumps(const StageOfRun &run, const double rise, Checks &checks)
     {
-      return std::any_of(stage.loads.begin(), stage.loads.end(),
-                         [&](const std::string &name)
-                         {
-                           const LoadParameters *load
-                               = find_load(parameters, name);
-                           return load && load->type != LoadType::gravity
-                                  && load->type != LoadType::traction
-                                  && load->type != LoadType::initial_stress;
-                         });
-    }
-
-    void advise_about_jumps(const Parameters &parameters,
-                            const unsigned int index, const double rise,
-                            std::vector<std::string> &advice)
-    {
-      const StageParameters &stage = parameters.stages[index];
-      if (!is_dynamic(stage) || stage.stiffness_coefficient > 0.)
+      if (!run.stage.is_dynamic() || run.stage.stiffness_coefficient > 0.)
         return;
-      for (const std::string &name : stage.loads)
+      // What moves with its weight alone is not shaken by it.
+      const bool is_held
+          = std::any_of(run.loads.begin(), run.loads.end(),
+                        [](const LoadParameters *load)
+                        {
+                          return load->type != LoadType::gravity
+                                 && load->type != LoadType::traction
+                                 && load->type != LoadType::initial_stress;
+                        });
+      for (const LoadParameters *load : run.loads)
       {
-        const LoadParameters *load = find_load(parameters, name);
-        if (!load
-            || (load->type != LoadType::traction
-                && load->type != LoadType::platen
-                && !(load->type == LoadType::gravity
-                     && holds_anything(parameters, stage))))
+        if (load->type != LoadType::traction && load->type != LoadType::platen
+            && !(load->type == LoadType::gravity && is_held))
           continue;
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          if (load->functions()[d].quantity != LoadQuantity::force)
-            continue;
-          const Jump jump = jump_of(parameters, index, *load, d);
-          if (jump.height == 0.)
-            continue;
-          advice.push_back(
-              of_stage(stage) + "the load " + name + " jumps by "
-              + number_text(jump.height) + " at " + number_text(jump.time)
-              + " s of an undamped stage: that excites frequencies which no "
-                "mesh resolves. Let it rise over "
-              + number_text(rise)
-              + " s, what an S wave takes through ten edges, or more, or damp "
-                "by 'Rayleigh' with a stiffness coefficient.");
-          break;
-        }
+        Jump jump;
+        for (unsigned int d = 0; d < 3 && jump.height == 0.; ++d)
+          if (load->functions()[d].quantity == LoadQuantity::force)
+            jump = jump_of(run, *load, d);
+        checks.warn_if(
+            jump.height > 0., "the load ", load->name, " jumps by ",
+            jump.height, " at ", jump.time,
+            " s of an undamped stage: that excites frequencies which no mesh "
+            "resolves. Let it rise over ",
+            rise,
+            " s, what an S wave takes through ten edges, or more, or damp by "
+            "'Rayleigh' with a stiffness coefficient.");
       }
     }
 
-    /** Of the stage before, and not in this one. */
-    void advise_about_lost_weight(const Parameters &parameters,
-                                  const unsigned int index,
-                                  std::vector<std::string> &advice)
+    /** Gravity acts in the stage before, and not in this one. */
+    void check_weight(const StageOfRun &run, Checks &checks)
     {
-      const StageParameters &stage  = parameters.stages[index];
-      const StageParameters *before = previous_stage(parameters.stages, index);
-      const auto has_gravity        = [&](const StageParameters &any)
-      {
-        return std::any_of(parameters.loads.begin(), parameters.loads.end(),
-                           [&](const LoadParameters &load) {
+      const bool had_weight
+          = run.before
+            && std::any_of(run.parameters.loads.begin(),
+                           run.parameters.loads.end(),
+                           [&](const LoadParameters &load)
+                           {
                              return load.type == LoadType::gravity
-                                    && names_load(any, load.name);
+                                    && names_load(*run.before, load.name);
                            });
-      };
-      if (before && has_gravity(*before) && !has_gravity(stage))
-        advice.push_back(of_stage(stage)
-                         + "its 'Loads' name no gravity, but stage "
-                         + before->name
-                         + " had some: the model becomes weightless at once. "
-                           "Name the load here, too, if that is not meant.");
+      if (had_weight && !run.has(LoadType::gravity))
+        checks.warn_if(true, "its 'Loads' name no gravity, but stage ",
+                       run.before->name,
+                       " had some: the model becomes weightless at once. Name "
+                       "the load here, too, if that is not meant.");
     }
 
-    void advise_about_waves(const Parameters &parameters,
-                            const unsigned int index,
-                            const std::vector<CellSize> &sizes,
-                            std::vector<std::string> &advice)
+    /** How coarse the blocks' cells of one material are, for waves. */
+    struct CellSize
     {
-      if (!is_dynamic(parameters.stages[index]))
+      /** Largest second-longest edge of a cell: the diagonal of a square of
+          two cells does not count [m]; 0: there is no cell. */
+      double edge = 0.;
+      dealii::Point<2> position; /**< of that cell [m] */
+    };
+
+    /** Of each material; cells of blocks absent in @p state do not count. */
+    std::vector<CellSize> cell_sizes(const Model &model, const State<2> &state,
+                                     const std::size_t n_materials)
+    {
+      const NodeMap<2> &nodes = model.nodes();
+      std::vector<CellSize> sizes(n_materials);
+      for (unsigned int c = 0; c < model.n_deformable_cells(); ++c)
+      {
+        if (state.is_absent(nodes.block_of_cell(c)))
+          continue;
+        const auto &[i, j, k] = nodes.cell(c);
+        const auto &p = nodes.point(i), &q = nodes.point(j),
+                   &r = nodes.point(k);
+        std::array<double, 3> edges{ { p.distance(q), q.distance(r),
+                                       r.distance(p) } };
+        std::sort(edges.begin(), edges.end());
+        CellSize &size = sizes[model.material_of_cell(c)];
+        if (edges[1] > size.edge)
+          size = { edges[1], p };
+      }
+      // The largest of all ranks, of several the lowest rank's.
+      for (CellSize &size : sizes)
+        for (const CellSize &other :
+             dealii::Utilities::MPI::all_gather(nodes.communicator(), size))
+          if (other.edge > size.edge)
+            size = other;
+      return sizes;
+    }
+
+    double shear_wave(const Parameters &parameters, const unsigned int material)
+    {
+      return wave_speeds(parameters.model.materials[material].elastic,
+                         parameters.model.plane)
+          .s;
+    }
+
+    void check_edges(const StageOfRun &run, const std::vector<CellSize> &sizes,
+                     Checks &checks)
+    {
+      if (!run.stage.is_dynamic())
         return;
-      const Shaking shaking = fastest_load(parameters, index);
+      const Shaking shaking = fastest_load(run.parameters, run.index);
       // The material in which its waves have the fewest edges.
       unsigned int worst = 0;
       double fewest = std::numeric_limits<double>::infinity(), length = 0.;
       for (unsigned int m = 0; m < sizes.size(); ++m)
       {
-        const double wave = wave_speeds(parameters.model.materials[m].elastic,
-                                        parameters.model.plane)
-                                .s
-                            / shaking.frequency;
+        const double wave = shear_wave(run.parameters, m) / shaking.frequency;
         if (sizes[m].edge > 0. && wave / sizes[m].edge < fewest)
         {
           worst  = m;
@@ -270,80 +275,61 @@ namespace quoin
       if (!(fewest < fewest_edges))
         return;
       const CellSize &size = sizes[worst];
-      advice.push_back(
-          of_stage(parameters.stages[index]) + shaking.name
-          + " brings frequencies of up to " + number_text(shaking.frequency)
-          + " Hz, whose S waves are " + number_text(length)
-          + " m long in the material " + parameters.model.materials[worst].name
-          + ". They need eight to ten edges, but edges are up to "
-          + number_text(size.edge) + " m long, at ("
-          + number_text(size.position[0]) + ", " + number_text(size.position[1])
-          + ") m. Refine the mesh there to " + number_text(0.1 * length)
-          + " m, or lower the frequency.");
+      checks.warn_if(true, shaking.name, " brings frequencies of up to ",
+                     shaking.frequency, " Hz, whose S waves are ", length,
+                     " m long in the material ",
+                     run.parameters.model.materials[worst].name,
+                     ". They need eight to ten edges, but edges are up to ",
+                     size.edge, " m long, at (", size.position[0], ", ",
+                     size.position[1], ") m. Refine the mesh there to ",
+                     0.1 * length, " m, or lower the frequency.");
     }
   } // namespace
 
-  std::vector<CellSize> cell_sizes(const Model &model, const State<2> &state,
-                                   const std::size_t n_materials)
+  Shaking fastest_load(const Parameters &parameters, const unsigned int index)
   {
-    const NodeMap<2> &nodes = model.nodes();
-    std::vector<CellSize> sizes(n_materials);
-    for (unsigned int c = 0; c < model.n_deformable_cells(); ++c)
-    {
-      if (state.is_absent(nodes.block_of_cell(c)))
-        continue;
-      const auto &[i, j, k] = nodes.cell(c);
-      const auto &p = nodes.point(i), &q = nodes.point(j), &r = nodes.point(k);
-      std::array<double, 3> edges{ { p.distance(q), q.distance(r),
-                                     r.distance(p) } };
-      std::sort(edges.begin(), edges.end());
-      CellSize &size = sizes[model.material_of_cell(c)];
-      if (edges[1] > size.edge)
-        size = { edges[1], p };
-    }
-    // The largest of all ranks, of several the lowest rank's.
-    for (CellSize &size : sizes)
-      for (const CellSize &other :
-           dealii::Utilities::MPI::all_gather(nodes.communicator(), size))
-        if (other.edge > size.edge)
-          size = other;
-    return sizes;
+    const StageOfRun run(parameters, index);
+    Shaking fastest;
+    for (const LoadParameters *load : run.loads)
+      for (const auto &given : load->given_components())
+        fastest.take_faster(
+            "the load " + load->name,
+            velocity_frequency(
+                run.function(given.component),
+                load->type == LoadType::gravity ? SignalKind::acceleration
+                : given.component.quantity == LoadQuantity::displacement
+                    ? SignalKind::displacement
+                    : SignalKind::velocity,
+                run.stage.duration));
+    return fastest;
   }
 
-  std::vector<std::string> stage_advice(const Parameters &parameters,
-                                        const unsigned int index,
-                                        const Model &model,
-                                        const State<2> &state,
-                                        const double time_step)
+  Advice stage_advice(const Parameters &parameters, const unsigned int index,
+                      const Model &model, const State<2> &state,
+                      const double time_step)
   {
-    std::vector<std::string> advice;
-    const StageParameters &stage = parameters.stages[index];
-    advise_about_damping(parameters, index, advice);
-    advise_about_mass_scaling(stage, advice);
-    advise_about_supports(parameters, stage, advice);
-    advise_about_lost_weight(parameters, index, advice);
+    const StageOfRun run(parameters, index);
+    Advice advice;
+    Checks checks(advice, "stage " + run.stage.name + ": ");
+    check_damping(run, checks);
+    check_supports(run, checks);
+    check_weight(run, checks);
     const auto sizes
         = cell_sizes(model, state, parameters.model.materials.size());
     double rise = 0.;
     for (unsigned int m = 0; m < sizes.size(); ++m)
       if (sizes[m].edge > 0.)
-        rise = std::max(rise,
-                        10. * sizes[m].edge
-                            / wave_speeds(parameters.model.materials[m].elastic,
-                                          parameters.model.plane)
-                                  .s);
+        rise = std::max(rise, 10. * sizes[m].edge / shear_wave(parameters, m));
     if (rise > 0.) // else nothing deforms
-      advise_about_jumps(parameters, index, rise, advice);
-    advise_about_waves(parameters, index, sizes, advice);
-    if (index == 0 && parameters.history_interval > 0.
-        && parameters.history_interval < time_step)
-      advice.push_back(of_stage(stage) + "'Interval = "
-                       + number_text(parameters.history_interval)
-                       + "' in section 'Histories' is shorter than the time "
-                         "step, "
-                       + number_text(time_step)
-                       + " s: rows come at every step. Take a longer one, or "
-                         "0 if that is meant.");
+      check_jumps(run, rise, checks);
+    check_edges(run, sizes, checks);
+    checks.warn_if(index == 0 && parameters.history_interval > 0.
+                       && parameters.history_interval < time_step,
+                   "'Interval = ", parameters.history_interval,
+                   "' in section 'Histories' is shorter than the time step, ",
+                   time_step,
+                   " s: rows come at every step. Take a longer one, or 0 if "
+                   "that is meant.");
     return advice;
   }
 } // namespace quoin

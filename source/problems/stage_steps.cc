@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/number_text.h>
-#include <quoin/problems/boundary_report.h>
+#include <quoin/farfield/boundary_report.h>
 #include <quoin/problems/problem.h>
 #include <quoin/problems/stage_steps.h>
-#include <quoin/problems/step_count.h>
 
 #include <algorithm>
 #include <cmath>
@@ -40,18 +38,18 @@ namespace quoin
     const double critical = system.explicit_solver->critical_time_step();
     double dt             = parameters.time_step;
     if (dt > critical)
-      throw InputError(parameters.file
-                       + ", section 'Time stepping': 'Time step = "
-                       + number_text(dt) + "' is above the critical time step "
-                       + number_text(critical) + " s of stage '" + stage.name
-                       + "'. Give a smaller one, or 0 for an automatic one.");
+      throw InputError(text_of(
+          parameters.file, ", section 'Time stepping': 'Time step = ", dt,
+          "' is above the critical time step ", critical, " s of stage '",
+          stage.name, "'. Give a smaller one, or 0 for an automatic one."));
     if (dt == 0. && !std::isfinite(critical))
-      throw InputError(parameters.file
-                       + ", section 'Time stepping': 'Time step = 0' asks for "
-                         "a share of the critical step, but in stage '"
-                       + stage.name
-                       + "' rigid blocks move freely, without joints, and any "
-                         "step is stable. Give one.");
+      throw InputError(
+          parameters.file
+          + ", section 'Time stepping': 'Time step = 0' asks for a share of "
+            "the critical step, but in stage '"
+          + stage.name
+          + "' rigid blocks move freely, without joints, and any step is "
+            "stable. Give one.");
     if (dt == 0.)
       dt = critical
            * (stage.damping == DampingType::local
@@ -67,8 +65,8 @@ namespace quoin
       // The stage ends at a step, not near one.
       steps_of_stage = std::uint64_t(count_steps(
           stage.duration, dt, most_steps,
-          parameters.file + ", section 'Stages/" + stage.name
-              + "': 'Duration = " + number_text(stage.duration) + "'",
+          text_of(parameters.file, ", section 'Stages/", stage.name,
+                  "': 'Duration = ", stage.duration, "'"),
           "Give a larger 'Time step' in section 'Time stepping', or a shorter "
           "duration."));
       dt             = stage.duration / double(steps_of_stage);
@@ -89,36 +87,32 @@ namespace quoin
     const auto steps = [&](const double duration, const double step)
     {
       return count_steps(duration, step, most_boundary_steps,
-                         section + "a stage of " + number_text(duration) + " s",
-                         cure);
+                         text_of(section, "a stage of ", duration, " s"), cure);
     };
     double step      = far.time_step();
     const bool first = step == 0.;
     if (first)
     {
-      step = wanted_time_step(settings, far.domain().boundary,
-                              far.domain().medium);
+      step = settings.wanted_time_step(far.domain().boundary);
       if (stage.end == StageEnd::time)
         step = stage.duration / steps(stage.duration, step);
     }
-    const double n_substeps = count_steps(
-        step, dt, most_boundary_steps,
-        section + "a time step of " + number_text(step) + " s", cure);
+    const double n_substeps
+        = count_steps(step, dt, most_boundary_steps,
+                      text_of(section, "a time step of ", step, " s"), cure);
     double n_steps = 0.;
     for (const StageParameters &s : parameters.stages)
       if (s.end == StageEnd::time)
         n_steps += steps(s.duration, step);
-    try
-    {
-      if (first && !settings.waves.empty())
-        make_waves(step);
-      far.set_time_step(step, static_cast<unsigned int>(n_substeps),
-                        static_cast<unsigned long>(std::min(n_steps, 1e7)));
-    }
-    catch (const InputError &error)
-    {
-      throw InputError(parameters.file + ", " + error.what());
-    }
+    naming(parameters.file,
+           [&]()
+           {
+             if (first && !settings.waves.empty())
+               make_waves(step);
+             far.set_time_step(
+                 step, static_cast<unsigned int>(n_substeps),
+                 static_cast<unsigned long>(std::min(n_steps, 1e7)));
+           });
     if (first)
       report_far_field();
     // Whole steps of the boundary elements: up to one more than asked for.
@@ -141,8 +135,7 @@ namespace quoin
                            { return waves->displacements(time); },
                            [this](const double begin, const double end)
                            { return waves->tractions(begin, end); });
-    for (const std::string &text : waves->reports())
-      log.message(text);
+    log.messages(waves->reports());
   }
 
   void StageSteps::report_far_field()
@@ -150,17 +143,15 @@ namespace quoin
     const FarField &far    = *system.solver->far_field();
     const Boundary &domain = far.domain().boundary;
     const auto lengths     = domain.lengths();
-    log.message(
-        "boundary elements: " + std::to_string(domain.n_elements()) + ", "
-        + std::to_string(far.domain().interface.size())
-        + " of them along blocks, from " + number_text(lengths.minCoeff())
-        + " to " + number_text(lengths.maxCoeff()) + " m; S waves of up to "
-        + number_text(far.domain().medium.c2 / (8. * lengths.maxCoeff()))
-        + " Hz have eight of them");
-    log.message(
-        "boundary elements: time step " + number_text(far.time_step()) + " s, "
-        + std::to_string(far.n_substeps()) + " block steps, "
-        + step_ratio_text(domain, far.domain().medium, far.time_step()));
+    log.message("boundary elements: ", domain.n_elements(), ", ",
+                far.domain().interface.size(), " of them along blocks, ",
+                range_text(lengths.minCoeff(), lengths.maxCoeff()),
+                " m long; S waves of up to ",
+                far.domain().medium.c2 / (8. * lengths.maxCoeff()),
+                " Hz have eight of them");
+    log.message("boundary elements: time step ", far.time_step(), " s, ",
+                far.n_substeps(), " block steps, ",
+                step_ratio_text(domain, far.domain().medium, far.time_step()));
     const auto passivity = passivity_of(
         far.influence_kernel(), far.boundary_history(), domain,
         far.domain().medium, far.domain().formulation, far.time_step(),

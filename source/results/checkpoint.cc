@@ -38,7 +38,7 @@ namespace quoin
 
     const std::string first_words = "quoin checkpoint, format ";
     /** Of archives and manifest: one more when what is written changes. */
-    constexpr unsigned int format = 3;
+    constexpr unsigned int format = 4;
 
     fs::path root_of(const std::string &output_directory)
     {

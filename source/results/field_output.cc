@@ -153,4 +153,25 @@ namespace quoin
     }
     return fields;
   }
+
+  double bytes_of_fields(const Model &model)
+  {
+    // Arrays of vtu files, as BlockOutput and JointOutput have them.
+    constexpr double of_node = 3 * 3 * 8, of_cell = 4 * 8 + 2 * 8 + 3 * 3 * 8
+                                                    + 2 * 4 + 3 * 4 + 4 + 1;
+    constexpr double of_plastic_cell = 4 + 8;
+    const double of_joint_point
+        = 2 * 3 * 8 + 4 * 8 + 1 + 8 * model.joints().field_names().size();
+    constexpr double of_joint = 1 + 4 + 8 + 2 * 4 + 4 + 1;
+    constexpr double of_files = 5000.; // XML
+    const double n_cells      = model.nodes().n_cells();
+    double bytes
+        = of_files + of_node * model.exchange().n_owned() + of_cell * n_cells;
+    if (model.blocks().is_plastic())
+      bytes += of_plastic_cell * n_cells;
+    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+      if (model.nodes().joint_faces()[model.joints().segment(i).face].is_own[0])
+        bytes += of_joint + 2. * of_joint_point;
+    return dealii::Utilities::MPI::sum(bytes, model.exchange().communicator());
+  }
 } // namespace quoin

@@ -11,7 +11,8 @@ would not agree: it multiplies rounding. The cavity: boundary elements, whose
 history and points the ranks share. A block that is distributed over several ranks,
 without and with joints inside. A static far field, which every rank has as a
 whole, and dashpots that hold what it carried. Blocks placed and excavated. A wall in equilibrium, cracking, to
-what its iterations leave, by both linear solvers.
+what its iterations leave, by both linear solvers; a block that is distributed over 2
+and 3 ranks in equilibrium, without and with joints inside.
 """
 import json
 import os
@@ -87,9 +88,21 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                         "Boundary elements/Passivity frequencies=0"]),
             "static far field": (AFTER_SWITCH, UNSETTLED),
             "construction": (FILL, SHORT),
+            "implicit, divided": (
+                os.path.join(common.VERIFICATION, "kirsch", "case.prm"),
+                ["Solver=implicit"]),
+            # to the middle of the cycle, where the crack has slipped
+            "implicit, divided, cracked": (
+                os.path.join(common.VERIFICATION, "slipping_crack",
+                             "case.prm"),
+                ["Solver=implicit", "Loads/base/Horizontal=0",
+                 "Stages/cycle/Duration=0.05",
+                 "Implicit/Force ratio=1e-12"]),
             "implicit": (WALL, PUSHED),
             "implicit, iterative": (
                 WALL, PUSHED + ["Implicit/Linear solver=iterative"])}
+# Other than 2 and 4.
+RANKS = {"implicit, divided": (2, 3), "implicit, divided, cracked": (2, 3)}
 TOLERANCE = 1e-10
 # Of the peak, where an equilibrium is found to 'Force ratio'.
 LOOSE = {"implicit": 1e-6, "implicit, iterative": 1e-6}
@@ -142,7 +155,7 @@ def compare(quoin, prm, variant, sets, scratch):
 
     worst, different = 0.0, []
     one = tables(run("1", 1))
-    for ranks in (2, 4):
+    for ranks in RANKS.get(variant, (2, 4)):
         errors = differences(one, tables(run(str(ranks), ranks)),
                              "%s, %d ranks" % (variant, ranks))
         worst = max(worst, max(errors.values()))

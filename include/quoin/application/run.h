@@ -4,7 +4,6 @@
 #ifndef quoin_application_run_h
 #define quoin_application_run_h
 
-#include <quoin/problems/parameters.h>
 #include <quoin/problems/problem.h>
 #include <quoin/results/checkpoint_clock.h>
 #include <quoin/results/output_lock.h>
@@ -51,11 +50,12 @@ namespace quoin
     const RunContext context;
     CheckpointClock checkpoint_clock;
     std::unique_ptr<Problem> problem;
+    std::unique_ptr<Stage> stage; /**< under way, or the last one */
 
-    unsigned int stage = 0; /**< the one under way or to come */
-    bool stage_begun   = false;
-    double wall_time   = 0.; /**< of all steps [s] */
-    double seconds     = 0.; /**< of the steps of this process [s] */
+    unsigned int stage_index = 0; /**< of the one under way or to come */
+    bool stage_begun         = false;
+    double wall_time         = 0.; /**< of all steps [s] */
+    double seconds           = 0.; /**< of the steps of this process [s] */
   };
 } // namespace quoin
 

@@ -4,6 +4,7 @@
 #ifndef quoin_base_known_names_h
 #define quoin_base_known_names_h
 
+#include <algorithm>
 #include <functional>
 #include <string>
 
@@ -32,6 +33,24 @@ namespace quoin
   std::string known_names(const Names &names)
   {
     return known_names(names, [](const std::string &name) { return name; });
+  }
+
+  /** The item of @p items whose name is @p name, or null. */
+  template <typename Items>
+  const typename Items::value_type *find_named(const Items &items,
+                                               const std::string &name)
+  {
+    const auto found
+        = std::find_if(items.begin(), items.end(),
+                       [&](const auto &item) { return item.name == name; });
+    return found == items.end() ? nullptr : &*found;
+  }
+
+  /** Whether @p name is one of @p names. */
+  template <typename Names>
+  bool is_among(const std::string &name, const Names &names)
+  {
+    return std::find(names.begin(), names.end(), name) != names.end();
   }
 } // namespace quoin
 

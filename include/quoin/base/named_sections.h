@@ -11,6 +11,35 @@
 
 namespace quoin
 {
+  /** A section whose entries @p declare declares; of sections with 'Names',
+      those of each subsection that these list. */
+  struct SectionEntries
+  {
+    std::string name;
+    void (*declare)(dealii::ParameterHandler &);
+  };
+
+  /** Declares @p sections with their entries. */
+  void declare_sections(const std::vector<SectionEntries> &sections,
+                        dealii::ParameterHandler &prm);
+
+  /** Declares @p sections with the entry 'Names'. */
+  void declare_names(const std::vector<SectionEntries> &sections,
+                     dealii::ParameterHandler &prm);
+
+  /**
+   * Declares the subsections that 'Names' in @p names lists. Throws an
+   * InputError that begins with @p file about names that come twice or are
+   * parameters.
+   */
+  void declare_listed(const std::vector<SectionEntries> &sections,
+                      const std::string &file, dealii::ParameterHandler &names,
+                      dealii::ParameterHandler &prm);
+
+  /** Declares a subsection NAME in each of @p sections, for a reference. */
+  void declare_examples(const std::vector<SectionEntries> &sections,
+                        dealii::ParameterHandler &prm);
+
   /** T::read() of each subsection of @p section_name that its 'Names' lists. */
   template <typename T>
   std::vector<T> read_named(const ParameterSection &top,

@@ -153,6 +153,17 @@ namespace quoin
     const ParameterSection *section = nullptr;
   };
 
+  /** The first word of @p table, as choice() takes it, for @p value. */
+  template <typename T>
+  std::string word_of(const std::vector<std::pair<std::string, T>> &table,
+                      const T &value)
+  {
+    for (const auto &[word, meaning] : table)
+      if (meaning == value)
+        return word;
+    return "";
+  }
+
   /** Declares what @p enter names, with the defaults of a new T. */
   template <typename T>
   void declare_entries(dealii::ParameterHandler &prm,

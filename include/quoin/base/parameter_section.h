@@ -4,6 +4,8 @@
 #ifndef quoin_base_parameter_section_h
 #define quoin_base_parameter_section_h
 
+#include <quoin/base/exceptions.h>
+
 #include <deal.II/base/parameter_handler.h>
 
 #include <algorithm>
@@ -84,12 +86,31 @@ namespace quoin
     [[noreturn]] void fail(const std::string &name,
                            const std::string &why) const;
 
+    /** What @p make() gives; its InputErrors become such of @p name. */
+    template <typename Make>
+    auto made(const std::string &name, const Make &make) const
+    {
+      try
+      {
+        return make();
+      }
+      catch (const InputError &error)
+      {
+        fail(name, error.what());
+      }
+    }
+
     const std::string &file() const
     {
       return file_name;
     }
     /** Folder of the parameter file, with a trailing slash. */
     std::string folder() const;
+    /** @p path in that folder, unless it is absolute. */
+    std::string in_folder(const std::string &path) const
+    {
+      return !path.empty() && path.front() == '/' ? path : folder() + path;
+    }
 
   private:
     std::vector<double> number_list(const std::string &name,

@@ -4,7 +4,12 @@
 #ifndef quoin_base_time_control_h
 #define quoin_base_time_control_h
 
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
+
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 namespace quoin
 {
@@ -34,6 +39,22 @@ namespace quoin
   private:
     double interval;
   };
+
+  /**
+   * Steps of at most @p step [s] in @p duration [s], one at least; a quotient
+   * that should be whole is not rounded up. Throws an InputError, "@p what
+   * takes ... steps ... @p cure", if they are more than @p most.
+   */
+  inline double count_steps(const double duration, const double step,
+                            const double most, const std::string &what,
+                            const std::string &cure)
+  {
+    const double n = std::max(1., std::ceil(duration / step * (1. - 1e-12)));
+    if (!(n <= most))
+      throw InputError(text_of(what, " takes ", n, " time steps of ", step,
+                               " s, more than ", most, ". ", cure));
+    return n;
+  }
 } // namespace quoin
 
 #endif

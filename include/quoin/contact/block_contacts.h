@@ -170,8 +170,12 @@ namespace quoin
     }
     void find_set_of_materials(const ContactModel &model);
     void check(State<2> &state, double dt);
-    /** Returns whether joints of this rank became general contacts. */
-    bool hand_over(State<2> &state);
+    /** Marks interfaces with joints of this rank that are to become general
+        contacts; whether there are any. */
+    bool find_handovers(State<2> &state) const;
+    /** Makes general contacts of the joints of marked interfaces. Collective.
+     */
+    void hand_over(State<2> &state) const;
     void search(State<2> &state);
     bool is_matched(const ContactState &contacts, unsigned int a,
                     unsigned int b) const;
@@ -219,7 +223,7 @@ namespace quoin
     void add_viscous_forces(const Edge &a, const Edge &b, const Geometry &g,
                             unsigned int k, double beta,
                             const std::array<double, 2> &stiffness);
-    /** Adds to owned nodes what is in @p from, and empties that. */
+    /** Adds what is in @p from to nodes of own edges, and empties that. */
     void scatter(AlignedArray<NodeVector<2>> &from, NodeVector<2> *to) const;
     void relative_velocity(const Edge &a, const Edge &b, double lower,
                            double upper, double *rate) const;
@@ -247,15 +251,10 @@ namespace quoin
     [[noreturn]] void refuse_speed(const State<2> &state, double speed,
                                    double dt) const;
 
-    unsigned int joint_number(const unsigned int segment) const
-    {
-      return node_map.joint_faces()[joints.segment(segment).face].number;
-    }
-
     const NodeMap<2> &node_map;
     const MatchedJoints &joints;
     const NodeExchange &exchange;
-    const ContactEdges edges;
+    ContactEdges edges;
     const ContactParameters parameters;
     const double thickness;
     double skin;
@@ -264,12 +263,15 @@ namespace quoin
     std::vector<std::string> materials;
     std::vector<unsigned int> material_of_group;
     std::vector<unsigned int> set_of_materials; /**< square table */
-    std::vector<unsigned int> boundary_nodes;   /**< owned, local */
+    std::vector<unsigned int> boundary_nodes;   /**< owned, local, ascending */
 
-    // What the pairs at hand need, made again whenever they change.
+    // What the pairs at hand need, made again whenever they change. Nodes of
+    // own edges come first, then those of foreign edges, which may be the same:
+    // forces on the latter are their rank's.
     std::uint64_t bound_search = -1;
     std::unique_ptr<NodeExchange> reach;
-    std::vector<unsigned int> compact_owned; /**< local node of each */
+    std::vector<unsigned int> compact_own; /**< local node of each */
+    std::vector<unsigned int> far_nodes;   /**< of foreign edges, global */
     std::vector<NodeRecord<2>> ghost_nodes;
     std::vector<NodeVector<2>> ghost_velocity;
     std::vector<std::array<unsigned int, 2>> pair_edges; /**< local */

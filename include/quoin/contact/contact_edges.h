@@ -6,6 +6,7 @@
 
 #include <quoin/mesh/node_map.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -16,32 +17,41 @@ namespace quoin
   {
     std::array<unsigned int, 2> nodes;      /**< global numbers */
     std::array<dealii::Point<2>, 2> points; /**< where they are at rest [m] */
+    unsigned int number;                    /**< of all ranks */
     unsigned int block;
     unsigned int group;     /**< of the cell behind it */
     unsigned int previous;  /**< edge that ends where this one starts */
     unsigned int next;      /**< edge that starts where this one ends */
-    unsigned int interface; /**< of joints that it is part of, or none */
+    unsigned int interface; /**< of BlockTable::joined, or none */
     double length;          /**< in the reference state [m] */
     double height;          /**< of the cell behind it, above it [m] */
     /** At either node 1 for a corner of the block, 0 where it goes straight
         on, in between for turns of some degrees. */
     std::array<double, 2> corner;
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &nodes &points &number &block &group &previous &next
+          &interface &length &height &corner;
+    }
   };
 
-  /** The matched joints between two blocks, or in a crack of one. */
-  struct JointInterface
+  /** Both sides of a joint face as edges. */
+  struct JointEdges
   {
-    std::array<unsigned int, 2> blocks; /**< ascending */
-    /** A joint that ends inside a block cannot come apart. */
-    bool has_tip = false;
+    std::array<unsigned int, 2> edges; /**< lower, upper */
+    unsigned int interface;            /**< of BlockTable::joined */
   };
 
   /**
-   * The boundaries of all blocks of the mesh, joint or not, as edges between
-   * which contacts are found, on all ranks. Edges are numbered by their block,
-   * then by their first node. Where the side
-   * of a rigid block is straight, it is one edge, whatever its mesh, unless it
-   * is part of a joint.
+   * The boundaries of blocks, joint or not, as edges between which contacts
+   * are found. A rank has those of its own cells and knows of other ranks those
+   * which lie across its joints, and which it has met or asked for: no rank has
+   * all of them. Edges have numbers that are those of all ranks: by block,
+   * within a block by the rank of the cell, then by their first node. Where the
+   * side of a rigid block is straight, it is one edge, whatever its mesh,
+   * unless it is part of a joint.
    */
   class ContactEdges
   {
@@ -51,45 +61,102 @@ namespace quoin
     /** Collective. */
     explicit ContactEdges(const NodeMap<2> &nodes);
 
-    unsigned int size() const
+    /** Edges of all ranks. */
+    unsigned int n_global() const
     {
-      return edges.size();
+      return n_edges;
     }
-    const ContactEdge &operator[](const unsigned int edge) const
+    /** Edges of this rank's cells, ascending. */
+    const std::vector<ContactEdge> &own() const
     {
-      return edges[edge];
+      return own_edges;
     }
-    /** First edge of block @p block; of n_blocks: the end. */
-    unsigned int first_edge(const unsigned int block) const
+    /** Local nodes of each of own(), owned or shared. */
+    const std::vector<std::array<unsigned int, 2>> &local_nodes() const
     {
-      return block_first_edge[block];
+      return own_nodes;
     }
-    const std::vector<JointInterface> &interfaces() const
+    /** Edges of other ranks that this one knows by now, ascending. */
+    const std::vector<ContactEdge> &foreign() const
     {
-      return joint_interfaces;
+      return foreign_edges;
     }
-    /** Interface of the joint face that has the number @p face. */
-    unsigned int interface_of_face(const unsigned int face) const
+
+    bool is_own(const unsigned int number) const
     {
-      return face_interface[face];
+      return has_all() || contains(own_edges, number);
     }
-    /** The lower and the upper side of each joint face. */
-    const std::array<unsigned int, 2> &
-    edges_of_face(const unsigned int face) const
+    /** Place in own() of an own edge. */
+    unsigned int own_place(const unsigned int number) const
     {
-      return face_edges[face];
+      return has_all() ? number : place(own_edges, number);
+    }
+    bool is_known(const unsigned int number) const
+    {
+      return is_own(number) || contains(foreign_edges, number);
+    }
+    /** An edge that is known here. */
+    const ContactEdge &operator[](const unsigned int number) const
+    {
+      return is_own(number) ? own_edges[own_place(number)]
+                            : foreign_edges[place(foreign_edges, number)];
+    }
+
+    /** Makes edges of other ranks known here, which may be so already. */
+    void add(const std::vector<ContactEdge> &edges);
+    /** Asks their ranks for those of the edges @p numbers that are not known
+        here. Collective. */
+    void fetch(const std::vector<unsigned int> &numbers);
+    /** Forgets edges of other ranks, but for @p numbers, ascending, and those
+        across joints. */
+    void keep(const std::vector<unsigned int> &numbers);
+
+    /** The sides of NodeMap::joint_faces()[face]. */
+    const JointEdges &joint_edges(const unsigned int face) const
+    {
+      return edges_of_joints[face];
+    }
+    /** Whether a joint of @p interface ends inside a block, so that it cannot
+        come apart. */
+    bool has_tip(const unsigned int interface) const
+    {
+      return interface_has_tip[interface];
     }
 
   private:
     void link();
-    void find_corners();
     void merge_straight_sides(const std::vector<bool> &is_rigid);
+    void find_interfaces();
+    void number_edges();
+    void join_over_ranks();
+    void find_joint_edges();
 
-    std::vector<ContactEdge> edges;
-    std::vector<unsigned int> block_first_edge;
-    std::vector<JointInterface> joint_interfaces;
-    std::vector<unsigned int> face_interface;
-    std::vector<std::array<unsigned int, 2>> face_edges;
+    bool has_all() const
+    {
+      return own_edges.size() == n_edges;
+    }
+    static unsigned int place(const std::vector<ContactEdge> &edges,
+                              const unsigned int number)
+    {
+      return std::lower_bound(edges.begin(), edges.end(), number,
+                              [](const ContactEdge &edge, const unsigned int n)
+                              { return edge.number < n; })
+             - edges.begin();
+    }
+    static bool contains(const std::vector<ContactEdge> &edges,
+                         const unsigned int number)
+    {
+      const unsigned int found = place(edges, number);
+      return found < edges.size() && edges[found].number == number;
+    }
+
+    const NodeMap<2> &node_map;
+    unsigned int n_edges = 0;
+    std::vector<ContactEdge> own_edges, foreign_edges;
+    std::vector<std::array<unsigned int, 2>> own_nodes;
+    std::vector<JointEdges> edges_of_joints;
+    std::vector<unsigned int> across_joints; /**< foreign, ascending */
+    std::vector<bool> interface_has_tip;
   };
 } // namespace quoin
 

@@ -17,24 +17,30 @@ namespace quoin
   {
     unsigned int edge; /**< of ContactEdges */
     double x[2], y[2];
+    bool is_own = true; /**< whether it is an edge of this rank */
   };
 
   /**
-   * The edges of this rank's blocks and of all blocks of other ranks whose
-   * bounding boxes come nearer to one of them than @p skin [m]; in ascending
-   * order. Blocks marked in @p left_out take no part. Collective.
+   * The edges of this rank and those of other ranks that may be nearer to one
+   * of them than @p skin [m], in ascending order; the latter, and the edges
+   * before and after them, are known to @p edges from then on. Blocks marked in
+   * @p left_out take no part. @p nodes: local. Collective.
+   *
+   * Ranks whose bounding boxes are near each other exchange boxes around some
+   * consecutive edges each, then the edges that reach into those.
    */
   std::vector<EdgeEnds>
-  edges_within_reach(const NodeMap<2> &node_map, const ContactEdges &edges,
+  edges_within_reach(const NodeMap<2> &node_map, ContactEdges &edges,
                      const NodeRecord<2> *nodes,
                      const AlignedArray<std::uint8_t> &left_out, double skin);
 
   /**
-   * All pairs of edges of @p ends nearer to each other than @p skin, given by
-   * their positions in @p ends, ascending, the smaller first: found in an
-   * R-tree, decided by the distance of the two segments. Edges that share a
-   * node are no pair, nor are those which do not face each other, that is
-   * whose outward normals enclose less than 80 degrees.
+   * All pairs of edges of @p ends nearer to each other than @p skin of which
+   * this rank has one at least, given by their positions in @p ends, ascending,
+   * the smaller first: found in an R-tree, decided by the distance of the two
+   * segments. Edges that share a node are no pair, nor are those which do not
+   * face each other, that is whose outward normals enclose less than 80
+   * degrees.
    */
   std::vector<std::array<unsigned int, 2>>
   near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,

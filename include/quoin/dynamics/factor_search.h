@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace quoin
@@ -71,6 +72,9 @@ namespace quoin
     {
       return all_trials;
     }
+
+    /** The trials as a table (CSV). */
+    std::string table() const;
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)

@@ -43,6 +43,9 @@ namespace quoin
       const Model &model, const std::vector<MotionConstraint<2> *> &constraints,
       const std::vector<const NodalLoad<2> *> &loads,
       const std::vector<TimePoint> &times, const State<2> &state);
+
+  /** That @p bodies, of which there is one at least, will move away. */
+  std::string pushed_body_text(const std::vector<PushedBody> &bodies);
 } // namespace quoin
 
 #endif

@@ -6,6 +6,7 @@
 
 #include <quoin/base/parameter_section.h>
 #include <quoin/dynamics/factor_search.h>
+#include <quoin/loads/load_parameters.h>
 
 #include <cstdint>
 #include <optional>
@@ -77,6 +78,17 @@ namespace quoin
       return kinetic_limit > 0.;
     }
 
+    /** Whether waves, not equilibria, are what the stage computes. */
+    bool is_dynamic() const
+    {
+      return end == StageEnd::time && !slows_loads() && scaled_time_step == 0.
+             && (damping == DampingType::none
+                 || damping == DampingType::rayleigh);
+    }
+
+    /** "stage S: loads, end, damping and what is built", for --check. */
+    std::string text(bool is_implicit) const;
+
     static void declare(dealii::ParameterHandler &prm);
     static StageParameters read(const ParameterSection &section,
                                 const std::string &name);
@@ -87,6 +99,17 @@ namespace quoin
   const StageParameters *
   previous_stage(const std::vector<StageParameters> &stages,
                  unsigned int index);
+
+  /** Section 'Stages'. Throws an InputError also where stages do not go
+      together, or with the @p loads that they name. */
+  std::vector<StageParameters>
+  read_stages(const ParameterSection &top,
+              const std::vector<LoadParameters> &loads, bool is_implicit);
+
+  /** The time when stage @p index begins [s], without what stages that settle
+      take, or all of them together. */
+  double start_of_stage(const std::vector<StageParameters> &stages,
+                        unsigned int index);
 } // namespace quoin
 
 #endif

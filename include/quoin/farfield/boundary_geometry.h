@@ -18,6 +18,9 @@ namespace quoin
     Boundary boundary;
     /** Number of each element's boundary in the parameters. */
     std::vector<unsigned int> owner;
+
+    /** Middles of the elements of boundary @p k [m]. */
+    std::vector<Eigen::Vector2d> middles(unsigned int k) const;
   };
 
   /**

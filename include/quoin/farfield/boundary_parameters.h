@@ -8,6 +8,8 @@
 #include <quoin/base/parameter_section.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/loads/time_function.h>
+#include <quoin/materials/material_parameters.h>
+#include <quoin/tdbem/elastic_medium.h>
 #include <quoin/tdbem/formulation.h>
 
 #include <array>
@@ -101,6 +103,9 @@ namespace quoin
     std::function<double(double)> function(double begin, double end,
                                            double step) const;
 
+    /** "plane P wave" */
+    std::string type_text() const;
+
     static void declare(dealii::ParameterHandler &prm);
     static IncidentWaveParameters read(const ParameterSection &section,
                                        const std::string &name);
@@ -120,7 +125,8 @@ namespace quoin
   /** A run of boundary elements: section 'Boundary elements' and the like. */
   struct BoundaryElementParameters
   {
-    std::string material; /**< may be empty if there is one only */
+    std::string material; /**< of the domain */
+    ElasticMedium medium{};
     Formulation formulation  = Formulation::galerkin;
     bool is_static           = false;
     double element_length    = 0.; /**< [m]; 0: each boundary has its own */
@@ -142,14 +148,23 @@ namespace quoin
     /** All but the time step and the number of steps. */
     FormulationOptions formulation_options() const;
 
+    /** Whether a boundary has the shape @p shape. */
+    bool has(BoundaryShape shape) const;
+    /** Physical curves along which blocks lie. */
+    std::vector<std::string> interface_curves() const;
+
+    /** The time step that is asked for on @p boundary [s]. */
+    double wanted_time_step(const Boundary &boundary) const;
+
     /** The entries of the section itself. */
     static void declare(dealii::ParameterHandler &prm);
     /**
-     * All but the named subsections and other sections. @p section:
-     * 'Boundary elements'; @p coupled: to blocks, which say how long.
+     * Sections 'Boundary elements', 'Incident waves' and 'Sampled field', with
+     * one of @p materials; @p coupled: to blocks, which say how long.
      */
-    static BoundaryElementParameters read(const ParameterSection &section,
-                                          bool coupled = false);
+    static BoundaryElementParameters
+    read(const ParameterSection &top,
+         const std::vector<MaterialParameters> &materials, bool coupled);
   };
 } // namespace quoin
 

@@ -63,6 +63,12 @@ namespace quoin
     std::vector<std::vector<unsigned int>> elements; /**< of a boundary */
     std::vector<std::array<Means, 3>> means;         /**< x, y and pressure */
   };
+
+  /** The domain beyond blocks with all that @p settings, which must outlive it
+      as @p geometry must, give on its boundary. Throws an InputError about
+      values that begin with a jump. */
+  FarFieldDomain far_field_domain(const BoundaryGeometry &geometry,
+                                  const BoundaryElementParameters &settings);
 } // namespace quoin
 
 #endif

@@ -6,7 +6,7 @@
 
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/dynamics/release.h>
-#include <quoin/implicit/freedoms.h>
+#include <quoin/implicit/dof_map.h>
 #include <quoin/loads/nodal_load.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -26,7 +26,7 @@ namespace quoin
     std::vector<std::array<double, 3>> drives, held;
     AlignedArray<NodeVector<2>>
         drag;               /**< against the motion, not in force [N] */
-    double unbalanced = 0.; /**< with it, summed over unknowns [N] */
+    double unbalanced = 0.; /**< with it, summed over degrees of freedom [N] */
     double dragged    = 0.; /**< the sum of the drag [N] */
     double applied    = 0.; /**< by joints, loads and reactions [N] */
 
@@ -53,8 +53,18 @@ namespace quoin
   {
     double load_time = 0.; /**< there [s] */
     double released  = 1.; /**< there [-] */
-    AlignedArray<NodeVector<2>>
-        given; /**< motion on the way, local nodes [m] */
+  };
+
+  /** Derivatives at a configuration, besides the stiffness matrix. */
+  struct Slopes
+  {
+    /** Change of the residual as loads and given motions go all of an Advance
+     * [N]. */
+    DofMap::Vector by_advance;
+    /** Changes of Balance::path: by degree of freedom [-], and as given motions
+     * go all of an Advance [m]. */
+    DofMap::Vector path_by_dof;
+    double path_by_advance = 0.;
   };
 
   /**
@@ -64,14 +74,12 @@ namespace quoin
   class Equilibrium
   {
   public:
-    using Vector = Freedoms::Vector;
-
     /**
      * Keeps references. @p path_sets: of each joint set, whether its inelastic
      * motion measures the path; @p far_field: what is beyond the blocks, or
      * null.
      */
-    Equilibrium(const Model &model, Freedoms &freedoms,
+    Equilibrium(const Model &model, DofMap &dof_map,
                 const std::vector<const NodalLoad<2> *> &loads,
                 const std::vector<bool> &path_sets, double stage_start,
                 const StaticFarField *far_field);
@@ -100,23 +108,18 @@ namespace quoin
                      const std::vector<std::uint8_t> &broken, Balance &balance);
 
     /**
-     * The same and derivatives: stiffness() of the unknowns; @p by_advance,
-     * the change of the residual as loads and given motions go all of
-     * @p advance; @p by_unknown and @p path_by_advance, those of
-     * Balance::path.
+     * The same and derivatives: stiffness() and @p slopes, for increments that
+     * DofMap::constraints() then describe. Collective.
      */
     void linearise(const State<2> &committed,
                    const Configuration &configuration,
                    const std::vector<std::uint8_t> &broken,
-                   const Advance &advance, Balance &balance, Vector &by_advance,
-                   Vector &by_unknown, double &path_by_advance);
+                   const Advance &advance, Balance &balance, Slopes &slopes);
 
     const dealii::TrilinosWrappers::SparseMatrix &stiffness() const
     {
       return matrix;
     }
-
-    Vector make_vector() const;
 
     /** Whether any joint measures the path. */
     bool measures_path() const
@@ -132,29 +135,31 @@ namespace quoin
     void add_forces(const State<2> &committed,
                     const Configuration &configuration,
                     const std::vector<std::uint8_t> &broken, Balance &balance,
-                    bool with_derivatives);
+                    Slopes *slopes);
     void add_loads(const State<2> &committed,
                    const Configuration &configuration, Balance &balance);
     void add_drag(const State<2> &committed, const Configuration &configuration,
-                  Balance &balance, bool with_derivatives);
+                  Balance &balance, Slopes *slopes);
     /** Of loads, on nodes that are there. */
     void add_external(double load_time,
                       AlignedArray<NodeVector<2>> &force) const;
     void find_ratio(const AlignedArray<NodeVector<2>> &applied,
                     Balance &balance);
-    /** Adds the rows of owned nodes of an element with @p n nodes. */
+    /** Adds @p share of an element with @p n nodes, its degrees of freedom
+        those of dof_map, and what its given motion takes from by_advance. */
     template <std::size_t size>
     void
     add_stiffness(const unsigned int *nodes, unsigned int n,
-                  const std::array<std::array<double, size>, size> &element);
+                  const std::array<std::array<double, size>, size> &element,
+                  double share, DofMap::Vector &by_advance);
     void add_far_field(const State<2> &committed,
                        const Configuration &configuration, Balance &balance,
-                       bool with_derivatives);
+                       const Slopes *slopes);
     void fill_unused_rows();
     void add_turning(const AlignedArray<NodeVector<2>> &force);
 
     const Model &model;
-    Freedoms &freedoms;
+    DofMap &dof_map;
     const std::vector<const NodalLoad<2> *> loads;
     const std::vector<bool> path_sets;
     const double stage_start;
@@ -166,14 +171,16 @@ namespace quoin
     std::vector<double> drag_stiffness; /**< of local nodes, for 1 [N/m] */
 
     const StaticFarField *far_field;
-    Eigen::MatrixXd far_stiffness; /**< rows of its nodes of this rank */
-    std::vector<Freedoms::Index> far_unknowns; /**< of its columns */
+    /** Minus the derivative of its forces on free degrees of freedom. */
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
+        far_stiffness;
+    std::vector<DofMap::Index> far_rows, far_columns; /**< of this rank, all */
 
     dealii::TrilinosWrappers::SparseMatrix matrix;
-    const Advance *under_way = nullptr;
-    AlignedArray<NodeVector<2>> by_given; /**< forces, as it goes [N] */
-    AlignedArray<NodeVector<2>> path_gradient, joint_force;
-    double path_by_given = 0.;
+    dealii::FullMatrix<double> element_matrix;
+    dealii::Vector<double> no_load; /**< of an element */
+    std::vector<DofMap::Index> element_dofs;
+    AlignedArray<NodeVector<2>> joint_force;
   };
 } // namespace quoin
 

@@ -6,8 +6,8 @@
 
 #include <quoin/implicit/implicit_state.h>
 #include <quoin/dynamics/solver.h>
+#include <quoin/implicit/dof_map.h>
 #include <quoin/implicit/equilibrium.h>
-#include <quoin/implicit/freedoms.h>
 #include <quoin/implicit/implicit_parameters.h>
 #include <quoin/implicit/linear_solver.h>
 
@@ -140,9 +140,9 @@ namespace quoin
     {
       return cuts_done;
     }
-    Freedoms::Index n_unknowns() const
+    DofMap::Index n_unknowns() const
     {
-      return freedoms ? freedoms->n_unknowns() : 0;
+      return dof_map ? dof_map->n_dofs() : 0;
     }
     /** Whether the linear solver of the stage is the direct one. */
     bool is_direct() const
@@ -183,7 +183,7 @@ namespace quoin
     /** Share of the advance that goes with a correction; false: none. */
     bool find_correction(const Target &target,
                          const Configuration &configuration, bool is_first,
-                         double path_by_advance, double &share);
+                         double &share);
     void correct(const State<2> &state, double share,
                  Configuration &configuration);
     bool break_joints();
@@ -213,7 +213,7 @@ namespace quoin
     double stage_start = 0., stage_duration = 0.;
     bool rests = false; /**< its loads do not change */
     std::vector<bool> held_blocks;
-    std::unique_ptr<Freedoms> freedoms;
+    std::unique_ptr<DofMap> dof_map;
     std::unique_ptr<Equilibrium> equilibrium;
     std::unique_ptr<LinearSolver> linear_solver;
 
@@ -223,13 +223,16 @@ namespace quoin
     Balance trial;             /**< in a line search */
     Advance advance;
     std::vector<std::uint8_t> broken; /**< joint points, in this step */
-    Freedoms::Vector residual, by_advance, by_unknown, correction, advanced;
+    Slopes slopes;
+    DofMap::Vector residual, correction, advanced;
 
     unsigned int attempt = 0, iteration = 0;
     double last_share = 1.; /**< of the line search */
     std::vector<IterationReport> reports;
     std::vector<JumpReport> jumps_done;
     std::uint64_t iterations_done = 0, cuts_done = 0, current_step = 0;
+    const unsigned int assembly_phase = time_shares.phase("assembly"),
+                       solver_phase   = time_shares.phase("linear solver");
   };
 } // namespace quoin
 

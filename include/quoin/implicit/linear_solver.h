@@ -4,7 +4,7 @@
 #ifndef quoin_implicit_linear_solver_h
 #define quoin_implicit_linear_solver_h
 
-#include <quoin/implicit/freedoms.h>
+#include <quoin/implicit/dof_map.h>
 #include <quoin/implicit/implicit_parameters.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
@@ -26,10 +26,10 @@ namespace quoin
   {
   public:
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
-    using Vector = Freedoms::Vector;
+    using Vector = DofMap::Vector;
 
     LinearSolver(LinearSolverType type, const Model &model,
-                 const Freedoms &freedoms);
+                 const DofMap &dof_map);
 
     /** Factorises, or sets the preconditioner up; returns whether it could. */
     bool prepare(const Matrix &matrix, const Configuration &configuration);
@@ -52,7 +52,7 @@ namespace quoin
                             const Configuration &configuration);
 
     const Model &model;
-    const Freedoms &freedoms;
+    const DofMap &dof_map;
     bool direct;
     const Matrix *matrix = nullptr;
     dealii::SolverControl control;

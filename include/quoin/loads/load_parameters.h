@@ -94,6 +94,19 @@ namespace quoin
     std::array<double, 4> initial_stress(double x, double y,
                                          double poisson) const;
 
+    /** The word for its type in a parameter file. */
+    std::string type_text() const;
+
+    /** A component that the type has. */
+    struct NamedComponent
+    {
+      std::string name; /**< "horizontal", as in a parameter file */
+      std::string unit;
+      const LoadComponent &component;
+    };
+    /** Those that are not free. */
+    std::vector<NamedComponent> given_components() const;
+
     static void declare(dealii::ParameterHandler &prm);
     static LoadParameters read(const ParameterSection &section,
                                const std::string &name);

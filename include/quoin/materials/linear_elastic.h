@@ -6,6 +6,8 @@
 
 #include <quoin/materials/plane_assumption.h>
 
+#include <cmath>
+
 namespace quoin
 {
   /** Isotropic linear elasticity. */
@@ -59,6 +61,20 @@ namespace quoin
     }
     const double c11 = young / (1. - poisson * poisson);
     return { c11, poisson * c11, shear, 0. };
+  }
+
+  /** Speeds of P and S waves [m/s]. */
+  struct WaveSpeeds
+  {
+    double p, s;
+  };
+
+  inline WaveSpeeds wave_speeds(const LinearElastic &material,
+                                const PlaneAssumption assumption)
+  {
+    const PlaneStiffness stiffness = plane_stiffness(material, assumption);
+    return { std::sqrt(stiffness.c11 / material.density),
+             std::sqrt(stiffness.c33 / material.density) };
   }
 
   /** Isotropic stiffness in space: Lamé's moduli. */

@@ -28,6 +28,10 @@ namespace quoin
                                    const std::string &name);
   };
 
+  /** Law, stiffness, density, wave speeds and strength, for --check. */
+  std::string material_text(const MaterialParameters &material,
+                            PlaneAssumption plane);
+
   /**
    * The material with its strength divided by @p factor, for factors of
    * safety: c, tan(phi) and the tensile strength; psi is not above the

@@ -65,6 +65,8 @@ namespace quoin
 
     /** Lines of text without a final newline. */
     std::string to_text() const;
+    /** What is most likely a mistake in the mesh, a sentence each. */
+    std::vector<std::string> warnings() const;
   };
 
   MeshReport make_mesh_report(const BlockMesh<2> &mesh);

@@ -4,13 +4,11 @@
 #ifndef quoin_problems_block_outputs_h
 #define quoin_problems_block_outputs_h
 
-#include <quoin/base/time_control.h>
 #include <quoin/problems/block_system.h>
 #include <quoin/problems/problem.h>
-#include <quoin/results/block_output.h>
 #include <quoin/results/boundary_output.h>
 #include <quoin/results/histories.h>
-#include <quoin/results/joint_output.h>
+#include <quoin/results/model_output.h>
 
 namespace quoin
 {
@@ -19,7 +17,7 @@ namespace quoin
   {
   public:
     /** @p system must outlive this object. */
-    BlockOutputs(BlockSystem &system, const RunContext &context);
+    BlockOutputs(BlockSystem &system, const RunContext &run);
 
     /** Begins the files, or goes on with those of a checkpoint. */
     void open();
@@ -28,11 +26,11 @@ namespace quoin
      */
     bool row_is_due(double time, double dt) const
     {
-      return history_control.is_due(time, dt);
+      return row_times.is_due(time, dt);
     }
     bool fields_are_due(double time, double dt) const
     {
-      return field_control.is_due(time, dt);
+      return field_times.is_due(time, dt);
     }
     /** Whether a row needs the unbalanced ratio of its own step. */
     bool row_needs_balance() const
@@ -62,7 +60,7 @@ namespace quoin
     /** Stops all ranks if the first one could not write a table. */
     void check_tables()
     {
-      context.tables.check();
+      run.tables.check();
     }
     /** Numbers in a row of all tables together. */
     std::size_t n_columns() const;
@@ -75,8 +73,7 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &blocks &joints &contacts &boundary &most_residual
-          &largest_throughput &fields_time;
+      archive &fields &boundary &most_residual &largest_throughput &fields_time;
     }
 
   private:
@@ -88,20 +85,18 @@ namespace quoin
       clock.measure(clock.phase("output"), task);
     }
     void add_rows(const State<2> &state);
-    void add_fields(const State<2> &state);
     void write_generated_geometry() const;
     void write_energies(double time);
     void write_far_field_row(const State<2> &state);
     void write_boundary(const State<2> &state);
 
     BlockSystem &system;
-    const RunContext &context;
+    const RunContext &run;
     Histories histories;
-    TimeControl history_control, field_control;
+    const TimeControl row_times, field_times;
     RootTable &history_table, &energy_table;
     RootTable *far_field_table = nullptr, *convergence_table = nullptr;
-    BlockOutput blocks;
-    JointOutput joints, contacts;
+    ModelOutput fields;
     BoundaryOutput boundary;
 
     double most_residual      = 0.;

@@ -71,6 +71,16 @@ namespace quoin
     /** Splits and distributes the mesh of the first rank. */
     void make_mesh(MeshData as_read);
     void make_solver(const MeshData &curves);
+    /**
+     * The boundary elements beyond the blocks, along @p curves of the mesh as
+     * read; fills the geometry. Null if no load is of that type. Throws an
+     * InputError that begins with the section.
+     */
+    std::unique_ptr<FarField> make_far_field(const MeshData &curves);
+    /** The same at rest, of the domain of @p far; null if that is null or no
+        static stage names its load. */
+    std::unique_ptr<StaticFarField>
+    make_static_far_field(const FarField *far) const;
   };
 } // namespace quoin
 

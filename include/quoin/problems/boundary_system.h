@@ -6,8 +6,8 @@
 
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/farfield/boundary_values.h>
+#include <quoin/farfield/domain_points.h>
 #include <quoin/farfield/incident_waves.h>
-#include <quoin/problems/domain_points.h>
 #include <quoin/problems/parameters.h>
 #include <quoin/results/boundary_histories.h>
 #include <quoin/results/log.h>
@@ -63,7 +63,7 @@ namespace quoin
     const BoundaryElementParameters &settings;
     const MPI_Comm communicator;
     std::string fingerprint; /**< see run_fingerprint() */
-    ElasticMedium medium{};
+    const ElasticMedium &medium;
     BoundaryGeometry geometry;
     double dt             = 0.; /**< time step [s] */
     std::uint64_t n_steps = 0;
@@ -78,9 +78,6 @@ namespace quoin
 
   private:
     void choose_time_step();
-    void report_stability(Log &log) const;
-    /** Also a half-plane, whose surface is discretised to a distance. */
-    bool is_bounded() const;
   };
 } // namespace quoin
 

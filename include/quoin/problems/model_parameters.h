@@ -8,22 +8,26 @@
 
 namespace quoin
 {
+  // The parts of read_parameters(). All throw an InputError that names file,
+  // section, value and cure.
+
+  /** Declares section 'Mesh'. */
+  void declare_mesh(dealii::ParameterHandler &prm);
+
+  /** Sections 'Mesh', 'Wall' and 'Rock': a file, or the geometry of a wall or
+      of rock, and where the joints are. */
+  void read_mesh(const ParameterSection &top, Parameters &parameters);
+
   /**
    * The sections of a model of blocks, which @p parameters takes up beside
    * mesh, materials and histories that it has already: joints, contact,
-   * loads, far field, initial motion, stages, implicit solver. Throws an
-   * InputError that names file, section, value and cure, also where values
-   * of several sections do not go together.
+   * loads, far field, initial motion, stages, implicit solver. Checks also
+   * whether values of several sections go together.
    */
   void read_block_model(const ParameterSection &top, Parameters &parameters);
 
   /** The same of a domain with boundary elements alone. */
   void read_boundary_model(const ParameterSection &top, Parameters &parameters);
-
-  /** Sections 'Boundary elements', 'Incident waves', 'Sampled field';
-      @p coupled: beyond blocks. */
-  void read_boundary_elements(const ParameterSection &top,
-                              Parameters &parameters, bool coupled);
 } // namespace quoin
 
 #endif

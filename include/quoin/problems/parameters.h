@@ -4,9 +4,10 @@
 #ifndef quoin_problems_parameters_h
 #define quoin_problems_parameters_h
 
+#include <quoin/base/time_control.h>
 #include <quoin/farfield/boundary_parameters.h>
 #include <quoin/results/history_parameters.h>
-#include <quoin/problems/initial_motion.h>
+#include <quoin/loads/initial_motion.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/implicit/implicit_parameters.h>
@@ -60,6 +61,16 @@ namespace quoin
     double field_interval      = 0.;  /**< [s] */
     double checkpoint_interval = 60.; /**< [s] */
     bool measure_bandwidth     = false;
+
+    /** When rows of histories.csv are due, and when fields are. */
+    TimeControl row_times() const
+    {
+      return TimeControl(history_interval);
+    }
+    TimeControl field_times() const
+    {
+      return TimeControl(field_interval > 0. ? field_interval : -1.);
+    }
 
     /** All values; paths stay relative to the parameter file. */
     std::string effective;

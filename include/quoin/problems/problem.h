@@ -4,7 +4,8 @@
 #ifndef quoin_problems_problem_h
 #define quoin_problems_problem_h
 
-#include <quoin/base/exceptions.h>
+#include <quoin/mesh/mesh_data.h>
+#include <quoin/problems/parameters.h>
 #include <quoin/results/log.h>
 #include <quoin/results/progress.h>
 #include <quoin/results/table_set.h>
@@ -14,6 +15,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <memory>
 #include <string>
 
 namespace quoin
@@ -36,20 +38,56 @@ namespace quoin
     Progress &progress;
     TableSet &tables;
 
-    bool is_first_rank() const
+    /** Runs @p task on the first rank; all throw what it throws, anything
+        unknown as an @p Error. Collective. */
+    template <typename Error = RunError, typename Task>
+    void on_first_rank(const Task &task) const
     {
-      return log.is_active();
+      all_or_none<Error>(communicator,
+                         [&]()
+                         {
+                           if (log.is_active())
+                             task();
+                         });
     }
   };
 
   /**
    * A step has failed and the state is that before it, which is worth a
-   * checkpoint: Problem::take_step() has written what there is to see.
+   * checkpoint: Stage::take_step() has written what there is to see.
    */
   class FailedStep : public RunError
   {
   public:
     using RunError::RunError;
+  };
+
+  /** A stage of a problem, in steps. Members are collective. */
+  class Stage
+  {
+  public:
+    virtual ~Stage() = default;
+
+    /** Begins the stage. */
+    virtual void begin() = 0;
+    /** Goes on within the stage with the state that was loaded. */
+    virtual void resume()        = 0;
+    virtual bool is_over() const = 0;
+
+    /** Whether a checkpoint may follow a step. */
+    enum class Checkpoint
+    {
+      no,
+      possible, /**< if its time has come */
+      wanted
+    };
+    /** The next step, with the rows and fields that are due. */
+    virtual Checkpoint take_step() = 0;
+
+    /** Time, steps and how far the stage is. */
+    virtual ProgressFigures figures() const = 0;
+    /** Called once the stage is over. */
+    virtual void end() = 0;
   };
 
   /**
@@ -61,65 +99,84 @@ namespace quoin
   class Problem
   {
   public:
+    /** @p parameters and @p run must outlive this object. */
+    Problem(const Parameters &parameters, const RunContext &run)
+      : parameters(parameters), run(run)
+    {
+    }
     virtual ~Problem() = default;
-
-    /** What a resumed run must have in common with the one before. */
-    virtual std::string fingerprint() const = 0;
-    virtual unsigned int n_stages() const   = 0;
 
     /**
      * Says what the model is and warns of what is likely a mistake; with
      * RunOptions::check also what the run costs.
      */
-    virtual void report() = 0;
+    void report();
+
+    virtual unsigned int n_stages() const                         = 0;
+    virtual std::unique_ptr<Stage> make_stage(unsigned int index) = 0;
+    /** Model and solver become those before stage @p index, after load(). */
+    virtual void restore(unsigned int /*index*/)
+    {
+    }
+
     /** Begins the files beside the tables, or goes on with them after load().
      */
     virtual void open_outputs() = 0;
-
-    /** Goes on with what load() has read: before stage @p stage, or within it
-        if it has begun. */
-    virtual void resume(unsigned int stage, bool has_begun) = 0;
-    virtual void begin_stage(unsigned int stage)            = 0;
-    virtual bool stage_is_over() const                      = 0;
-    virtual void end_stage()                                = 0;
-
-    /** Whether a checkpoint may follow a step. */
-    enum class Checkpoint
-    {
-      no,
-      possible, /**< if its time has come */
-      wanted
-    };
-    /** The next step of the stage, with the rows and fields that are due. */
-    virtual Checkpoint take_step() = 0;
-
-    /** Time, steps and how far the stage is. */
-    virtual ProgressFigures progress_figures() const = 0;
-    /** Figures for summary.json; @p seconds that this process has computed. */
+    /** Adds figures to summary.json; @p seconds that this process has computed.
+     */
     virtual void summarise(nlohmann::json &summary, double seconds) const = 0;
-    /** The last words of a run with this summary. */
-    virtual void report_end(const nlohmann::json &summary) = 0;
+    /** The last words of a run with this summary: "3 steps", and what follows
+        the time that it took. */
+    struct LastWords
+    {
+      std::string what, figures;
+    };
+    virtual LastWords last_words(const nlohmann::json &summary) const = 0;
 
     /** Called before save(): checks and completes the state. */
     virtual void complete_state()                        = 0;
     virtual void save(boost::archive::binary_oarchive &) = 0;
     virtual void load(boost::archive::binary_iarchive &) = 0;
+
+    /** Fingerprint of what a resumed run must have in common with the one
+        before; see run_fingerprint(). */
+    virtual const std::string &fingerprint() const = 0;
+
+  protected:
+    virtual void report_model() = 0;
+    /** Says what time, memory and disk the run takes; measures for half a
+        second and spoils the model. */
+    virtual void report_costs() = 0;
+
+    const Parameters &parameters;
+    const RunContext &run;
   };
 
-  /** Runs @p task and puts the name of the parameter file before its
-      InputErrors. */
+  /** The kind of problem that @p parameters describe. */
+  std::unique_ptr<Problem> make_problem(const Parameters &parameters,
+                                        const RunContext &run);
+
+  /** Gives what @p task gives and puts the name of the parameter file before
+      its InputErrors. */
   template <typename Task>
-  void naming(const std::string &file, const Task &task)
+  auto naming(const std::string &file, const Task &task)
   {
     try
     {
-      task();
+      return task();
     }
     catch (const InputError &error)
     {
       throw InputError(file + ", " + error.what());
     }
   }
+
+  /**
+   * fingerprint() of all parameters, of the mesh as it was read or generated,
+   * and of the files of tables and records.
+   */
+  std::string run_fingerprint(const Parameters &parameters,
+                              const MeshData &mesh);
 } // namespace quoin
 
 #endif

@@ -34,6 +34,10 @@ namespace quoin
   /** Boundary elements as they go to ParaView. */
   BoundaryFields boundary_fields(const BoundaryGeometry &geometry,
                                  const BoundaryState &state);
+
+  /** What blocks.pvd and joints.pvd take for one time, of all ranks [B];
+      collective. */
+  double bytes_of_fields(const Model &model);
 } // namespace quoin
 
 #endif

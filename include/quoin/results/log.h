@@ -4,8 +4,11 @@
 #ifndef quoin_results_log_h
 #define quoin_results_log_h
 
+#include <quoin/base/number_text.h>
+
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace quoin
 {
@@ -35,6 +38,30 @@ namespace quoin
 
     /** The same with "Warning: " before it; shown even if quiet. */
     void warning(const std::string &text);
+
+    /** The same of a text_of() @p parts. */
+    template <typename... Parts>
+    void message(const Parts &...parts)
+    {
+      message(text_of(parts...));
+    }
+    template <typename... Parts>
+    void warning(const Parts &...parts)
+    {
+      warning(text_of(parts...));
+    }
+
+    /** All @p lines, or warnings, one after the other. */
+    void messages(const std::vector<std::string> &lines)
+    {
+      for (const std::string &line : lines)
+        message(line);
+    }
+    void warnings(const std::vector<std::string> &lines)
+    {
+      for (const std::string &line : lines)
+        warning(line);
+    }
 
     /** A line for the file and, unless it is a terminal, the screen. */
     void progress(const std::string &text);

@@ -29,6 +29,12 @@ namespace quoin
     /** Adds the step: its displacements [m] and tractions [Pa]. */
     virtual void push(const Eigen::VectorXd &u, const Eigen::VectorXd &p) = 0;
 
+    /** After how many steps a step costs more again. */
+    virtual unsigned period() const
+    {
+      return 1;
+    }
+
     /** Number of steps added. */
     virtual unsigned long n_steps() const = 0;
 

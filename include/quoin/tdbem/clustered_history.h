@@ -90,6 +90,10 @@ namespace quoin
       return longest;
     }
 
+    unsigned period() const override
+    {
+      return block_size();
+    }
     /** Steps for which known history is applied at once. */
     unsigned block_size() const
     {

@@ -1,80 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../dynamics/test_models.h"
 #include "../joints/rock_walk.h"
 
 #include <quoin/base/exceptions.h>
-#include <quoin/contact/block_contacts.h>
 #include <quoin/contact/contact_search.h>
+
+#include "test_contacts.h"
 
 using namespace quoin;
 using namespace quoin::test;
 
 namespace
 {
-  constexpr double kn        = 8e9;
-  constexpr double ks        = 3e9;
-  constexpr double thickness = 0.3;
-  constexpr double degree    = 3.14159265358979323846 / 180.;
-  constexpr double closing   = 1e-4; // [m]
-
-  struct Rectangle
-  {
-    double x, y, width, height; // lower left corner before it is turned
-    unsigned int nx, ny;
-    double angle = 0.; // about its lower left corner [rad]
-  };
-
-  /** Each rectangle is a block of the group "stone"; none share nodes. */
-  void make_blocks(BlockMesh<2> &mesh, const std::vector<Rectangle> &rectangles)
-  {
-    MeshData data;
-    data.group_names = { "stone" };
-    for (const Rectangle &r : rectangles)
-    {
-      const unsigned int first = data.vertices.size();
-      const double c = std::cos(r.angle), s = std::sin(r.angle);
-      for (unsigned int j = 0; j <= r.ny; ++j)
-        for (unsigned int i = 0; i <= r.nx; ++i)
-        {
-          const double x = r.width * i / r.nx, y = r.height * j / r.ny;
-          data.vertices.emplace_back(r.x + c * x - s * y, r.y + s * x + c * y);
-        }
-      for (unsigned int j = 0; j < r.ny; ++j)
-        for (unsigned int i = 0; i < r.nx; ++i)
-        {
-          const unsigned int a = first + j * (r.nx + 1) + i;
-          const unsigned int b = a + 1, d = a + r.nx + 1, e = d + 1;
-          data.triangles.push_back({ { a, b, e } });
-          data.triangles.push_back({ { a, e, d } });
-          data.triangle_group.push_back(0);
-          data.triangle_group.push_back(0);
-        }
-    }
-    split_into_blocks(data, {}, mesh);
-  }
-
-  JointSetParameters touching(const double friction = 0.5)
-  {
-    JointSetParameters set = elastic_joint(kn, ks);
-    set.name               = "touch";
-    set.curves.clear();
-    set.all_new_contacts  = true;
-    coulomb_law(set).peak = coulomb_law(set).residual = { 0., friction, 0. };
-    return set;
-  }
-
-  ContactModel contact_model(const std::vector<JointSetParameters> &sets)
-  {
-    ContactModel model;
-    model.parameters.large_displacements = true;
-    model.sets                           = sets;
-    model.materials                      = { "stone" };
-    model.material_of_group              = { 0, 0 };
-    model.thickness                      = thickness;
-    return model;
-  }
+  constexpr double degree  = 3.14159265358979323846 / 180.;
+  constexpr double closing = 1e-4; // [m]
 
   /** Blocks, their contacts and joints, moved by hand. */
   struct Scene
@@ -431,7 +371,7 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
         // The history of point k of a segment goes on in its pair.
         const auto &segment = scene.joints.segment(p / 2);
         const auto &face
-            = scene.contacts->contact_edges().edges_of_face(segment.face);
+            = scene.contacts->contact_edges().joint_edges(segment.face).edges;
         for (const ContactPair &pair : scene.state.get<ContactState>().pairs)
           if (pair.lower == face[0] && pair.upper == face[1])
           {
@@ -645,7 +585,7 @@ TEST(ContactSearch, FindsWhatAllPairsAgainstAllFind)
   const TestNodes nodes(mesh);
   const ContactEdges edges(nodes);
   std::vector<EdgeEnds> ends;
-  for (unsigned int e = 0; e < edges.size(); ++e)
+  for (unsigned int e = 0; e < edges.n_global(); ++e)
   {
     const auto &p = mesh.vertices[edges[e].nodes[0]];
     const auto &q = mesh.vertices[edges[e].nodes[1]];
@@ -695,13 +635,15 @@ TEST(ContactEdges, RunAroundTheirBlocks)
   make_stack(mesh, 3, 2);
   const TestNodes nodes(mesh);
   const ContactEdges edges(nodes);
-  ASSERT_EQ(edges.size(), 20U);
-  ASSERT_EQ(edges.interfaces().size(), 1U);
+  ASSERT_EQ(edges.n_global(), 20U);
+  ASSERT_EQ(edges.own().size(), 20U);
+  EXPECT_FALSE(edges.has_tip(0));
   for (unsigned int b = 0; b < 2; ++b)
   {
     double length = 0.;
-    for (unsigned int e = edges.first_edge(b); e < edges.first_edge(b + 1); ++e)
+    for (unsigned int e = 10 * b; e < 10 * (b + 1); ++e)
     {
+      EXPECT_EQ(edges[e].number, e);
       EXPECT_EQ(edges[e].block, b);
       EXPECT_EQ(edges[edges[e].next].previous, e);
       EXPECT_EQ(edges[edges[e].next].nodes[0], edges[e].nodes[1]);
@@ -712,10 +654,9 @@ TEST(ContactEdges, RunAroundTheirBlocks)
   }
   for (unsigned int f = 0; f < mesh.joint_faces.size(); ++f)
   {
-    EXPECT_EQ(edges[edges.edges_of_face(f)[0]].nodes[0],
-              mesh.joint_faces[f].lower[0]);
-    EXPECT_EQ(edges[edges.edges_of_face(f)[1]].nodes[1],
-              mesh.joint_faces[f].upper[0]);
-    EXPECT_EQ(edges[edges.edges_of_face(f)[1]].interface, 0U);
+    const auto &[lower, upper] = edges.joint_edges(f).edges;
+    EXPECT_EQ(edges[lower].nodes[0], mesh.joint_faces[f].lower[0]);
+    EXPECT_EQ(edges[upper].nodes[1], mesh.joint_faces[f].upper[0]);
+    EXPECT_EQ(edges[upper].interface, 0U);
   }
 }

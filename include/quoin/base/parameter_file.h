@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_base_parameter_file_h
+#define quoin_base_parameter_file_h
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** The text of a parameter file, with what the command line overrides. */
+  class ParameterFile
+  {
+  public:
+    /**
+     * Reads @p file; @p overrides are of the form "Section/Name=value".
+     * Throws an InputError if the file cannot be read.
+     */
+    ParameterFile(std::string file, std::vector<std::string> overrides);
+
+    /**
+     * Puts its values into @p prm, those of the command line last;
+     * 'include' resolves against the folder of the file. With
+     * @p skip_undefined it passes over what @p prm does not declare. Throws
+     * an InputError that names file, line, section and cure.
+     */
+    void parse(dealii::ParameterHandler &prm, bool skip_undefined) const;
+
+  private:
+    std::string file;
+    std::string text;
+    std::vector<std::string> overrides;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_problems_advice_h
+#define quoin_problems_advice_h
+
+#include <quoin/base/number_text.h>
+#include <quoin/dynamics/solver.h>
+#include <quoin/loads/signal_frequency.h>
+#include <quoin/mesh/mesh_report.h>
+#include <quoin/problems/parameters.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace quoin
+{
+  // What is allowed but most likely a mistake: each a sentence with its cure,
+  // to be shown as a warning. All ranks get the same; functions are collective.
+
+  using Advice = std::vector<std::string>;
+
+  /** Checks about one thing. */
+  class Checks
+  {
+  public:
+    /** @p about: the begin of all sentences, such as "stage pull: ". */
+    Checks(Advice &advice, std::string about)
+      : advice(advice), about(std::move(about))
+    {
+    }
+
+    /** Adds the text_of() @p parts if @p condition holds. */
+    template <typename... Parts>
+    void warn_if(const bool condition, const Parts &...parts)
+    {
+      if (condition)
+        advice.push_back(text_of(about, parts...));
+    }
+
+  private:
+    Advice &advice;
+    const std::string about;
+  };
+
+  /** About the file, the mesh and the initial @p state, whatever the stages. */
+  Advice model_advice(const Parameters &parameters, const MeshReport &report,
+                      const Model &model, const State<2> &state);
+
+  /**
+   * About stage @p index of the explicit solver, which has begun with
+   * @p state and takes steps of @p time_step [s].
+   */
+  Advice stage_advice(const Parameters &parameters, unsigned int index,
+                      const Model &model, const State<2> &state,
+                      double time_step);
+
+  /** The fastest of the loads that act on blocks in stage @p index. */
+  Shaking fastest_load(const Parameters &parameters, unsigned int index);
+} // namespace quoin
+
+#endif

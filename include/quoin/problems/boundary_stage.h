@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_problems_boundary_stage_h
+#define quoin_problems_boundary_stage_h
+
+#include <quoin/problems/boundary_system.h>
+#include <quoin/problems/problem.h>
+#include <quoin/results/boundary_output.h>
+#include <quoin/tdbem/time_marching.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace quoin
+{
+  /** Which steps have rows of histories.csv and fields. */
+  struct StepControl
+  {
+    std::function<bool(std::uint64_t)> row_is_due, fields_are_due;
+  };
+
+  /** What the stages of a problem of boundary elements alone work on. */
+  struct BoundaryContext
+  {
+    BoundaryContext(const Parameters &parameters, const RunContext &run);
+
+    /** Fields at @p time [s], on the boundary. */
+    void write_boundary(double time, const BoundaryState &fields);
+
+    const RunContext &run;
+    const BoundaryElementParameters &settings;
+    BoundarySystem system;
+    const StepControl control;
+    RootTable &history_table;
+    BoundaryOutput boundary_output;
+
+    /** What a checkpoint holds. */
+    struct State
+    {
+      std::uint64_t step = 0;      /**< steps taken */
+      std::vector<double> history; /**< what BoundaryHistory::save() gives */
+      std::vector<double> u, p;    /**< scattered, of the last step */
+      std::vector<double> all_u;   /**< of all steps, one unknown after the */
+      std::vector<double> all_p;   /**< other, if the domain is asked for */
+      std::vector<double> rows;    /**< of histories.csv that still lack */
+                                   /**< what happens in the domain */
+
+      template <typename Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &step &history &u &p &all_u &all_p &rows;
+      }
+    } state;
+
+    std::unique_ptr<TimeMarching> march;    /**< while it is under way */
+    std::optional<StaticSolution> solution; /**< of statics */
+    std::uint64_t n_done = 0;               /**< steps of this process */
+    double march_seconds = 0.;              /**< of these steps */
+  };
+
+  // Members of the stages are collective.
+
+  /** Marches in time. All ranks march alike and share the history. */
+  std::unique_ptr<Stage> make_marching_stage(BoundaryContext &context);
+
+  /** Writes the static solution. */
+  std::unique_ptr<Stage> make_static_stage(BoundaryContext &context);
+
+  /**
+   * Computes histories and the sampled field in the domain, which follow from
+   * the record of all steps on the boundary, some points at a time. Ranks
+   * share the points.
+   */
+  std::unique_ptr<Stage> make_domain_stage(BoundaryContext &context);
+
+  /** Writes displacements [m] and velocities [m/s] of the sampled field. */
+  void write_field(const BoundaryContext &context, SampledFieldOutput &output,
+                   double time, const Eigen::VectorXd &displacement,
+                   const Eigen::VectorXd &velocity);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_model_output_h
+#define quoin_results_model_output_h
+
+#include <quoin/dynamics/solver.h>
+#include <quoin/results/block_output.h>
+#include <quoin/results/joint_output.h>
+
+#include <string>
+
+namespace quoin
+{
+  /** The series blocks.pvd, joints.pvd and, of general contacts, contacts.pvd.
+      Members are collective. */
+  class ModelOutput
+  {
+  public:
+    /** @p model and @p solver must outlive this object. */
+    ModelOutput(const std::string &folder, const Model &model, Solver &solver);
+
+    /** Begins the series, or goes on with those of a checkpoint. */
+    void start();
+
+    /**
+     * Writes the fields of @p state at @p time [s]; if @p base is given, as
+     * displacements since that state, whose positions are the reference.
+     */
+    void write(double time, const State<2> &state,
+               const State<2> *base = nullptr);
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &blocks &joints &contacts;
+    }
+
+  private:
+    const Model &model;
+    Solver &solver;
+    BlockOutput blocks;
+    JointOutput joints, contacts;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/named_sections.h>
+
+#include <set>
+
+namespace quoin
+{
+  using dealii::ParameterHandler;
+
+  namespace
+  {
+    /** Runs @p task in the subsection @p name. */
+    template <typename Task>
+    void in_section(ParameterHandler &prm, const std::string &name,
+                    const Task &task)
+    {
+      prm.enter_subsection(name);
+      task(prm);
+      prm.leave_subsection();
+    }
+
+    /** Whether the section that @p prm is in has a parameter @p name. */
+    bool has_entry(ParameterHandler &prm, const std::string &name)
+    {
+      try
+      {
+        // get() gives an empty text for what is not there.
+        prm.set(name, prm.get(name));
+        return true;
+      }
+      catch (const dealii::ExceptionBase &)
+      {
+        return false;
+      }
+    }
+
+    /** The subsections that @p listed names. */
+    void declare_listed(const SectionEntries &section, const std::string &file,
+                        const std::vector<std::string> &listed,
+                        ParameterHandler &prm)
+    {
+      std::set<std::string> seen;
+      for (const std::string &name : listed)
+      {
+        if (name.empty())
+          continue;
+        const std::string what
+            = file + ", section '" + section.name + "': 'Names' lists '" + name;
+        if (!seen.insert(name).second)
+          throw InputError(what + "' twice. Names must differ.");
+        if (has_entry(prm, name))
+          throw InputError(what
+                           + "', which is a parameter of this section. Take "
+                             "another name.");
+        in_section(prm, name, section.declare);
+      }
+    }
+  } // namespace
+
+  void declare_sections(const std::vector<SectionEntries> &sections,
+                        ParameterHandler &prm)
+  {
+    for (const SectionEntries &section : sections)
+      in_section(prm, section.name, section.declare);
+  }
+
+  void declare_names(const std::vector<SectionEntries> &sections,
+                     ParameterHandler &prm)
+  {
+    for (const SectionEntries &section : sections)
+      in_section(prm, section.name,
+                 [](ParameterHandler &all)
+                 {
+                   all.declare_entry(
+                       "Names", "", dealii::Patterns::Anything(),
+                       "Comma-separated names; each is a subsection.");
+                 });
+  }
+
+  void declare_listed(const std::vector<SectionEntries> &sections,
+                      const std::string &file, ParameterHandler &names,
+                      ParameterHandler &prm)
+  {
+    for (const SectionEntries &section : sections)
+    {
+      std::vector<std::string> listed;
+      in_section(names, section.name,
+                 [&](ParameterHandler &all) {
+                   listed = dealii::Utilities::split_string_list(
+                       all.get("Names"), ',');
+                 });
+      in_section(prm, section.name,
+                 [&](ParameterHandler &all)
+                 { declare_listed(section, file, listed, all); });
+    }
+  }
+
+  void declare_examples(const std::vector<SectionEntries> &sections,
+                        ParameterHandler &prm)
+  {
+    for (const SectionEntries &section : sections)
+      in_section(prm, section.name,
+                 [&](ParameterHandler &all)
+                 { in_section(all, "NAME", section.declare); });
+  }
+} // namespace quoin

@@ -1,0 +1,416 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/constants.h>
+#include <quoin/implicit/dof_map.h>
+#include <quoin/loads/prescribed_motion.h>
+
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace quoin
+{
+  namespace
+  {
+    bool is_driven(const LoadComponent &component)
+    {
+      return component.quantity == LoadQuantity::velocity
+             || component.quantity == LoadQuantity::displacement;
+    }
+
+    /** Halves [a, b] up to @p depth times where the function has a kink. */
+    double integral(const std::function<double(double)> &function,
+                    const double a, const double b, const unsigned int depth)
+    {
+      using boost::math::quadrature::gauss_kronrod;
+      double error = 0.;
+      const double whole
+          = gauss_kronrod<double, 15>::integrate(function, a, b, 0, 0., &error);
+      error *= 0.5 * std::abs(b - a); // which is that on [-1, 1]
+      if (depth == 0 || error <= 1e-10 * std::abs(whole))
+        return whole;
+      const double middle = 0.5 * (a + b);
+      return integral(function, a, middle, depth - 1)
+             + integral(function, middle, b, depth - 1);
+    }
+
+    void sum(std::vector<std::array<double, 3>> &values, const unsigned int n,
+             const MPI_Comm communicator)
+    {
+      if (n > 0)
+        MPI_Allreduce(MPI_IN_PLACE, values.data(), 3 * n, MPI_DOUBLE, MPI_SUM,
+                      communicator);
+    }
+  } // namespace
+
+  double given_change(const LoadComponent &component, const double from,
+                      const double to, const double stage_start)
+  {
+    const auto value = [&](const double t) {
+      return component.value({ t, stage_start + t });
+    };
+    if (component.quantity == LoadQuantity::displacement)
+      return value(to) - value(from);
+    if (component.quantity != LoadQuantity::velocity || from == to)
+      return 0.;
+    // In pieces, so that short pulses are seen.
+    constexpr unsigned int n = 16;
+    double change            = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      change += integral(value, from + (to - from) * i / n,
+                         from + (to - from) * (i + 1) / n, 15);
+    return change;
+  }
+
+  DofMap::DofMap(const Model &model,
+                 const std::vector<MotionConstraint<2> *> &constraints,
+                 const std::vector<bool> &held, const State<2> &state)
+    : model(model), communicator(model.exchange().communicator()),
+      stage_start(state.stage_start), absent(model.absent_nodes(state)),
+      ties(model.exchange().n_local(),
+           { dealii::numbers::invalid_dof_index, {}, {} })
+  {
+    add_platens(constraints, state);
+    add_rigid_blocks(held);
+    number();
+
+    // What acts last on a node prevails.
+    const unsigned int n = model.exchange().n_owned();
+    std::vector<std::array<const LoadComponent *, 2>> owner(
+        n, { { nullptr, nullptr } });
+    for (const MotionConstraint<2> *constraint : constraints)
+      if (constraint->kind() == MotionKind::prescribed)
+        for (const unsigned int node : constraint->nodes())
+          for (unsigned int d = 0; d < 2; ++d)
+            if (constraint->holds()[d])
+              owner[node][d] = &(*constraint->parts())[d];
+    for (unsigned int node = 0; node < n; ++node)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        if (owner[node][d] && !is_in_body(node) && !absent[node])
+          prescribed_list.push_back({ node, d, owner[node][d] });
+        ties[node].given[d] = owner[node][d] || absent[node];
+      }
+    update_constraints(configuration(state), state.load_time);
+  }
+
+  void
+  DofMap::add_platens(const std::vector<MotionConstraint<2> *> &constraints,
+                      const State<2> &state)
+  {
+    for (const MotionConstraint<2> *constraint : constraints)
+    {
+      const MotionConstraint<2> *platen = constraint;
+      if (!platen->is_rigid_body())
+        continue;
+      const PlatenState &now = state.get<PlatenState>(platen->name());
+      Body body;
+      body.platen      = platen;
+      body.rigid_block = -1;
+      body.nodes       = platen->nodes();
+      body.given       = platen->holds();
+      body.counts = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+      std::copy(now.centre, now.centre + 2, body.centre);
+      for (unsigned int i = 0; i < body.nodes.size(); ++i)
+        body.arms.push_back({ { now.arms[2 * i], now.arms[2 * i + 1] } });
+      body_list.push_back(body);
+    }
+    n_platens = body_list.size();
+  }
+
+  void DofMap::add_rigid_blocks(const std::vector<bool> &held)
+  {
+    const RigidBlocks &rigid = model.rigid_blocks();
+    for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+    {
+      if (held[b])
+        continue;
+      const RigidBlocks::Block &block = rigid.block(b);
+      Body body;
+      body.platen      = nullptr;
+      body.rigid_block = b;
+      body.given       = { { false, false, false } };
+      body.counts      = true;
+      std::copy(block.centre, block.centre + 2, body.centre);
+      for (unsigned int i = block.begin; i < block.end; ++i)
+      {
+        const auto &X = model.nodes().point(i);
+        body.nodes.push_back(i);
+        body.arms.push_back(
+            { { X[0] - block.centre[0], X[1] - block.centre[1] } });
+      }
+      body_list.push_back(body);
+    }
+  }
+
+  void DofMap::number()
+  {
+    const NodeExchange &exchange = model.exchange();
+    const Index first_body       = 2 * Index(exchange.n_global());
+    const Index first_rigid      = first_body + 4 * n_platens;
+    const dealii::IndexSet rigid
+        = dealii::Utilities::MPI::create_ascending_partitioning(
+            communicator, 4 * Index(body_list.size() - n_platens))
+            [dealii::Utilities::MPI::this_mpi_process(communicator)];
+
+    owned_dofs = dealii::IndexSet(first_rigid + rigid.size());
+    if (exchange.n_owned() > 0)
+    {
+      const Index first = 2 * Index(exchange.global(0));
+      owned_dofs.add_range(first, first + 2 * exchange.n_owned());
+    }
+    owned_dofs.add_indices(rigid, first_rigid);
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+    {
+      Body &body = body_list[b];
+      body.first
+          = b < n_platens
+                ? first_body + 4 * b
+                : first_rigid + rigid.nth_index_in_set(4 * (b - n_platens));
+      if (body.counts)
+        owned_dofs.add_range(body.first, body.first + 4);
+      for (const unsigned int node : body.nodes)
+        ties[node].body = body.first;
+    }
+    owned_dofs.compress();
+
+    exchange.update_ghosts(ties.data());
+    relevant_dofs = owned_dofs;
+    has_bodies    = !body_list.empty();
+    for (unsigned int b = 0; b < n_platens; ++b)
+      relevant_dofs.add_range(body_list[b].first, body_list[b].first + 4);
+    for (unsigned int i = 0; i < exchange.n_local(); ++i)
+    {
+      const Index first = 2 * Index(exchange.global(i));
+      node_dofs.insert(node_dofs.end(), { first, first + 1 });
+      if (i < exchange.n_owned())
+        continue;
+      relevant_dofs.add_range(first, first + 2);
+      if (!is_in_body(i))
+        continue;
+      relevant_dofs.add_range(ties[i].body, ties[i].body + 4);
+      has_bodies = true;
+    }
+    relevant_dofs.compress();
+  }
+
+  Configuration DofMap::configuration(const State<2> &state) const
+  {
+    Configuration result;
+    result.nodes     = state.nodes;
+    result.load_time = state.load_time;
+    result.released  = state.get<ImplicitState>().released;
+    for (const Body &body : body_list)
+      if (body.platen)
+      {
+        const double *d = body.platen->rigid_displacement(state);
+        result.bodies.push_back({ { d[0], d[1], d[2] } });
+      }
+      else
+      {
+        const RigidBlockState &block
+            = state.get<RigidBlockStates>()[body.rigid_block];
+        result.bodies.push_back({ { block.displacement[0],
+                                    block.displacement[1], block.rotation } });
+      }
+    return result;
+  }
+
+  void DofMap::write(const Configuration &configuration, State<2> &state) const
+  {
+    state.nodes                         = configuration.nodes;
+    state.load_time                     = configuration.load_time;
+    state.get<ImplicitState>().released = configuration.released;
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+    {
+      const auto &d = configuration.bodies[b];
+      if (body_list[b].platen)
+        std::copy(
+            d.begin(), d.end(),
+            state.get<PlatenState>(body_list[b].platen->name()).displacement);
+      else
+      {
+        RigidBlockState &block
+            = state.get<RigidBlockStates>()[body_list[b].rigid_block];
+        std::copy(d.begin(), d.begin() + 2, block.displacement);
+        block.rotation = d[2];
+      }
+    }
+  }
+
+  void DofMap::update_arms(const Configuration &configuration)
+  {
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+    {
+      Body &body     = body_list[b];
+      const double c = std::cos(configuration.bodies[b][2]),
+                   s = std::sin(configuration.bodies[b][2]);
+      body.present_arms.resize(body.arms.size());
+      for (unsigned int i = 0; i < body.arms.size(); ++i)
+      {
+        const auto [x, y]    = body.arms[i];
+        body.present_arms[i] = { { c * x - s * y, s * x + c * y } };
+      }
+    }
+  }
+
+  void DofMap::update_constraints(const Configuration &configuration,
+                                  const double load_time)
+  {
+    update_arms(configuration);
+    const double before = configuration.load_time;
+    for (const Prescribed &p : prescribed_list)
+      ties[p.node].motion[p.component]
+          = given_change(*p.part, before, load_time, stage_start);
+    for (const Body &body : body_list)
+      for (unsigned int i = 0; i < body.nodes.size(); ++i)
+        ties[body.nodes[i]].motion = body.present_arms[i];
+    model.exchange().update_ghosts(ties.data());
+
+    // Without bodies the lines stay and only inhomogeneities change.
+    const bool are_new = has_bodies || affine.n_constraints() == 0;
+    if (are_new)
+      affine.reinit(relevant_dofs);
+    for (unsigned int i = 0; i < ties.size(); ++i)
+    {
+      const Tie &tie = ties[i];
+      for (unsigned int d = 0; d < 2; ++d)
+        if (tie.body != dealii::numbers::invalid_dof_index)
+        {
+          affine.add_line(dof(i, d));
+          affine.add_entry(dof(i, d), tie.body + d, 1.);
+          affine.add_entry(dof(i, d), tie.body + 2,
+                           d == 0 ? -tie.motion[1] : tie.motion[0]);
+        }
+        else if (tie.given[d])
+        {
+          if (are_new)
+            affine.add_line(dof(i, d));
+          affine.set_inhomogeneity(dof(i, d), tie.motion[d]);
+        }
+    }
+    for (const Body &body : body_list)
+    {
+      affine.add_line(body.first + 3);
+      for (unsigned int d = 0; d < 3; ++d)
+        if (body.given[d])
+        {
+          affine.add_line(body.first + d);
+          affine.set_inhomogeneity(body.first + d,
+                                   given_motion(body, d, before, load_time));
+        }
+    }
+    affine.close();
+  }
+
+  double DofMap::given_motion(const Body &body, const unsigned int d,
+                              const double from, const double to) const
+  {
+    return given_change((*body.platen->parts())[d], from, to, stage_start)
+           * (d == 2 ? constants::degree : 1.);
+  }
+
+  void DofMap::move(const Vector &increment, const double share,
+                    const double load_time, Configuration &configuration) const
+  {
+    const double before     = configuration.load_time;
+    configuration.load_time = load_time;
+    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        if (is_free(i, d))
+          configuration.nodes[i].u[d] += share * increment(dof(i, d));
+    for (const Prescribed &p : prescribed_list)
+      configuration.nodes[p.node].u[p.component]
+          += given_change(*p.part, before, load_time, stage_start);
+
+    // All ranks know how platens move; the first one solves for it.
+    std::vector<std::array<double, 3>> changes(body_list.size(),
+                                               { { 0., 0., 0. } });
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+        if (body_list[b].counts && !body_list[b].given[d])
+          changes[b][d] = share * increment(body_list[b].first + d);
+    sum(changes, n_platens, communicator);
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+        configuration.bodies[b][d]
+            += body_list[b].given[d]
+                   ? given_motion(body_list[b], d, before, load_time)
+                   : changes[b][d];
+    place(configuration);
+    model.exchange().update_ghosts(configuration.nodes.data());
+  }
+
+  void DofMap::place(Configuration &configuration) const
+  {
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+    {
+      const Body &body = body_list[b];
+      const auto &d    = configuration.bodies[b];
+      const double c = std::cos(d[2]), s = std::sin(d[2]);
+      for (unsigned int i = 0; i < body.nodes.size(); ++i)
+      {
+        NodeRecord<2> &node = configuration.nodes[body.nodes[i]];
+        const auto [x, y]   = body.arms[i];
+        // The sum of what nearly cancels first, to keep digits.
+        node.u[0]
+            = body.centre[0] + x - node.X[0] + d[0] + (c - 1.) * x - s * y;
+        node.u[1]
+            = body.centre[1] + y - node.X[1] + d[1] + s * x + (c - 1.) * y;
+      }
+    }
+  }
+
+  void DofMap::add_forces(const AlignedArray<NodeVector<2>> &force,
+                          Vector &right_hand_side) const
+  {
+    const auto *values = reinterpret_cast<const double *>(force.data());
+    affine.distribute_local_to_global(values,
+                                      values + 2 * model.exchange().n_owned(),
+                                      node_dofs.begin(), right_hand_side);
+  }
+
+  void DofMap::add_body_forces(const std::vector<std::array<double, 3>> &force,
+                               Vector &right_hand_side) const
+  {
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+        if (body_list[b].counts && !body_list[b].given[d])
+          right_hand_side(body_list[b].first + d) += force[b][d];
+  }
+
+  std::vector<std::array<double, 3>>
+  DofMap::body_forces(const AlignedArray<NodeVector<2>> &force) const
+  {
+    std::vector<std::array<double, 3>> result(body_list.size(),
+                                              { { 0., 0., 0. } });
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+      for (unsigned int i = 0; i < body_list[b].nodes.size(); ++i)
+      {
+        const double *f = force[body_list[b].nodes[i]].v;
+        const auto &arm = body_list[b].present_arms[i];
+        result[b][0] += f[0];
+        result[b][1] += f[1];
+        result[b][2] += arm[0] * f[1] - arm[1] * f[0];
+      }
+    sum(result, n_platens, communicator);
+    return result;
+  }
+
+  std::vector<std::array<double, 3>>
+  DofMap::drives(const double load_time) const
+  {
+    std::vector<std::array<double, 3>> result(body_list.size(),
+                                              { { 0., 0., 0. } });
+    for (unsigned int b = 0; b < body_list.size(); ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+        if (body_list[b].platen
+            && !is_driven((*body_list[b].platen->parts())[d]))
+          result[b][d] = (*body_list[b].platen->parts())[d].value(
+              { load_time, stage_start + load_time });
+    return result;
+  }
+} // namespace quoin

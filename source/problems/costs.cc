@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/problems/costs.h>
+#include <quoin/results/field_output.h>
+#include <quoin/tdbem/time_marching.h>
+
+#include <algorithm>
+
+namespace quoin
+{
+  PlannedOutput planned_output(const Parameters &parameters,
+                               const std::vector<double> &time_steps)
+  {
+    PlannedOutput result;
+    const auto count
+        = [](const double n) { return std::uint64_t(std::min(n, 1e18)); };
+    for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+    {
+      const StageParameters &stage = parameters.stages[i];
+      // One where the stage ends, whatever the intervals.
+      ++result.fields;
+      if (i < time_steps.size())
+        ++result.rows;
+      if (stage.end != StageEnd::time || stage.slows_loads())
+        result.is_least = true;
+      if (stage.end != StageEnd::time)
+        continue;
+      if (parameters.field_interval > 0.)
+        result.fields
+            += count(stage.duration / parameters.field_interval * (1. + 1e-9));
+      if (i < time_steps.size())
+        result.rows
+            += count(stage.duration
+                     / std::max(parameters.history_interval, time_steps[i]));
+    }
+    return result;
+  }
+
+  void report_memory_and_disk(const RunContext &run, const std::string &more,
+                              const PlannedOutput &planned,
+                              const double bytes_of_fields,
+                              const std::size_t n_columns)
+  {
+    constexpr double bytes_of_number = 18.;
+    run.log.message("memory: ", bytes_text(resident_memory(run.communicator)),
+                    " by now", more);
+    const char *least = planned.is_least ? " or more" : "";
+    std::string rows;
+    if (planned.rows > 0)
+      rows = text_of("; ", planned.rows, " rows of tables", least, ", ",
+                     bytes_text(double(planned.rows) * double(n_columns)
+                                * bytes_of_number));
+    run.log.message("disk: ", planned.fields, " output times of fields", least,
+                    ", ", bytes_text(double(planned.fields) * bytes_of_fields),
+                    rows);
+  }
+
+  // -- blocks ----------------------------------------------------------------
+
+  namespace
+  {
+    /** For measuring what the steps of all stages cost together [s]. */
+    constexpr double measuring_time = 0.5;
+
+    /** Steps for which the cost of a stage without a known end is told. */
+    constexpr double many_steps = 10000.;
+
+    /** Iterations that a step takes at least, if joints yield. */
+    constexpr double few_iterations = 3.;
+
+    /** From @p start again after the stage's end or a failure. */
+    void take_trial_step(BlockContext &context, const StageParameters &stage,
+                         const State<2> &start, State<2> &state)
+    {
+      BlockSystem &system = context.system;
+      if (stage.end == StageEnd::time
+          && state.stage_step >= context.steps.n_steps())
+        state = start;
+      ExplicitSolver::Requests requests;
+      requests.balance
+          = state.stage_step % ExplicitSolver::balance_interval == 0;
+      requests.energies
+          = context.outputs.row_is_due(state.time,
+                                       system.explicit_solver->get_time_step())
+            || (requests.balance && stage.end == StageEnd::static_ratio);
+      try
+      {
+        system.explicit_solver->step(state, requests);
+      }
+      catch (const RunError &)
+      {
+        // Of no account: the stages before, which bring the model to where this
+        // one begins, have not run.
+        state = start;
+      }
+    }
+
+    void report_steps(BlockContext &context, const StageParameters &stage,
+                      const State<2> &start)
+    {
+      BlockSystem &system          = context.system;
+      const Parameters &parameters = system.parameters;
+      Log &log                     = context.run.log;
+      // The state is a copy; what steps leave in the solver is lost with it,
+      // since nothing runs after a check.
+      State<2> state      = start;
+      unsigned int period = 1;
+      if (system.solver->far_field_acts())
+      {
+        const FarField &far = *system.solver->far_field();
+        period = far.boundary_history().period() * far.n_substeps();
+        // The first two prepare matrices for their steps.
+        for (unsigned int i = 0; i < 2; ++i)
+          take_trial_step(context, stage, start, state);
+      }
+      const double seconds = seconds_per_call(
+          [&]() { take_trial_step(context, stage, start, state); },
+          measuring_time / double(parameters.stages.size()),
+          system.communicator, period);
+      if (stage.end != StageEnd::time)
+        log.message("stage ", stage.name, ": ",
+                    seconds_text(many_steps * seconds),
+                    " for each 10 000 steps, of which it takes as many as it "
+                    "needs",
+                    stage.safety ? " for each factor" : " to settle");
+      else
+        log.message("stage ", stage.name, ": about ",
+                    seconds_text(double(context.steps.n_steps()) * seconds),
+                    stage.slows_loads() ? " or more" : "");
+    }
+
+    void report_iterations(BlockContext &context, const unsigned int index,
+                           const State<2> &state)
+    {
+      BlockSystem &system          = context.system;
+      const Parameters &parameters = system.parameters;
+      Log &log                     = context.run.log;
+      const double seconds         = seconds_per_call(
+          [&]() { system.implicit_solver->try_iteration(state); },
+          measuring_time / double(parameters.stages.size()),
+          system.communicator);
+      const double n = system.implicit_solver->least_steps();
+      log.message("stage ", parameters.stages[index].name, ": ",
+                  seconds_text(seconds),
+                  " for a matrix, its factors and solutions; ", n,
+                  n == 1. ? " step" : " steps", " of some iterations or more, ",
+                  seconds_text(n * few_iterations * seconds), " or more");
+    }
+  } // namespace
+
+  void report_block_costs(BlockContext &context)
+  {
+    BlockSystem &system          = context.system;
+    const Parameters &parameters = system.parameters;
+    State<2> state               = context.state;
+    std::vector<double> time_steps;
+    for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+    {
+      system.begin_stage(i, state, false);
+      if (system.implicit_solver)
+      {
+        report_iterations(context, i, state);
+        state.time += system.implicit_solver->duration();
+        continue;
+      }
+      context.steps.choose(parameters.stages[i]);
+      time_steps.push_back(system.explicit_solver->get_time_step());
+      report_steps(context, parameters.stages[i], state);
+    }
+    system.construction->restart();
+    report_memory_and_disk(
+        context.run, "", planned_output(parameters, time_steps),
+        bytes_of_fields(*system.model), context.outputs.n_columns());
+  }
+
+  // -- boundary elements alone -----------------------------------------------
+
+  namespace
+  {
+    /** Integrals over elements, one a step, for measuring a point. */
+    constexpr double most_integrals = 1e5;
+
+    /** Of a vtu file for each element or point and moment [B]. */
+    constexpr double bytes_of_element = 250., bytes_of_point = 150.;
+
+    /** What all steps take, by some of them; spoils the history [s]. */
+    double seconds_of_march(BoundarySystem &system)
+    {
+      TimeMarching trial(*system.kernel, *system.history,
+                         system.given->traction_is_given());
+      std::uint64_t step = 0;
+      return double(system.n_steps)
+             * seconds_per_call(
+                 [&]()
+                 {
+                   const double start
+                       = double(step++ % system.n_steps) * system.dt,
+                       end = start + system.dt;
+                   trial.step(system.scattered_values(
+                       start, end, system.waves->displacements(end),
+                       system.waves->tractions(start, end)));
+                 },
+                 measuring_time, system.communicator, system.history->period());
+    }
+
+    /** What points in the domain take, by some of them [s]. */
+    double seconds_of_points(const BoundarySystem &system,
+                             const StepControl &control)
+    {
+      const double n_elements = system.geometry.boundary.n_elements();
+      // All steps, or as many as are measured in a moment.
+      const auto n = static_cast<unsigned int>(
+          std::clamp(most_integrals / n_elements, 1., double(system.n_steps)));
+      const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(
+          n, Eigen::Index(system.geometry.boundary.n_unknowns()));
+      const BoundaryRecord record{ system.dt, system.settings.decay, zero,
+                                   zero };
+      const double share = double(system.n_steps) / n;
+      // Far from the boundary waves are late and a point costs less: some
+      // points stand for all.
+      const auto seconds = [&](const std::vector<Eigen::Vector2d> &points,
+                               const std::vector<unsigned int> &steps)
+      {
+        constexpr std::size_t n_tried = 3;
+        const auto try_some           = [&]()
+        {
+          for (std::size_t i = 0; i < n_tried; ++i)
+            system.domain_displacements(
+                record, { points[(2 * i + 1) * points.size() / (2 * n_tried)] },
+                steps);
+        };
+        return seconds_per_call(try_some, 0.1 * measuring_time,
+                                system.communicator)
+               * share / n_tried * double(points.size());
+      };
+      const auto due = [&](const auto &is_due)
+      {
+        std::vector<unsigned int> steps(1, n);
+        for (unsigned int step = 1; step < n; ++step)
+          if (is_due(step)) // the one before is for the velocity
+            steps.insert(steps.end(), { step - 1, step });
+        return steps;
+      };
+      double result = 0.;
+      if (!system.histories->interior_points().empty())
+        result += seconds(system.histories->interior_points(),
+                          due(control.row_is_due));
+      if (!system.sampled.points.empty())
+        result += seconds(system.sampled.points, due(control.fields_are_due));
+      return result
+             / double(
+                 dealii::Utilities::MPI::n_mpi_processes(system.communicator));
+    }
+  } // namespace
+
+  void report_boundary_costs(BoundarySystem &system, const StepControl &control,
+                             const RunContext &run)
+  {
+    std::string of_points;
+    if (system.needs_record())
+      of_points = text_of(
+          ", and ", seconds_text(seconds_of_points(system, control)), " for ",
+          system.points_in_domain().size(), " points in the domain");
+    run.log.message("time: about ", seconds_text(seconds_of_march(system)),
+                    system.settings.direct_history ? " or more" : "", " for ",
+                    system.n_steps, " steps", of_points);
+    PlannedOutput planned;
+    for (std::uint64_t step = 0; step <= system.n_steps; ++step)
+    {
+      planned.fields += control.fields_are_due(step) ? 1 : 0;
+      planned.rows += control.row_is_due(step) ? 1 : 0;
+    }
+    report_memory_and_disk(
+        run, system.needs_record() ? ", and the record of the boundary" : "",
+        planned,
+        bytes_of_element * double(system.geometry.boundary.n_elements())
+            + bytes_of_point * double(system.sampled.points.size()),
+        system.histories->column_names().size());
+  }
+} // namespace quoin

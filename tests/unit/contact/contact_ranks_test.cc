@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "test_contacts.h"
+
+// These tests also run on two and on four ranks.
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  namespace mpi = dealii::Utilities::MPI;
+
+  const MPI_Comm world = MPI_COMM_WORLD;
+
+  unsigned int n_ranks()
+  {
+    return mpi::n_mpi_processes(world);
+  }
+
+  using Ranks = std::vector<unsigned int>;
+
+  /** All cells of block b on rank @p rank_of_block(b). */
+  Ranks whole_blocks(const BlockMesh<2> &mesh,
+                     const std::function<unsigned int(unsigned int)> &rank)
+  {
+    Ranks result;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      result.push_back(rank(mesh.block_of_cell(c)));
+    return result;
+  }
+
+  /** Blocks on the ranks of a communicator, moved by hand. */
+  struct Assembly
+  {
+    const BlockTriangulation<2> blocks;
+    const NodeMap<2> nodes;
+    const ContactModel model;
+    MatchedJoints joints;
+    BlockContacts contacts;
+    State<2> state;
+    AlignedArray<NodeVector<2>> force;
+
+    Assembly(BlockMesh<2> mesh, const Ranks &rank_of_cell,
+             const std::vector<JointSetParameters> &sets,
+             const MPI_Comm communicator)
+      : blocks(mesh, rank_of_cell, std::vector<bool>(mesh.n_blocks(), false),
+               communicator),
+        nodes(blocks), model(contact_model(sets)),
+        contacts(nodes, joints, model)
+    {
+      joints.prepare(nodes, sets, thickness);
+      joints.prepare(state);
+      contacts.prepare(state);
+      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+        state.nodes.push_back(
+            { { nodes.point(i)[0], nodes.point(i)[1] }, { 0., 0. } });
+      state.velocity.assign(nodes.n_local(), NodeVector<2>{ { 0., 0. } });
+    }
+
+    /** Displacement of each node from its block and its place. */
+    using Motion
+        = std::function<std::array<double, 2>(unsigned int, const double *)>;
+
+    void find_forces(const Motion &motion)
+    {
+      for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      {
+        const auto u = motion(nodes.block_of_node(i), state.nodes[i].X);
+        std::copy(u.begin(), u.end(), state.nodes[i].u);
+      }
+      state.get<ContactState>().next_check = state.step;
+      find_forces(contacts, state);
+      ++state.step;
+    }
+
+    void find_forces(BlockContacts &by, State<2> &at)
+    {
+      force.assign(nodes.n_local(), NodeVector<2>{ { 0., 0. } });
+      joints.add_forces(at.nodes.data(), at.get<JointHistory>(), at.energy,
+                        force.data());
+      for (unsigned int i = nodes.n_owned() + nodes.exchange().n_shared();
+           i < nodes.n_local(); ++i)
+        force[i] = { { 0., 0. } }; // on partners: their owners have them
+      StepContext step{};
+      step.dt = 1e-9;
+      by.update(step, at);
+      by.add_forces(step, at, { force.data(), nullptr });
+      nodes.exchange().add_to_owners(force.data());
+    }
+  };
+
+  /** The same assembly as a whole on one rank and distributed. */
+  struct Twins
+  {
+    Assembly whole, part;
+    std::vector<unsigned int> twin; /**< of owned nodes */
+
+    Twins(const BlockMesh<2> &mesh, const Ranks &rank_of_cell,
+          const std::vector<JointSetParameters> &sets = { touching() })
+      : whole(mesh, Ranks(mesh.n_cells(), 0), sets, MPI_COMM_SELF),
+        part(mesh, rank_of_cell, sets, world)
+    {
+      std::map<std::tuple<unsigned int, double, double>, unsigned int> found;
+      const auto key = [](const NodeMap<2> &nodes, const unsigned int i)
+      {
+        return std::make_tuple(nodes.block_of_node(i), nodes.point(i)[0],
+                               nodes.point(i)[1]);
+      };
+      for (unsigned int i = 0; i < whole.nodes.n_local(); ++i)
+        found[key(whole.nodes, i)] = i;
+      for (unsigned int i = 0; i < part.nodes.n_owned(); ++i)
+        twin.push_back(found.at(key(part.nodes, i)));
+    }
+
+    void find_forces(const Assembly::Motion &motion)
+    {
+      whole.find_forces(motion);
+      part.find_forces(motion);
+    }
+
+    /** @p tolerance: of forces by the largest; 0: bitwise. */
+    void compare(const double tolerance) const
+    {
+      double largest = 0., error = 0.;
+      for (const NodeVector<2> &f : whole.force)
+        for (const double x : f.v)
+          largest = std::max(largest, std::abs(x));
+      for (unsigned int i = 0; i < twin.size(); ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+          error = std::max(
+              error, std::abs(part.force[i].v[d] - whole.force[twin[i]].v[d]));
+      EXPECT_LE(error, tolerance * largest);
+      const auto sum
+          = [](const double value) { return mpi::sum(value, world); };
+      EXPECT_EQ(sum(part.contacts.n_touching(part.state.get<ContactState>())),
+                whole.contacts.n_touching(whole.state.get<ContactState>()));
+      const double energy = whole.contacts.stored_energy(whole.state);
+      EXPECT_NEAR(sum(part.contacts.stored_energy(part.state)), energy,
+                  1e-12 * energy);
+      EXPECT_EQ(part.state.get<ContactState>().n_searches,
+                whole.state.get<ContactState>().n_searches);
+    }
+
+    /** The pairs of whole blocks are those of one rank, in the same order. */
+    void compare_pairs() const
+    {
+      const ContactEdges &edges = part.contacts.contact_edges();
+      std::vector<std::array<unsigned int, 2>> here, all;
+      for (const ContactPair &pair : part.state.get<ContactState>().pairs)
+        here.push_back({ pair.lower, pair.upper });
+      for (const ContactPair &pair : whole.state.get<ContactState>().pairs)
+        if (edges.is_own(pair.lower) || edges.is_own(pair.upper))
+          all.push_back({ pair.lower, pair.upper });
+      EXPECT_EQ(here, all);
+    }
+
+    /** Of other ranks there are the edges of pairs and their neighbours. */
+    void compare_edges() const
+    {
+      const ContactEdges &edges = part.contacts.contact_edges();
+      std::set<unsigned int> needed;
+      for (const ContactPair &pair : part.state.get<ContactState>().pairs)
+        for (const unsigned int e : { pair.lower, pair.upper })
+          needed.insert({ e, edges[e].previous, edges[e].next });
+      unsigned int n_foreign = 0;
+      for (const unsigned int e : needed)
+      {
+        ASSERT_TRUE(edges.is_known(e));
+        n_foreign += !edges.is_own(e);
+        const ContactEdge &same = whole.contacts.contact_edges()[e];
+        EXPECT_EQ(edges[e].points, same.points);
+        EXPECT_EQ(edges[e].corner, same.corner);
+      }
+      EXPECT_EQ(edges.foreign().size(), n_foreign);
+    }
+
+    /** Contacts that begin with the state as it is find the same forces. */
+    void compare_resumed()
+    {
+      State<2> state                       = part.state;
+      state.get<ContactState>().next_check = -1; // search nothing
+      State<2> resumed                     = state;
+      part.find_forces(part.contacts, state);
+      const auto gone_on = part.force;
+      BlockContacts fresh(part.nodes, part.joints, part.model);
+      part.find_forces(fresh, resumed);
+      for (unsigned int i = 0; i < part.nodes.n_owned(); ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+          EXPECT_EQ(part.force[i].v[d], gone_on[i].v[d]);
+    }
+  };
+
+  /** Columns of square blocks with gaps below the skin. */
+  constexpr unsigned int n_columns = 12, n_rows = 5;
+
+  BlockMesh<2> columns()
+  {
+    std::vector<Rectangle> rectangles;
+    for (unsigned int c = 0; c < n_columns; ++c)
+      for (unsigned int r = 0; r < n_rows; ++r)
+        rectangles.push_back({ 1.02 * c, 1.02 * r, 1., 1., 4, 4 });
+    BlockMesh<2> mesh;
+    make_blocks(mesh, rectangles);
+    return mesh;
+  }
+
+  /** Columns are pushed into each other and slide past each other. */
+  std::array<double, 2> slide(const double *X, const double way)
+  {
+    const int column = static_cast<int>(X[0] / 1.02);
+    return { -0.023 * column, column % 2 == 0 ? way : -way };
+  }
+
+  unsigned int n_known(const ContactEdges &edges)
+  {
+    return edges.own().size() + edges.foreign().size();
+  }
+} // namespace
+
+TEST(ContactsOfRanks, AreThoseOfOneRankWithTheNeighbourhoodAlone)
+{
+  const BlockMesh<2> mesh = columns();
+  const Ranks ranks       = whole_blocks(
+            mesh,
+            [&](const unsigned int block)
+            {
+        const double x = mesh.vertices[mesh.block_first_vertex[block]][0];
+        return static_cast<unsigned int>(x / 1.02) * n_ranks() / n_columns;
+      });
+  Twins twins(mesh, ranks);
+  const ContactEdges &edges = twins.part.contacts.contact_edges();
+  ASSERT_EQ(edges.n_global(), 16 * n_columns * n_rows);
+  EXPECT_EQ(mpi::sum<unsigned int>(edges.own().size(), world),
+            edges.n_global());
+  EXPECT_LE(edges.own().size(),
+            16 * n_rows * ((n_columns + n_ranks() - 1) / n_ranks()));
+  unsigned int most = 0;
+  for (unsigned int i = 0; i < 60; ++i)
+  {
+    twins.find_forces([&](const unsigned int, const double *X)
+                      { return slide(X, 0.01 * i); });
+    twins.compare(0.);
+    twins.compare_pairs();
+    twins.compare_edges();
+    most = std::max<unsigned int>(most, edges.foreign().size());
+  }
+  EXPECT_GT(twins.part.state.get<ContactState>().n_searches, 10U);
+  EXPECT_GT(
+      twins.whole.contacts.n_touching(twins.whole.state.get<ContactState>()),
+      100.);
+  // Of each block beside this rank's the side that faces it and, about either
+  // corner, an edge that may be near and the one after that.
+  EXPECT_LE(most, 2 * n_rows * (4 + 4));
+  EXPECT_EQ(most > 0, n_ranks() > 1);
+  RecordProperty("edges of all ranks", edges.n_global());
+  RecordProperty("edges known here", n_known(edges));
+  twins.compare_resumed();
+}
+
+TEST(ContactsOfRanks, FollowBlocksThatMeetAnew)
+{
+  // Two rows of blocks pass each other, so that each meets blocks of all ranks.
+  std::vector<Rectangle> rectangles;
+  for (unsigned int i = 0; i < 24; ++i)
+    rectangles.push_back({ 1.1 * (i % 12), i < 12 ? 0. : 1.001, 1., 1., 3, 2 });
+  BlockMesh<2> mesh;
+  make_blocks(mesh, rectangles);
+  Twins twins(mesh, whole_blocks(mesh, [&](const unsigned int block)
+                                 { return block * n_ranks() / 24; }));
+  for (unsigned int i = 0; i < 75; ++i)
+  {
+    twins.find_forces(
+        [&](const unsigned int, const double *X)
+        {
+          return X[1] < 1.0005 ? std::array<double, 2>{ 0., 0. }
+                               : std::array<double, 2>{ -7. + 0.2 * i, -0.003 };
+        });
+    twins.compare(0.);
+    twins.compare_pairs();
+    twins.compare_edges();
+  }
+  twins.compare_resumed();
+}
+
+TEST(ContactsOfRanks, GoOnFromJointsThatAreHandedOver)
+{
+  JointSetParameters joint    = elastic_joint(kn, ks);
+  coulomb_law(joint).peak     = { 1e4, 0.5, 0. };
+  coulomb_law(joint).residual = { 0., 0.5, 0. };
+  BlockMesh<2> mesh;
+  make_stack(mesh, 6, 2);
+  Twins twins(mesh,
+              whole_blocks(mesh, [&](const unsigned int block)
+                           { return (block + n_ranks() - 1) % n_ranks(); }),
+              { joint, touching() });
+  for (unsigned int i = 0; i < 100; ++i)
+  {
+    twins.find_forces(
+        [&](const unsigned int block, const double *)
+        {
+          return block == 0 ? std::array<double, 2>{ 0., 0. }
+                            : std::array<double, 2>{ 1e-3 * i, -1e-4 };
+        });
+    twins.compare(0.);
+    twins.compare_pairs();
+  }
+  EXPECT_EQ(twins.part.state.get<ContactState>().handed_over[0], 1);
+  twins.compare_resumed();
+}
+
+TEST(ContactsOfRanks, StopAtADeepOverlapWithTheSameWords)
+{
+  BlockMesh<2> mesh;
+  make_blocks(mesh, { { 0., 0., 3., 1., 3, 1 }, { 0.3, 1., 2., 1., 2, 1 } });
+  Twins twins(mesh, whole_blocks(mesh, [&](const unsigned int block)
+                                 { return (block + 1) % n_ranks(); }));
+  const auto message = [](Assembly &assembly) -> std::string
+  {
+    try
+    {
+      for (unsigned int i = 0; i < 100; ++i)
+        assembly.find_forces(
+            [&](const unsigned int block, const double *X)
+            {
+              return std::array<double, 2>{
+                0., block == 1 ? 0.05 * (X[0] - 0.3) - 0.01 * i : 0.
+              };
+            });
+    }
+    catch (const RunError &error)
+    {
+      return error.what();
+    }
+    return "no error";
+  };
+  const std::string of_one = message(twins.whole);
+  EXPECT_NE(of_one.find("blocks 0 and 1 overlap by 0.2"), std::string::npos)
+      << of_one;
+  EXPECT_EQ(message(twins.part), of_one);
+}
