@@ -163,7 +163,14 @@ namespace quoin
       for (unsigned int block = 0; block < n; ++block)
         if (member[block])
           sets.union_set(block, first);
-      if (holds[2] || blocks.empty() || *blocks.begin() != first)
+      // The block may lie on several ranks: one of them gives the row.
+      namespace MPI          = dealii::Utilities::MPI;
+      const MPI_Comm all     = nodes.communicator();
+      const unsigned int own = MPI::this_mpi_process(all);
+      const bool has_first   = !blocks.empty() && *blocks.begin() == first;
+      const unsigned int from
+          = MPI::min(has_first ? own : MPI::n_mpi_processes(all), all);
+      if (holds[2] || own != from)
         return;
       Gram gram;
       const auto r = arm(nodes.point(constraint.nodes().front()));
