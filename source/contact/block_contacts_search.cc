@@ -34,26 +34,28 @@ namespace quoin
       std::vector<double> lengths;
       for (const ContactEdge &edge : edges.own())
         lengths.push_back(edge.length);
-      std::sort(lengths.begin(), lengths.end());
-      // Bits of positive numbers ascend as they do: bisection of those ends at
-      // the least length that more than half of the edges do not exceed.
-      std::uint64_t low = 0, high = 0x7ff0000000000000;
-      while (low < high)
+      // Positive numbers ascend as their bits do, so that of the number with as
+      // many below it one byte after the other is found by counting.
+      unsigned int below  = edges.n_global() / 2;
+      std::uint64_t found = 0;
+      for (int shift = 56; shift >= 0; shift -= 8)
       {
-        const std::uint64_t middle = low + (high - low) / 2;
-        double length;
-        std::memcpy(&length, &middle, sizeof(length));
-        const unsigned int n_up_to
-            = std::upper_bound(lengths.begin(), lengths.end(), length)
-              - lengths.begin();
-        if (dealii::Utilities::MPI::sum(n_up_to, communicator)
-            > edges.n_global() / 2)
-          high = middle;
-        else
-          low = middle + 1;
+        std::vector<unsigned int> counts(256, 0);
+        for (const double length : lengths)
+        {
+          std::uint64_t bits;
+          std::memcpy(&bits, &length, sizeof(bits));
+          if (shift == 56 || bits >> (shift + 8) == found)
+            ++counts[bits >> shift & 255U];
+        }
+        dealii::Utilities::MPI::sum(counts, communicator, counts);
+        unsigned int byte = 0;
+        while (below >= counts[byte])
+          below -= counts[byte++];
+        found = found << 8U | byte;
       }
       double median;
-      std::memcpy(&median, &low, sizeof(median));
+      std::memcpy(&median, &found, sizeof(median));
       return median;
     }
 

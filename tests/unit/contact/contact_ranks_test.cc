@@ -39,6 +39,15 @@ namespace
     return result;
   }
 
+  /** Cells in stripes, so that blocks lie on several ranks. */
+  Ranks in_stripes(const BlockMesh<2> &mesh)
+  {
+    Ranks result;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+      result.push_back(c / 5 % n_ranks());
+    return result;
+  }
+
   /** Blocks on the ranks of a communicator, moved by hand. */
   struct Assembly
   {
@@ -316,6 +325,48 @@ TEST(ContactsOfRanks, GoOnFromJointsThatAreHandedOver)
   }
   EXPECT_EQ(twins.part.state.get<ContactState>().handed_over[0], 1);
   twins.compare_resumed();
+}
+
+TEST(ContactsOfRanks, EdgesFollowEachOtherFromRankToRank)
+{
+  const BlockMesh<2> mesh = columns();
+  const TestNodes nodes_of_one(mesh);
+  const ContactEdges whole(nodes_of_one);
+  std::map<std::array<double, 4>, unsigned int> place;
+  for (const ContactEdge &edge : whole.own())
+    place[{ edge.points[0][0], edge.points[0][1], edge.points[1][0],
+            edge.points[1][1] }]
+        = edge.number;
+
+  BlockMesh<2> divided = mesh;
+  const BlockTriangulation<2> blocks(divided, in_stripes(mesh),
+                                     std::vector<bool>(mesh.n_blocks(), false),
+                                     world);
+  const NodeMap<2> nodes(blocks);
+  ContactEdges edges(nodes);
+  EXPECT_EQ(edges.n_global(), whole.n_global());
+  std::set<unsigned int> neighbours;
+  for (const ContactEdge &edge : edges.own())
+    for (const unsigned int e : { edge.previous, edge.next })
+      if (!edges.is_own(e))
+        neighbours.insert(e);
+  edges.fetch({ neighbours.begin(), neighbours.end() });
+  edges.keep({ neighbours.begin(), neighbours.end() });
+  EXPECT_EQ(edges.foreign().size(), neighbours.size());
+  EXPECT_EQ(edges.foreign().empty(), n_ranks() == 1);
+  for (const ContactEdge &edge : edges.own())
+  {
+    EXPECT_EQ(edges[edge.next].previous, edge.number);
+    EXPECT_EQ(edges[edge.previous].next, edge.number);
+    EXPECT_EQ(edges[edge.next].nodes[0], edge.nodes[1]);
+    EXPECT_EQ(edges[edge.previous].nodes[1], edge.nodes[0]);
+    EXPECT_EQ(edges[edge.next].block, edge.block);
+    const ContactEdge &same
+        = whole[place.at({ edge.points[0][0], edge.points[0][1],
+                           edge.points[1][0], edge.points[1][1] })];
+    EXPECT_EQ(edge.corner, same.corner);
+    EXPECT_EQ(edge.height, same.height);
+  }
 }
 
 TEST(ContactsOfRanks, StopAtADeepOverlapWithTheSameWords)
