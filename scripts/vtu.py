@@ -52,6 +52,10 @@ def read_vtu(path):
     cells = arrays(piece.find("Cells"))
     n_cells = int(piece.get("NumberOfCells"))
     per_cell = 0 if n_cells == 0 else int(cells["offsets"][0])
+    if per_cell == 4:
+        raise ValueError(f"{path}: blocks in three dimensions, which are not "
+                         "drawn here: take scripts/paraview_view, or open "
+                         "blocks.pvd in ParaView")
     points = array(piece.find("Points")[0]).reshape(-1, 3)[:, :2]
     return Grid(
         float(arrays(piece_of.find("FieldData"))["TimeValue"][0]),

@@ -4,8 +4,10 @@
 // Reads a mesh or meshes a geometry with gmsh, for quoin, which starts this
 // program where it needs one:
 //
-//   quoin_gmsh FILE triangles|quadrangles [COPY.msh]
+//   quoin_gmsh FILE plain|crossed|quadratic DIMENSION [COPY.msh]
 //
+// with the words of the entry Mesh/Triangles and 2, 3 or 0, the dimension of
+// the file: three if it has tetrahedra or is a geometry with volumes.
 // A GmshMesh goes to the standard output; with COPY.msh the mesh goes there,
 // and of the GmshMesh only the errors are set. gmsh crashes on many damaged
 // files and ends the process at some commands of a geometry: then this process
@@ -22,6 +24,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <numeric>
 #include <sstream>
 
@@ -29,9 +32,10 @@ using namespace quoin;
 
 namespace
 {
-  constexpr int gmsh_line     = 1;
-  constexpr int gmsh_triangle = 2;
-  constexpr int gmsh_quad     = 3;
+  constexpr int gmsh_line        = 1;
+  constexpr int gmsh_triangle    = 2;
+  constexpr int gmsh_quad        = 3;
+  constexpr int gmsh_tetrahedron = 4;
   constexpr double plane_tolerance
       = 1e-9; // of the mesh's size: what binary and text files round to
 
@@ -62,7 +66,7 @@ namespace
     return result;
   }
 
-  void mesh_surfaces(const bool quadrangles)
+  void make_elements(const int dimension, const bool quadrangles)
   {
     if (quadrangles)
     {
@@ -71,13 +75,13 @@ namespace
       for (const auto &[dim, surface] : surfaces)
         gmsh::model::mesh::setRecombine(dim, surface);
     }
-    gmsh::model::mesh::generate(2);
+    gmsh::model::mesh::generate(dimension);
   }
 
-  bool has_surface_elements()
+  bool has_elements(const int dimension)
   {
     std::vector<int> types;
-    gmsh::model::mesh::getElementTypes(types, 2);
+    gmsh::model::mesh::getElementTypes(types, dimension);
     return !types.empty();
   }
 
@@ -129,16 +133,23 @@ namespace
     return groups;
   }
 
+  /** What an entity of dimension @p dim is called. */
+  std::string word(const int dim)
+  {
+    return dim == 1 ? "curve" : dim == 2 ? "surface" : "volume";
+  }
+
   std::string physical_name(const int dim, const int group)
   {
     std::string name;
     gmsh::model::getPhysicalName(dim, group, name);
     if (name.empty())
     {
-      const std::string kind = (dim == 1 ? "Curve" : "Surface");
-      refuse("physical " + std::string(dim == 1 ? "curve " : "surface ")
-             + std::to_string(group) + " has no name. Give it one: Physical "
-             + kind
+      const std::string kind = dim == 1   ? "Curve"
+                               : dim == 2 ? "Surface"
+                                          : "Volume";
+      refuse("physical " + word(dim) + " " + std::to_string(group)
+             + " has no name. Give it one: Physical " + kind
              + "(\"name\") = {...}; in the geometry, or a line in "
                "$PhysicalNames.");
     }
@@ -171,27 +182,30 @@ namespace
   class Reader
   {
   public:
-    explicit Reader(const bool accepts_quadrangles)
-      : accepts_quadrangles(accepts_quadrangles)
+    Reader(const int dimension, const bool accepts_quadrangles)
+      : dimension(dimension), accepts_quadrangles(accepts_quadrangles)
     {
+      mesh.dimension = dimension;
       gmsh::model::mesh::getNodes(tags, coordinates, parametric, -1, -1, false,
                                   false);
     }
 
     GmshMesh read()
     {
-      read_surfaces();
-      read_curves();
+      read_cells();
+      read_faces();
       read_vertices();
       return std::move(mesh);
     }
 
   private:
     [[noreturn]] void refuse_elements(int type, const std::string &where) const;
-    void read_surfaces();
-    void read_curves();
+    void refuse_lack_of_cells() const;
+    void read_cells();
+    void read_faces();
     void read_vertices();
 
+    const int dimension;
     const bool accepts_quadrangles;
     GmshMesh mesh;
 
@@ -202,7 +216,7 @@ namespace
     /** Node tags of gmsh, until read_vertices() turns them to indices. */
     std::vector<std::array<std::size_t, 3>> triangle_tags;
     std::vector<std::array<std::size_t, 2>> line_tags;
-    std::vector<std::array<std::size_t, 4>> quadrangle_tags;
+    std::vector<std::array<std::size_t, 4>> quadrangle_tags, tetrahedron_tags;
   };
 
   void Reader::refuse_elements(const int type, const std::string &where) const
@@ -213,9 +227,15 @@ namespace
     gmsh::model::mesh::getElementProperties(type, name, element_dim, order,
                                             n_nodes, local, n_primary);
     refuse(where + " has elements of the kind '" + name
-           + "'. Only three-node triangles can be used: remove Recombine, or "
-             "set 'Triangles = crossed' in section 'Mesh', which cuts "
-             "quadrangles, and keep Mesh.ElementOrder = 1.");
+           + (dimension == 2
+                  ? "'. Only three-node triangles can be used: remove "
+                    "Recombine, or set 'Triangles = crossed' in section "
+                    "'Mesh', which cuts quadrangles, and keep "
+                    "Mesh.ElementOrder = 1."
+                  : "'. Only four-node tetrahedra with three-node triangles "
+                    "on their faces can be used: remove Recombine, of "
+                    "surfaces and of extrusions, and keep "
+                    "Mesh.ElementOrder = 1."));
   }
 
   /** Append the elements of @p flat, node after node. */
@@ -227,85 +247,105 @@ namespace
       std::copy_n(&flat[i], n, elements.emplace_back().begin());
   }
 
-  void Reader::read_surfaces()
+  void Reader::refuse_lack_of_cells() const
   {
-    gmsh::vectorpair surfaces;
-    gmsh::model::getEntities(surfaces, 2);
+    if (dimension == 3)
+      refuse("there are no tetrahedra in it, which 'Dimension = 3' in section "
+             "'Mesh' asks for. Save the mesh in three dimensions (gmsh -3) "
+             "with its physical volumes, or set 'Dimension = from mesh'.");
+    if (accepts_quadrangles)
+      refuse("there are no quadrangles in it, which 'Triangles = crossed' in "
+             "section 'Mesh' needs. Give the geometry (.geo), save the mesh "
+             "recombined, or set 'Triangles = plain'.");
+    refuse("there are no triangles in it. Save the mesh in two dimensions "
+           "(gmsh -2) with its physical surfaces.");
+  }
+
+  void Reader::read_cells()
+  {
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities, dimension);
     std::vector<int> without_group;
-    for (const auto &[dim, surface] : surfaces)
+    for (const auto &[dim, entity] : entities)
     {
       std::vector<int> types;
       std::vector<std::vector<std::size_t>> elements, nodes;
-      gmsh::model::mesh::getElements(types, elements, nodes, dim, surface);
+      gmsh::model::mesh::getElements(types, elements, nodes, dim, entity);
       if (types.empty())
         continue;
-      const std::string where = "surface " + std::to_string(surface);
+      const std::string where = word(dim) + " " + std::to_string(entity);
 
-      const std::vector<int> groups = physical_groups(dim, surface);
+      const std::vector<int> groups = physical_groups(dim, entity);
       if (groups.empty())
       {
-        without_group.push_back(surface);
+        without_group.push_back(entity);
         continue;
       }
       if (groups.size() > 1)
-        refuse(where + " is in several physical surfaces (" + list(groups)
-               + "). Put each surface in exactly one.");
+        refuse(where + " is in several physical " + word(dim) + "s ("
+               + list(groups) + "). Put each " + word(dim)
+               + " in exactly one.");
       const unsigned int group
           = index_of(physical_name(dim, groups[0]), mesh.group_names);
 
       for (std::size_t t = 0; t < types.size(); ++t)
       {
-        if (types[t] == gmsh_quad && accepts_quadrangles)
+        if (types[t] == gmsh_tetrahedron)
+          append(nodes[t], tetrahedron_tags);
+        else if (types[t] == gmsh_quad && accepts_quadrangles)
           append(nodes[t], quadrangle_tags);
         else if (types[t] == gmsh_triangle)
           append(nodes[t], triangle_tags);
         else
           refuse_elements(types[t], where);
       }
-      mesh.triangle_group.resize(triangle_tags.size(), group);
+      mesh.cell_group.resize(
+          dim == 3 ? tetrahedron_tags.size() : triangle_tags.size(), group);
       mesh.quadrangle_group.resize(quadrangle_tags.size(), group);
     }
     if (!without_group.empty())
-      refuse("no physical group holds the surface"
-             + std::string(without_group.size() > 1 ? "s " : " ")
-             + list(without_group)
-             + ". Name every surface: Physical Surface(\"rock\") = {...};");
-    if (accepts_quadrangles && quadrangle_tags.empty())
-      refuse("there are no quadrangles in it, which 'Triangles = crossed' in "
-             "section 'Mesh' needs. Give the geometry (.geo), save the mesh "
-             "recombined, or set 'Triangles = plain'.");
-    if (triangle_tags.empty() && quadrangle_tags.empty())
-      refuse("there are no triangles in it. Save the mesh in two dimensions "
-             "(gmsh -2) with its physical surfaces.");
+      refuse("no physical group holds the " + word(dimension)
+             + (without_group.size() > 1 ? "s " : " ") + list(without_group)
+             + ". Name every " + word(dimension) + ": Physical "
+             + (dimension == 2 ? "Surface" : "Volume") + "(\"rock\") = {...};");
+    if (quadrangle_tags.empty()
+        && (accepts_quadrangles || mesh.cell_group.empty()))
+      refuse_lack_of_cells();
   }
 
-  void Reader::read_curves()
+  void Reader::read_faces()
   {
-    gmsh::vectorpair curves;
-    gmsh::model::getEntities(curves, 1);
-    for (const auto &[dim, curve] : curves)
+    gmsh::vectorpair entities;
+    gmsh::model::getEntities(entities, dimension - 1);
+    for (const auto &[dim, entity] : entities)
     {
-      const std::vector<int> groups = physical_groups(dim, curve);
+      const std::vector<int> groups = physical_groups(dim, entity);
       if (groups.empty())
         continue;
+      const std::string where = word(dim) + " " + std::to_string(entity);
       if (groups.size() > 1)
-        refuse("curve " + std::to_string(curve)
-               + " is in several physical curves (" + list(groups)
-               + "). Put each curve in one at most.");
+        refuse(where + " is in several physical " + word(dim) + "s ("
+               + list(groups) + "). Put each " + word(dim)
+               + " in one at most.");
       const unsigned int name
-          = index_of(physical_name(dim, groups[0]), mesh.line_names);
+          = index_of(physical_name(dim, groups[0]), mesh.face_names);
 
       std::vector<int> types;
       std::vector<std::vector<std::size_t>> elements, nodes;
-      gmsh::model::mesh::getElements(types, elements, nodes, dim, curve);
+      gmsh::model::mesh::getElements(types, elements, nodes, dim, entity);
       for (std::size_t t = 0; t < types.size(); ++t)
       {
-        if (types[t] != gmsh_line)
-          refuse("curve " + std::to_string(curve)
-                 + " has curved elements. Keep Mesh.ElementOrder = 1.");
-        append(nodes[t], line_tags);
+        if (dim == 1 && types[t] == gmsh_line)
+          append(nodes[t], line_tags);
+        else if (dim == 2 && types[t] == gmsh_triangle)
+          append(nodes[t], triangle_tags);
+        else if (dim == 2)
+          refuse_elements(types[t], where);
+        else
+          refuse(where + " has curved elements. Keep Mesh.ElementOrder = 1.");
       }
-      mesh.line_name.resize(line_tags.size(), name);
+      mesh.face_name.resize(dim == 2 ? triangle_tags.size() : line_tags.size(),
+                            name);
     }
   }
 
@@ -330,6 +370,7 @@ namespace
           vertex[node] = 1;
         }
     };
+    mark(tetrahedron_tags);
     mark(triangle_tags);
     mark(quadrangle_tags);
     mark(line_tags);
@@ -343,17 +384,17 @@ namespace
       {
         const double *x = &coordinates[3 * i];
         // Not a number is off the plane, too.
-        if (!(std::abs(x[2]) <= plane_tolerance * size))
+        if (dimension == 2 && !(std::abs(x[2]) <= plane_tolerance * size))
         {
           std::ostringstream message;
           message << "node " << tags[i] << " at (" << x[0] << ", " << x[1]
                   << ", " << x[2]
                   << ") is off the plane z = 0. Draw the geometry in the "
-                     "x-y plane.";
+                     "x-y plane, or with volumes.";
           refuse(message.str());
         }
         vertex[i] = mesh.vertices.size();
-        mesh.vertices.push_back({ { x[0], x[1] } });
+        mesh.vertices.push_back({ { x[0], x[1], x[2] } });
       }
 
     // 3. Elements.
@@ -365,26 +406,46 @@ namespace
                        elements.emplace_back().begin(),
                        [&](const std::size_t node) { return vertex[node]; });
     };
+    number(tetrahedron_tags, mesh.tetrahedra);
     number(triangle_tags, mesh.triangles);
     number(quadrangle_tags, mesh.quadrangles);
     number(line_tags, mesh.lines);
   }
 
-  /** Open and mesh @p file, then read it or write it to @p copy if given. */
-  GmshMesh answer(const std::string &file, const bool quadrangles,
-                  const std::string &copy)
+  /** Dimension of what gmsh holds, of a geometry or @p is_mesh. */
+  int dimension_of(const bool is_mesh)
   {
+    gmsh::vectorpair volumes;
+    gmsh::model::getEntities(volumes, 3);
+    return has_elements(3) || (!is_mesh && !volumes.empty()) ? 3 : 2;
+  }
+
+  /** Open and mesh @p file, then read it or write it to @p copy if given. */
+  GmshMesh answer(const std::string &file, const std::string &kind,
+                  const int wanted, const std::string &copy)
+  {
+    const bool quadrangles = kind == "crossed";
     GmshMesh mesh;
     try
     {
       gmsh::open(file);
-      if (logged_errors().empty() && !has_surface_elements())
-        mesh_surfaces(quadrangles);
+      const bool is_mesh
+          = file.size() > 4 && file.substr(file.size() - 4) == ".msh";
+      const int dimension = wanted != 0 ? wanted : dimension_of(is_mesh);
+      mesh.gmsh_errors    = logged_errors();
+      if (!mesh.gmsh_errors.empty())
+        return mesh;
+      if (dimension == 3 && kind != "plain")
+        refuse("it is three-dimensional, and 'Triangles = " + kind
+               + "' in section 'Mesh' is for the plane. Set 'Triangles = "
+                 "plain'.");
+      if (!has_elements(dimension) && (dimension == 2 || !is_mesh))
+        make_elements(dimension, quadrangles);
       mesh.gmsh_errors = logged_errors();
       if (!mesh.gmsh_errors.empty())
         return mesh;
       if (copy.empty())
-        return Reader(quadrangles).read();
+        return Reader(dimension, quadrangles).read();
       gmsh::write(copy);
     }
     catch (const Refusal &refusal)
@@ -432,10 +493,10 @@ namespace
 int
 main(int argc, char **argv)
 {
-  const std::string kind = argc >= 3 ? argv[2] : "";
-  if (argc > 4 || (kind != "triangles" && kind != "quadrangles"))
+  if (argc != 4 && argc != 5)
   {
-    std::fputs("Use: quoin_gmsh FILE triangles|quadrangles [COPY.msh]\n",
+    std::fputs("Use: quoin_gmsh FILE plain|crossed|quadratic 0|2|3 "
+               "[COPY.msh]\n",
                stderr);
     return 1;
   }
@@ -444,7 +505,7 @@ main(int argc, char **argv)
   gmsh::option::setNumber("General.Terminal", 0);
   gmsh::logger::start();
   GmshMesh mesh
-      = answer(argv[1], kind == "quadrangles", argc == 4 ? argv[3] : "");
+      = answer(argv[1], argv[2], std::atoi(argv[3]), argc == 5 ? argv[4] : "");
   GmshChannel channel(output, GmshChannel::Direction::send);
   mesh.transfer(channel);
   // The memory of gmsh needs no tidying.

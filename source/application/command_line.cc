@@ -17,7 +17,7 @@
 #include <iostream>
 #include <thread>
 
-/** Of OpenBLAS, which has no header of its own name everywhere. */
+/** Function of OpenBLAS, whose header has different names. */
 extern "C" void openblas_set_num_threads(int n_threads);
 
 namespace quoin
@@ -33,7 +33,7 @@ namespace quoin
       RunOptions run;
     };
 
-    /** Exit status, or -1 to go on. */
+    /** Parses the command line; returns the exit status, or -1 to continue. */
     int parse(Arguments &arguments, int argc, char **argv)
     {
       CLI::App app("quoin: blocks on joints, by distinct elements or in "
@@ -74,7 +74,7 @@ namespace quoin
       return -1;
     }
 
-    /** Where ranks meet that have failed, apart from what they do else. */
+    /** A separate communicator for ranks that have failed. */
     class Errors
     {
     public:
@@ -93,8 +93,8 @@ namespace quoin
     };
 
     /**
-     * Whether all ranks come here within a time. If they are only late, the
-     * run ends all the same, with the message of more than one of them.
+     * Whether all ranks arrive here within a time. If they are only late, the
+     * run still ends, with the messages of several ranks.
      */
     bool all_have_failed(const Errors &errors)
     {
@@ -123,14 +123,14 @@ namespace quoin
 
     prepare_lone_process();
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
-    // A rank is a core: the matrix products must not start threads of theirs.
+    // A rank uses one core: matrix products must not start threads.
     openblas_set_num_threads(1);
     const Errors errors;
     const bool first
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     const auto report = [&](const std::string &what, const int status)
     {
-      // A failure that not all ranks have leaves the others waiting.
+      // A failure on some ranks alone leaves the others waiting.
       const bool alone = !all_have_failed(errors);
       if (first || alone)
         std::cerr << "Error: " << what << std::endl;

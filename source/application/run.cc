@@ -54,19 +54,27 @@ namespace quoin
     context.on_first_rank<InputError>(
         [&]() { take_output(output, options.resume, lock); });
     CheckpointInfo info;
+    unsigned int n_writers = 0;
     if (options.resume)
       info = load_checkpoint_archives(
           output, communicator, QUOIN_VERSION, problem->fingerprint(),
-          [&](std::streambuf &buffer)
+          [&](std::streambuf &buffer, const ArchiveOrigin &origin)
           {
             boost::archive::binary_iarchive archive(buffer);
             archive_progress(archive);
-            problem->load(archive);
+            problem->load(archive, origin);
+            n_writers = origin.n_ranks;
           });
     all_or_none<RunError>(communicator, [&]()
                           { log.open(output + "/log.txt", options.resume); });
     if (options.resume)
+    {
       log.message("resumed at time ", info.time, " s, step ", info.step);
+      if (n_writers != dealii::Utilities::MPI::n_mpi_processes(communicator))
+        log.message("the checkpoint was written on ", n_writers,
+                    n_writers == 1 ? " rank" : " ranks",
+                    ": results go on to rounding");
+    }
     tables.open(options.resume);
     context.on_first_rank(
         [&]()
@@ -94,7 +102,7 @@ namespace quoin
     stage->end();
     stage_begun = false;
     ++stage_index;
-    // Before the checkpoint, after which there is nothing to resume.
+    // Written before the checkpoint, which leaves nothing to resume.
     write_summary();
     save_checkpoint();
   }

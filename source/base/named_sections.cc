@@ -26,7 +26,7 @@ namespace quoin
     {
       try
       {
-        // get() gives an empty text for what is not there.
+        // get() returns an empty text for an entry that does not exist.
         prm.set(name, prm.get(name));
         return true;
       }
@@ -36,7 +36,7 @@ namespace quoin
       }
     }
 
-    /** The subsections that @p listed names. */
+    /** Declares the subsections named in @p listed. */
     void declare_listed(const SectionEntries &section, const std::string &file,
                         const std::vector<std::string> &listed,
                         ParameterHandler &prm)

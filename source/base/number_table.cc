@@ -14,7 +14,7 @@ namespace quoin
 {
   namespace
   {
-    /** Whether it is meant as a number, such as "2", "-.5" or "5m". */
+    /** Whether @p word looks like a number, such as "2", "-.5" or "5m". */
     bool begins_as_number(const std::string &word)
     {
       const std::size_t first = word.find_first_not_of("+-.");
@@ -34,7 +34,7 @@ namespace quoin
     std::string line;
     for (unsigned int number = 1; std::getline(stream, line); ++number)
     {
-      // Some editors put a mark in front that is no text.
+      // Some editors write a byte order mark.
       if (number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0)
         line.erase(0, 3);
       line = line.substr(0, line.find('#'));

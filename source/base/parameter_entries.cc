@@ -31,7 +31,7 @@ namespace quoin
                                      std::chars_format::general, 15)
                            .ptr;
       std::string text(digits, end);
-      // 1e-7 and 1e6 rather than 1e-07 and 1e+06.
+      // Writes 1e-7 and 1e6, not 1e-07 and 1e+06.
       if (const auto power = text.find('e'); power != std::string::npos)
         text = text.substr(0, power + 1)
                + std::to_string(std::stoi(text.substr(power + 1)));

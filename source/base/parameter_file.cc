@@ -26,7 +26,7 @@ namespace quoin
       unsigned int number = 0; /**< from 1 on */
       std::string text;
       std::string keyword; /**< its first word */
-      std::string rest;    /**< what follows that */
+      std::string rest;    /**< the rest of the line */
     };
 
     std::vector<Line> lines_of(const std::string &text)
@@ -66,7 +66,7 @@ namespace quoin
              + (path.empty() ? "/" : boost::algorithm::join(path, "/")) + "'";
     }
 
-    /** In one line, and no longer than anyone reads. */
+    /** The text in one line, cut to a readable length. */
     std::string one_line(const std::string &text)
     {
       constexpr std::size_t longest = 1000;
@@ -82,7 +82,7 @@ namespace quoin
       return line;
     }
 
-    /** The reason of a library's error in one line, and where it is. */
+    /** The reason of a library's error in one line, and its place. */
     std::string describe(const dealii::ExceptionBase &error,
                          const std::string &source, const std::string &text)
     {
@@ -122,14 +122,14 @@ namespace quoin
       std::ostringstream stored;
       stored << stream.rdbuf();
       std::string text = stored.str();
-      // Some editors put a mark in front that is no text.
+      // Some editors write a byte order mark.
       if (text.rfind("\xEF\xBB\xBF", 0) == 0)
         text.erase(0, 3);
       return text;
     }
 
-    /** Refuses values with braces: to deal.II lists of values to run with,
-        which it does not compare with what a parameter may be. */
+    /** Refuses values with braces: deal.II takes them as lists of values for
+        several runs and does not match them with the pattern. */
     void refuse_braces(const std::string &file, const std::string &text)
     {
       for (const Line &line : lines_of(text))
@@ -165,7 +165,7 @@ namespace quoin
       }
     }
 
-    /** @p source: the file, or the option, that @p text is from. */
+    /** @p source: the file or the option that contains @p text. */
     void parse_text(ParameterHandler &prm, const std::string &file,
                     const std::string &source, const std::string &text,
                     const bool skip_undefined)
@@ -208,7 +208,7 @@ namespace quoin
       }
     }
 
-    /** What "Section/Name=value" would be in a parameter file. */
+    /** The option "Section/Name=value" as text of a parameter file. */
     std::string override_text(const std::string &option)
     {
       const auto equals = option.find('=');

@@ -55,7 +55,7 @@ namespace quoin
     }
     catch (const dealii::ExceptionBase &)
     {
-      // The pattern lets numbers pass that are too small for this.
+      // The pattern accepts numbers that are too small for a double.
     }
     if (!std::isfinite(value))
       fail(name, "must be a finite number, and 0 rather than one below "
@@ -68,9 +68,9 @@ namespace quoin
     const double value = number(name);
     if (!(value > 0.))
       fail(name, "must be positive: give a number above zero.");
-    // Nothing that is measured; its products would be no numbers.
+    // Products of values outside this range overflow.
     if (value < 1e-60 || value > 1e60)
-      fail(name, "is beyond all measure: check its power of ten.");
+      fail(name, "is outside the admissible range: check its power of ten.");
     return value;
   }
 

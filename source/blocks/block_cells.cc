@@ -59,8 +59,17 @@ namespace quoin
     data.block_first_node = { 0 };
     for (unsigned int b = 0; b < nodes.n_deformable_block_parts(); ++b)
     {
-      data.block_first_cell.push_back(nodes.block_parts()[b].cells[1]);
-      data.block_first_node.push_back(nodes.block_parts()[b].nodes[1]);
+      const BlockPart &part = nodes.block_parts()[b];
+      // Cells beside other ranks count as a block without nodes of its own, so
+      // that they get a tile in a block larger than one tile.
+      if (part.cells[0] < part.first_inner_cell
+          && part.first_inner_cell < part.cells[1])
+      {
+        data.block_first_cell.push_back(part.first_inner_cell);
+        data.block_first_node.push_back(part.nodes[0]);
+      }
+      data.block_first_cell.push_back(part.cells[1]);
+      data.block_first_node.push_back(part.nodes[1]);
     }
   }
 
@@ -85,39 +94,10 @@ namespace quoin
     return result;
   }
 
-  template <int dim>
-  std::vector<typename StableTimeStep<dim>::Bound>
-  cell_bounds(const NodeMap<dim> &nodes,
-              const std::vector<CellStiffness<dim>> &stiffness,
-              const std::vector<double> &density, const double thickness)
-  {
-    std::vector<typename StableTimeStep<dim>::Bound> bound(
-        nodes.n_local(), typename StableTimeStep<dim>::Bound{});
-    for (unsigned int c = 0; c < nodes.n_deformable_cells(); ++c)
-    {
-      const unsigned int group = nodes.group_of_cell(c);
-      const auto cell          = element(nodes, c);
-      const double share
-          = largest_eigenvalue_squared_frequency(cell, stiffness[group],
-                                                 density[group])
-            * density[group] * volume(cell) * thickness / (dim + 1.);
-      for (const unsigned int v : nodes.cell(c))
-        for (unsigned int d = 0; d < dim; ++d)
-          bound[v][d] += share;
-    }
-    return bound;
-  }
-
   template void take_cells(const NodeMap<2> &, BlockForcesData<2> &);
   template void take_cells(const NodeMap<3> &, BlockForcesData<3> &);
   template std::vector<double>
   lumped_masses(const NodeMap<2> &, const std::vector<double> &, double);
   template std::vector<double>
   lumped_masses(const NodeMap<3> &, const std::vector<double> &, double);
-  template std::vector<StableTimeStep<2>::Bound>
-  cell_bounds(const NodeMap<2> &, const std::vector<PlaneStiffness> &,
-              const std::vector<double> &, double);
-  template std::vector<StableTimeStep<3>::Bound>
-  cell_bounds(const NodeMap<3> &, const std::vector<SpaceStiffness> &,
-              const std::vector<double> &, double);
 } // namespace quoin

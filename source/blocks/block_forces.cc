@@ -39,6 +39,24 @@ namespace quoin
       make_runs(tile, options.max_run_cells);
   }
 
+  void BlockForces<2>::add_stiffness_bound(
+      const State<2> &state, const NodeRatio &,
+      std::vector<NodeStiffness<2>> &stiffness) const
+  {
+    for (unsigned int c = 0; c < n_cells(); ++c)
+    {
+      const auto &[i, j, k] = data.cells[c];
+      const Triangle cell(state.nodes[i], state.nodes[j], state.nodes[k]);
+      // With a third of its mass at each node; the density cancels out.
+      const double share
+          = largest_eigenvalue_squared_frequency(cell, cell_stiffness(c), 1.)
+            * cell.area() * data.thickness / 3.;
+      for (const unsigned int node : data.cells[c])
+        for (unsigned int d = 0; d < 2; ++d)
+          stiffness[node][d] += share;
+    }
+  }
+
   void BlockForces<2>::make_tiles(const std::size_t tile_bytes)
   {
     // Node record, velocity, force, inverse mass.
@@ -96,8 +114,8 @@ namespace quoin
   void BlockForces<2>::append_run(const std::vector<StripEntry> &strips,
                                   const Tile &tile, const unsigned int s)
   {
-    // Each lane takes an equal piece of the sequence, wherever that cuts a
-    // strip, after the two nodes before the piece: all lanes end together.
+    // Each lane takes an equal piece of the sequence, cutting strips, after the
+    // two nodes before the piece: all lanes end together.
     const std::size_t end         = strips.size();
     const std::size_t piece       = (end + n_lanes - 1) / n_lanes;
     const std::size_t n           = padded_steps(piece + 2);
@@ -128,7 +146,7 @@ namespace quoin
       const std::size_t lane_end   = std::min(lane_begin + piece, end);
       for (std::size_t step = 0; step < n_rows; ++step)
       {
-        // Before and after its piece a lane repeats what is there.
+        // Before and after its piece a lane repeats the first and last entry.
         const std::size_t k = std::min(
             std::max<std::size_t>(lane_begin + step, 2) - 2, end - 1);
         const bool in_piece   = step >= 2 && lane_begin + step - 2 < lane_end;

@@ -165,7 +165,7 @@ namespace quoin
       const std::size_t lane_end   = n_cells * (lane + 1) / n_lanes;
       for (std::size_t k = 0; k < n_groups; ++k)
       {
-        // Pieces are equally long or end one group before the last.
+        // Pieces have the same length or end one group earlier.
         const bool present = lane_begin + k < lane_end;
         if (present && k + 1 == n_groups)
           chunks.back().last_mask |= 1u << lane;
@@ -219,6 +219,30 @@ namespace quoin
     else
       add_forces_in_lanes<4>(tiles[tile], nodes, force);
     return 0.;
+  }
+
+  void BlockForces<3>::add_stiffness_bound(
+      const State<3> &state, const NodeRatio &,
+      std::vector<NodeStiffness<3>> &stiffness) const
+  {
+    for (unsigned int c = 0; c < n_cells(); ++c)
+    {
+      const auto &nodes = data.cells[c];
+      double edges[3][3];
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int d = 0; d < 3; ++d)
+          edges[k][d]
+              = state.nodes[nodes[k + 1]].X[d] - state.nodes[nodes[0]].X[d];
+      Tetrahedron<OneLane> cell;
+      cell.set_edges(edges);
+      // With a quarter of its mass at each node; the density cancels out.
+      const double share
+          = largest_eigenvalue_squared_frequency(cell, cell_stiffness(c), 1.)
+            * cell.det / 24.;
+      for (const unsigned int node : nodes)
+        for (unsigned int d = 0; d < 3; ++d)
+          stiffness[node][d] += share;
+    }
   }
 
   BlockForces<3>::CellMotion
@@ -311,6 +335,21 @@ namespace quoin
       copy(s, S);
       motion.polar.turning_stress(S, e, T);
       add_cell_forces(k, motion.geometry, R, T, force);
+    }
+  }
+
+  void BlockForces<3>::linearise(State<3> &state, const bool with_stiffness,
+                                 const TakeElement<3> &take) const
+  {
+    CellLinearisation cell;
+    PlasticHistory &history = state.get<PlasticHistory>();
+    for (unsigned int c = 0; c < n_cells(); ++c)
+    {
+      if (!linearise(c, state.nodes.data(), history, cell, with_stiffness))
+        continue;
+      state.energy.plastic += cell.dissipated;
+      take({ cell.nodes.data(), cell.n_nodes, cell.force.data(),
+             cell.stiffness[0].data(), unsigned(cell.force.size()) });
     }
   }
 

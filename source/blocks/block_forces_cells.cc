@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What BlockForces computes cell by cell, beside the strips.
+// BlockForces cell by cell, without strips.
 
 #include <quoin/blocks/block_forces.h>
 

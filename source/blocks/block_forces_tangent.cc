@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What BlockForces gives to solvers that need derivatives.
+// Derivatives of BlockForces, for implicit solvers.
 
 #include <quoin/blocks/block_forces.h>
 #include <quoin/blocks/triangle_tangent.h>
@@ -11,7 +11,7 @@ namespace quoin
   std::array<double, 4> BlockForces<2>::CellPoint::displacement_gradient(
       const NodeRecord<2> *records) const
   {
-    // Differences, so that strains keep their digits under large motions.
+    // Differences keep the digits of strains under large motions.
     const double *origin = records[nodes[0]].u;
     std::array<double, 4> H{};
     for (unsigned int i = 1; i < n_nodes; ++i)
@@ -29,7 +29,7 @@ namespace quoin
                              const unsigned int cell) const
   {
     std::array<unsigned int, 3> corners = data.cells[cell];
-    const unsigned int first            = cell & ~3U; // of a quadratic one
+    const unsigned int first = cell & ~3U; // first cell of a quadratic triangle
     if (data.quadratic)
       for (unsigned int i = 0; i < 3; ++i)
         corners[i] = data.cells[first + i][0];
@@ -47,8 +47,8 @@ namespace quoin
     if (!data.quadratic)
       return point;
 
-    // The centroids of the three outer cells are the points of the rule that
-    // is exact for quadratic functions; the inner cell is for output.
+    // The centroids of the three outer cells are the integration points of the
+    // rule of second order; the inner cell is for output.
     const bool is_inner = cell == first + 3;
     std::array<double, 3> lambda;
     lambda.fill(is_inner ? 1. / 3. : 1. / 6.);
@@ -70,6 +70,21 @@ namespace quoin
       }
     }
     return point;
+  }
+
+  void BlockForces<2>::linearise(State<2> &state, const bool with_stiffness,
+                                 const TakeElement<2> &take) const
+  {
+    CellLinearisation cell;
+    PlasticHistory &history = state.get<PlasticHistory>();
+    for (unsigned int c = 0; c < n_cells(); ++c)
+    {
+      if (!linearise(c, state.nodes.data(), history, cell, with_stiffness))
+        continue;
+      state.energy.plastic += cell.dissipated;
+      take({ cell.nodes.data(), cell.n_nodes, cell.force.data(),
+             cell.stiffness[0].data(), unsigned(cell.force.size()) });
+    }
   }
 
   bool BlockForces<2>::linearise(const unsigned int cell,

@@ -12,11 +12,10 @@
 #include <limits>
 
 // Vectors wider than the machine's registers are legal (the tests run 8 lanes
-// everywhere) but how they are passed by value is not settled: by reference.
+// everywhere), but passing them by value has no fixed ABI.
 #define QUOIN_INLINE inline __attribute__((always_inline))
 
-/** Four or eight doubles at once: what the block kernel needs of the machine.
- */
+/** SIMD operations of the block kernel on four or eight doubles. */
 namespace quoin
 {
 #ifdef __AVX512F__
@@ -39,7 +38,7 @@ namespace quoin
       using Value = double __attribute__((vector_size(32), may_alias));
       using Bits  = std::int64_t __attribute__((vector_size(32), may_alias));
 
-      /** Makes infinite what has no bit in the mask. */
+      /** Sets the lanes without a bit in the mask to infinity. */
       static QUOIN_INLINE void keep(const std::uint8_t mask, Value &value)
       {
         alignas(32) static constexpr std::int64_t table[16][4]
@@ -75,7 +74,7 @@ namespace quoin
         result = a < result ? a : result;
       }
 
-      /** Bit l says that a > b in lane l. */
+      /** Bit l: whether a > b in lane l. */
       static QUOIN_INLINE std::uint8_t greater(const Value &a, const Value &b)
       {
 #ifdef __AVX__
@@ -86,7 +85,7 @@ namespace quoin
 #endif
       }
 
-      /** Transposes the four doubles that @p of names for each lane. */
+      /** Transposes the four doubles at @p of(lane) of each lane. */
       template <typename Of>
       static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
       {
@@ -102,7 +101,7 @@ namespace quoin
         v[3]             = __builtin_shufflevector(ab_1, cd_1, 2, 3, 6, 7);
       }
 
-      /** The opposite, to where @p to says. */
+      /** The inverse of load_four(), to @p to(lane). */
       template <typename To>
       static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
       {
@@ -126,7 +125,7 @@ namespace quoin
         return *reinterpret_cast<Value *>(p);
       }
 
-      /** Transposes the pairs found at base + scale * offset. */
+      /** Transposes the pairs at base + scale * offset. */
       static QUOIN_INLINE void load(const char *base, const std::size_t scale,
                                     const std::uint32_t *offset, Value &x,
                                     Value &y)
@@ -153,7 +152,7 @@ namespace quoin
         pair(base + offset[3]) += __builtin_shufflevector(p13, p13, 2, 3);
       }
 
-      /** The four doubles of each lane at base + scale * offset. */
+      /** Loads the four doubles of each lane at base + scale * offset. */
       static QUOIN_INLINE void load_rows(const char *base,
                                          const std::size_t scale,
                                          const std::uint16_t *offset,
@@ -163,8 +162,8 @@ namespace quoin
           row[l] = *reinterpret_cast<const Value *>(base + scale * offset[l]);
       }
 
-      /** From rows, one for each lane, to one vector for each component, and
-          back. */
+      /** Transposes rows, one for each lane, to vectors, one for each
+          component, and back. */
       static QUOIN_INLINE void transpose(const Value (&row)[4],
                                          Value (&column)[4])
       {
@@ -178,7 +177,7 @@ namespace quoin
         column[3]        = __builtin_shufflevector(ab_1, cd_1, 2, 3, 6, 7);
       }
 
-      /** Adds rows to what is at base + offset, one lane after the other. */
+      /** Adds rows to the values at base + offset, one lane after the other. */
       static QUOIN_INLINE void add_rows(char *base, const std::uint16_t *offset,
                                         const Value (&row)[4])
       {
@@ -292,7 +291,7 @@ namespace quoin
                       __builtin_shufflevector(y, y, 4, 5, 6, 7));
       }
 
-      /** Row l has those of lane l and, behind them, of lane l + 4. */
+      /** Row l has the doubles of lane l, then those of lane l + 4. */
       static QUOIN_INLINE void load_rows(const char *base,
                                          const std::size_t scale,
                                          const std::uint16_t *offset,

@@ -20,16 +20,16 @@ namespace quoin
      * Mohr circle's radius R, squared, with the least of
      * @f[ \frac{q - (N - 1) m}{N + 1}, \quad \frac{q + \sigma_{zz}}{N} - m,
      *     \quad q + m - N \sigma_{zz}, \quad \sigma_t - m , @f]
-     * m the mean stress in the plane, N = N_phi, q the strength of a free cube
-     * in compression. The law gets the triangles that exceed it.
+     * m the mean stress in the plane, N = N_phi, q the unconfined compressive
+     * strength. The law gets the triangles that exceed it.
      */
     template <int lanes>
     class PlasticStrips
     {
     public:
       /**
-       * @p cells: of each lane at each step; @p initial: stress of all cells,
-       * or null.
+       * @p cells: cell of each lane at each step; @p initial: initial stress of
+       * all cells, or null.
        */
       PlasticStrips(const MohrCoulomb &law, const PlaneStiffness &stiffness,
                     const double thickness, const std::uint32_t *cells,
@@ -49,7 +49,7 @@ namespace quoin
         cohesion       = strength / (n + 1.);
       }
 
-      /** Returns what was dissipated [J]. */
+      /** Returns the dissipated energy [J]. */
       double add_forces(const StripSequence &sequence,
                         const NodeRecord<2> *nodes, NodeVector<2> *force,
                         Prefetcher &prefetcher) const;
@@ -58,7 +58,7 @@ namespace quoin
       using L     = Lanes<lanes>;
       using Value = typename L::Value;
 
-      /** In the rotating frame: mean, half the difference, shear, zz. */
+      /** Stress in the rotating frame: mean, half the difference, shear, zz. */
       struct Stress
       {
         Value mean, half, shear, zz;

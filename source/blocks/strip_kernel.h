@@ -14,10 +14,10 @@
 #include "lanes.h"
 
 /**
- * The block kernel proper: one triangle strip per lane. Notation and formulas
- * are those of triangle.h, all multiplied by the determinant so that one
- * square root and one division remain: with G = det H, D = |det|, N = D n,
- * and T, B, h_1, h_2 now those of G,
+ * The block kernel: one triangle strip per lane. Notation and formulas are
+ * those of triangle.h, all multiplied by the determinant so that one square
+ * root and one division remain: with G = det H, D = |det|, N = D n, and T, B,
+ * h_1, h_2 now those of G,
  * @f[ A = 2 det + T, \quad N = \sqrt{A^2 + B^2}, \quad
  *     \mathrm{tr}\, e = \frac{T (4 det + T) + B^2}{D (N + 2 D)} . @f]
  * For an isotropic material R S = K tr(e) R + G (h_1, h_2; h_2, -h_1)/det:
@@ -27,7 +27,7 @@ namespace quoin
 {
   namespace
   {
-    /** What enters the lanes at each step; see BlockForces. */
+    /** Nodes that enter the lanes at each step; see BlockForces. */
     struct StripSequence
     {
       const std::uint32_t *offsets;
@@ -116,7 +116,8 @@ namespace quoin
 
       Value sum, skew, h1, h2;
 
-      /** From the edges e of the triangle and the field's differences. */
+      /** Gradient by the edges e of the triangle and the field's differences.
+       */
       QUOIN_INLINE
       Gradient(const Vector<lanes> &e1, const Vector<lanes> &e2,
                const Vector<lanes> &w1, const Vector<lanes> &w2)
@@ -133,11 +134,10 @@ namespace quoin
     };
 
     /**
-     * What the stages of a step leave to the next. From its nodes to its
-     * forces each triangle is a chain of operations that wait for one another,
-     * longer than what a processor can look ahead. So the loop does the last
-     * stage of one triangle beside the second of the next one and the first
-     * of the one after that.
+     * Intermediate results between the stages of a step. From nodes to forces
+     * each triangle is a chain of dependent operations, longer than the reorder
+     * window of a processor. So the loop does the last stage of one triangle
+     * beside the second of the next one and the first of the one after that.
      */
     template <int lanes>
     struct StripStep
@@ -150,7 +150,7 @@ namespace quoin
       Value N, y, denominator;         /**< left by the second */
     };
 
-    /** The way along the strips, to the second stage of a step. */
+    /** Walk along the strips, up to the second stage of a step. */
     template <int lanes>
     struct StripWalk
     {
@@ -202,8 +202,8 @@ namespace quoin
       {
         L::square_root(now.NN, now.N);
         now.y = now.NN + now.D2 * now.N;
-        // 2 D N (N + 2 D), infinite for what is no triangle of the mesh: that
-        // makes its force zero.
+        // 2 D N (N + 2 D), infinite where there is no triangle of the mesh: its
+        // force is then zero.
         now.denominator = now.D2 * now.y;
         L::keep(m, now.denominator);
       }

@@ -140,8 +140,8 @@ namespace quoin
      * Adds the forces of @p n groups to those of the nodes. Lanes without a
      * bit in @p last_mask have no cell of their own in the last group.
      *
-     * While the trace of one group's strain is found, a long chain of
-     * operations that wait for one another, the next one is loaded.
+     * The next group is loaded while the trace of one group's strain is found,
+     * a long chain of dependent operations.
      */
     template <int lanes, bool with_stress>
     __attribute__((noinline)) void

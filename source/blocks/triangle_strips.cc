@@ -14,8 +14,8 @@ namespace quoin
     constexpr unsigned int none = StripEntry::no_cell;
 
     /**
-     * Triangles are numbered within the members, nodes within the nodes that
-     * these have.
+     * Triangles are numbered within the members, nodes within the nodes of the
+     * members.
      */
     class StripBuilder
     {
@@ -32,7 +32,7 @@ namespace quoin
         for (unsigned int t = 0; t < triangles.size(); ++t)
           for (const unsigned int other : neighbours[t])
             free_neighbours[t] += (other != none);
-        // The first cells should come out first: push them last.
+        // The first cells are pushed last, as they should come out first.
         for (unsigned int t = triangles.size(); t-- > 0;)
           waiting[free_neighbours[t]].push_back(t);
       }
@@ -67,7 +67,7 @@ namespace quoin
       }
 
     private:
-      /** A way along triangles, the first one's nodes in order. */
+      /** A path along triangles, with the nodes of the first one in order. */
       struct Run
       {
         unsigned int triangle;
@@ -199,7 +199,7 @@ namespace quoin
         return best;
       }
 
-      /** Among those that begin at @p node; false if all around it is used. */
+      /** Finds the longest path from @p node; false if all around is used. */
       bool best_run_around(const unsigned int node, Run &best)
       {
         unsigned int best_length = 0;

@@ -338,6 +338,7 @@ namespace quoin
   {
     // Before any pair is brought to the present, so that heirs go on from the
     // same past as those they follow, whatever the order of the pairs.
+    copies.update(contacts.pairs);
     new_contacts.clear();
     for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
     {
@@ -432,7 +433,7 @@ namespace quoin
                                   double &deepest) const
   {
     // A pair between the same blocks that shares an edge with this one and a
-    // vertex of the other.
+    // vertex of the other; the first of two, whatever their ranks.
     for (unsigned int side = 0; side < 2; ++side)
     {
       const unsigned int shared = pair_edges[i][side];
@@ -441,7 +442,7 @@ namespace quoin
            j < edge_pairs_begin[shared + 1]; ++j)
       {
         const unsigned int q      = edge_pairs[j];
-        const ContactPair &parent = contacts.pairs[q];
+        const ContactPair &parent = pair_or_copy(contacts, q);
         if (q == i || !parent.active)
           continue;
         const unsigned int at    = pair_edges[q][0] == shared ? 1 : 0;

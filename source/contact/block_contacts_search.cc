@@ -74,19 +74,14 @@ namespace quoin
           result.push_back(i);
       return result;
     }
-
-    std::array<unsigned int, 2> key(const ContactPair &pair)
-    {
-      return { std::min(pair.lower, pair.upper),
-               std::max(pair.lower, pair.upper) };
-    }
   } // namespace
 
   BlockContacts::BlockContacts(const NodeMap<2> &node_map,
                                const MatchedJoints &joints,
                                const ContactModel &model)
     : node_map(node_map), joints(joints), exchange(node_map.exchange()),
-      edges(node_map), parameters(model.parameters), thickness(model.thickness),
+      edges(node_map), copies(edges, node_map.communicator()),
+      parameters(model.parameters), thickness(model.thickness),
       skin(model.parameters.skin), materials(model.materials),
       material_of_group(model.material_of_group)
   {
@@ -352,7 +347,7 @@ namespace quoin
 
     std::sort(contacts.pairs.begin(), contacts.pairs.end(),
               [](const ContactPair &a, const ContactPair &b)
-              { return key(a) < key(b); });
+              { return a.edges() < b.edges(); });
     AlignedArray<ContactPair> old;
     old.swap(contacts.pairs);
     auto next = old.begin();
@@ -376,9 +371,9 @@ namespace quoin
       if (is_matched(contacts, a, b))
         continue;
       const std::array<unsigned int, 2> found = { a, b };
-      for (; next != old.end() && key(*next) < found; ++next)
+      for (; next != old.end() && next->edges() < found; ++next)
         keep_or_drop(*next);
-      const bool is_old = next != old.end() && key(*next) == found;
+      const bool is_old = next != old.end() && next->edges() == found;
       contacts.pairs.push_back(
           is_old && next->active ? *next : new_pair(ends[i], ends[j]));
       if (is_old)
@@ -413,7 +408,7 @@ namespace quoin
     {
       for (unsigned int j = edge_pairs_begin[e]; j < edge_pairs_begin[e + 1];
            ++j)
-        if (const ContactPair &pair = contacts.pairs[edge_pairs[j]];
+        if (const ContactPair &pair = pair_or_copy(contacts, edge_pairs[j]);
             pair.active && pair.shift != 0.)
           parents.push_back(edge_pairs[j]);
       begin.push_back(parents.size());
@@ -434,7 +429,7 @@ namespace quoin
         for (unsigned int j = begin[shared]; j < begin[shared + 1]; ++j)
         {
           const unsigned int q      = parents[j];
-          const ContactPair &parent = contacts.pairs[q];
+          const ContactPair &parent = pair_or_copy(contacts, q);
           const unsigned int other
               = pair_edges[q][pair_edges[q][0] == shared ? 1 : 0];
           if (other == beside[0] || other == beside[1])
@@ -477,6 +472,7 @@ namespace quoin
   {
     bind_edges(contacts);
     bind_nodes();
+    copies.bind(contacts.pairs);
     bind_pairs(contacts);
     deepest_ratio = 0.;
     bound_search  = contacts.n_searches;
@@ -588,25 +584,41 @@ namespace quoin
     pair_share.clear();
     pair_depth.clear();
     edge_pairs_begin.assign(edge_numbers.size() + 1, 0);
-    for (const ContactPair &pair : contacts.pairs)
+    const auto add_edges = [this](const ContactPair &pair)
     {
       pair_edges.push_back(
           { { local_edge(pair.lower), local_edge(pair.upper) } });
+      for (const unsigned int e : pair_edges.back())
+        ++edge_pairs_begin[e + 1];
+    };
+    for (const ContactPair &pair : contacts.pairs)
+    {
+      add_edges(pair);
       pair_share.push_back(share(pair));
       pair_depth.push_back(
           parameters.deepest
           * std::min(edges[pair.lower].height, edges[pair.upper].height));
-      for (const unsigned int e : pair_edges.back())
-        ++edge_pairs_begin[e + 1];
     }
+    for (const ContactPair &pair : copies.pairs())
+      add_edges(pair);
     for (unsigned int e = 0; e < edge_numbers.size(); ++e)
       edge_pairs_begin[e + 1] += edge_pairs_begin[e];
-    edge_pairs.resize(2 * n_pairs);
+    edge_pairs.resize(2 * pair_edges.size());
     std::vector<unsigned int> place(edge_pairs_begin.begin(),
                                     edge_pairs_begin.end() - 1);
-    for (unsigned int i = 0; i < n_pairs; ++i)
+    for (unsigned int i = 0; i < pair_edges.size(); ++i)
       for (const unsigned int e : pair_edges[i])
         edge_pairs[place[e]++] = i;
+    // Copies came last.
+    for (unsigned int i = n_pairs; i < pair_edges.size(); ++i)
+      for (const unsigned int e : pair_edges[i])
+        std::sort(edge_pairs.begin() + edge_pairs_begin[e],
+                  edge_pairs.begin() + edge_pairs_begin[e + 1],
+                  [&](const unsigned int p, const unsigned int q)
+                  {
+                    return pair_or_copy(contacts, p).edges()
+                           < pair_or_copy(contacts, q).edges();
+                  });
     openings.assign(n_pairs, {});
   }
 

@@ -5,10 +5,10 @@
 
 #include <deal.II/base/mpi_consensus_algorithms.h>
 
+#include <bitset>
 #include <cmath>
 #include <functional>
 #include <map>
-#include <tuple>
 #include <unordered_map>
 
 namespace quoin
@@ -115,7 +115,7 @@ namespace quoin
       ContactEdge edge;
       edge.nodes  = { nodes.exchange().global(a), nodes.exchange().global(b) };
       edge.points = { nodes.point(a), nodes.point(b) };
-      edge.number = none;
+      edge.number = nodes.number_of_node(a);
       edge.block  = nodes.block_of_cell(cell);
       edge.group  = nodes.group_of_cell(cell);
       edge.previous  = none;
@@ -136,11 +136,7 @@ namespace quoin
     }
     for (const OuterFace<2> &face : nodes.outer_faces())
       add(face.nodes[0], face.nodes[1], face.cell, none);
-    std::sort(own_edges.begin(), own_edges.end(),
-              [](const ContactEdge &a, const ContactEdge &b) {
-                return std::tie(a.block, a.nodes[0])
-                       < std::tie(b.block, b.nodes[0]);
-              });
+    std::sort(own_edges.begin(), own_edges.end(), by_number);
     link();
     merge_straight_sides(nodes.table().is_rigid);
     number_edges();
@@ -222,26 +218,27 @@ namespace quoin
 
   void ContactEdges::number_edges()
   {
-    // Of each block: edges here, on lower ranks, and on all.
-    const unsigned int n_blocks = node_map.table().n_blocks();
-    std::vector<unsigned int> here(n_blocks, 0), before(n_blocks, 0), all;
+    // So far they have the numbers of their first vertices. Those where an edge
+    // of any rank starts are bits here.
+    using Word                    = std::bitset<64>;
+    const MPI_Comm communicator   = node_map.communicator();
+    const unsigned int n_vertices = mpi::max(
+        own_edges.empty() ? 0 : own_edges.back().number + 1, communicator);
+    std::vector<std::uint64_t> starts((n_vertices + 63) / 64, 0);
     for (const ContactEdge &edge : own_edges)
-      ++here[edge.block];
-    all = here;
-    MPI_Exscan(here.data(), before.data(), n_blocks, MPI_UNSIGNED, MPI_SUM,
-               node_map.communicator());
-    if (mpi::this_mpi_process(node_map.communicator()) == 0)
-      std::fill(before.begin(), before.end(), 0); // MPI leaves it open
-    MPI_Allreduce(MPI_IN_PLACE, all.data(), n_blocks, MPI_UNSIGNED, MPI_SUM,
-                  node_map.communicator());
-    std::vector<unsigned int> next;
-    for (unsigned int b = 0; b < n_blocks; ++b)
+      starts[edge.number / 64] |= std::uint64_t(1) << edge.number % 64;
+    MPI_Allreduce(MPI_IN_PLACE, starts.data(), starts.size(), MPI_UINT64_T,
+                  MPI_BOR, communicator);
+    auto next = own_edges.begin();
+    for (unsigned int i = 0; i < starts.size(); ++i)
     {
-      next.push_back(n_edges + before[b]);
-      n_edges += all[b];
+      for (; next != own_edges.end() && next->number / 64 == i; ++next)
+      {
+        const std::uint64_t lower = (std::uint64_t(1) << next->number % 64) - 1;
+        next->number              = n_edges + Word(starts[i] & lower).count();
+      }
+      n_edges += Word(starts[i]).count();
     }
-    for (ContactEdge &edge : own_edges)
-      edge.number = next[edge.block]++;
     // Edges were linked by their places.
     for (ContactEdge &edge : own_edges)
     {
@@ -267,24 +264,26 @@ namespace quoin
     {
       unsigned int node, edge;
       unsigned int end; /**< 0 if the edge starts at the node, 1 if it ends */
+      unsigned int rank;
       Direction direction;
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
       {
-        archive &node &edge &end &direction;
+        archive &node &edge &end &rank &direction;
       }
     };
   } // namespace
 
   void ContactEdges::join_over_ranks()
   {
+    const unsigned int rank = mpi::this_mpi_process(node_map.communicator());
     std::vector<LooseEnd> loose;
     for (const ContactEdge &edge : own_edges)
       for (unsigned int k = 0; k < 2; ++k)
         if ((k == 0 ? edge.previous : edge.next) == none)
           loose.push_back(
-              { edge.nodes[k], edge.number, k, direction_of(edge) });
+              { edge.nodes[k], edge.number, k, rank, direction_of(edge) });
     if (mpi::max(loose.empty() ? 0U : 1U, node_map.communicator()) == 0)
       return;
 
@@ -303,24 +302,16 @@ namespace quoin
     Messages to_owners;
     for (const LooseEnd &end : loose)
       to_owners[owners[wanted.index_within_set(end.node)]].push_back(end);
-    struct Met
-    {
-      unsigned int rank[2] = { none, none };
-      LooseEnd ends[2];
-    };
-    std::map<unsigned int, Met> met;
-    for (const auto &[rank, ends] :
+    std::map<unsigned int, std::vector<LooseEnd>> met;
+    for (const auto &[from, ends] :
          mpi::some_to_some(node_map.communicator(), to_owners))
       for (const LooseEnd &end : ends)
-      {
-        met[end.node].rank[end.end] = rank;
-        met[end.node].ends[end.end] = end;
-      }
+        met[end.node].push_back(end);
     Messages to_ranks;
-    for (const auto &[node, both] : met)
-      if (both.rank[0] != none && both.rank[1] != none)
+    for (const auto &[node, ends] : met)
+      if (ends.size() == 2)
         for (unsigned int k = 0; k < 2; ++k)
-          to_ranks[both.rank[k]].push_back(both.ends[1 - k]);
+          to_ranks[ends[k].rank].push_back(ends[1 - k]);
 
     const auto find = [&](const unsigned int node, const unsigned int end)
     {
@@ -331,7 +322,7 @@ namespace quoin
         ++found;
       return own_place(found->edge);
     };
-    for (const auto &[rank, ends] :
+    for (const auto &[from, ends] :
          mpi::some_to_some(node_map.communicator(), to_ranks))
       for (const LooseEnd &other : ends)
       {
@@ -339,6 +330,7 @@ namespace quoin
         ContactEdge &edge                    = own_edges[find(other.node, k)];
         (k == 0 ? edge.previous : edge.next) = other.edge;
         edge.corner[k] = corner_between(direction_of(edge), other.direction);
+        rank_of_neighbour[other.edge] = other.rank;
       }
   }
 

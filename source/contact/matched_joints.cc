@@ -304,12 +304,12 @@ namespace quoin
   }
 
   void MatchedJoints::add_stiffness_bound(
-      const NodeRecord<2> *nodes, const NodeRatio &ratio,
-      std::vector<std::array<double, 3>> &stiffness) const
+      const State<2> &state, const NodeRatio &ratio,
+      std::vector<NodeStiffness<2>> &stiffness) const
   {
     for (const Segment &segment : segments)
     {
-      const Frame local = frame(segment, nodes);
+      const Frame local = frame(segment, state.nodes.data());
       const auto [normal_stiffness, shear_stiffness]
           = stiffness_bound(laws[segment.set]);
       const double *n = local.normal, *s = local.tangent;

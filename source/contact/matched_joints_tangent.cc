@@ -97,6 +97,25 @@ namespace quoin
     }
   } // namespace
 
+  void MatchedJoints::linearise(State<2> &state, const bool with_stiffness,
+                                const TakeElement<2> &take) const
+  {
+    const BreakingJoints *breaking = state.find<BreakingJoints>();
+    const std::vector<std::uint8_t> broken
+        = breaking ? breaking->points : std::vector<std::uint8_t>(n_points());
+    JointHistory &history = state.get<JointHistory>();
+    JointLinearisation segment;
+    for (unsigned int i = 0; i < n_segments(); ++i)
+    {
+      linearise(i, state.nodes.data(), broken, history, state.energy, segment,
+                with_stiffness);
+      take({ segment.nodes.data(), 4, segment.force.data(),
+             segment.stiffness[0].data(), 8, segments[i].share,
+             segment.inelastic, segment.inelastic_gradient.data(),
+             segments[i].set });
+    }
+  }
+
   void MatchedJoints::linearise(const unsigned int i,
                                 const NodeRecord<2> *nodes,
                                 const std::vector<std::uint8_t> &broken,

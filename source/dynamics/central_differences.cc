@@ -6,15 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <iterator>
 
 namespace quoin
 {
   namespace
   {
-    /** Share of the kinetic energy's rate that adaptive damping takes. */
+    /** Power of adaptive damping by the rate of kinetic energy [-]. */
     constexpr double adaptive_power_share = 0.5;
-    /** Change of its coefficient in one step. */
+    /** Factor of its coefficient in one step [-]. */
     constexpr double adaptive_change = 1.005;
 
     template <int dim>
@@ -33,7 +34,8 @@ namespace quoin
                                               PhaseClock &clock)
     : nodes(nodes), exchange(nodes.exchange()), blocks(blocks),
       clock(clock), phases{ clock.phase("blocks"), clock.phase("search"),
-                            clock.phase("loads"), clock.phase("exchange") }
+                            clock.phase("loads"), clock.phase("exchange") },
+      force_sum(exchange), viscous_sum(exchange)
   {
     force.assign(exchange.n_local(), NodeVector<dim>{});
     viscous_force.assign(exchange.n_local(), NodeVector<dim>{});
@@ -102,6 +104,21 @@ namespace quoin
     const auto first_at = [&](const unsigned int node) {
       return std::lower_bound(moved.begin(), moved.end(), node) - moved.begin();
     };
+    const auto has_shared_nodes = [&](const unsigned int tile)
+    {
+      const NodeRange range = blocks.tile_cells(tile);
+      for (std::size_t cell = range.begin; cell < range.end; ++cell)
+        for (const unsigned int node : nodes.cell(cell))
+          if (node >= nodes.first_shared_node())
+            return true;
+      return false;
+    };
+    tiles.resize(blocks.n_tiles());
+    std::iota(tiles.begin(), tiles.end(), 0U);
+    n_tiles_at_others
+        = std::stable_partition(tiles.begin(), tiles.end(), has_shared_nodes)
+          - tiles.begin();
+
     captured_begin.clear();
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
       captured_begin.push_back(first_at(blocks.tile_nodes(tile).begin));
@@ -118,13 +135,12 @@ namespace quoin
   }
 
   template <int dim>
-  void CentralDifferences<dim>::hold(const NodeRange &range)
+  void CentralDifferences<dim>::hold(const std::vector<unsigned int> &nodes)
   {
-    if (std::none_of(held.begin(), held.end(),
-                     [&](const NodeRange &other)
-                     { return other.begin == range.begin; }))
-      held.push_back(range);
-    for (std::size_t node = range.begin; node < range.end; ++node)
+    held.insert(held.end(), nodes.begin(), nodes.end());
+    std::sort(held.begin(), held.end());
+    held.erase(std::unique(held.begin(), held.end()), held.end());
+    for (const unsigned int node : nodes)
       moving_mass[node] = inverse_mass[node] = 0.;
   }
 
@@ -151,8 +167,7 @@ namespace quoin
     return result;
   }
 
-  // -- the parts of a step
-  // -----------------------------------------------------
+  // -- the parts of a step ---------------------------------------------------
 
   template <int dim>
   void CentralDifferences<dim>::update_neighbours(State<dim> &state,
@@ -163,8 +178,7 @@ namespace quoin
       exchange.update_ghosts(state.velocity.data());
       clock.lap(phases.exchange);
     }
-    // Before any force, because what is handed over to contacts is no joint
-    // from then on.
+    // Before any force: segments handed over to contacts are no longer joints.
     for (ForceOperator<dim> *each : forces)
       each->update(context, state);
     clock.lap(phases.search);
@@ -182,13 +196,12 @@ namespace quoin
              * forces[i]->external_power(context.begin, state.velocity.data());
       clock.lap(force_phases[i]);
     }
-    // What acts on partners is their owners' affair.
+    // Forces on partner nodes are booked by their owners.
     for (unsigned int i = exchange.n_owned() + exchange.n_shared();
          i < exchange.n_local(); ++i)
       force[i] = viscous_force[i] = NodeVector<dim>{};
-    for (const NodeRange &range : held)
-      std::fill(&force[range.begin], &force[range.begin] + range.size(),
-                NodeVector<dim>{});
+    for (const unsigned int node : held)
+      force[node] = NodeVector<dim>{};
     if (state.stage_step == 0 && !begun.empty())
       find_begun_forces(context, state);
   }
@@ -219,10 +232,11 @@ namespace quoin
   }
 
   template <int dim>
-  void CentralDifferences<dim>::add_shared_forces(
-      AlignedArray<NodeVector<dim>> &values)
+  void
+  CentralDifferences<dim>::finish_sum(OwnerSum<NodeVector<dim>> &sum,
+                                      AlignedArray<NodeVector<dim>> &values)
   {
-    exchange.add_to_owners(values.data());
+    sum.finish(values.data());
     const auto begin = values.begin() + exchange.n_owned();
     std::fill(begin, begin + exchange.n_shared(), NodeVector<dim>{});
   }
@@ -266,23 +280,36 @@ namespace quoin
   }
 
   template <int dim>
+  void CentralDifferences<dim>::advance_tile(const unsigned int tile,
+                                             State<dim> &state,
+                                             const StepContext &context,
+                                             const bool balance, StepSums &sums)
+  {
+    state.energy.plastic += blocks.add_forces(
+        tile, state.nodes.data(), state.template get<PlasticHistory>(),
+        force.data());
+    if (has_viscous_forces())
+      blocks.add_viscous_forces(tile, state.nodes.data(), state.velocity.data(),
+                                stage.stiffness_coefficient,
+                                viscous_force.data());
+    advance_range(state, context, balance, blocks.tile_nodes(tile), tile, sums);
+  }
+
+  template <int dim>
   void CentralDifferences<dim>::advance_tiles(State<dim> &state,
                                               const StepContext &context,
                                               const bool balance,
                                               StepSums &sums)
   {
-    PlasticHistory &plastic = state.template get<PlasticHistory>();
-    for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
-    {
-      state.energy.plastic
-          += blocks.add_forces(tile, state.nodes.data(), plastic, force.data());
-      if (has_viscous_forces())
-        blocks.add_viscous_forces(
-            tile, state.nodes.data(), state.velocity.data(),
-            stage.stiffness_coefficient, viscous_force.data());
-      advance_range(state, context, balance, blocks.tile_nodes(tile), tile,
-                    sums);
-    }
+    for (unsigned int i = 0; i < n_tiles_at_others; ++i)
+      advance_tile(tiles[i], state, context, balance, sums);
+    clock.lap(phases.blocks);
+    force_sum.start(force.data());
+    if (has_viscous_forces())
+      viscous_sum.start(viscous_force.data());
+    clock.lap(phases.exchange);
+    for (unsigned int i = n_tiles_at_others; i < tiles.size(); ++i)
+      advance_tile(tiles[i], state, context, balance, sums);
     clock.lap(phases.blocks);
   }
 
@@ -292,9 +319,9 @@ namespace quoin
                                                      const bool balance,
                                                      StepSums &sums)
   {
-    add_shared_forces(force);
+    finish_sum(force_sum, force);
     if (has_viscous_forces())
-      add_shared_forces(viscous_force);
+      finish_sum(viscous_sum, viscous_force);
     clock.lap(phases.exchange);
     advance_range(state, context, balance,
                   { nodes.first_shared_node(), nodes.n_deformable_nodes() },
@@ -307,7 +334,7 @@ namespace quoin
   CentralDifferences<dim>::move_constrained_nodes(State<dim> &state,
                                                   const StepContext &context)
   {
-    // Components that nobody prescribes move by their own force.
+    // Free components move by their own force.
     const double a = 0.5 * context.dt_velocity * context.mass_damping;
     for (const CapturedNode<dim> &node : captured)
       for (unsigned int d = 0; d < dim; ++d)
@@ -399,7 +426,7 @@ namespace quoin
       adapt_damping(state, context, sums.damping);
   }
 
-  // -- what there is to know of a step ---------------------------------------
+  // -- sums and energies of a step ---------------------------------------
 
   template <int dim>
   double
@@ -446,9 +473,9 @@ namespace quoin
                                                    const StepContext &context,
                                                    StepSums sums) const
   {
-    // What nobody moves is unbalanced by its force, what a viscous boundary or
-    // a far field moves by what accelerates it, the rest of which is what that
-    // load does; what is prescribed is held by a reaction.
+    // The unbalanced force of a free component is its force; of one that a
+    // viscous boundary or far field moves, mass times acceleration, as that
+    // load takes the rest; a prescribed component has a reaction and none.
     for (const CapturedNode<dim> &node : captured)
     {
       NodeVector<dim> free{}, reaction{};

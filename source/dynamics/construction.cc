@@ -7,7 +7,7 @@
 
 namespace quoin
 {
-  Construction::Construction(Model &model,
+  Construction::Construction(Model<2> &model,
                              const std::vector<StageParameters> &stages)
     : model(model), at_start(model.properties())
   {
@@ -56,7 +56,7 @@ namespace quoin
     restore(stage + 1, state.get<ConstructionState>());
   }
 
-  void Construction::begin_stage(const unsigned int stage, Solver &solver,
+  void Construction::begin_stage(const unsigned int stage, Solver<2> &solver,
                                  State<2> &state)
   {
     const Step &step = steps[stage];
@@ -94,12 +94,12 @@ namespace quoin
   }
 
   std::vector<unsigned int>
-  Construction::own_blocks(const std::vector<bool> &groups) const
+  Construction::blocks_in(const std::vector<bool> &groups) const
   {
     std::vector<unsigned int> result;
-    for (const BlockPart &part : model.nodes().block_parts())
-      if (is_in(part.number, groups))
-        result.push_back(part.number);
+    for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
+      if (is_in(b, groups))
+        result.push_back(b);
     return result;
   }
 
@@ -109,14 +109,13 @@ namespace quoin
     return groups[model.table().group[block]];
   }
 
-  void Construction::take_away(const Step &step, Solver &solver,
+  void Construction::take_away(const Step &step, Solver<2> &solver,
                                State<2> &state) const
   {
-    const unsigned int n_blocks = model.table().n_blocks();
     const MatchedJoints &joints = model.joints();
     AlignedArray<NodeVector<2>> held(state.nodes.size(),
                                      NodeVector<2>{ { 0., 0. } });
-    AlignedArray<NodeVector<2>> lost = held; // of joints within what is taken
+    AlignedArray<NodeVector<2>> lost = held; // of excavated joints
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
       if (model.is_at_absent_block(i, state))
@@ -132,23 +131,23 @@ namespace quoin
                                  lower != upper ? held.data() : lost.data());
       joints.let_go(i, state.get<JointHistory>());
     }
-    // Their energy at the present positions has what these forces did over the
-    // last half step. On blocks that stay those that take their place will
-    // book it again; on what is taken it is part of the motion that goes.
+    for (auto *forces : { &held, &lost })
+      model.exchange().add_to_owners(forces->data());
+    // The present energy includes the work of these forces over the last half
+    // step. The held forces on blocks that stay book it again; that on
+    // excavated blocks is part of the kinetic energy that is removed.
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         state.energy.external -= 0.5 * state.previous_time_step
                                  * (held[i].v[d] + lost[i].v[d])
                                  * state.velocity[i].v[d];
 
-    state.block_marks.resize(n_blocks, block_mark::present);
-    for (unsigned int b = 0; b < n_blocks; ++b)
-      if (is_in(b, step.excavate))
-        state.block_marks[b] = block_mark::absent;
-    const auto blocks = own_blocks(step.excavate);
-    state.energy.external -= solver.stop_blocks(blocks, state);
+    state.block_marks.resize(model.table().n_blocks(), block_mark::present);
+    const auto blocks = blocks_in(step.excavate);
     for (const unsigned int block : blocks)
-      model.bring_to_rest(block, state);
+      state.block_marks[block] = block_mark::absent;
+    state.energy.external -= solver.stop_blocks(blocks, state);
+    model.bring_to_rest(blocks, state);
     model.exchange().update_ghosts(state.nodes.data());
 
     HeldForces item;
@@ -166,14 +165,12 @@ namespace quoin
   void Construction::place(const Step &step, State<2> &state) const
   {
     const MatchedJoints &joints = model.joints();
-    const auto blocks           = own_blocks(step.fill);
-    for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
-      if (is_in(b, step.fill))
-        state.block_marks[b] = block_mark::present;
+    const auto blocks           = blocks_in(step.fill);
+    for (const unsigned int block : blocks)
+      state.block_marks[block] = block_mark::present;
     model.forget_initial_stress(step.fill, state.get<ConstructionState>());
     model.set_properties(model.properties(), state.get<ConstructionState>());
-    for (const unsigned int block : blocks)
-      model.place(block, state);
+    model.place(blocks, state);
     model.exchange().update_ghosts(state.nodes.data());
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {

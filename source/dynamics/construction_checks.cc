@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What Construction asks of the stages.
+// Checks of the stages by Construction.
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
@@ -14,7 +14,7 @@ namespace quoin
 {
   namespace
   {
-    /** Where @p items has the name @p name; its size: nowhere. */
+    /** Index of the item @p name; the size of @p items: none. */
     template <typename T>
     unsigned int position(const std::vector<T> &items, const std::string &name)
     {
@@ -42,7 +42,7 @@ namespace quoin
                                    const std::vector<bool> &groups,
                                    const std::string &parameter) const
   {
-    // The first cell of all ranks that does not go with its block.
+    // The first cell of all ranks whose group differs from its block's.
     const NodeMap<2> &nodes         = model.nodes();
     const BlockTable<2> &table      = model.table();
     const unsigned int n_groups     = table.group_names.size();
@@ -176,7 +176,7 @@ namespace quoin
             + ". Name one of these.");
     JointSetParameters &now
         = step.properties.joints[position(at_start.joints, set)];
-    // The other set's own law, whatever that set follows by now.
+    // The other set's law as given, not one that it has taken over since.
     const JointSetParameters &wanted
         = at_start.joints[position(at_start.joints, other)];
     if (kind_of_law(now.law) != kind_of_law(wanted.law))

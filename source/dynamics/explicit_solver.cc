@@ -9,29 +9,37 @@
 
 namespace quoin
 {
-  ExplicitSolver::ExplicitSolver(Model &model,
-                                 const std::vector<LoadParameters> &loads,
-                                 const std::vector<StageParameters> &stages,
-                                 std::unique_ptr<FarField> far_field,
-                                 std::unique_ptr<StaticFarField> static_field)
-    : Solver(model, loads, std::move(far_field), std::move(static_field)),
-      stepper(model.nodes(), model.blocks(), time_shares), box(model),
-      all_stages(stages)
+  template <int dim>
+  ExplicitSolver<dim>::ExplicitSolver(
+      Model<dim> &model, const std::vector<LoadParameters> &loads,
+      const std::vector<StageParameters> &stages,
+      std::unique_ptr<FarField> far_field,
+      std::unique_ptr<StaticFarField> static_field)
+    : Solver<dim>(model, loads, std::move(far_field), std::move(static_field)),
+      stepper(model.nodes(), model.blocks(), time_shares), all_stages(stages)
   {
     stepper.set_mass(model.mass());
-    if (model.large_displacements())
-      block_contacts = std::make_unique<BlockContacts>(
-          model.nodes(), model.joints(), model.contact_model());
+    if constexpr (dim == 2)
+    {
+      if (model.contact_parameters().has_box)
+        box = std::make_unique<const ModelBox>(model);
+      if (model.large_displacements())
+        block_contacts = std::make_unique<BlockContacts>(
+            model.nodes(), model.joints(), model.contact_model());
+    }
   }
 
-  void ExplicitSolver::prepare(State<2> &state) const
+  template <int dim>
+  void ExplicitSolver<dim>::prepare(State<dim> &state) const
   {
-    Solver::prepare(state);
-    if (block_contacts)
-      block_contacts->prepare(state);
+    Solver<dim>::prepare(state);
+    if constexpr (dim == 2)
+      if (block_contacts)
+        block_contacts->prepare(state);
   }
 
-  void ExplicitSolver::step(State<2> &state, const Requests &wanted)
+  template <int dim>
+  void ExplicitSolver<dim>::step(State<dim> &state, const Requests &wanted)
   {
     Requests requests = wanted;
     if (stage.slows_loads() && requests.balance)
@@ -41,10 +49,11 @@ namespace quoin
     time_shares.begin_step();
     state.energy += state.pending;
     state.pending = EnergyAccounts();
-    if (requests.balance && box.is_given())
-      look_at_box(state);
+    if constexpr (dim == 2)
+      if (requests.balance && box)
+        look_at_box(state);
 
-    // 1. Who touches whom.
+    // 1. Contact search.
     stepper.update_neighbours(state, context);
     // 2. Forces of contacts, joints and loads on all nodes.
     stepper.add_forces(state, context);
@@ -53,31 +62,34 @@ namespace quoin
     if (requests.energies || step_changes)
     {
       stepper.keep_velocities(state);
-      rigid_before = state.get<RigidBlockStates>();
+      rigid_before = state.template get<RigidBlockStates>();
     }
     StepSums sums;
     if (requests.balance)
       sums.applied = stepper.applied_force();
-    // 3. Blocks tile by tile, and the motion of the nodes that are theirs.
+    // 3. Forces of blocks and motion of their nodes, tile by tile.
     stepper.advance_tiles(state, context, requests.balance, sums);
-    // 4. Nodes of blocks that several processes share.
+    // 4. Motion of nodes that several processes share.
     stepper.advance_shared_nodes(state, context, requests.balance, sums);
     // 5. Rigid blocks.
-    advance_rigid_blocks(state, context, sums);
-    // 6. Nodes whose motion is not their own.
+    if constexpr (dim == 2)
+      advance_rigid_blocks(state, context, sums);
+    // 6. Constrained nodes.
     stepper.move_constrained_nodes(state, context);
-    model.rigid_blocks().follow_nodes(rigid_stage, state);
-    // 7. Work and energies; positions go to the processes that mirror them.
+    if constexpr (dim == 2)
+      model.rigid_blocks().follow_nodes(rigid_stage, state);
+    // 7. Work and energies; exchange of ghost positions.
     book_energies(state, context, requests, stored, sums);
     stepper.exchange_positions(state);
     advance_time(state, context, requests);
   }
 
-  ExplicitSolver::StoredEnergies
-  ExplicitSolver::stored_energies(const State<2> &state)
+  template <int dim>
+  typename ExplicitSolver<dim>::StoredEnergies
+  ExplicitSolver<dim>::stored_energies(const State<dim> &state)
   {
-    // The cells' internal variables are still those of the step before.
-    plastic_now = state.get<PlasticHistory>();
+    // The cells' internal variables are still those of the previous step.
+    plastic_now = state.template get<PlasticHistory>();
     model.blocks().update(state.nodes.data(), plastic_now);
     StoredEnergies stored;
     stored.strain
@@ -87,49 +99,54 @@ namespace quoin
     return stored;
   }
 
-  void ExplicitSolver::book_energies(State<2> &state,
-                                     const StepContext &context,
-                                     const Requests &requests,
-                                     const StoredEnergies &stored,
-                                     const StepSums &sums)
+  template <int dim>
+  void ExplicitSolver<dim>::book_energies(State<dim> &state,
+                                          const StepContext &context,
+                                          const Requests &requests,
+                                          const StoredEnergies &stored,
+                                          const StepSums &sums)
   {
     stepper.book_work(state, context, sums);
     if (requests.energies)
-      find_energies(state, stored.strain, stored.joint,
-                    stepper.kinetic_energy(state, context)
-                        + model.rigid_blocks().kinetic_energy(
-                            rigid_stage, rigid_before,
-                            state.get<RigidBlockStates>(),
-                            context.dt_before / context.dt_velocity));
+      this->find_energies(state, stored.strain, stored.joint,
+                          stepper.kinetic_energy(state, context)
+                              + model.rigid_blocks().kinetic_energy(
+                                  rigid_stage, rigid_before,
+                                  state.template get<RigidBlockStates>(),
+                                  context.dt_before / context.dt_velocity));
     if (context.dt_before != context.dt)
       account_for_new_step(state, context);
     if (requests.balance)
     {
       state.unbalanced_ratio = stepper.unbalanced_ratio(state, context, sums);
-      check_finite(state);
-      check_cells(state);
+      this->check_finite(state);
+      this->check_cells(state);
     }
     time_shares.lap(energy_phase);
   }
 
-  void ExplicitSolver::account_for_new_step(State<2> &state,
+  template <int dim>
+  void
+  ExplicitSolver<dim>::account_for_new_step(State<dim> &state,
                                             const StepContext &context) const
   {
-    // The kinetic energy that fits the trapezoidal work of the steps h1 before
-    // and h2 from now differs by (h1^2 - h2^2) m a^2 / 8. At the start of the
-    // run h1 = 0: the energy of the half step that starts from rest.
+    // The kinetic energy consistent with the trapezoidal work of the last step
+    // h1 and the next one h2 differs by (h1^2 - h2^2) m a^2 / 8. At the start
+    // of the run h1 = 0: the energy of the half step that starts from rest.
     const double factor
         = (context.dt_before * context.dt_before - context.dt * context.dt)
           / (8. * context.dt_velocity * context.dt_velocity);
-    state.pending.external
-        += factor
-           * (stepper.squared_change(state)
-              + model.rigid_blocks().squared_change(
-                  rigid_stage, rigid_before, state.get<RigidBlockStates>()));
+    state.pending.external += factor
+                              * (stepper.squared_change(state)
+                                 + model.rigid_blocks().squared_change(
+                                     rigid_stage, rigid_before,
+                                     state.template get<RigidBlockStates>()));
   }
 
-  void ExplicitSolver::advance_time(State<2> &state, const StepContext &context,
-                                    const Requests &requests) const
+  template <int dim>
+  void ExplicitSolver<dim>::advance_time(State<dim> &state,
+                                         const StepContext &context,
+                                         const Requests &requests) const
   {
     ++state.step;
     ++state.stage_step;
@@ -141,35 +158,43 @@ namespace quoin
       return;
     }
     state.load_time = context.end.stage;
-    if (requests.balance && energies().throughput() > 0.)
+    if (requests.balance && this->energies().throughput() > 0.)
       state.load_rate_growth = loading_rate::growth(
-          energies().kinetic / (stage.kinetic_limit * energies().throughput()),
+          this->energies().kinetic
+              / (stage.kinetic_limit * this->energies().throughput()),
           balance_interval);
     state.load_rate
         = loading_rate::next(state.load_rate, state.load_rate_growth);
   }
 
-  void ExplicitSolver::update_histories(State<2> &state)
+  template <int dim>
+  void ExplicitSolver<dim>::update_histories(State<dim> &state)
   {
-    AlignedArray<NodeVector<2>> unused(state.nodes.size(),
-                                       NodeVector<2>{ { 0., 0. } });
-    if (block_contacts)
+    if constexpr (dim == 2)
     {
-      state.get<ContactState>().next_check = -1; // search nothing to look
-      const StepContext context            = stepper.context(state, time_step);
-      block_contacts->update(context, state);
-      block_contacts->add_forces(context, state, { unused.data(), nullptr });
+      AlignedArray<NodeVector<2>> unused(state.nodes.size(),
+                                         NodeVector<2>{ { 0., 0. } });
+      if (block_contacts)
+      {
+        state.template get<ContactState>().next_check
+            = -1; // search nothing to look
+        const StepContext context = stepper.context(state, time_step);
+        block_contacts->update(context, state);
+        block_contacts->add_forces(context, state, { unused.data(), nullptr });
+      }
+      model.joints().add_forces(state.nodes.data(),
+                                state.template get<JointHistory>(),
+                                state.energy, unused.data());
     }
-    model.joints().add_forces(state.nodes.data(), state.get<JointHistory>(),
-                              state.energy, unused.data());
-    state.energy.plastic += model.blocks().update(state.nodes.data(),
-                                                  state.get<PlasticHistory>());
+    state.energy.plastic += model.blocks().update(
+        state.nodes.data(), state.template get<PlasticHistory>());
     model.exchange().update_ghosts(state.velocity.data());
   }
 
-  void ExplicitSolver::advance_rigid_blocks(State<2> &state,
-                                            const StepContext &context,
-                                            StepSums &sums)
+  template <>
+  void ExplicitSolver<2>::advance_rigid_blocks(State<2> &state,
+                                               const StepContext &context,
+                                               StepSums &sums)
   {
     stepper.capture_rigid_blocks(state);
     const RigidBlockWork work = model.rigid_blocks().advance(
@@ -180,5 +205,6 @@ namespace quoin
     time_shares.lap(rigid_phase);
   }
 
-  // namespace quoin
+  template class ExplicitSolver<2>;
+  template class ExplicitSolver<3>;
 } // namespace quoin

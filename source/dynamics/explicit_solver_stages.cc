@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What ExplicitSolver does where a stage begins; explicit_solver.cc has its
-// steps.
+// ExplicitSolver at the start of a stage; explicit_solver.cc has its steps.
 
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
@@ -14,20 +13,20 @@
 
 namespace quoin
 {
-  void ExplicitSolver::scale_masses(const StageParameters &stage,
-                                    State<2> &state)
+  template <int dim>
+  void ExplicitSolver<dim>::scale_masses(const StageParameters &stage,
+                                         State<dim> &state)
   {
     const RigidBlocks &rigid = model.rigid_blocks();
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
     const auto kinetic = [&]()
     {
-      double energy
-          = rigid.kinetic_energy(rigid_stage, state.get<RigidBlockStates>(),
-                                 state.get<RigidBlockStates>(), 1.);
+      double energy = rigid.kinetic_energy(
+          rigid_stage, state.template get<RigidBlockStates>(),
+          state.template get<RigidBlockStates>(), 1.);
       for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
-        energy += 0.5 * stepper.mass()[i]
-                  * (state.velocity[i].v[0] * state.velocity[i].v[0]
-                     + state.velocity[i].v[1] * state.velocity[i].v[1]);
+        for (const double v : state.velocity[i].v)
+          energy += 0.5 * stepper.mass()[i] * v * v;
       return energy;
     };
 
@@ -57,17 +56,17 @@ namespace quoin
     }
     added_mass = sum(scaled) / sum(own) - 1.;
     stepper.set_mass(mass);
-    // Giving moving nodes another mass is work done from outside.
+    // A change of the mass of moving nodes is external work.
     state.energy.external += kinetic() - before;
 
     double eigenvalue
         = model.stability().largest_eigenvalue(mass, rigid_stage.mass_factor);
-    for (const MotionConstraint<2> *constraint : constraints_on)
+    for (const MotionConstraint<dim> *constraint : constraints_on)
       eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
-    critical_step = StableTimeStep<2>::critical(
+    critical_step = StableTimeStep<dim>::critical(
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
-    for (MotionConstraint<2> *constraint : constraints_on)
+    for (MotionConstraint<dim> *constraint : constraints_on)
       if (constraint->is_rigid_body())
       {
         double inertia = 0., spin = 0.;
@@ -78,9 +77,10 @@ namespace quoin
                                   constraint->nodes().end(), block.begin))
             continue;
           const double factor = rigid_stage.mass_factor[b];
-          const double omega  = state.get<RigidBlockStates>()[b].velocity[2];
+          const double omega
+              = state.template get<RigidBlockStates>()[b].velocity[2];
           inertia += factor * (block.inertia - block.lumped_inertia);
-          // Velocities of nodes are those of the mean arm of the last step.
+          // Velocities of nodes follow from the mean arm of the last step.
           const double mean
               = 0.5 * (1. + std::cos(omega * state.previous_time_step));
           spin
@@ -90,13 +90,17 @@ namespace quoin
       }
   }
 
-  void ExplicitSolver::collect_operators(const StageParameters *previous)
+  template <int dim>
+  void ExplicitSolver<dim>::collect_operators(const StageParameters *previous)
   {
-    std::vector<ForceOperator<2> *> forces, begun;
-    if (block_contacts)
-      forces.push_back(block_contacts.get());
-    forces.push_back(&model.joints());
-    for (NodalLoad<2> &load : all_loads)
+    std::vector<ForceOperator<dim> *> forces, begun;
+    if constexpr (dim == 2)
+    {
+      if (block_contacts)
+        forces.push_back(block_contacts.get());
+      forces.push_back(&model.joints());
+    }
+    for (NodalLoad<dim> &load : all_loads)
       if (names_load(stage, load.name()))
       {
         forces.push_back(&load);
@@ -107,19 +111,22 @@ namespace quoin
     stepper.set_operators(forces, begun, constraints_on, stage);
   }
 
-  void ExplicitSolver::collect_constrained_nodes(const State<2> &state)
+  template <int dim>
+  void ExplicitSolver<dim>::collect_constrained_nodes(const State<dim> &state)
   {
-    // Nodes of absent blocks stay where they are, whatever moves others.
+    // Nodes of absent blocks do not move with constraints.
     stepper.capture_nodes(model.absent_nodes(state));
-    refuse_shared_platens();
-    rigid_stage.held = find_held_blocks();
+    this->refuse_shared_platens();
+    if constexpr (dim == 2)
+      rigid_stage.held = this->find_held_blocks();
     find_moved_blocks(state);
     hold_removed_blocks(state);
   }
 
-  double ExplicitSolver::release_duration(const State<2> &state) const
+  template <int dim>
+  double ExplicitSolver<dim>::release_duration(const State<dim> &state) const
   {
-    const auto &held = state.get<ConstructionState>().held;
+    const auto &held = state.template get<ConstructionState>().held;
     if (std::none_of(held.begin(), held.end(),
                      [](const HeldForces &item)
                      { return item.left != item.left_at_end; }))
@@ -140,21 +147,20 @@ namespace quoin
     return 2. * model.nodes().diagonal() / slowest * std::sqrt(1. + added_mass);
   }
 
-  void ExplicitSolver::begin_stage(const StageParameters &new_stage,
-                                   const StageParameters *previous,
-                                   State<2> &state)
+  template <int dim>
+  void ExplicitSolver<dim>::begin_stage(const StageParameters &new_stage,
+                                        const StageParameters *previous,
+                                        State<dim> &state)
   {
-    activate(new_stage, state);
+    this->activate(new_stage, state);
     scale_masses(stage, state);
-    release = Release(state, stage, release_duration(state));
+    release = Release<dim>(state, stage, release_duration(state));
     prepare(state);
     collect_operators(previous);
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
-      {
         constraint->rest(state);
-      }
-    for (MotionConstraint<2> *constraint : constraints_on)
+    for (MotionConstraint<dim> *constraint : constraints_on)
       constraint->begin_stage(state,
                               previous && acts_in(*constraint, *previous));
     collect_constrained_nodes(state);
@@ -167,17 +173,33 @@ namespace quoin
     state.unbalanced_ratio = 1.;
   }
 
-  void ExplicitSolver::resume_stage(const StageParameters &resumed,
-                                    State<2> &state)
+  template <int dim>
+  void ExplicitSolver<dim>::resume_stage(const StageParameters &resumed,
+                                         State<dim> &state)
   {
-    activate(resumed, state);
+    this->activate(resumed, state);
     collect_operators(nullptr);
-    const State<2> saved = state;
+    const State<dim> saved = state;
     scale_masses(stage, state);
-    release = Release(state, stage, release_duration(state));
-    for (MotionConstraint<2> *constraint : constraints_on)
+    release = Release<dim>(state, stage, release_duration(state));
+    for (MotionConstraint<dim> *constraint : constraints_on)
       constraint->resume_stage(state);
     state = saved;
     collect_constrained_nodes(state);
   }
+
+  template void ExplicitSolver<2>::scale_masses(const StageParameters &,
+                                                State<2> &);
+  template void ExplicitSolver<2>::begin_stage(const StageParameters &,
+                                               const StageParameters *,
+                                               State<2> &);
+  template void ExplicitSolver<2>::resume_stage(const StageParameters &,
+                                                State<2> &);
+  template void ExplicitSolver<3>::scale_masses(const StageParameters &,
+                                                State<3> &);
+  template void ExplicitSolver<3>::begin_stage(const StageParameters &,
+                                               const StageParameters *,
+                                               State<3> &);
+  template void ExplicitSolver<3>::resume_stage(const StageParameters &,
+                                                State<3> &);
 } // namespace quoin

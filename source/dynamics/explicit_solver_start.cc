@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What ExplicitSolver does before the first stage, beside its constructor.
+// ExplicitSolver before the first stage.
 
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
@@ -10,7 +10,8 @@
 
 namespace quoin
 {
-  void ExplicitSolver::account_for_initial_motion(State<2> &state) const
+  template <>
+  void ExplicitSolver<2>::account_for_initial_motion(State<2> &state) const
   {
     unsigned int moved = NodeMap<2>::none;
     for (unsigned int i = model.n_deformable_nodes();
@@ -29,7 +30,7 @@ namespace quoin
       throw InputError(message.str());
     }
 
-    // Joints and cells that yield follow the positions in the first step.
+    // Internal variables of joints and cells are updated in the first step.
     State<2> moving = state, rest = model.initial_state();
     AlignedArray<NodeVector<2>> unused(state.nodes.size(),
                                        NodeVector<2>{ { 0., 0. } });

@@ -12,8 +12,8 @@ namespace quoin
 {
   namespace
   {
-    constexpr double step = 1.25; // of factors, until there is a bracket
-    constexpr double least_tolerance = 1e-6; // by the highest factor
+    constexpr double step = 1.25; // ratio of factors until there is a bracket
+    constexpr double least_tolerance = 1e-6; // ratio to the highest factor
   }
 
   void SafetyParameters::enter(ParameterEntries &entries)

@@ -2,62 +2,88 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/number_text.h>
+#include <quoin/base/point_text.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/free_bodies.h>
 
-#include <deal.II/base/symmetric_tensor.h>
+#include <quoin/base/eigen_core.h>
+
+#include <Eigen/Eigenvalues>
 
 #include <boost/pending/disjoint_sets.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 namespace quoin
 {
   namespace
   {
-    using Gram = dealii::SymmetricTensor<2, 3>;
+    /** Rigid body modes: translations, and rotations times the size. */
+    template <int dim>
+    constexpr int n_motions = dim == 2 ? 3 : 6;
+    template <int dim>
+    using Motion = Eigen::Matrix<double, n_motions<dim>, 1>;
+    template <int dim>
+    using Gram = Eigen::Matrix<double, n_motions<dim>, n_motions<dim>>;
 
-    /** Below this share of the largest a motion counts as not held. */
+    /** Eigenvalue by the largest one below which a mode counts as free. */
     constexpr double not_held = 1e-8;
 
-    /** Below this share of all forces a resultant is rounding. */
+    /** Resultant by the sum of all forces below which it is rounding. */
     constexpr double least_push = 1e-6;
 
-    /** Adds the square of one held freedom's row on the rigid motions. */
-    void add_row(Gram &gram, const double x, const double y, const double turn)
+    /** Component @p d of the displacement by each rigid body mode, at the arm
+        @p r divided by the size. */
+    template <int dim>
+    Motion<dim> row(const unsigned int d, const dealii::Tensor<1, dim> &r)
     {
-      const double row[3] = { x, y, turn };
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = i; j < 3; ++j)
-          gram[i][j] += row[i] * row[j];
+      Motion<dim> result = Motion<dim>::Zero();
+      result[d]          = 1.;
+      if constexpr (dim == 2)
+        result[2] = d == 0 ? -r[1] : r[0];
+      else
+      {
+        // (omega x r) e_d = omega (r x e_d)
+        const unsigned int e = (d + 1) % 3, f = (d + 2) % 3;
+        result[3 + e] = r[f];
+        result[3 + f] = -r[e];
+      }
+      return result;
+    }
+
+    /** Contribution of a restrained component to a Gram matrix. */
+    template <int dim>
+    Gram<dim> square(const Motion<dim> &row)
+    {
+      return row * row.transpose();
     }
 
     /**
-     * Blocks that joints and platens make one body, and what holds each body:
-     * the sum of the squared rows x, y, size * rotation.
+     * Blocks that joints and platens make one body, and the Gram matrix of the
+     * restrained components of each body.
      */
+    template <int dim>
     class Bodies
     {
     public:
-      /** @p with_drag: whether dashpots and the like hold. Collective. */
-      Bodies(const Model &model,
-             const std::vector<MotionConstraint<2> *> &constraints,
-             const State<2> &state, bool with_drag);
+      /** @p with_drag: whether dashpots count as restraints. Collective. */
+      Bodies(const Model<dim> &model,
+             const std::vector<MotionConstraint<dim> *> &constraints,
+             const State<dim> &state, bool with_drag);
 
       /** The block that stands for the body of @p block. */
       unsigned int body(const unsigned int block)
       {
         return sets.find_set(block);
       }
-      const Gram &gram(const unsigned int block)
+      const Gram<dim> &gram(const unsigned int block)
       {
         return grams[body(block)];
       }
-      /** From the point that rotations are about, by the model's size. */
-      dealii::Tensor<1, 2> arm(const dealii::Point<2> &p) const
+      /** Arm from the centre of rotation, divided by the model's size. */
+      dealii::Tensor<1, dim> arm(const dealii::Point<dim> &p) const
       {
         return (p - origin) / size;
       }
@@ -68,46 +94,47 @@ namespace quoin
       }
 
     private:
-      std::array<bool, 3> held_by(const MotionConstraint<2> &constraint,
+      std::array<bool, 3> held_by(const MotionConstraint<dim> &constraint,
                                   bool with_drag) const;
-      void add_nodes(const MotionConstraint<2> &constraint,
+      void add_nodes(const MotionConstraint<dim> &constraint,
                      const std::array<bool, 3> &holds);
-      /** All blocks of a platen are one body, its rows go to the first. */
-      void add_platen(const MotionConstraint<2> &constraint,
+      /** All blocks of a platen are one body; its rows go to the first. */
+      void add_platen(const MotionConstraint<dim> &constraint,
                       const std::array<bool, 3> &holds);
-      void add_joints(const State<2> &state);
-      void add(const unsigned int block, const Gram &gram)
+      void add_joints(const State<dim> &state);
+      void add(const unsigned int block, const Motion<dim> &row)
       {
-        for (unsigned int k = 0; k < 6; ++k)
-          entries[6 * block + k]
-              += gram[Gram::unrolled_to_component_indices(k)];
+        Eigen::Map<Gram<dim>>(&entries[n_entries * block]) += square<dim>(row);
       }
 
-      const NodeMap<2> &nodes;
+      static constexpr unsigned int n_entries = n_motions<dim> * n_motions<dim>;
+
+      const NodeMap<dim> &nodes;
       const unsigned int n;
-      const dealii::Point<2> origin;
+      const dealii::Point<dim> origin;
       const double size;
       std::vector<double> entries;
       std::vector<unsigned int> rank, parent;
       boost::disjoint_sets<unsigned int *, unsigned int *> sets;
-      std::vector<Gram> grams;
+      std::vector<Gram<dim>> grams;
     };
 
-    Bodies::Bodies(const Model &model,
-                   const std::vector<MotionConstraint<2> *> &constraints,
-                   const State<2> &state, const bool with_drag)
+    template <int dim>
+    Bodies<dim>::Bodies(const Model<dim> &model,
+                        const std::vector<MotionConstraint<dim> *> &constraints,
+                        const State<dim> &state, const bool with_drag)
       : nodes(model.nodes()), n(nodes.table().n_blocks()),
         origin(nodes.table().box[0]), size(nodes.diagonal()),
-        entries(6 * n, 0.), rank(n), parent(n),
-        sets(rank.data(), parent.data()), grams(n)
+        entries(n_entries * n, 0.), rank(n), parent(n),
+        sets(rank.data(), parent.data()), grams(n, Gram<dim>::Zero())
     {
       for (unsigned int b = 0; b < n; ++b)
         sets.make_set(b);
-      for (const MotionConstraint<2> *constraint : constraints)
+      for (const MotionConstraint<dim> *constraint : constraints)
       {
         const auto holds = held_by(*constraint, with_drag);
-        // A platen that may turn holds its centre alone, which lies within
-        // its nodes; a single row each is what it prescribes.
+        // A platen free to rotate restrains its centre alone, which lies within
+        // its nodes, with one row for each prescribed component.
         if (!constraint->is_rigid_body() || holds[2])
           add_nodes(*constraint, holds);
         if (constraint->is_rigid_body())
@@ -116,40 +143,39 @@ namespace quoin
       dealii::Utilities::MPI::sum(entries, nodes.communicator(), entries);
       add_joints(state);
       for (unsigned int b = 0; b < n; ++b)
-        for (unsigned int k = 0; k < 6; ++k)
-          grams[body(b)][Gram::unrolled_to_component_indices(k)]
-              += entries[6 * b + k];
+        grams[body(b)] += Eigen::Map<Gram<dim>>(&entries[n_entries * b]);
     }
 
-    std::array<bool, 3> Bodies::held_by(const MotionConstraint<2> &constraint,
-                                        const bool with_drag) const
+    template <int dim>
+    std::array<bool, 3>
+    Bodies<dim>::held_by(const MotionConstraint<dim> &constraint,
+                         const bool with_drag) const
     {
       const bool drags
           = with_drag && constraint.kind() == MotionKind::absorbing;
       if (constraint.supports() || drags)
-        return { { true, true, false } };
+        return { { true, true, dim == 3 } };
       return constraint.holds();
     }
 
-    void Bodies::add_nodes(const MotionConstraint<2> &constraint,
-                           const std::array<bool, 3> &holds)
+    template <int dim>
+    void Bodies<dim>::add_nodes(const MotionConstraint<dim> &constraint,
+                                const std::array<bool, 3> &holds)
     {
       for (const unsigned int node : constraint.nodes())
       {
-        const auto r = arm(nodes.point(node));
-        Gram gram;
-        if (holds[0])
-          add_row(gram, 1., 0., -r[1]);
-        if (holds[1])
-          add_row(gram, 0., 1., r[0]);
-        if (holds[2])
-          add_row(gram, 0., 0., 1.);
-        add(nodes.block_of_node(node), gram);
+        const unsigned int block = nodes.block_of_node(node);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (holds[d])
+            add(block, row<dim>(d, arm(nodes.point(node))));
+        if (dim == 2 && holds[2])
+          add(block, Motion<dim>::Unit(2)); // the rotation of a platen
       }
     }
 
-    void Bodies::add_platen(const MotionConstraint<2> &constraint,
-                            const std::array<bool, 3> &holds)
+    template <int dim>
+    void Bodies<dim>::add_platen(const MotionConstraint<dim> &constraint,
+                                 const std::array<bool, 3> &holds)
     {
       std::set<unsigned int> blocks;
       for (const unsigned int node : constraint.nodes())
@@ -163,7 +189,7 @@ namespace quoin
       for (unsigned int block = 0; block < n; ++block)
         if (member[block])
           sets.union_set(block, first);
-      // The block may lie on several ranks: one of them gives the row.
+      // The block may lie on several ranks: one of them adds the row.
       namespace MPI          = dealii::Utilities::MPI;
       const MPI_Comm all     = nodes.communicator();
       const unsigned int own = MPI::this_mpi_process(all);
@@ -172,33 +198,32 @@ namespace quoin
           = MPI::min(has_first ? own : MPI::n_mpi_processes(all), all);
       if (holds[2] || own != from)
         return;
-      Gram gram;
-      const auto r = arm(nodes.point(constraint.nodes().front()));
-      if (holds[0])
-        add_row(gram, 1., 0., -r[1]);
-      if (holds[1])
-        add_row(gram, 0., 1., r[0]);
-      add(first, gram);
+      for (unsigned int d = 0; d < 2; ++d)
+        if (holds[d])
+          add(first, row<dim>(d, arm(nodes.point(constraint.nodes().front()))));
     }
 
-    void Bodies::add_joints(const State<2> &state)
+    template <int dim>
+    void Bodies<dim>::add_joints(const State<dim> &state)
     {
       for (const auto &[a, b] : nodes.table().joined)
         if (!state.is_absent(a) && !state.is_absent(b))
           sets.union_set(a, b);
     }
 
-    /** Force x, y [N] and moment over the size [N], and all forces [N]. */
+    /** Forces along the rigid body modes [N]: sums of the components, moments
+        by the size; and the sum of their absolute values. */
+    template <int dim>
     struct Push
     {
-      std::array<double, 3> resultant{};
-      double total = 0.;
+      Motion<dim> resultant = Motion<dim>::Zero();
+      double total          = 0.;
     };
 
     /** Adds the force and the moment of a platen, in equal parts at its nodes,
         to @p force and, of each body, @p sums. */
     void add_platen(const MotionConstraint<2> &platen, const TimePoint &time,
-                    const Model &model, Bodies &bodies,
+                    const Model<2> &model, Bodies<2> &bodies,
                     std::vector<NodeVector<2>> &force,
                     std::vector<double> &sums)
     {
@@ -219,113 +244,107 @@ namespace quoin
       }
     }
 
-    std::vector<Push>
-    pushes(const Model &model, Bodies &bodies,
-           const std::vector<MotionConstraint<2> *> &constraints,
-           const std::vector<const NodalLoad<2> *> &loads,
+    template <int dim>
+    std::vector<Push<dim>>
+    pushes(const Model<dim> &model, Bodies<dim> &bodies,
+           const std::vector<MotionConstraint<dim> *> &constraints,
+           const std::vector<const NodalLoad<dim> *> &loads,
            const TimePoint &time)
     {
-      const NodeMap<2> &nodes      = model.nodes();
+      const NodeMap<dim> &nodes    = model.nodes();
       const unsigned int n_blocks  = nodes.table().n_blocks();
       const NodeExchange &exchange = model.exchange();
-      std::vector<NodeVector<2>> force(exchange.n_local(),
-                                       NodeVector<2>{ { 0., 0. } });
-      for (const NodalLoad<2> *load : loads)
+      std::vector<NodeVector<dim>> force(exchange.n_local(), NodeVector<dim>{});
+      for (const NodalLoad<dim> *load : loads)
         load->add_forces(time, force.data());
-      std::vector<double> sums(4 * n_blocks, 0.);
-      for (const MotionConstraint<2> *constraint : constraints)
-        if (constraint->is_rigid_body())
-          add_platen(*constraint, time, model, bodies, force, sums);
+      constexpr unsigned int n = n_motions<dim> + 1;
+      std::vector<double> sums(n * n_blocks, 0.);
+      if constexpr (dim == 2)
+        for (const MotionConstraint<2> *constraint : constraints)
+          if (constraint->is_rigid_body())
+            add_platen(*constraint, time, model, bodies, force, sums);
       for (unsigned int i = 0; i < exchange.n_owned(); ++i)
       {
-        const auto r    = bodies.arm(nodes.point(i));
-        const double *f = force[i].v;
-        double *sum     = &sums[4 * bodies.body(nodes.block_of_node(i))];
-        sum[0] += f[0];
-        sum[1] += f[1];
-        sum[2] += r[0] * f[1] - r[1] * f[0];
-        sum[3] += std::hypot(f[0], f[1]);
+        double *sum   = &sums[n * bodies.body(nodes.block_of_node(i))];
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double f = force[i].v[d];
+          Eigen::Map<Motion<dim>>(sum)
+              += f * row<dim>(d, bodies.arm(nodes.point(i)));
+          square += f * f;
+        }
+        sum[n - 1] += std::sqrt(square);
       }
       dealii::Utilities::MPI::sum(sums, exchange.communicator(), sums);
-      std::vector<Push> result(n_blocks);
+      std::vector<Push<dim>> result(n_blocks);
       for (unsigned int b = 0; b < n_blocks; ++b)
-        result[b] = { { { sums[4 * b], sums[4 * b + 1], sums[4 * b + 2] } },
-                      sums[4 * b + 3] };
+        result[b]
+            = { Eigen::Map<Motion<dim>>(&sums[n * b]), sums[n * b + n - 1] };
       return result;
     }
 
-    /** Rigid motions that @p gram does not hold. */
-    std::vector<dealii::Tensor<1, 3>> free_motions(const Gram &gram)
+    /** Rigid body modes that @p gram does not restrain. */
+    template <int dim>
+    std::vector<Motion<dim>> free_motions(const Gram<dim> &gram)
     {
-      std::vector<dealii::Tensor<1, 3>> motions;
-      if (gram.norm() == 0.)
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          motions.emplace_back();
-          motions.back()[d] = 1.;
-        }
-        return motions;
-      }
-      const auto modes = dealii::eigenvectors(gram); // descending
-      for (const auto &[value, motion] : modes)
-        if (value <= not_held * modes[0].first)
-          motions.push_back(motion);
+      const Eigen::SelfAdjointEigenSolver<Gram<dim>> modes(gram);
+      std::vector<Motion<dim>> motions;
+      for (unsigned int i = 0; i < n_motions<dim>; ++i) // ascending
+        if (modes.eigenvalues()[i] <= not_held * modes.eigenvalues().maxCoeff())
+          motions.push_back(modes.eigenvectors().col(i));
       return motions;
     }
 
-    bool pushes_along(const Push &push, const dealii::Tensor<1, 3> &motion)
+    template <int dim>
+    bool pushes_along(const Push<dim> &push, const Motion<dim> &motion)
     {
-      double along = 0.;
-      for (unsigned int d = 0; d < 3; ++d)
-        along += push.resultant[d] * motion[d];
-      return std::abs(along) > least_push * push.total;
+      return std::abs(push.resultant.dot(motion)) > least_push * push.total;
     }
   } // namespace
 
+  template <int dim>
   void
-  check_no_free_bodies(const Model &model,
-                       const std::vector<MotionConstraint<2> *> &constraints,
-                       const std::string &stage, const State<2> &state)
+  check_no_free_bodies(const Model<dim> &model,
+                       const std::vector<MotionConstraint<dim> *> &constraints,
+                       const std::string &stage, const State<dim> &state)
   {
-    Bodies bodies(model, constraints, state, false);
+    Bodies<dim> bodies(model, constraints, state, false);
     for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
     {
-      const auto values = dealii::eigenvalues(bodies.gram(b)); // descending
-      if (state.is_absent(b) || values[2] > not_held * values[0])
+      if (state.is_absent(b) || free_motions<dim>(bodies.gram(b)).empty())
         continue;
-      const auto p = model.nodes().point_of_block(b);
-      std::ostringstream message;
-      message << "section 'Stages/" << stage << "': block " << b << " at ("
-              << p[0] << ", " << p[1]
-              << ") m and what is joined to it can move freely, so a stage "
-                 "with 'End = static ratio' would not come to rest. Hold "
-                 "it by a prescribed motion or a driven platen, or end the "
-                 "stage by 'time'.";
-      throw InputError(message.str());
+      throw InputError(text_of(
+          "section 'Stages/", stage, "': block ", b, " at ",
+          point_text(model.nodes().point_of_block(b)),
+          " m and what is joined to it can move freely, so a stage with 'End = "
+          "static ratio' would not come to rest. Hold it by a prescribed "
+          "motion or a driven platen, or end the stage by 'time'."));
     }
   }
 
-  std::vector<PushedBody>
-  find_pushed_bodies(const Model &model,
-                     const std::vector<MotionConstraint<2> *> &constraints,
-                     const std::vector<const NodalLoad<2> *> &loads,
-                     const std::vector<TimePoint> &times, const State<2> &state)
+  template <int dim>
+  std::vector<PushedBody<dim>>
+  find_pushed_bodies(const Model<dim> &model,
+                     const std::vector<MotionConstraint<dim> *> &constraints,
+                     const std::vector<const NodalLoad<dim> *> &loads,
+                     const std::vector<TimePoint> &times,
+                     const State<dim> &state)
   {
-    Bodies bodies(model, constraints, state, true);
+    Bodies<dim> bodies(model, constraints, state, true);
     std::vector<unsigned int> n_blocks(model.table().n_blocks(), 0);
-    std::vector<PushedBody> found;
-    std::vector<std::vector<dealii::Tensor<1, 3>>> motions;
+    std::vector<PushedBody<dim>> found;
+    std::vector<std::vector<Motion<dim>>> motions;
     for (unsigned int b = 0; b < n_blocks.size(); ++b)
     {
       if (state.is_absent(b) || n_blocks[bodies.body(b)]++ > 0)
         continue;
-      const auto motions_of_body = free_motions(bodies.gram(b));
+      const auto motions_of_body = free_motions<dim>(bodies.gram(b));
       if (motions_of_body.empty())
         continue;
       const auto [low, high] = model.nodes().box_of_block(b);
-      found.push_back(
-          { b, 0, low + 0.5 * (high - low), motions_of_body.size() == 3 });
+      found.push_back({ b, 0, low + 0.5 * (high - low),
+                        motions_of_body.size() == n_motions<dim> });
       motions.push_back(motions_of_body);
     }
     std::vector<bool> is_pushed(found.size(), false);
@@ -334,10 +353,10 @@ namespace quoin
       const auto push = pushes(model, bodies, constraints, loads, times[t]);
       for (unsigned int i = 0; i < found.size(); ++i)
         for (const auto &motion : motions[i])
-          if (pushes_along(push[bodies.body(found[i].block)], motion))
+          if (pushes_along<dim>(push[bodies.body(found[i].block)], motion))
             is_pushed[i] = true;
     }
-    std::vector<PushedBody> result;
+    std::vector<PushedBody<dim>> result;
     for (unsigned int i = 0; i < found.size(); ++i)
       if (is_pushed[i])
       {
@@ -347,11 +366,12 @@ namespace quoin
     return result;
   }
 
-  std::string pushed_body_text(const std::vector<PushedBody> &bodies)
+  template <int dim>
+  std::string pushed_body_text(const std::vector<PushedBody<dim>> &bodies)
   {
-    const PushedBody &first = bodies.front();
-    std::string text = text_of("block ", first.block, ", at (", first.centre[0],
-                               ", ", first.centre[1], ") m");
+    const PushedBody<dim> &first = bodies.front();
+    std::string text             = text_of("block ", first.block, ", at ",
+                                           point_text(first.centre), " m");
     if (first.n_blocks > 1)
       text += ", and the " + count_text(first.n_blocks - 1, "block")
               + " joined to it,";
@@ -365,4 +385,23 @@ namespace quoin
              "hold it by a load, or, if it lies on other blocks, take "
              "'Displacements = large' in section 'Contact'.";
   }
+
+  template void check_no_free_bodies(const Model<2> &,
+                                     const std::vector<MotionConstraint<2> *> &,
+                                     const std::string &, const State<2> &);
+  template std::vector<PushedBody<2>>
+  find_pushed_bodies(const Model<2> &,
+                     const std::vector<MotionConstraint<2> *> &,
+                     const std::vector<const NodalLoad<2> *> &,
+                     const std::vector<TimePoint> &, const State<2> &);
+  template std::string pushed_body_text(const std::vector<PushedBody<2>> &);
+  template void check_no_free_bodies(const Model<3> &,
+                                     const std::vector<MotionConstraint<3> *> &,
+                                     const std::string &, const State<3> &);
+  template std::vector<PushedBody<3>>
+  find_pushed_bodies(const Model<3> &,
+                     const std::vector<MotionConstraint<3> *> &,
+                     const std::vector<const NodalLoad<3> *> &,
+                     const std::vector<TimePoint> &, const State<3> &);
+  template std::string pushed_body_text(const std::vector<PushedBody<3>> &);
 } // namespace quoin

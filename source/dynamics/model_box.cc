@@ -25,7 +25,7 @@ namespace quoin
       return out.str();
     }
 
-    /** The largest of all ranks, entry by entry. */
+    /** Maximum over all ranks, entry by entry. */
     void reduce(std::vector<std::uint8_t> &flags, const MPI_Comm communicator)
     {
       MPI_Allreduce(MPI_IN_PLACE, flags.data(), flags.size(), MPI_UINT8_T,
@@ -33,11 +33,9 @@ namespace quoin
     }
   } // namespace
 
-  ModelBox::ModelBox(const Model &model)
+  ModelBox::ModelBox(const Model<2> &model)
     : model(model), parameters(model.contact_parameters())
   {
-    if (!is_given())
-      return;
     const NodeMap<2> &nodes = model.nodes();
     std::vector<std::uint8_t> is_in(model.table().n_blocks(), 0);
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
@@ -59,19 +57,6 @@ namespace quoin
     }
   }
 
-  bool ModelBox::is_outside(const unsigned int block,
-                            const State<2> &state) const
-  {
-    const NodeRange range = model.block_nodes(block);
-    return std::none_of(
-        &state.nodes[range.begin], &state.nodes[range.begin] + range.size(),
-        [&](const NodeRecord<2> &node)
-        {
-          return is_inside(parameters.box, node.X[0] + node.u[0],
-                           node.X[1] + node.u[1]);
-        });
-  }
-
   std::vector<BlockOutside> ModelBox::look(State<2> &state,
                                            const std::vector<bool> &moved) const
   {
@@ -82,21 +67,27 @@ namespace quoin
     auto &marks                 = state.block_marks;
     marks.resize(n, 0);
 
-    // Blocks that are reported may be free to go only later.
-    std::vector<std::uint8_t> outside(n, 0), stays(n, 0);
-    bool is_news      = false;
-    const auto &parts = model.nodes().block_parts();
-    for (unsigned int i = 0; i < parts.size(); ++i)
+    // A block may lie on several ranks. A block that is only reported may be
+    // removed later.
+    std::vector<std::uint8_t> inside(n, 0), held(n, 0), outside(n), stays(n);
+    const NodeMap<2> &nodes = model.nodes();
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      if (const NodeRecord<2> &node = state.nodes[i]; is_inside(
+              parameters.box, node.X[0] + node.u[0], node.X[1] + node.u[1]))
+        inside[nodes.block_of_node(i)] = 1;
+    for (unsigned int i = 0; i < nodes.block_parts().size(); ++i)
+      held[nodes.block_parts()[i].number] = moved[i];
+    reduce(inside, communicator);
+    reduce(held, communicator);
+    bool is_news = false;
+    for (unsigned int b = 0; b < n; ++b)
     {
-      const unsigned int b = parts[i].number;
-      outside[b]           = !state.is_absent(b) && is_outside(b, state);
-      stays[b]             = !outside[b] || !removes || moved[i];
+      outside[b] = !state.is_absent(b) && !inside[b];
+      stays[b]   = !outside[b] || !removes || held[b];
       is_news |= outside[b] && (marks[b] == 0 || !stays[b]);
     }
-    if (dealii::Utilities::MPI::max(is_news ? 1U : 0U, communicator) == 0)
+    if (!is_news)
       return {};
-    reduce(outside, communicator);
-    reduce(stays, communicator);
     if (removes)
       spread_along_joints(stays, state);
 
@@ -154,18 +145,17 @@ namespace quoin
   void ModelBox::find_positions(std::vector<BlockOutside> &found,
                                 const State<2> &state) const
   {
-    std::vector<double> sums(2 * found.size(), 0.);
+    std::vector<double> sums(3 * found.size(), 0.);
     for (unsigned int k = 0; k < found.size(); ++k)
-    {
-      const NodeRange range = model.block_nodes(found[k].block);
-      for (std::size_t i = range.begin; i < range.end; ++i)
+      for (const unsigned int i : model.owned_nodes(found[k].block))
+      {
         for (unsigned int d = 0; d < 2; ++d)
-          sums[2 * k + d]
-              += (state.nodes[i].X[d] + state.nodes[i].u[d]) / range.size();
-    }
-    MPI_Allreduce(MPI_IN_PLACE, sums.data(), sums.size(), MPI_DOUBLE, MPI_SUM,
-                  model.exchange().communicator());
+          sums[3 * k + d] += state.nodes[i].X[d] + state.nodes[i].u[d];
+        ++sums[3 * k + 2];
+      }
+    dealii::Utilities::MPI::sum(sums, model.exchange().communicator(), sums);
     for (unsigned int k = 0; k < found.size(); ++k)
-      found[k].position = { { sums[2 * k], sums[2 * k + 1] } };
+      for (unsigned int d = 0; d < 2; ++d)
+        found[k].position[d] = sums[3 * k + d] / sums[3 * k + 2];
   }
 } // namespace quoin

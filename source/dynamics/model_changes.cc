@@ -1,89 +1,73 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// How a Model changes between stages.
+// How a Model<2> changes between stages.
 
-#include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
 #include <quoin/dynamics/model.h>
 
 #include <algorithm>
 
 namespace quoin
 {
-  std::vector<bool> Model::find_groups(const std::vector<std::string> &names,
-                                       const std::string &where) const
+  template <>
+  void Model<2>::bring_to_rest(const std::vector<unsigned int> &blocks,
+                               State<2> &state) const
   {
-    std::vector<bool> result(table().group_names.size(), false);
-    for (const std::string &name : names)
+    // A deformable block may lie on several ranks, and so may its nodes.
+    std::vector<double> sums(3 * blocks.size(), 0.);
+    for (unsigned int k = 0; k < blocks.size(); ++k)
+      for (const unsigned int i : owned_nodes(blocks[k]))
+      {
+        state.velocity[i] = NodeVector<2>{ { 0., 0. } };
+        for (unsigned int d = 0; d < 2; ++d)
+          sums[3 * k + d] += state.nodes[i].u[d];
+        ++sums[3 * k + 2];
+      }
+    dealii::Utilities::MPI::sum(sums, node_map.communicator(), sums);
+    for (unsigned int k = 0; k < blocks.size(); ++k)
     {
-      const auto found = std::find(table().group_names.begin(),
-                                   table().group_names.end(), name);
-      if (found == table().group_names.end())
-        throw InputError(where + ": the mesh has no physical surface '" + name
-                         + "'. It has: " + known_names(table().group_names)
-                         + ". Name one of these.");
-      result[found - table().group_names.begin()] = true;
+      const unsigned int block = blocks[k];
+      if (table().is_rigid[block])
+      {
+        if (block_nodes(block).size() > 0)
+          std::fill_n(
+              state.get<RigidBlockStates>()[rigid_number(block)].velocity, 3,
+              0.);
+        continue;
+      }
+      for (const unsigned int i : owned_nodes(block))
+        for (unsigned int d = 0; d < 2; ++d)
+          state.nodes[i].u[d] = sums[3 * k + d] / sums[3 * k + 2];
+      forget_yielding(block, state.get<PlasticHistory>());
     }
-    return result;
   }
 
-  std::vector<bool> Model::absent_nodes(const State<2> &state) const
+  template <>
+  void Model<2>::place(const std::vector<unsigned int> &blocks,
+                       State<2> &state) const
   {
-    std::vector<bool> result(node_map.n_local(), false);
-    if (!state.block_marks.empty())
-      for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] = state.is_absent(node_map.block_of_node(i));
-    return result;
-  }
-
-  std::vector<bool> Model::groups_present_at_start() const
-  {
-    std::vector<bool> present = absent_group;
-    present.flip();
-    return present;
-  }
-
-  void Model::bring_to_rest(const unsigned int block, State<2> &state) const
-  {
-    const NodeRange range = block_nodes(block);
-    for (std::size_t i = range.begin; i < range.end; ++i)
-      state.velocity[i] = NodeVector<2>{ { 0., 0. } };
-    if (table().is_rigid[block])
+    bring_to_rest(blocks, state);
+    for (const unsigned int block : blocks)
     {
-      if (range.size() > 0)
-        std::fill_n(state.get<RigidBlockStates>()[rigid_number(block)].velocity,
-                    3, 0.);
-      return;
+      const auto nodes = owned_nodes(block);
+      for (const unsigned int i : nodes)
+        std::fill_n(state.nodes[i].u, 2, 0.);
+      if (table().is_rigid[block] && !nodes.empty())
+        state.get<RigidBlockStates>()[rigid_number(block)] = RigidBlockState();
     }
-    double mean[2]{};
-    for (std::size_t i = range.begin; i < range.end; ++i)
-      for (unsigned int d = 0; d < 2; ++d)
-        mean[d] += state.nodes[i].u[d] / range.size();
-    for (std::size_t i = range.begin; i < range.end; ++i)
-      std::copy(mean, mean + 2, state.nodes[i].u);
-    forget_yielding(block, state.get<PlasticHistory>());
   }
 
-  void Model::place(const unsigned int block, State<2> &state) const
-  {
-    bring_to_rest(block, state);
-    const NodeRange range = block_nodes(block);
-    for (std::size_t i = range.begin; i < range.end; ++i)
-      std::fill_n(state.nodes[i].u, 2, 0.);
-    if (table().is_rigid[block] && range.size() > 0)
-      state.get<RigidBlockStates>()[rigid_number(block)] = RigidBlockState();
-  }
-
-  bool Model::is_at_absent_block(const unsigned int segment,
-                                 const State<2> &state) const
+  template <>
+  bool Model<2>::is_at_absent_block(const unsigned int segment,
+                                    const State<2> &state) const
   {
     const JointNodes<2> &face
         = node_map.joint_faces()[matched_joints.segment(segment).face];
     return state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]);
   }
 
-  AlignedArray<double> Model::packed_initial_stress() const
+  template <>
+  AlignedArray<double> Model<2>::packed_initial_stress() const
   {
     AlignedArray<double> result;
     for (unsigned int c = 0; c < n_deformable_cells() && !cell_stress.empty();
@@ -93,8 +77,9 @@ namespace quoin
     return result;
   }
 
-  void Model::set_properties(const ModelProperties &properties,
-                             const ConstructionState &construction)
+  template <>
+  void Model<2>::set_properties(const ModelProperties &properties,
+                                const ConstructionState &construction)
   {
     now = properties;
     find_masses();
@@ -104,8 +89,9 @@ namespace quoin
       find_stable_step();
   }
 
-  void Model::forget_initial_stress(const std::vector<bool> &groups,
-                                    ConstructionState &construction)
+  template <>
+  void Model<2>::forget_initial_stress(const std::vector<bool> &groups,
+                                       ConstructionState &construction)
   {
     if (construction.initial_stress.empty())
       construction.initial_stress = packed_initial_stress();
@@ -115,8 +101,9 @@ namespace quoin
         std::fill_n(&stress[4 * c], 4, 0.);
   }
 
-  void Model::change_properties(const ModelProperties &properties,
-                                State<2> &state)
+  template <>
+  void Model<2>::change_properties(const ModelProperties &properties,
+                                   State<2> &state)
   {
     std::vector<PlaneStiffness> stiffness;
     std::vector<std::optional<MohrCoulomb>> laws;

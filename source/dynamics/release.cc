@@ -5,35 +5,39 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace quoin
 {
-  Release::Release(const State<2> &state, const StageParameters &stage,
-                   const double duration)
+  template <int dim>
+  Release<dim>::Release(const State<dim> &state, const StageParameters &stage,
+                        const double duration)
     : is_linear(stage.releases_linearly), ramp_duration(duration)
   {
-    const auto &held = state.get<ConstructionState>().held;
+    const auto &held = state.template get<ConstructionState>().held;
     for (const HeldForces &item : held)
       is_changing = is_changing || item.left != item.left_at_end;
-    const std::size_t n = held.empty() ? 0 : held.front().force.size() / 2;
+    const std::size_t n = held.empty() ? 0 : held.front().force.size() / dim;
     for (std::size_t i = 0; i < n; ++i)
     {
-      NodalForce sum{ static_cast<unsigned int>(i), { 0., 0. }, { 0., 0. } };
+      NodalForce sum{ static_cast<unsigned int>(i), {}, {} };
       for (const HeldForces &item : held)
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
         {
-          const double force = item.force[2 * i + d];
+          const double force = item.force[dim * i + d];
           sum.start[d] += item.left * force;
           sum.change[d] += (item.left_at_end - item.left) * force;
         }
-      if (sum.start[0] != 0. || sum.start[1] != 0. || sum.change[0] != 0.
-          || sum.change[1] != 0.)
+      const auto acts = [](const double part) { return part != 0.; };
+      if (std::any_of(sum.start, sum.start + dim, acts)
+          || std::any_of(sum.change, sum.change + dim, acts))
         forces.push_back(sum);
     }
   }
 
-  double Release::share(const double load_time) const
+  template <int dim>
+  double Release<dim>::share(const double load_time) const
   {
     if (load_time >= ramp_duration)
       return 1.;
@@ -41,23 +45,29 @@ namespace quoin
     return is_linear ? t : 0.5 * (1. - std::cos(dealii::numbers::PI * t));
   }
 
-  void Release::add_forces(const double load_time, NodeVector<2> *force) const
+  template <int dim>
+  void Release<dim>::add_forces(const double load_time,
+                                NodeVector<dim> *force) const
   {
     const double s = share(load_time);
     for (const NodalForce &item : forces)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         force[item.node].v[d] += item.start[d] + s * item.change[d];
   }
 
-  double Release::external_power(const TimePoint &time,
-                                 const NodeVector<2> *velocity) const
+  template <int dim>
+  double Release<dim>::external_power(const TimePoint &time,
+                                      const NodeVector<dim> *velocity) const
   {
     const double s = share(time.stage);
     double result  = 0.;
     for (const NodalForce &item : forces)
-      for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int d = 0; d < dim; ++d)
         result
             += (item.start[d] + s * item.change[d]) * velocity[item.node].v[d];
     return result;
   }
+
+  template class Release<2>;
+  template class Release<3>;
 } // namespace quoin

@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
+#include <quoin/base/point_text.h>
 #include <quoin/dynamics/free_bodies.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/free_field_boundary.h>
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <sstream>
 
 namespace quoin
 {
@@ -28,9 +28,11 @@ namespace quoin
                       accounts.sum(EnergyKind::dissipated) });
   }
 
-  Solver::Solver(Model &model, const std::vector<LoadParameters> &loads,
-                 std::unique_ptr<FarField> far_field,
-                 std::unique_ptr<StaticFarField> static_field)
+  template <int dim>
+  Solver<dim>::Solver(Model<dim> &model,
+                      const std::vector<LoadParameters> &loads,
+                      std::unique_ptr<FarField> far_field,
+                      std::unique_ptr<StaticFarField> static_field)
     : model(model), communicator(model.exchange().communicator())
   {
     const auto &nodes = model.nodes();
@@ -40,43 +42,55 @@ namespace quoin
       switch (load.type)
       {
       case LoadType::viscous_boundary:
-        all_constraints.push_back(std::make_unique<ViscousBoundary<2>>(
+        all_constraints.push_back(std::make_unique<ViscousBoundary<dim>>(
             load, nodes, model.impedance_beyond(load), model.thickness()));
         break;
       case LoadType::prescribed_motion:
         all_constraints.push_back(
-            std::make_unique<PrescribedMotion<2>>(load, nodes));
-        break;
-      case LoadType::platen:
-        all_constraints.push_back(std::make_unique<Platen>(load, nodes));
+            std::make_unique<PrescribedMotion<dim>>(load, nodes));
         break;
       case LoadType::traction:
       case LoadType::gravity:
         all_loads.emplace_back(load, nodes, model.mass(), model.thickness());
         break;
+      case LoadType::platen:
+        if constexpr (dim == 2)
+          all_constraints.push_back(std::make_unique<Platen>(load, nodes));
+        break;
       case LoadType::boundary_elements:
-        far = far_field.get();
-        if (far_field)
-          all_constraints.push_back(std::move(far_field));
-        static_far = static_field.get();
-        if (static_field)
-          all_constraints.push_back(std::move(static_field));
+        if constexpr (dim == 2)
+          add_far_fields(std::move(far_field), std::move(static_field));
         break;
       case LoadType::initial_stress:
       case LoadType::free_field:
         break;
       }
     }
-    make_free_fields(loads);
+    if constexpr (dim == 2)
+      make_free_fields(loads);
 
-    const State<2> rest = model.initial_state();
-    strain_at_start     = sum(model.blocks().strain_energy(
-            rest.nodes.data(), rest.get<PlasticHistory>()));
-    joint_at_start      = sum(model.joints().stored_energy(
-             rest.nodes.data(), rest.get<JointHistory>()));
+    const State<dim> rest = model.initial_state();
+    strain_at_start       = sum(model.blocks().strain_energy(
+              rest.nodes.data(), rest.template get<PlasticHistory>()));
+    if constexpr (dim == 2)
+      joint_at_start = sum(model.joints().stored_energy(
+          rest.nodes.data(), rest.template get<JointHistory>()));
   }
 
-  void Solver::make_free_fields(const std::vector<LoadParameters> &loads)
+  template <>
+  void Solver<2>::add_far_fields(std::unique_ptr<FarField> far_field,
+                                 std::unique_ptr<StaticFarField> static_field)
+  {
+    far = far_field.get();
+    if (far_field)
+      all_constraints.push_back(std::move(far_field));
+    static_far = static_field.get();
+    if (static_field)
+      all_constraints.push_back(std::move(static_field));
+  }
+
+  template <>
+  void Solver<2>::make_free_fields(const std::vector<LoadParameters> &loads)
   {
     for (const LoadParameters &load : loads)
     {
@@ -99,7 +113,9 @@ namespace quoin
     }
   }
 
-  void Solver::activate(const StageParameters &new_stage, const State<2> &state)
+  template <int dim>
+  void Solver<dim>::activate(const StageParameters &new_stage,
+                             const State<dim> &state)
   {
     stage = new_stage;
     for (const std::string &name : stage.loads)
@@ -138,9 +154,9 @@ namespace quoin
                      { return a->kind() < b->kind(); });
     refuse_absent_nodes(state);
     loads_on.clear();
-    for (NodalLoad<2> &load : all_loads)
+    for (NodalLoad<dim> &load : all_loads)
       load.set_mass(model.mass());
-    for (const NodalLoad<2> &load : all_loads)
+    for (const NodalLoad<dim> &load : all_loads)
       if (names_load(stage, load.name()))
         loads_on.push_back(&load);
 
@@ -149,48 +165,54 @@ namespace quoin
       check_no_free_bodies(model, constraints_on, stage.name, state);
   }
 
-  bool Solver::acts_in(const MotionConstraint<2> &constraint,
-                       const StageParameters &any) const
+  template <int dim>
+  bool Solver<dim>::acts_in(const MotionConstraint<dim> &constraint,
+                            const StageParameters &any) const
   {
-    const bool is_static = any.end == StageEnd::static_ratio;
-    return names_load(any, constraint.name())
-           && !(&constraint == far && is_static)
-           && !(&constraint == static_far && far && !is_static);
+    if constexpr (dim == 2)
+    {
+      const bool is_static = any.end == StageEnd::static_ratio;
+      if ((&constraint == far && is_static)
+          || (&constraint == static_far && far && !is_static))
+        return false;
+    }
+    return names_load(any, constraint.name());
   }
 
-  void Solver::prepare(State<2> &state) const
+  template <int dim>
+  void Solver<dim>::prepare(State<dim> &state) const
   {
     for (const auto &constraint : all_constraints)
       constraint->prepare(state);
   }
 
-  void Solver::refuse_absent_nodes(const State<2> &state) const
+  template <int dim>
+  void Solver<dim>::refuse_absent_nodes(const State<dim> &state) const
   {
     const auto absent = model.absent_nodes(state);
-    for (const MotionConstraint<2> *constraint : constraints_on)
+    for (const MotionConstraint<dim> *constraint : constraints_on)
     {
       if (constraint->kind() == MotionKind::prescribed)
         continue;
-      unsigned int first = NodeMap<2>::none;
+      unsigned int first = NodeMap<dim>::none;
       for (const unsigned int node : constraint->nodes())
         if (absent[node])
           first = std::min(first, node);
-      dealii::Point<2> p;
+      dealii::Point<dim> p;
       if (!model.nodes().first_point(first, p))
         continue;
-      std::ostringstream message;
-      message << "section 'Stages/" << stage.name << "': the load '"
-              << constraint->name() << "' moves the node at (" << p[0] << ", "
-              << p[1]
-              << ") m, but the block there is excavated or not placed yet. Of "
-                 "loads that move nodes only prescribed motions leave such "
-                 "blocks alone: take the load out of this stage, or let it end "
-                 "where the blocks do.";
-      throw InputError(message.str());
+      throw InputError(
+          "section 'Stages/" + stage.name + "': the load '" + constraint->name()
+          + "' moves the node at " + point_text(p)
+          + " m, but the block there is excavated or not placed yet. Of loads "
+            "that move nodes only prescribed motions leave such blocks alone: "
+            "take the load out of this stage, or let it end where the blocks "
+            "do.");
     }
   }
 
-  std::vector<bool> Solver::find_held_blocks() const
+  template <>
+  std::vector<bool> Solver<2>::find_held_blocks() const
   {
     constexpr unsigned int none = NodeMap<2>::none;
     const RigidBlocks &rigid    = model.rigid_blocks();
@@ -216,22 +238,21 @@ namespace quoin
       dealii::Point<2> p;
       if (!model.nodes().first_point(wrong, p))
         continue;
-      std::ostringstream message;
-      message << "section 'Stages/" << stage.name << "': the load '"
-              << constraint->name() << "' moves the node at (" << p[0] << ", "
-              << p[1]
-              << ") m by itself, but its block is rigid. Hold or drive rigid "
-                 "blocks as a whole, by a load with 'Type = platen' and their "
-                 "'Group', or make the block deformable.";
-      throw InputError(message.str());
+      throw InputError(
+          "section 'Stages/" + stage.name + "': the load '" + constraint->name()
+          + "' moves the node at " + point_text(p)
+          + " m by itself, but its block is rigid. Hold or drive rigid blocks "
+            "as a whole, by a load with 'Type = platen' and their 'Group', or "
+            "make the block deformable.");
     }
     return held;
   }
 
-  void Solver::refuse_shared_platens() const
+  template <int dim>
+  void Solver<dim>::refuse_shared_platens() const
   {
-    for (const MotionConstraint<2> *a : constraints_on)
-      for (const MotionConstraint<2> *b : constraints_on)
+    for (const MotionConstraint<dim> *a : constraints_on)
+      for (const MotionConstraint<dim> *b : constraints_on)
       {
         if (a == b || !a->is_rigid_body() || !b->is_rigid_body())
           continue;
@@ -239,56 +260,65 @@ namespace quoin
         std::set_intersection(a->nodes().begin(), a->nodes().end(),
                               b->nodes().begin(), b->nodes().end(),
                               std::back_inserter(shared));
-        dealii::Point<2> p;
+        dealii::Point<dim> p;
         if (!model.nodes().first_point(
-                shared.empty() ? NodeMap<2>::none : shared.front(), p))
+                shared.empty() ? NodeMap<dim>::none : shared.front(), p))
           continue;
-        std::ostringstream message;
-        message << "section 'Stages/" << stage.name << "': the platens '"
-                << a->name() << "' and '" << b->name()
-                << "' share the node at (" << p[0] << ", " << p[1]
-                << ") m. A node can belong to one rigid platen: use one of "
-                   "them, or leave a gap.";
-        throw InputError(message.str());
+        throw InputError("section 'Stages/" + stage.name + "': the platens '"
+                         + a->name() + "' and '" + b->name()
+                         + "' share the node at " + point_text(p)
+                         + " m. A node can belong to one rigid platen: use one "
+                           "of them, or leave a gap.");
       }
   }
 
-  bool Solver::far_field_acts() const
+  template <int dim>
+  bool Solver<dim>::far_field_acts() const
   {
-    return far && acts_in(*far, stage);
+    if constexpr (dim == 2)
+      return far && acts_in(*far, stage);
+    return false;
   }
 
-  bool Solver::static_far_field_acts() const
+  template <int dim>
+  bool Solver<dim>::static_far_field_acts() const
   {
-    return static_far && acts_in(*static_far, stage);
+    if constexpr (dim == 2)
+      return static_far && acts_in(*static_far, stage);
+    return false;
   }
 
-  void Solver::save(State<2> &state) const
+  template <int dim>
+  void Solver<dim>::save(State<dim> &state) const
   {
     for (const auto &constraint : all_constraints)
       constraint->save(state);
   }
 
-  void Solver::discard_saved(State<2> &state) const
+  template <int dim>
+  void Solver<dim>::discard_saved(State<dim> &state) const
   {
     if (far)
-      state.get<FarFieldState>().history.clear();
+      state.template get<FarFieldState>().history = {};
   }
 
-  void Solver::check_start(const State<2> &state) const
+  template <int dim>
+  void Solver<dim>::check_start(const State<dim> &state) const
   {
-    for (const MotionConstraint<2> *constraint : constraints_on)
+    for (const MotionConstraint<dim> *constraint : constraints_on)
       constraint->check_start({ 0., state.time });
   }
 
+  template <int dim>
   std::vector<std::array<double, 4>>
-  Solver::load_values(const double stage_start, const double load_time) const
+  Solver<dim>::load_values(const double stage_start,
+                           const double load_time) const
   {
     const TimePoint time{ load_time, stage_start + load_time };
     std::vector<std::array<double, 4>> result;
-    for (const NodalLoad<2> *load : loads_on)
+    for (const NodalLoad<dim> *load : loads_on)
       result.push_back(load->amplitude(time));
-    for (const MotionConstraint<2> *constraint : constraints_on)
+    for (const MotionConstraint<dim> *constraint : constraints_on)
     {
       const auto [x, y, rotation] = constraint->values(time);
       result.push_back({ x, y, rotation, 0. });
@@ -296,7 +326,9 @@ namespace quoin
     return result;
   }
 
-  bool Solver::loads_change(const State<2> &state, const double duration) const
+  template <int dim>
+  bool Solver<dim>::loads_change(const State<dim> &state,
+                                 const double duration) const
   {
     constexpr double earliest = 1e-9; // [s]
     const double now          = state.load_time;
@@ -312,13 +344,15 @@ namespace quoin
     return false;
   }
 
-  double Solver::sum(const double value) const
+  template <int dim>
+  double Solver<dim>::sum(const double value) const
   {
     return dealii::Utilities::MPI::sum(value, communicator);
   }
 
-  void Solver::find_energies(const State<2> &state, const double strain,
-                             const double joint, const double kinetic)
+  template <int dim>
+  void Solver<dim>::find_energies(const State<dim> &state, const double strain,
+                                  const double joint, const double kinetic)
   {
     std::vector<double> values = { kinetic, strain, joint };
     for (const EnergyAccount &account : energy_accounts)
@@ -327,19 +361,26 @@ namespace quoin
     last_energies.kinetic = values[0];
     last_energies.strain  = values[1] - strain_at_start;
     last_energies.joint   = values[2] - joint_at_start;
-    if (const auto *beyond = state.find<StaticFarFieldState>())
+    if (const auto *beyond = state.template find<StaticFarFieldState>())
       last_energies.far_field = beyond->stored;
     unsigned int i = 3;
     for (const EnergyAccount &account : energy_accounts)
       last_energies.accounts.*account.value = values[i++];
   }
 
-  std::array<double, 3> Solver::resultant(const std::string &load) const
+  template <int dim>
+  std::array<double, 3> Solver<dim>::resultant(const std::string &load) const
   {
+    const MotionConstraint<dim> *idle = nullptr; // of two with one name
+    if constexpr (dim == 2)
+    {
+      if (static_far_field_acts())
+        idle = far;
+      else
+        idle = static_far;
+    }
     for (const auto &constraint : all_constraints)
-      if (constraint->name() == load
-          && (constraint.get() != static_far || static_far_field_acts())
-          && (constraint.get() != far || !static_far_field_acts()))
+      if (constraint->name() == load && constraint.get() != idle)
       {
         auto values = constraint->resultant();
         if (!constraint->is_rigid_body())
@@ -351,4 +392,7 @@ namespace quoin
                      + "' is no prescribed motion, platen, viscous or "
                        "free-field boundary, so it has no reaction.");
   }
+
+  template class Solver<2>;
+  template class Solver<3>;
 } // namespace quoin

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// Whether the state of a Solver is still sound.
+// Checks of the state of a Solver.
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
+#include <quoin/base/point_text.h>
 #include <quoin/dynamics/solver.h>
 
 #include <algorithm>
@@ -13,7 +14,9 @@
 
 namespace quoin
 {
-  std::vector<PushedBody> Solver::pushed_bodies(const State<2> &state) const
+  template <int dim>
+  std::vector<PushedBody<dim>>
+  Solver<dim>::pushed_bodies(const State<dim> &state) const
   {
     constexpr unsigned int n_times = 32;
     const double duration
@@ -27,23 +30,23 @@ namespace quoin
     return find_pushed_bodies(model, constraints_on, loads_on, times, state);
   }
 
-  void Solver::check_finite(const State<2> &state) const
+  template <int dim>
+  void Solver<dim>::check_finite(const State<dim> &state) const
   {
-    unsigned int bad     = NodeMap<2>::none;
+    unsigned int bad     = NodeMap<dim>::none;
     const unsigned int n = model.exchange().n_owned();
-    for (unsigned int i = 0; i < n && bad == NodeMap<2>::none; ++i)
-      // A comparison with NaN is false.
-      if (!(std::abs(state.nodes[i].u[0]) < 1e100
-            && std::abs(state.nodes[i].u[1]) < 1e100))
-        bad = i;
-    dealii::Point<2> p;
+    for (unsigned int i = 0; i < n && bad == NodeMap<dim>::none; ++i)
+      for (const double u : state.nodes[i].u)
+        if (!(std::abs(u) < 1e100)) // a comparison with NaN is false
+          bad = i;
+    dealii::Point<dim> p;
     unsigned int block = 0;
     if (!model.nodes().first_point(bad, p, &block))
       return;
     check_loads(state, state.load_time);
     std::ostringstream message;
-    message << "the motion is no longer finite in block " << block << " at ("
-            << p[0] << ", " << p[1] << ") m, found at time " << state.time
+    message << "the motion is no longer finite in block " << block << " at "
+            << point_text(p) << " m, found at time " << state.time
             << " s, step " << state.step
             << ". The usual causes are a load that grows "
             << "without bound, a value that is not a number in a function of "
@@ -53,7 +56,9 @@ namespace quoin
     throw RunError(message.str());
   }
 
-  void Solver::check_loads(const State<2> &state, const double load_time) const
+  template <int dim>
+  void Solver<dim>::check_loads(const State<dim> &state,
+                                const double load_time) const
   {
     const TimePoint time{ load_time, state.stage_start + load_time };
     const auto check = [&](const auto &values, const std::string &name)
@@ -67,13 +72,14 @@ namespace quoin
                        + " s. Correct its function of time in section 'Loads/"
                        + name + "', or end the stage earlier.");
     };
-    for (const NodalLoad<2> *load : loads_on)
+    for (const NodalLoad<dim> *load : loads_on)
       check(load->amplitude(time), load->name());
-    for (const MotionConstraint<2> *constraint : constraints_on)
+    for (const MotionConstraint<dim> *constraint : constraints_on)
       check(constraint->values(time), constraint->name());
   }
 
-  double Solver::largest_slip_share(const State<2> &state) const
+  template <>
+  double Solver<2>::largest_slip_share(const State<2> &state) const
   {
     const NodeMap<2> &nodes     = model.nodes();
     const MatchedJoints &joints = model.joints();
@@ -90,21 +96,26 @@ namespace quoin
     return dealii::Utilities::MPI::max(largest, communicator);
   }
 
-  void Solver::check_cells(const State<2> &state) const
+  template <int dim>
+  void Solver<dim>::check_cells(const State<dim> &state) const
   {
-    const auto twice_the_area = [&](const unsigned int cell)
+    // Twice the area or six times the volume, positive in valid cells.
+    const auto size = [&](const unsigned int cell)
     {
-      const auto &[a, b, c] = model.nodes().cell(cell);
-      const auto edge       = [&](const unsigned int to, const unsigned int d)
-      {
-        return state.nodes[to].X[d] - state.nodes[a].X[d]
-               + (state.nodes[to].u[d] - state.nodes[a].u[d]);
-      };
-      return edge(b, 0) * edge(c, 1) - edge(b, 1) * edge(c, 0);
+      const auto &corners = model.nodes().cell(cell);
+      dealii::Tensor<2, dim> edges;
+      for (unsigned int k = 0; k < dim; ++k)
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          const NodeRecord<dim> &from = state.nodes[corners[0]],
+                                &to   = state.nodes[corners[k + 1]];
+          edges[k][d] = to.X[d] - from.X[d] + (to.u[d] - from.u[d]);
+        }
+      return determinant(edges);
     };
     const unsigned int n = model.n_deformable_cells();
     unsigned int bad     = 0;
-    while (bad < n && twice_the_area(bad) > 0.) // cells run anticlockwise
+    while (bad < n && size(bad) > 0.)
       ++bad;
     const unsigned int n_ranks
         = dealii::Utilities::MPI::n_mpi_processes(communicator);
@@ -116,23 +127,28 @@ namespace quoin
       return;
 
     // The rank that has the cell tells where it was and is now.
-    std::array<double, 5> at{};
+    struct
+    {
+      dealii::Point<dim> before, now;
+      unsigned int block;
+    } cell{};
     if (bad < n)
     {
-      at[4] = model.nodes().block_of_cell(bad);
+      cell.block = model.nodes().block_of_cell(bad);
       for (const unsigned int node : model.nodes().cell(bad))
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
         {
-          at[d] += state.nodes[node].X[d] / 3.;
-          at[2 + d] += (state.nodes[node].X[d] + state.nodes[node].u[d]) / 3.;
+          const auto &[X, u] = state.nodes[node];
+          cell.before[d] += X[d] / (dim + 1);
+          cell.now[d] += (X[d] + u[d]) / (dim + 1);
         }
     }
-    MPI_Bcast(at.data(), at.size(), MPI_DOUBLE, teller, communicator);
+    MPI_Bcast(&cell, sizeof(cell), MPI_BYTE, teller, communicator);
     std::ostringstream message;
-    message << "a cell of block " << at[4]
-            << " has turned inside out; it was at (" << at[0] << ", " << at[1]
-            << ") m and is now at (" << at[2] << ", " << at[3]
-            << ") m, found at time " << state.time << " s, step " << state.step
+    message << "a cell of block " << cell.block
+            << " has turned inside out; it was at " << point_text(cell.before)
+            << " m and is now at " << point_text(cell.now)
+            << " m, found at time " << state.time << " s, step " << state.step
             << ". The usual causes are a load or an impact that crushes the "
                "block (check the units of the load, "
                "'Density' and 'Young's modulus'), a cell that is thin where "
@@ -147,4 +163,15 @@ namespace quoin
             << ". The last checkpoint is kept.";
     throw ModelFailure(message.str());
   }
+
+  template std::vector<PushedBody<2>>
+  Solver<2>::pushed_bodies(const State<2> &) const;
+  template void Solver<2>::check_finite(const State<2> &) const;
+  template void Solver<2>::check_loads(const State<2> &, double) const;
+  template void Solver<2>::check_cells(const State<2> &) const;
+  template std::vector<PushedBody<3>>
+  Solver<3>::pushed_bodies(const State<3> &) const;
+  template void Solver<3>::check_finite(const State<3> &) const;
+  template void Solver<3>::check_loads(const State<3> &, double) const;
+  template void Solver<3>::check_cells(const State<3> &) const;
 } // namespace quoin

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What the stages of a run, together and with the loads, must not say.
+// Checks of the stages of a run against each other and the loads.
 
 #include <quoin/base/known_names.h>
 #include <quoin/base/named_sections.h>
@@ -17,7 +17,7 @@ namespace quoin
 {
   namespace
   {
-    /** Whether something takes the motion away that an explicit stage has. */
+    /** Whether something damps the motion of an explicit stage. */
     bool comes_to_rest(const StageParameters &stage,
                        const std::vector<LoadParameters> &loads)
     {
@@ -33,7 +33,7 @@ namespace quoin
                             });
     }
 
-    /** What one stage says that cannot have an effect. */
+    /** Refuses parameters of a stage that cannot have an effect. */
     void check_stage(const ParameterSection &section,
                      const StageParameters &stage, const bool comes_to_rest,
                      const bool has_excavated)
@@ -57,7 +57,7 @@ namespace quoin
         section.fail("Release ramp", why);
     }
 
-    /** That stages follow each other as they say. */
+    /** Checks the order and the times of stages. */
     void check_order(const ParameterSection &section,
                      const std::vector<StageParameters> &stages)
     {
@@ -65,7 +65,7 @@ namespace quoin
         ParameterSection(section, stages.front().name)
             .fail("End", "needs a stage before it that brings the model to "
                          "rest: a factor of safety begins with its state.");
-      double end = 0.; // of the stage before; NaN: known only as it runs
+      double end = 0.; // of the previous stage; NaN: known only as it runs
       for (const StageParameters &stage : stages)
       {
         const ParameterSection subsection(section, stage.name);
@@ -120,7 +120,7 @@ namespace quoin
                              "'Loads' of a stage or remove it.");
     }
 
-    /** The history of the waves must have no gap. */
+    /** Checks that the history of the waves has no gap. */
     void check_far_field(const std::string &file,
                          const std::vector<StageParameters> &stages,
                          const std::string &load)

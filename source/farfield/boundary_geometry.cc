@@ -230,7 +230,7 @@ namespace quoin
      */
     std::vector<MeshEdge>
     edges_of_curves(const BoundaryCurveParameters &parameters,
-                    const MeshData &mesh)
+                    const MeshData<2> &mesh)
     {
       double size = 0.;
       for (const auto &vertex : mesh.vertices)
@@ -254,18 +254,18 @@ namespace quoin
       for (const std::string &name : parameters.curves)
       {
         const auto found
-            = std::find(mesh.line_names.begin(), mesh.line_names.end(), name);
-        const unsigned int number = found - mesh.line_names.begin();
+            = std::find(mesh.face_names.begin(), mesh.face_names.end(), name);
+        const unsigned int number = found - mesh.face_names.begin();
         const std::size_t before  = edges.size();
-        for (std::size_t l = 0; l < mesh.lines.size(); ++l)
-          if (mesh.line_name[l] == number)
+        for (std::size_t l = 0; l < mesh.faces.size(); ++l)
+          if (mesh.face_name[l] == number)
             edges.push_back(
-                { { one_at(mesh.lines[l][0]), one_at(mesh.lines[l][1]) } });
+                { { one_at(mesh.faces[l][0]), one_at(mesh.faces[l][1]) } });
         if (edges.size() == before)
           fail(parameters.name, "'Curves' names '" + name
                                     + "', which is no physical curve of the "
                                       "mesh. These are: "
-                                    + known_names(mesh.line_names) + ".");
+                                    + known_names(mesh.face_names) + ".");
       }
       return edges;
     }
@@ -303,7 +303,8 @@ namespace quoin
 
     /** Joins the edges of named curves of a mesh end to end, in the direction
         of the first edge of the first curve. */
-    Curve chain(const BoundaryCurveParameters &parameters, const MeshData &mesh)
+    Curve chain(const BoundaryCurveParameters &parameters,
+                const MeshData<2> &mesh)
     {
       const auto edges = edges_of_curves(parameters, mesh);
       std::map<unsigned int, std::vector<std::size_t>> edges_of;
@@ -431,7 +432,7 @@ namespace quoin
     }
 
     Curve make_curve(const BoundaryCurveParameters &parameters,
-                     const double default_length, const MeshData &mesh)
+                     const double default_length, const MeshData<2> &mesh)
     {
       const double length = parameters.element_length > 0.
                                 ? parameters.element_length
@@ -597,7 +598,7 @@ namespace quoin
 
   BoundaryGeometry
   make_boundary_geometry(const BoundaryElementParameters &parameters,
-                         const MeshData &mesh)
+                         const MeshData<2> &mesh)
   {
     std::vector<Curve> curves;
     Vector2d low  = Vector2d::Constant(std::numeric_limits<double>::max());

@@ -56,7 +56,7 @@ namespace quoin
       return value(to) - value(from);
     if (component.quantity != LoadQuantity::velocity || from == to)
       return 0.;
-    // In pieces, so that short pulses are seen.
+    // The integral is taken in pieces, so that short pulses are not missed.
     constexpr unsigned int n = 16;
     double change            = 0.;
     for (unsigned int i = 0; i < n; ++i)
@@ -65,7 +65,7 @@ namespace quoin
     return change;
   }
 
-  DofMap::DofMap(const Model &model,
+  DofMap::DofMap(const Model<2> &model,
                  const std::vector<MotionConstraint<2> *> &constraints,
                  const std::vector<bool> &held, const State<2> &state)
     : model(model), communicator(model.exchange().communicator()),
@@ -77,7 +77,7 @@ namespace quoin
     add_rigid_blocks(held);
     number();
 
-    // What acts last on a node prevails.
+    // The last constraint that acts on a node prevails.
     const unsigned int n = model.exchange().n_owned();
     std::vector<std::array<const LoadComponent *, 2>> owner(
         n, { { nullptr, nullptr } });
@@ -270,7 +270,7 @@ namespace quoin
         ties[body.nodes[i]].motion = body.present_arms[i];
     model.exchange().update_ghosts(ties.data());
 
-    // Without bodies the lines stay and only inhomogeneities change.
+    // Without bodies only the inhomogeneities change.
     const bool are_new = has_bodies || affine.n_constraints() == 0;
     if (are_new)
       affine.reinit(relevant_dofs);
@@ -326,7 +326,7 @@ namespace quoin
       configuration.nodes[p.node].u[p.component]
           += given_change(*p.part, before, load_time, stage_start);
 
-    // All ranks know how platens move; the first one solves for it.
+    // All ranks have the platens; the first one solves for their motion.
     std::vector<std::array<double, 3>> changes(body_list.size(),
                                                { { 0., 0., 0. } });
     for (unsigned int b = 0; b < body_list.size(); ++b)
@@ -355,7 +355,7 @@ namespace quoin
       {
         NodeRecord<2> &node = configuration.nodes[body.nodes[i]];
         const auto [x, y]   = body.arms[i];
-        // The sum of what nearly cancels first, to keep digits.
+        // Terms that nearly cancel are summed first, to keep digits.
         node.u[0]
             = body.centre[0] + x - node.X[0] + d[0] + (c - 1.) * x - s * y;
         node.u[1]

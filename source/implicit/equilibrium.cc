@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/implicit/equilibrium.h>
+#include <quoin/operators/archive.h>
 
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
@@ -15,8 +16,8 @@ namespace quoin
     using Index = DofMap::Index;
     constexpr NodeVector<2> no_force{ { 0., 0. } };
 
-    /** Of all nodes, as a share of the model's size: forces that this needs
-        count as applied, as rounding is all there is without loads [-]. */
+    /** Displacement of all nodes by the model's size [-]: the forces for it
+        count as applied, as without loads there is only rounding. */
     constexpr double least_motion = 1e-11;
 
     double norm(const NodeVector<2> &f)
@@ -25,7 +26,7 @@ namespace quoin
     }
   } // namespace
 
-  Equilibrium::Equilibrium(const Model &model, DofMap &dof_map,
+  Equilibrium::Equilibrium(const Model<2> &model, DofMap &dof_map,
                            const std::vector<const NodalLoad<2> *> &loads,
                            const std::vector<bool> &path_sets,
                            const double stage_start,
@@ -55,17 +56,19 @@ namespace quoin
       dof_map.constraints().add_entries_local_to_global(element_dofs, pattern,
                                                         false);
     };
-    CellLinearisation cell;
-    PlasticHistory history = model.blocks().initial_history();
-    const State<2> rest    = model.initial_state();
-    double sums[3]         = { 0., 0., 0. }; // stiffness, mass, nodes
-    for (unsigned int c = 0; c < model.blocks().n_cells(); ++c)
-      if (model.blocks().linearise(c, rest.nodes.data(), history, cell))
-      {
-        add(cell.nodes.data(), cell.n_nodes);
-        for (unsigned int i = 0; i < 2 * cell.n_nodes; ++i)
-          sums[0] += 0.5 * cell.stiffness[i][i];
-      }
+    State<2> rest  = model.initial_state();
+    double sums[3] = { 0., 0., 0. }; // stiffness, mass, nodes
+    model.blocks().linearise(
+        rest, true,
+        [&](const ElementLinearisation<2> &cell)
+        {
+          add(cell.nodes, cell.n_nodes);
+          for (unsigned int i = 0; i < 2 * cell.n_nodes; ++i)
+            sums[0] += 0.5 * cell.stiffness[i * cell.row_length + i];
+        });
+    model.joints().linearise(rest, false,
+                             [&](const ElementLinearisation<2> &segment)
+                             { add(segment.nodes, segment.n_nodes); });
     for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
       sums[1] += model.mass()[i];
     sums[2] = model.n_deformable_nodes();
@@ -78,14 +81,6 @@ namespace quoin
     const double by_mass = stiffness / (sums[1] / n_nodes);
     for (const double mass : model.mass())
       drag_stiffness.push_back(by_mass * mass);
-    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
-    {
-      const auto &segment = model.joints().segment(i);
-      const std::array<unsigned int, 4> nodes
-          = { { segment.lower[0], segment.lower[1], segment.upper[0],
-                segment.upper[1] } };
-      add(nodes.data(), 4);
-    }
     if (far_field)
     {
       find_far_stiffness();
@@ -102,9 +97,9 @@ namespace quoin
   {
     auto stiffness       = far_field->nodal_stiffness(model.exchange());
     const Eigen::Index n = stiffness.nodes.size();
-    // Nothing resists a translation of all if nothing but the far field holds
-    // the model. Forces without resultant leave it where it is; so that the
-    // equations do so too, it gets a stiffness, in the derivative alone.
+    // Nothing resists a translation of the model if only the far field supports
+    // it. Forces without resultant do not cause one; a stiffness in the
+    // derivative alone makes the equations regular.
     unsigned int held[2] = { 0, 0 };
     for (const DofMap::Prescribed &given : dof_map.prescribed())
       held[given.component] = 1;
@@ -159,24 +154,51 @@ namespace quoin
     return dealii::Utilities::MPI::max(largest, communicator);
   }
 
-  template <std::size_t size>
-  void Equilibrium::add_stiffness(
-      const unsigned int *nodes, const unsigned int n,
-      const std::array<std::array<double, size>, size> &element,
-      const double share, DofMap::Vector &by_advance)
+  void Equilibrium::add_stiffness(const ElementLinearisation<2> &element,
+                                  DofMap::Vector &by_advance)
   {
-    if (element_dofs.size() != 2 * n || element_matrix.m() != 2 * n)
+    const unsigned int n = 2 * element.n_nodes;
+    if (element_dofs.size() != n || element_matrix.m() != n)
     {
-      element_dofs.resize(2 * n);
-      element_matrix.reinit(2 * n, 2 * n);
-      no_load.reinit(2 * n);
+      element_dofs.resize(n);
+      element_matrix.reinit(n, n);
+      no_load.reinit(n);
     }
-    dof_map.get_dofs(nodes, n, element_dofs);
-    for (unsigned int i = 0; i < 2 * n; ++i)
-      for (unsigned int j = 0; j < 2 * n; ++j)
-        element_matrix(i, j) = share * element[i][j];
+    dof_map.get_dofs(element.nodes, element.n_nodes, element_dofs);
+    for (unsigned int i = 0; i < n; ++i)
+      for (unsigned int j = 0; j < n; ++j)
+        element_matrix(i, j)
+            = element.share * element.stiffness[i * element.row_length + j];
     dof_map.constraints().distribute_local_to_global(
         element_matrix, no_load, element_dofs, matrix, by_advance);
+  }
+
+  void Equilibrium::add_element(const ElementLinearisation<2> &element,
+                                AlignedArray<NodeVector<2>> &force,
+                                double &path, Slopes *slopes)
+  {
+    for (unsigned int k = 0; k < element.n_nodes; ++k)
+      for (unsigned int d = 0; d < 2; ++d)
+        force[element.nodes[k]].v[d] += element.force[2 * k + d];
+    const bool is_on_path
+        = element.inelastic_gradient && path_sets[element.set];
+    if (is_on_path)
+      path += element.share * element.inelastic;
+    if (!slopes)
+      return;
+    add_stiffness(element, slopes->by_advance);
+    if (!is_on_path)
+      return;
+    std::array<double, 8> slope;
+    for (unsigned int j = 0; j < slope.size(); ++j)
+    {
+      slope[j] = element.inelastic_gradient[j] * (element.share / path_area);
+      slopes->path_by_advance
+          += slope[j]
+             * dof_map.constraints().get_inhomogeneity(element_dofs[j]);
+    }
+    dof_map.constraints().distribute_local_to_global(
+        slope.begin(), slope.end(), element_dofs.begin(), slopes->path_by_dof);
   }
 
   void Equilibrium::add_far_field(const State<2> &committed,
@@ -227,9 +249,8 @@ namespace quoin
               * (configuration.nodes[i].u[d] - committed.nodes[i].u[d]);
       if (!slopes)
         continue;
-      std::array<std::array<double, 2>, 2> element{};
-      element[0][0] = element[1][1] = stiffness;
-      add_stiffness(&i, 1, element, 1., slopes->by_advance);
+      const double element[4] = { stiffness, 0., 0., stiffness };
+      add_stiffness({ &i, 1, nullptr, element, 2 }, slopes->by_advance);
     }
   }
 
@@ -256,62 +277,31 @@ namespace quoin
                                const std::vector<std::uint8_t> &broken,
                                Balance &balance, Slopes *slopes)
   {
-    const NodeRecord<2> *nodes = configuration.nodes.data();
-    balance.lost               = EnergyAccounts();
-    balance.joints             = committed.get<JointHistory>();
-    balance.plastic            = committed.get<PlasticHistory>();
+    State<2> &trial = balance.state;
+    trial.nodes     = configuration.nodes;
+    trial.energy    = EnergyAccounts();
+    model.joints().prepare(trial);
+    model.blocks().prepare(trial);
+    trial.copy_slices(committed);
+    trial.add<BreakingJoints>().points = broken;
     balance.force.assign(model.exchange().n_local(), no_force);
     joint_force.assign(model.exchange().n_local(), no_force);
 
     double path = 0.;
-    JointLinearisation segment;
-    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
-    {
-      model.joints().linearise(i, nodes, broken, balance.joints, balance.lost,
-                               segment, slopes);
-      for (unsigned int k = 0; k < 4; ++k)
-        for (unsigned int d = 0; d < 2; ++d)
-          joint_force[segment.nodes[k]].v[d] += segment.force[2 * k + d];
-      const auto &data = model.joints().segment(i);
-      if (path_sets[data.set])
-        path += data.share * segment.inelastic;
-      if (!slopes)
-        continue;
-      add_stiffness(segment.nodes.data(), 4, segment.stiffness, data.share,
-                    slopes->by_advance);
-      if (!path_sets[data.set])
-        continue;
-      auto &slope = segment.inelastic_gradient;
-      for (unsigned int j = 0; j < 8; ++j)
-      {
-        slope[j] *= data.share / path_area;
-        slopes->path_by_advance
-            += slope[j]
-               * dof_map.constraints().get_inhomogeneity(element_dofs[j]);
-      }
-      dof_map.constraints().distribute_local_to_global(
-          slope.begin(), slope.end(), element_dofs.begin(),
-          slopes->path_by_dof);
-    }
+    model.joints().linearise(trial, slopes,
+                             [&](const ElementLinearisation<2> &segment) {
+                               add_element(segment, joint_force, path, slopes);
+                             });
     balance.path
         = path_area > 0.
               ? dealii::Utilities::MPI::sum(path, communicator) / path_area
               : 0.;
-
-    CellLinearisation cell;
-    for (unsigned int c = 0; c < model.blocks().n_cells(); ++c)
-    {
-      if (dof_map.is_absent(model.nodes().cell(c)[0])
-          || !model.blocks().linearise(c, nodes, balance.plastic, cell, slopes))
-        continue;
-      balance.lost.plastic += cell.dissipated;
-      for (unsigned int k = 0; k < cell.n_nodes; ++k)
-        for (unsigned int d = 0; d < 2; ++d)
-          balance.force[cell.nodes[k]].v[d] += cell.force[2 * k + d];
-      if (slopes)
-        add_stiffness(cell.nodes.data(), cell.n_nodes, cell.stiffness, 1.,
-                      slopes->by_advance);
-    }
+    model.blocks().linearise(trial, slopes,
+                             [&](const ElementLinearisation<2> &cell)
+                             {
+                               if (!dof_map.is_absent(cell.nodes[0]))
+                                 add_element(cell, balance.force, path, slopes);
+                             });
     model.exchange().add_to_owners(joint_force.data());
     model.exchange().add_to_owners(balance.force.data());
   }
@@ -325,7 +315,8 @@ namespace quoin
     add_external(configuration.load_time, balance.external);
 
     const double left = 1. - configuration.released;
-    const auto &held  = committed.get<ImplicitState>().held;
+    const auto &now   = committed.get<ImplicitState>();
+    const auto &held  = now.held;
     balance.drives    = dof_map.drives(configuration.load_time);
     balance.held.assign(dof_map.bodies().size(), { { 0., 0., 0. } });
     for (unsigned int i = 0; i < n_owned; ++i)
@@ -339,7 +330,7 @@ namespace quoin
     if (!held.empty())
       for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
         for (unsigned int d = 0; d < 3; ++d)
-          balance.held[b][d] = left * held[2 * n_owned + 3 * b + d];
+          balance.held[b][d] = left * dof_map.held_force(now, b, d);
     find_ratio(joint_force, balance);
   }
 
@@ -433,7 +424,8 @@ namespace quoin
     AlignedArray<NodeVector<2>> change(n_owned, no_force);
     add_external(advance.load_time, change);
     const double freed = advance.released - configuration.released;
-    const auto &held   = committed.get<ImplicitState>().held;
+    const auto &now    = committed.get<ImplicitState>();
+    const auto &held   = now.held;
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
         change[i].v[d] -= balance.external[i].v[d]
@@ -443,7 +435,7 @@ namespace quoin
       for (unsigned int d = 0; d < 3; ++d)
         drives[b][d]
             -= balance.drives[b][d]
-               + (held.empty() ? 0. : freed * held[2 * n_owned + 3 * b + d]);
+               + (held.empty() ? 0. : freed * dof_map.held_force(now, b, d));
     dof_map.add_forces(change, slopes.by_advance);
     dof_map.add_body_forces(drives, slopes.by_advance);
     slopes.by_advance.compress(dealii::VectorOperation::add);
@@ -451,8 +443,8 @@ namespace quoin
 
   void Equilibrium::fill_unused_rows()
   {
-    // Rows that are not free are those of the unit matrix, at a size that
-    // leaves the condition as it is.
+    // Rows of constrained degrees of freedom are those of the unit matrix,
+    // scaled to keep the condition number.
     const double size
         = matrix.frobenius_norm() / std::sqrt(double(dof_map.n_dofs()));
     for (const Index row : dof_map.owned())

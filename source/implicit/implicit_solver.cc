@@ -11,34 +11,34 @@ namespace quoin
 {
   namespace
   {
-    /** Of a step that failed, what is tried next. */
+    /** Factors of the step after a failure and, at most, after success. */
     constexpr double cut         = 0.3;
     constexpr double most_growth = 1.5;
-    /** Cuts of a step of the loads before the path is followed. */
+    /** Load step by the last one below which the path is followed. */
     constexpr double path_share = 0.1;
-    /** Steps of the way of a jump: drag is a typical stiffness over these. */
+    /** Pseudo-time steps of a jump: drag is a typical stiffness over these. */
     constexpr double first_drag_step = 0.1, least_drag_step = 1e-9;
     constexpr double drag_growth = 2., drag_cut = 0.2;
     constexpr unsigned int most_drag_steps = 500;
-    /** Path in a step of a jump, by the largest of a step. */
+    /** Path increment in a step of a jump, by the largest path step. */
     constexpr double most_flow = 1.;
-    /** How far loads go on with a jump, of the last step. */
+    /** Load step after a jump, by the last one. */
     constexpr double jump_share = 0.3;
     /** Steps of a jump between trials without drag. */
     constexpr unsigned int trial_interval = 4;
-    /** Steps of a jump that did not go far. */
+    /** Number of steps of a short jump. */
     constexpr unsigned int short_way = 3;
-    /** Of the model's size: a motion in a jump that is a collapse. */
+    /** Displacement in a jump, by the model's size, that is a collapse. */
     constexpr double collapse_share = 0.05;
-    /** Drag to applied force where a jump may have come to its end. */
+    /** Ratio of drag to applied force below which a jump may have ended. */
     constexpr double jump_ends = 1e-4;
-    /** Steps ahead on the path before the loads lead again. */
+    /** Steps ahead on the path before return to load control. */
     constexpr unsigned int steps_ahead = 5;
-    /** Error of the path's length that is let pass, as a share. */
+    /** Tolerated relative error of the path's length [-]. */
     constexpr double path_tolerance = 1e-3;
-    /** Of a correction, where the line search gives up. */
+    /** Share of a correction at which the line search gives up. */
     constexpr double least_search_share = 0.1;
-    /** A correction must bring this much of its share of the force down. */
+    /** Least reduction of the unbalanced force by share of a correction. */
     constexpr double least_gain = 0.1;
   } // namespace
 
@@ -79,7 +79,7 @@ namespace quoin
     {
       const double slope
           = slopes.path_by_dof * advanced + slopes.path_by_advance;
-      // Until a joint flows there is no path to measure: go on ahead.
+      // Until a joint yields there is no path to measure: loads advance.
       if (slope != 0.)
         share = (target.path - balance.path - slopes.path_by_dof * correction)
                 / slope;
@@ -109,9 +109,9 @@ namespace quoin
     if (!parameters.line_search || iteration == 0)
       return go(1.);
 
-    // Along a correction the unbalanced force falls with the slope -1 of its
-    // own size, until a joint changes its ways: halve, or go to the minimum
-    // of the parabola.
+    // Along a correction the relative unbalanced force falls with the slope -1,
+    // until a joint changes its state: halve, or go to the minimum of the
+    // parabola.
     const double base = balance.unbalanced;
     double best = std::numeric_limits<double>::infinity(), best_share = 1.;
     for (double eta = 1.; eta >= least_search_share;)
@@ -199,14 +199,16 @@ namespace quoin
     double largest = 0.;
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
       if (!broken[p])
-        largest = std::max(largest, model.joints().excess(p, balance.joints));
+        largest = std::max(largest, model.joints().excess(
+                                        p, balance.state.get<JointHistory>()));
     largest = dealii::Utilities::MPI::max(largest, communicator);
     if (largest <= 1e-9)
       return false;
-    // The worst, and what would follow at once.
+    // The most overstressed point, and those that would follow at once.
     for (unsigned int p = 0; p < model.joints().n_points(); ++p)
       if (!broken[p]
-          && model.joints().excess(p, balance.joints) >= 0.7 * largest)
+          && model.joints().excess(p, balance.state.get<JointHistory>())
+                 >= 0.7 * largest)
         broken[p] = 1;
     return true;
   }
@@ -262,13 +264,13 @@ namespace quoin
       if (outcome == Outcome::converged && target.path > 0.
           && configuration.load_time > stage_duration)
       {
-        // The stage's end is near: go there and not beyond.
+        // The end of the stage is near: load control to reach it exactly.
         state.get<ImplicitState>().follows_path = false;
         state.get<ImplicitState>().step
             = (stage_duration - state.load_time) / stage_duration;
         continue;
       }
-      // A jump is a path too, on which joints must not flow too far at once.
+      // Also in a jump joints must not yield too far in one step.
       const double flowed
           = std::abs(balance.path) / parameters.largest_path_step;
       if (outcome == Outcome::converged
@@ -297,11 +299,11 @@ namespace quoin
         && std::abs(balance.path)
                < parameters.largest_path_step * most_flow / drag_growth)
       now.drag_step *= drag_growth;
-    // Trials cost as much as steps: at once, then now and then.
+    // Trials without drag cost as much as steps: at first, then at intervals.
     if (balance.dragged > jump_ends * balance.applied
         || (now.n_drag > short_way && now.n_drag % trial_interval != 0))
       return;
-    // Near an equilibrium: is it one without drag?
+    // Near an equilibrium: test whether it is one without drag.
     equilibrium->set_drag(0.);
     Configuration configuration;
     const Target target{ now.jump_time, 1., 0. };
@@ -310,7 +312,7 @@ namespace quoin
     commit(configuration, state);
     now.jumps     = false;
     now.path_step = 0.;
-    // A short way says that no other equilibrium was sought, only the next one.
+    // After a short jump the equilibrium is the next one on the same path.
     const double next
         = now.last_step * (now.n_drag <= short_way ? most_growth : jump_share);
     now.last_step = std::clamp(next, 0.01 * parameters.first_step,
@@ -418,7 +420,7 @@ namespace quoin
       const double longer
           = std::min(growth, parameters.largest_path_step / now.path_step);
       now.path_step *= longer;
-      // Always ahead first, so that joints flow; the path then says where.
+      // Loads advance first, so that joints yield; the path then decides.
       now.step
           = std::clamp(longer * std::abs(went), 0.01 * parameters.first_step,
                        parameters.largest_step);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What ImplicitSolver does where a stage begins and where a step ends;
+// ImplicitSolver at the start of a stage and the end of a step;
 // implicit_solver.cc has its steps.
 
 #include <quoin/operators/archive.h>
@@ -19,10 +19,10 @@ namespace quoin
 {
   namespace
   {
-    /** What a static stage lasts whose loads never change [s]. */
+    /** Duration of a static stage with constant loads [s]. */
     constexpr double resting_duration = 1.;
 
-    /** A joint is named rather than the inside of a block with so much more. */
+    /** A joint is named unless a force inside a block is so much larger. */
     constexpr double joint_preference = 10.;
 
     void refuse_dynamic_loads(const std::vector<LoadParameters> &loads)
@@ -42,7 +42,7 @@ namespace quoin
     }
   } // namespace
 
-  ImplicitSolver::ImplicitSolver(Model &model,
+  ImplicitSolver::ImplicitSolver(Model<2> &model,
                                  const std::vector<LoadParameters> &loads,
                                  const ImplicitParameters &parameters,
                                  const std::vector<std::string> &joint_sets,
@@ -108,7 +108,7 @@ namespace quoin
       const double middle                      = 0.5 * (rests + moves);
       (values(middle) == last ? rests : moves) = middle;
     }
-    // What jumps where the stage begins rests from there on.
+    // Loads that jump at the start of the stage are constant from then on.
     return rests > earliest ? rests : 0.;
   }
 
@@ -223,8 +223,8 @@ namespace quoin
     now.step           = first_load_step();
     if (static_far_field_acts() && !state.get<StaticFarFieldState>().active)
     {
-      // It holds what its boundary carried until now, without loads that
-      // begin here.
+      // It holds the forces that its boundary carried until now, without loads
+      // that begin here.
       std::vector<const NodalLoad<2> *> before;
       for (const NodalLoad<2> *load : loads_on)
         if (previous && names_load(*previous, load->name()))
@@ -248,33 +248,40 @@ namespace quoin
         now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i].v[d]
                                                   : 0.);
     const auto forces = dof_map->body_forces(balance.force);
+    now.held_blocks.resize(3 * std::size_t(model.rigid_blocks().n_blocks()));
     for (unsigned int b = 0; b < forces.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
-        now.held.push_back(dof_map->bodies()[b].given[d]
-                               ? 0.
-                               : -forces[b][d] - balance.drives[b][d]);
+      {
+        const DofMap::Body &body = dof_map->bodies()[b];
+        const double held
+            = body.given[d] ? 0. : -forces[b][d] - balance.drives[b][d];
+        if (body.platen)
+          now.held_platens.push_back(held);
+        else
+          now.held_blocks[3 * body.rigid_block + d] = held;
+      }
   }
 
   void ImplicitSolver::commit(const Configuration &configuration,
                               State<2> &state)
   {
-    EnergyAccounts done = balance.lost;
+    EnergyAccounts done = balance.state.energy;
     book_work(state, configuration, done);
     state.energy += done;
     const double went = std::abs(configuration.load_time - state.load_time);
 
     dof_map->write(configuration, state);
-    state.get<JointHistory>()   = balance.joints;
-    state.get<PlasticHistory>() = balance.plastic;
+    state.copy_slices(balance.state);
     RigidBlockStage rigid;
     rigid.held = held_blocks;
     model.rigid_blocks().follow_nodes(rigid, state);
     state.unbalanced_ratio = balance.ratio();
-    if (state.get<ImplicitState>().released == 1.)
-      state.get<ImplicitState>().held.clear();
+    if (ImplicitState &now = state.get<ImplicitState>(); now.released == 1.)
+      for (auto *held : { &now.held, &now.held_platens, &now.held_blocks })
+        held->clear();
     ++state.step;
     ++state.stage_step;
-    // On the way back the run's time goes on.
+    // Time also advances while the load time decreases.
     state.time += went;
     if (state.load_time == stage_duration
         && state.get<ImplicitState>().path_length == 0. && balance.path == 0.)
@@ -293,8 +300,8 @@ namespace quoin
                                  const Configuration &configuration,
                                  EnergyAccounts &energy) const
   {
-    // The trapezoidal rule: of loads and of the reactions of what is given;
-    // what was held at the stage's start goes the way of damping.
+    // Work by the trapezoidal rule, of loads and of reactions of prescribed
+    // motions; that of released forces counts as damping.
     const auto &held    = state.get<ImplicitState>().held;
     const double left_0 = 1. - state.get<ImplicitState>().released;
     const double left_1 = 1. - configuration.released;
@@ -382,8 +389,8 @@ namespace quoin
 
   std::string ImplicitSolver::worst_place() const
   {
-    // The largest force that nothing balances, on a node or, where bodies are
-    // rigid alone, on one of these; a joint if it has nearly as much.
+    // The largest unbalanced force, on a node or, if all bodies are rigid, on a
+    // body; a joint if it has nearly as much.
     const unsigned int n_owned = model.exchange().n_owned();
     std::vector<bool> on_joint(model.exchange().n_local(), false);
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)

@@ -11,15 +11,15 @@ namespace quoin
 {
   namespace
   {
-    /** Beyond, LU factors cost more than iterations [unknowns]. */
+    /** Degrees of freedom beyond which LU factors cost more than iterations. */
     constexpr DofMap::Index largest_direct = 200000;
 
-    /** Of the residual; Newton's iterations must not see it [-]. */
+    /** Relative residual, negligible in Newton's method [-]. */
     constexpr double iterative_tolerance   = 1e-10;
     constexpr unsigned int most_iterations = 1000;
   } // namespace
 
-  LinearSolver::LinearSolver(const LinearSolverType type, const Model &model,
+  LinearSolver::LinearSolver(const LinearSolverType type, const Model<2> &model,
                              const DofMap &dof_map)
     : model(model), dof_map(dof_map),
       direct(type == LinearSolverType::direct
@@ -77,7 +77,7 @@ namespace quoin
           = stiffness.trilinos_matrix().DomainMap().LID(static_cast<int>(dof));
       (*rigid_motions)[mode][row] = value;
     };
-    // About a corner of the model, in units of its size.
+    // Rigid body modes about a corner of the model, in units of its size.
     const auto origin = model.table().box[0];
     const double size = model.nodes().diagonal();
     const auto place  = [&](const DofMap::Index first, const double x,

@@ -15,7 +15,7 @@ namespace quoin
 {
   namespace
   {
-    /** Of lengths: what is nearer is the same. */
+    /** Relative distance below which points coincide [-]. */
     constexpr double same_share = 1e-6;
 
     std::string at(const double x, const double y)
@@ -72,7 +72,7 @@ namespace quoin
   void FreeFieldBoundary::make_column(const std::vector<BoundaryFace<2>> &faces,
                                       const FreeFieldGround &ground)
   {
-    // Edges run up where the cells are on the left of the side.
+    // Edges point up where the cells are on the left of the side.
     struct Edge
     {
       double bottom, top;
@@ -134,7 +134,7 @@ namespace quoin
 
   unsigned int FreeFieldBoundary::node_at(const double height) const
   {
-    // The next one below, if not the one above is nearer.
+    // The nearer of the nodes below and above.
     const unsigned int above
         = std::lower_bound(node_height.begin(), node_height.end() - 1, height)
           - node_height.begin();
@@ -207,7 +207,7 @@ namespace quoin
 
   double FreeFieldBoundary::largest_eigenvalue() const
   {
-    // Of one layer with half of its mass at either end.
+    // omega^2 of one layer with half of its mass at either end.
     double largest = 0.;
     for (const Layer &layer : layers)
       largest = std::max(largest,
@@ -256,7 +256,7 @@ namespace quoin
                 : (given.value(step.end) - given.value(step.begin)) / step.dt;
         continue;
       }
-      // Shear is that along x, normal that along y.
+      // At the foot shear is along x, normal along y.
       const double z = base.is_prescribed ? 0. : base.impedance[d];
       const double incident
           = base.is_prescribed ? 0. : base.components[1 - d].value(step.begin);
@@ -275,7 +275,7 @@ namespace quoin
     for (unsigned int e = 0; e < layers.size(); ++e)
     {
       const Layer &layer = layers[e];
-      double strain[2]; // shear, upright
+      double strain[2]; // shear, vertical
       for (unsigned int d = 0; d < 2; ++d)
       {
         const unsigned int low = 2 * e + d, high = low + 2;

@@ -96,7 +96,7 @@ namespace quoin
                                              const double y) const
   {
     const double height = surface_height(x);
-    // Points of a level surface must not fall above it by rounding.
+    // Points of a horizontal surface must not fall above it by rounding.
     if (y > height + 1e-12 * (1. + std::abs(height)))
       return {};
     double vertical = -pressure, top = height;

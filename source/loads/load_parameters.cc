@@ -19,7 +19,7 @@ namespace quoin
 {
   namespace
   {
-    /** Words of 'Type'; an in-situ stress is an initial one by depth. */
+    /** Names of 'Type'; an in-situ stress is an initial stress by depth. */
     const std::vector<std::pair<std::string, LoadType>> type_words
         = { { "prescribed motion", LoadType::prescribed_motion },
             { "traction", LoadType::traction },
@@ -31,7 +31,7 @@ namespace quoin
             { "in-situ stress", LoadType::initial_stress },
             { "boundary elements", LoadType::boundary_elements } };
 
-    /** What a component is called, and the unit that it has as a force. */
+    /** Name of each of LoadParameters::functions() and its unit as a force. */
     struct ComponentWord
     {
       std::string name, force_unit;
@@ -43,9 +43,14 @@ namespace quoin
       case LoadType::traction:
         return { { "Horizontal", "Pa" },
                  { "Vertical", "Pa" },
+                 {},
+                 { "Lateral", "Pa" },
                  { "Pressure", "Pa" } };
       case LoadType::gravity:
-        return { { "Horizontal", "m/s^2" }, { "Vertical", "m/s^2" } };
+        return { { "Horizontal", "m/s^2" },
+                 { "Vertical", "m/s^2" },
+                 {},
+                 { "Lateral", "m/s^2" } };
       case LoadType::viscous_boundary:
         return { { "Incident normal velocity", "" },
                  { "Incident shear velocity", "" } };
@@ -53,7 +58,8 @@ namespace quoin
       case LoadType::platen:
         return { { "Horizontal", "N" },
                  { "Vertical", "N" },
-                 { "Rotation", "N m" } };
+                 { "Rotation", "N m" },
+                 { "Lateral", "N" } };
       default:
         return {};
       }
@@ -107,7 +113,7 @@ namespace quoin
                                                     : 2;
     }
 
-    /** What may stand before a function of time, and what it stands for. */
+    /** Words before a function of time and the quantities they name. */
     using Words = std::vector<std::pair<std::string, LoadQuantity>>;
 
     const Words platen_words = { { "velocity", LoadQuantity::velocity },
@@ -191,6 +197,9 @@ namespace quoin
                       { "Quantity", "velocity", { "prescribed motion" } },
                       { "Horizontal", "free", directed },
                       { "Vertical", "free", directed },
+                      { "Lateral",
+                        "free",
+                        { "prescribed motion", "traction", "gravity" } },
                       { "Rotation", "free", { "platen" } },
                       { "Pressure", "free", { "traction" } },
                       { "Incident normal velocity", "0", viscous },
@@ -208,16 +217,13 @@ namespace quoin
                       { "Out-of-plane ratio", "same", in_situ } });
     }
 
-    /** Refuses what does nothing or acts nowhere. */
+    /** Refuses a load that does nothing or acts nowhere. */
     void refuse_idle(const ParameterSection &section,
                      const LoadParameters &load)
     {
       if ((load.type == LoadType::prescribed_motion
            || load.type == LoadType::traction || load.type == LoadType::gravity)
-          && load.pressure.quantity == LoadQuantity::free
-          && std::all_of(load.components.begin(), load.components.end(),
-                         [](const LoadComponent &component)
-                         { return component.quantity == LoadQuantity::free; }))
+          && load.given_components().empty())
         section.fail("Vertical", "and 'Horizontal' are free, and nothing else "
                                  "is given: the load would do nothing. Give "
                                  "one.");
@@ -241,18 +247,48 @@ namespace quoin
     return values;
   }
 
+  template <int dim>
   void check_no_jump(const std::array<LoadComponent, 3> &components,
                      const TimePoint &time, const std::string &load)
   {
+    constexpr std::array<const char *, 3> names
+        = { "Horizontal", dim == 2 ? "Vertical" : "Lateral",
+            dim == 2 ? "Rotation" : "Vertical" };
     const auto values = component_values(components, time);
     for (unsigned int d = 0; d < 3; ++d)
       if (components[d].quantity == LoadQuantity::displacement
           && std::abs(values[d]) > 1e-14)
         throw InputError(text_of(
-            "section 'Loads/", load, "': the displacement '",
-            component_words(LoadType::platen)[d].name, "' is ", values[d],
+            "section 'Loads/", load, "': the displacement '", names[d], "' is ",
+            values[d],
             " where the stage begins. It counts from there, so it must begin "
             "at 0: let it rise from 0."));
+  }
+
+  template void check_no_jump<2>(const std::array<LoadComponent, 3> &,
+                                 const TimePoint &, const std::string &);
+  template void check_no_jump<3>(const std::array<LoadComponent, 3> &,
+                                 const TimePoint &, const std::string &);
+
+  template <>
+  LoadParameters LoadParameters::along_axes<2>() const
+  {
+    if (lateral.quantity != LoadQuantity::free)
+      throw InputError("section 'Loads/" + name
+                       + "': 'Lateral' is along the third axis, which a model "
+                         "in two dimensions does not have. Remove it, or take "
+                         "a mesh of tetrahedra.");
+    return *this;
+  }
+
+  template <>
+  LoadParameters LoadParameters::along_axes<3>() const
+  {
+    LoadParameters result = *this;
+    if (type == LoadType::prescribed_motion || type == LoadType::traction
+        || type == LoadType::gravity)
+      result.components = { components[0], lateral, components[1] };
+    return result;
   }
 
   std::array<double, 4>
@@ -290,7 +326,7 @@ namespace quoin
                      "it acts; empty: all.");
     }
 
-    /** A component that @p read makes of the section and the name. */
+    /** Enters a component that @p read makes from section and name. */
     template <typename Read>
     void enter_component(ParameterEntries &entries, const std::string &name,
                          const std::string &preset, LoadComponent &component,
@@ -335,6 +371,12 @@ namespace quoin
                     "a platen preceded by 'velocity' [m/s], 'displacement' [m] "
                     "or 'force' [N].",
               plain);
+      if (entries.reads_if(is_motion || is_force))
+        enter_component(entries, "Lateral", "free", load.lateral,
+                        "Component along y of a model in three dimensions, in "
+                        "which 'Horizontal' is along x and 'Vertical' along z; "
+                        "as those.",
+                        plain);
       if (entries.reads_if(is_platen))
         enter_component(
             entries, "Rotation", "free", load.components[2],
@@ -372,7 +414,11 @@ namespace quoin
                             : "along the boundary with the block on its left")
                   + ", as a function of time [m/s]",
               [](const ParameterSection &section, const std::string &name)
-              { return component(section, name, LoadQuantity::velocity); });
+              {
+                return section.text(name) == "0"
+                           ? LoadComponent()
+                           : component(section, name, LoadQuantity::velocity);
+              });
         entries.text("Far field material", load.far_material,
                      "Viscous boundary: material of what is beyond, which "
                      "gives the impedances; empty: that of the cells along "
@@ -438,11 +484,13 @@ namespace quoin
   LoadParameters::given_components() const
   {
     const auto words = component_words(type);
+    const std::array<const LoadComponent *, 5> parts
+        = { &components[0], &components[1], &components[2], &lateral,
+            &pressure };
     std::vector<NamedComponent> result;
     for (unsigned int d = 0; d < words.size(); ++d)
     {
-      const LoadComponent &part
-          = d == 2 && type == LoadType::traction ? pressure : components[d];
+      const LoadComponent &part = *parts[d];
       if (part.quantity == LoadQuantity::free)
         continue;
       const std::string length = words[d].name == "Rotation" ? "degrees" : "m";

@@ -106,7 +106,7 @@ namespace quoin
     }
     std::copy(platen.displacement, platen.displacement + 3, platen.stage_start);
 
-    // Centre and arms are those of the masses that act in this stage.
+    // Centre and arms follow from the masses of this stage.
     const double c = std::cos(platen.displacement[2]),
                  s = std::sin(platen.displacement[2]);
     const double centre[2]
@@ -194,7 +194,7 @@ namespace quoin
       damping[d]         = local / gain
                    - step.mass_damping * inertia[d] * 0.5
                          * (before + platen.velocity[d]);
-      // A moment counts as the force on the arm of gyration.
+      // A moment counts as a force at the radius of gyration.
       last_unbalanced += std::abs(total)
                          / (d < 2 ? 1. : std::sqrt(inertia[2] / inertia[0]));
     }
@@ -226,7 +226,7 @@ namespace quoin
       NodeRecord<2> &node           = state.nodes[before.node];
       const double arm[2]           = { c * arms[2 * i] - s * arms[2 * i + 1],
                                         s * arms[2 * i] + c * arms[2 * i + 1] };
-      // The rate from the mean arm: that from positions would lose digits.
+      // Velocity by the mean arm: differences of positions lose digits.
       const double mean[2]
           = { 0.5 * (arm[0] + c0 * arms[2 * i] - s0 * arms[2 * i + 1]),
               0.5 * (arm[1] + s0 * arms[2 * i] + c0 * arms[2 * i + 1]) };
@@ -242,7 +242,7 @@ namespace quoin
   void Platen::account(const StepContext &step,
                        const std::vector<CapturedNode<2>> &, State<2> &state)
   {
-    // Every rank knows the platen; the first one books its work.
+    // All ranks have the platen; the first one books its work.
     if (dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
       return;
     const PlatenState &platen = state.get<PlatenState>(load_name);

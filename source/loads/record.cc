@@ -30,7 +30,7 @@ namespace quoin
       return text;
     }
 
-    /** Of the file name, in capitals and without the dot. */
+    /** Extension of the file name, in capitals and without the dot. */
     std::string extension(const std::string &file)
     {
       const std::size_t dot = file.rfind('.');
@@ -46,7 +46,7 @@ namespace quoin
 
     const char *const real = "([-+]?[0-9]*\\.?[0-9]+(?:[ED][-+]?[0-9]+)?)";
 
-    /** The line that says how many values there are, and their spacing. */
+    /** Finds the number of values and their spacing in a header line. */
     bool find_size(const std::string &line, std::size_t &n, double &step)
     {
       static const std::regex named(
@@ -63,7 +63,7 @@ namespace quoin
       return true;
     }
 
-    /** In m and s, by the header or, if it is silent, the kind of file. */
+    /** Unit in m and s, by the header or else the kind of file. */
     double unit(const std::string &header, const std::string &name)
     {
       static const std::regex stated("UNITS?\\s*(?:OF|IN|:|=)\\s*\\(?([A-Z]+)");
@@ -102,8 +102,8 @@ namespace quoin
       for (unsigned int k = 0; k < 20 && !found && std::getline(file, line);
            ++k)
       {
-        // Regular expressions take stack for each character of a line that
-        // may be anything; cut off, its last number would be another.
+        // Regular expressions use stack for each character, and in a line cut
+        // off the last number would change.
         if (line.size() > 200)
           continue;
         line = upper(line);
@@ -114,7 +114,7 @@ namespace quoin
         }
         catch (const std::out_of_range &)
         {
-          break; // a step beyond all numbers
+          break; // the step is out of range
         }
       }
       if (!found || n < 2 || !(step > 0.))
@@ -149,7 +149,7 @@ namespace quoin
       return table;
     }
 
-    /** Integrals up to each sample: once and twice. */
+    /** First and second integral up to each sample. */
     struct Sums
     {
       std::vector<double> once, twice;

@@ -43,7 +43,7 @@ namespace quoin
           return 0.;
         if (place >= double(n))
           return sums->back();
-        // The cubic with these values and slopes at both ends.
+        // Cubic Hermite interpolation.
         const std::size_t k = std::size_t(place);
         const double x      = place - double(k);
         const double y      = 1. - x;

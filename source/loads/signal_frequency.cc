@@ -42,12 +42,12 @@ namespace quoin
 
   double highest_frequency(std::vector<double> samples, const double interval)
   {
-    /** By the largest sample: what is left of a line is rounding. */
+    /** Relative amplitude below which a signal is the rounding of a line. */
     constexpr double rounding = 1e-6;
     if (samples.size() < 3)
       return 0.;
     // Without the line both ends are zero: one period has one sample less. An
-    // oscillation that is cut off fades, or its end would be as broad as the
+    // oscillation that is cut off is tapered, as a jump at its end has a broad
     // spectrum.
     constexpr double fading_share = 0.25;
     const std::size_t n           = samples.size() - 1;
@@ -70,8 +70,8 @@ namespace quoin
         int(n), samples.data(),
         reinterpret_cast<fftw_complex *>(spectrum.data()), FFTW_ESTIMATE));
     fftw_execute(plan.get());
-    // The mean, which may be but what the line left, is no shaking. The last of
-    // an even number stands for one frequency, the others for two.
+    // The mean may be left by the line and does not count. The last of an even
+    // number stands for one frequency, the others for two.
     const auto energy = [&](const std::size_t k)
     { return std::norm(spectrum[k]) * (2 * k == n ? 0.5 : 1.); };
     double total = 0.;
@@ -115,7 +115,7 @@ namespace quoin
   double velocity_frequency(const FunctionOfTime &function,
                             const SignalKind kind, const double duration)
   {
-    // A power of two and one: transforms are fast.
+    // A power of two plus one, for fast transforms.
     constexpr unsigned int n = 16385;
     const double interval    = duration / (n - 1);
     auto samples             = sampled(function, duration, n);

@@ -65,8 +65,8 @@ namespace quoin
       return signal;
     }
 
-    /** Numbers after the first two words: all positive but a delay, the last.
-     */
+    /** Numbers after the first two words: all positive but the delay, which is
+        last. */
     std::vector<double> numbers(const Words &words, const std::string &usage,
                                 const std::vector<std::string> &names,
                                 const bool delay_may_lack)
@@ -138,7 +138,7 @@ namespace quoin
       return sine_cycles(positive(words[1], "RATE"), amplitudes);
     }
 
-    /** Pairs of a word and a value, each taken once. */
+    /** Options: pairs of a word and a value, each used once. */
     class Options
     {
     public:
@@ -171,7 +171,7 @@ namespace quoin
         return value.empty() ? otherwise : positive(value, name);
       }
 
-      /** One of some words, by its place among them. */
+      /** Index of the value of @p name among @p words. */
       unsigned int take_choice(const std::string &name, const Words &words)
       {
         const std::string value = take(name, words.front());
@@ -186,7 +186,7 @@ namespace quoin
                          + ": it must be one of " + all + ".");
       }
 
-      /** Complains about what has not been taken. */
+      /** Throws an InputError about unused options. */
       void finish() const
       {
         if (!values.empty())
@@ -199,7 +199,7 @@ namespace quoin
       std::string known;
     };
 
-    /** What all records have: integrals and the delay. */
+    /** Applies the options of all records: integrals and delay. */
     Signal finish_record(const Record &record, Options &options)
     {
       const unsigned int times

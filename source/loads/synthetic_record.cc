@@ -52,7 +52,7 @@ namespace quoin
       /** One step under the acceleration @p base of the base. */
       void advance(const double base)
       {
-        // Free vibration about where it would rest.
+        // Free vibration about the position of equilibrium.
         const double rest = -base / (omega * omega);
         const double y    = x - rest;
         const double rate = v + damping * omega * y;
@@ -60,7 +60,7 @@ namespace quoin
         v = c * v - s * (omega * omega * y + damping * omega * v);
       }
 
-      /** Without what the base has. */
+      /** Acceleration relative to the base. */
       double relative_acceleration(const double base) const
       {
         return -base - 2. * damping * omega * v - omega * omega * x;
@@ -106,7 +106,7 @@ namespace quoin
       throw InputError("the damping of a synthetic record must be between 0 "
                        "and 1.");
     const double n_steps = std::round(parameters.duration / parameters.step);
-    // Before it is recorded, the motion becomes stationary.
+    // The motion becomes stationary before it is recorded.
     const double warm_up = std::ceil(
         3. / (low_frequency * parameters.low_damping * parameters.step));
     if (!(parameters.duration * parameters.frequency >= 2. && n_steps < 1e7))

@@ -17,7 +17,7 @@ namespace quoin
 {
   namespace
   {
-    /** Of a symmetric matrix, stored as Dashpot::Damping, and a vector. */
+    /** Product of a symmetric matrix, as Dashpot::Damping, and a vector. */
     template <int dim>
     std::array<double, dim>
     product(const typename Dashpot<dim>::Damping &matrix, const double *v)
@@ -170,10 +170,12 @@ namespace quoin
   {
     this->load_name = parameters.name;
     if (dim == 3 && components[1].quantity != LoadQuantity::free)
-      throw InputError("section 'Loads/" + this->load_name
-                       + "': 'Shear velocity' has no direction on a surface. "
-                         "Drive waves of shear in three dimensions by a load "
-                         "with 'Type = prescribed motion'.");
+      throw InputError(
+          "section 'Loads/" + this->load_name
+          + "': 'Incident shear velocity' has no direction on a "
+            "surface. In three dimensions let an S wave come in by "
+            "a load with 'Type = traction' on the same boundary: "
+            "half of it goes into the blocks.");
     const auto faces
         = faces_of_curves(node_map, parameters.boundaries, this->load_name);
     this->node_list = nodes_of_faces(node_map, faces);
@@ -185,23 +187,23 @@ namespace quoin
   template <int dim>
   void ViscousBoundary<dim>::prepare(State<dim> &state) const
   {
-    state.template add<ViscousBoundaryState>(this->load_name);
+    state.template add<ViscousBoundaryState<dim>>(this->load_name);
   }
 
   template <int dim>
   void ViscousBoundary<dim>::begin_stage(State<dim> &state,
                                          const bool continues)
   {
-    // Before the first stage nothing has been at rest.
+    // Before the first stage there are no reactions to hold.
     if (!continues)
-      state.template get<ViscousBoundaryState>(this->load_name)
+      state.template get<ViscousBoundaryState<dim>>(this->load_name)
           = { state.step == 0, {} };
   }
 
   template <int dim>
   void
   ViscousBoundary<dim>::hold(const std::vector<CapturedNode<dim>> &captured,
-                             ViscousBoundaryState &own) const
+                             ViscousBoundaryState<dim> &own) const
   {
     own.active = true;
     for (const unsigned int c : this->captured_positions)
@@ -213,7 +215,7 @@ namespace quoin
   std::array<double, dim>
   ViscousBoundary<dim>::pull(const unsigned int i, const double vn,
                              const double vs,
-                             const ViscousBoundaryState &own) const
+                             const ViscousBoundaryState<dim> &own) const
   {
     std::array<double, dim> result = dashpots[i].pull(vn, vs);
     if (!own.held.empty())
@@ -228,10 +230,9 @@ namespace quoin
                                 const std::vector<CapturedNode<dim>> &captured,
                                 State<dim> &state)
   {
-    const double vn = components[0].value(step.begin);
-    const double vs = components[1].value(step.begin);
-    ViscousBoundaryState &own
-        = state.template get<ViscousBoundaryState>(this->load_name);
+    const auto [vn, vs, unused] = values(step.begin);
+    ViscousBoundaryState<dim> &own
+        = state.template get<ViscousBoundaryState<dim>>(this->load_name);
     if (!own.active)
       hold(captured, own);
     for (unsigned int i = 0; i < dashpots.size(); ++i)
@@ -245,10 +246,9 @@ namespace quoin
                                 const std::vector<CapturedNode<dim>> &captured,
                                 State<dim> &state)
   {
-    const double vn = components[0].value(step.begin);
-    const double vs = components[1].value(step.begin);
-    const ViscousBoundaryState &own
-        = state.template get<ViscousBoundaryState>(this->load_name);
+    const auto [vn, vs, unused] = values(step.begin);
+    const ViscousBoundaryState<dim> &own
+        = state.template get<ViscousBoundaryState<dim>>(this->load_name);
     this->last_resultant = {};
     for (unsigned int i = 0; i < dashpots.size(); ++i)
       account_for_dashpot(step, captured[this->captured_positions[i]],

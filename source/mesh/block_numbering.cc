@@ -40,7 +40,8 @@ namespace quoin
     }
 
     /** New cell i is old cell cell_order[i], and so for vertices. */
-    void permute(BlockMesh<2> &mesh,
+    template <int dim>
+    void permute(BlockMesh<dim> &mesh,
                  const std::vector<unsigned int> &cell_order,
                  const std::vector<unsigned int> &vertex_order)
     {
@@ -55,45 +56,47 @@ namespace quoin
       for (auto &cell : mesh.cells)
         for (unsigned int &v : cell)
           v = new_vertex[v];
-      for (BlockFace<2> &face : mesh.boundary_faces)
+      for (BlockFace<dim> &face : mesh.boundary_faces)
       {
         face.cell = new_cell[face.cell];
         for (unsigned int &v : face.vertices)
           v = new_vertex[v];
       }
-      for (JointFace<2> &face : mesh.joint_faces)
-        for (unsigned int k = 0; k < 2; ++k)
+      for (JointFace<dim> &face : mesh.joint_faces)
+      {
+        for (unsigned int &c : face.cells)
+          c = new_cell[c];
+        for (unsigned int k = 0; k < dim; ++k)
         {
-          face.cells[k] = new_cell[face.cells[k]];
           face.lower[k] = new_vertex[face.lower[k]];
           face.upper[k] = new_vertex[face.upper[k]];
         }
+      }
 
-      // No two faces start at the same vertex, see next_on_boundary().
       std::sort(mesh.boundary_faces.begin(), mesh.boundary_faces.end(),
-                [](const BlockFace<2> &a, const BlockFace<2> &b)
-                { return a.vertices[0] < b.vertices[0]; });
+                [](const BlockFace<dim> &a, const BlockFace<dim> &b)
+                { return a.vertices < b.vertices; });
       std::sort(mesh.joint_faces.begin(), mesh.joint_faces.end(),
-                [](const JointFace<2> &a, const JointFace<2> &b)
-                { return a.lower[0] < b.lower[0]; });
+                [](const JointFace<dim> &a, const JointFace<dim> &b)
+                { return a.lower < b.lower; });
     }
 
     /**
      * Cells by block, within a block along a Hilbert curve.
      */
+    template <int dim>
     std::vector<unsigned int>
-    order_cells(const BlockMesh<2> &mesh,
+    order_cells(const BlockMesh<dim> &mesh,
                 const std::vector<unsigned int> &block_of_cell)
     {
-      constexpr int bits   = 31;
+      constexpr int bits   = dim == 2 ? 31 : 21; // 64 hold them all
       const unsigned int n = mesh.n_cells();
-      std::vector<dealii::Point<2>> centres(n);
+      std::vector<dealii::Point<dim>> centres(n);
       for (unsigned int i = 0; i < n; ++i)
       {
-        const auto &cell = mesh.cells[i];
-        centres[i]       = (mesh.vertices[cell[0]] + mesh.vertices[cell[1]]
-                      + mesh.vertices[cell[2]])
-                     / 3.;
+        for (const unsigned int v : mesh.cells[i])
+          centres[i] += mesh.vertices[v];
+        centres[i] = centres[i] / (dim + 1.);
       }
       const auto places
           = dealii::Utilities::inverse_Hilbert_space_filling_curve(centres,
@@ -108,7 +111,7 @@ namespace quoin
       std::vector<Entry> entries(n);
       for (unsigned int i = 0; i < n; ++i)
         entries[i] = { block_of_cell[i], i,
-                       dealii::Utilities::pack_integers<2>(places[i], bits) };
+                       dealii::Utilities::pack_integers<dim>(places[i], bits) };
       std::sort(entries.begin(), entries.end(),
                 [](const Entry &a, const Entry &b)
                 {
@@ -126,23 +129,36 @@ namespace quoin
      * For a vertex on a boundary or joint face the next one counter-clockwise
      * around its block, none for others. It is unique, because a vertex is one
      * fan of cells that hang together by shared edges: at most one face leaves
-     * it and one arrives.
+     * it and one arrives. In three dimensions, where no vertex is the next one,
+     * the vertex itself.
      */
-    std::vector<unsigned int> next_on_boundary(const BlockMesh<2> &mesh)
+    template <int dim>
+    std::vector<unsigned int> next_on_boundary(const BlockMesh<dim> &mesh)
     {
       std::vector<unsigned int> next(mesh.n_vertices(), none);
-      for (const BlockFace<2> &face : mesh.boundary_faces)
-        next[face.vertices[0]] = face.vertices[1];
-      for (const JointFace<2> &face : mesh.joint_faces)
+      const auto link = [&](const std::array<unsigned int, dim> &face)
       {
-        next[face.lower[0]] = face.lower[1];
-        next[face.upper[1]] = face.upper[0];
+        if constexpr (dim == 2)
+          next[face[0]] = face[1];
+        else
+          for (const unsigned int v : face)
+            next[v] = v;
+      };
+      for (const BlockFace<dim> &face : mesh.boundary_faces)
+        link(face.vertices);
+      for (const JointFace<dim> &face : mesh.joint_faces)
+      {
+        link(face.lower);
+        auto upper = face.upper;
+        std::reverse(upper.begin(), upper.end());
+        link(upper);
       }
       return next;
     }
   } // namespace
 
-  void number_blocks(BlockMesh<2> &mesh,
+  template <int dim>
+  void number_blocks(BlockMesh<dim> &mesh,
                      const std::vector<unsigned int> &block_of_cell,
                      const unsigned int n_blocks)
   {
@@ -192,7 +208,8 @@ namespace quoin
     permute(mesh, cell_order, vertex_order);
   }
 
-  void renumber_blocks(BlockMesh<2> &mesh,
+  template <int dim>
+  void renumber_blocks(BlockMesh<dim> &mesh,
                        const std::vector<unsigned int> &new_order)
   {
     const unsigned int n_blocks = mesh.n_blocks();
@@ -234,4 +251,13 @@ namespace quoin
                           [&](const unsigned int b) { return !is_rigid[b]; });
     return order;
   }
+
+  template void number_blocks(BlockMesh<2> &, const std::vector<unsigned int> &,
+                              unsigned int);
+  template void number_blocks(BlockMesh<3> &, const std::vector<unsigned int> &,
+                              unsigned int);
+  template void renumber_blocks(BlockMesh<2> &,
+                                const std::vector<unsigned int> &);
+  template void renumber_blocks(BlockMesh<3> &,
+                                const std::vector<unsigned int> &);
 } // namespace quoin

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -22,55 +23,134 @@ namespace quoin
   {
     constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
 
+    /** Vertices of each side of a simplex: its normal, to the right of the edge
+        in two dimensions and by the right hand in three, points outwards. */
+    template <int dim>
+    constexpr std::array<std::array<unsigned int, dim>, dim + 1>
+        side_vertices{};
+    template <>
+    constexpr std::array<std::array<unsigned int, 2>, 3> side_vertices<2>{
+      { { { 0, 1 } }, { { 1, 2 } }, { { 2, 0 } } }
+    };
+    template <>
+    constexpr std::array<std::array<unsigned int, 3>, 4> side_vertices<3>{
+      { { { 0, 2, 1 } }, { { 0, 1, 3 } }, { { 1, 2, 3 } }, { { 2, 0, 3 } } }
+    };
+
+    /** How two sides with the same vertices turn. */
+    enum class Turn
+    {
+      apart, /**< they have other vertices */
+      same,
+      opposite
+    };
+
     /**
-     * Cuts one mesh. Half-edge 3 c + k of cell c runs from its corner k to the
-     * next one, counter-clockwise; corner 3 c + k has the same number.
+     * Cuts one mesh. Side (dim + 1) c + k of cell c is an edge or a face of
+     * it; see side_vertices. Its corners are numbered likewise.
      */
+    template <int dim>
     class Splitter
     {
     public:
-      Splitter(const MeshData &data, const SplitOptions &options,
-               BlockMesh<2> &mesh)
+      Splitter(const MeshData<dim> &data, const SplitOptions &options,
+               BlockMesh<dim> &mesh)
         : data(data), options(options), mesh(mesh),
-          n_half_edges(3 * data.triangles.size())
+          n_sides((dim + 1) * data.cells.size())
       {
       }
 
       void run();
 
     private:
-      unsigned int first(const unsigned int h) const
+      using Point = dealii::Point<dim>;
+
+      static unsigned int cell_of(const unsigned int s)
       {
-        return data.triangles[h / 3][h % 3];
+        return s / (dim + 1);
       }
-      unsigned int second(const unsigned int h) const
+      /** Vertex @p k of side @p s as a corner of its cell. */
+      static unsigned int corner(const unsigned int s, const unsigned int k)
       {
-        return data.triangles[h / 3][(h + 1) % 3];
+        return s - s % (dim + 1) + side_vertices<dim>[s % (dim + 1)][k];
       }
-      static unsigned int next_corner(const unsigned int h)
+      /** The same in the mesh. */
+      unsigned int vertex(const unsigned int s, const unsigned int k) const
       {
-        return h - h % 3 + (h + 1) % 3;
+        return data.cells[cell_of(s)][side_vertices<dim>[s % (dim + 1)][k]];
       }
-      dealii::Point<2> middle(const unsigned int h) const
+      const Point &point(const unsigned int s, const unsigned int k) const
       {
-        return dealii::Point<2>(
-            0.5 * (data.vertices[first(h)] + data.vertices[second(h)]));
+        return data.vertices[vertex(s, k)];
       }
+      unsigned int lowest_vertex(const unsigned int s) const
+      {
+        unsigned int v = vertex(s, 0);
+        for (unsigned int k = 1; k < dim; ++k)
+          v = std::min(v, vertex(s, k));
+        return v;
+      }
+      template <std::size_t n>
+      Point middle(const std::array<unsigned int, n> &vertices) const
+      {
+        dealii::Tensor<1, dim> sum;
+        for (const unsigned int v : vertices)
+          sum += data.vertices[v];
+        return Point(sum / double(n));
+      }
+      Point middle(const unsigned int s) const
+      {
+        return middle(vertices_of(s));
+      }
+      std::array<unsigned int, dim> vertices_of(const unsigned int s) const
+      {
+        std::array<unsigned int, dim> result;
+        for (unsigned int k = 0; k < dim; ++k)
+          result[k] = vertex(s, k);
+        return result;
+      }
+      /** Outward normal, as long as the side or twice its area. */
+      dealii::Tensor<1, dim> normal(const unsigned int s) const
+      {
+        const auto a = point(s, 1) - point(s, 0);
+        if constexpr (dim == 2)
+          return dealii::Tensor<1, 2>({ a[1], -a[0] });
+        else
+          return dealii::cross_product_3d(a, point(s, 2) - point(s, 0));
+      }
+
+      /** How sides @p s and @p t turn where @p same says which vertices are. */
+      template <typename Same>
+      Turn compare(const unsigned int s, const unsigned int t,
+                   const Same &same) const;
+      /** The vertex of @p t on which vertex @p k of its opposite @p s lies. */
+      unsigned int vertex_below(const unsigned int s, const unsigned int k,
+                                const unsigned int t) const;
 
       [[noreturn]] void fail(const std::string &what) const
       {
         throw InputError("Mesh '" + data.source + "': " + what);
       }
-      static std::string at(const dealii::Point<2> &p)
+      static std::string at(const Point &p)
       {
         std::ostringstream text;
-        text << " at (" << p[0] << ", " << p[1] << ")";
+        text << " at (" << p[0];
+        for (unsigned int d = 1; d < dim; ++d)
+          text << ", " << p[d];
+        text << ")";
         return text.str();
       }
-      std::string curve(const unsigned int name) const
+      static constexpr const char *cells_word
+          = dim == 2 ? "triangles" : "tetrahedra";
+      static constexpr const char *side_word  = dim == 2 ? "edge" : "face";
+      static constexpr const char *face_word  = dim == 2 ? "curve" : "surface";
+      static constexpr const char *group_word = dim == 2 ? "surface" : "volume";
+      /** What is named @p name. */
+      std::string named(const unsigned int name) const
       {
-        return name == 0 ? "a joint between surfaces"
-                         : "curve '" + data.line_names[name] + "'";
+        if (name == 0)
+          return std::string("a joint between ") + group_word + "s";
+        return std::string(face_word) + " '" + data.face_names[name] + "'";
       }
 
       unsigned int index_of(const std::string &name,
@@ -79,39 +159,78 @@ namespace quoin
                             const std::string &kind) const;
       void resolve_names();
       void find_neighbours();
-      void name_edges();
+      void name_sides();
       void mark_joints();
       void unite_corners();
       void check_joint_ends() const;
-      void match_outer_edges();
-      void check_curves_on_boundary() const;
+      void match_outer_sides();
+      void check_names_on_boundary() const;
       void fill_faces();
 
-      const MeshData &data;
+      const MeshData<dim> &data;
       const SplitOptions &options;
-      BlockMesh<2> &mesh;
-      const unsigned int n_half_edges;
+      BlockMesh<dim> &mesh;
+      const unsigned int n_sides;
 
-      /** By line name: does options.joints_along hold it? */
-      std::vector<bool> is_joint_curve;
+      /** By face name: does options.joints_along hold it? */
+      std::vector<bool> is_joint_name;
       /** By pair of groups: do options split there? */
       std::vector<bool> is_joint_pair;
 
-      /** Half-edges by the smaller of their vertices. */
+      /** Sides by the lowest of their vertices. */
       std::vector<unsigned int> bucket_begin, bucket;
 
-      std::vector<unsigned int> neighbour; /**< the same edge, other cell */
-      std::vector<unsigned int> name;      /**< of the curve on a half-edge */
+      std::vector<unsigned int> neighbour; /**< the same side, other cell */
+      std::vector<unsigned int> name;      /**< of the named face on a side */
       std::vector<bool> is_joint;          /**< if it has a neighbour */
       std::vector<unsigned int> partner;   /**< across a joint of any kind */
       std::vector<unsigned int> vertex_of_corner, block_of_cell;
       unsigned int n_blocks = 0;
     };
 
-    unsigned int Splitter::index_of(const std::string &wanted,
-                                    const std::vector<std::string> &names,
-                                    const std::string &parameter,
-                                    const std::string &kind) const
+    template <int dim>
+    template <typename Same>
+    Turn Splitter<dim>::compare(const unsigned int s, const unsigned int t,
+                                const Same &same) const
+    {
+      const auto a = vertices_of(s), b = vertices_of(t);
+      // Of two vertices one order is the other one turned round.
+      constexpr unsigned int n_turns = dim == 2 ? 1 : dim;
+      for (unsigned int turn = 0; turn < n_turns; ++turn)
+      {
+        bool is_same = true, is_opposite = true;
+        for (unsigned int k = 0; k < dim; ++k)
+        {
+          is_same = is_same && same(a[k], b[(turn + k) % dim]);
+          is_opposite
+              = is_opposite && same(a[k], b[(turn + dim - 1 - k) % dim]);
+        }
+        if (is_same || is_opposite)
+          return is_same ? Turn::same : Turn::opposite;
+      }
+      return Turn::apart;
+    }
+
+    template <int dim>
+    unsigned int Splitter<dim>::vertex_below(const unsigned int s,
+                                             const unsigned int k,
+                                             const unsigned int t) const
+    {
+      if constexpr (dim == 2)
+        return 1 - k;
+      unsigned int nearest = 0;
+      for (unsigned int j = 1; j < dim; ++j)
+        if (point(t, j).distance_square(point(s, k))
+            < point(t, nearest).distance_square(point(s, k)))
+          nearest = j;
+      return nearest;
+    }
+
+    template <int dim>
+    unsigned int Splitter<dim>::index_of(const std::string &wanted,
+                                         const std::vector<std::string> &names,
+                                         const std::string &parameter,
+                                         const std::string &kind) const
     {
       const auto place = std::find(names.begin(), names.end(), wanted);
       if (!wanted.empty() && place != names.end())
@@ -124,11 +243,12 @@ namespace quoin
            + ".");
     }
 
-    void Splitter::resolve_names()
+    template <int dim>
+    void Splitter<dim>::resolve_names()
     {
-      is_joint_curve.assign(data.line_names.size(), false);
+      is_joint_name.assign(data.face_names.size(), false);
       for (const std::string &n : options.joints_along)
-        is_joint_curve[index_of(n, data.line_names, "Joints along", "curve")]
+        is_joint_name[index_of(n, data.face_names, "Joints along", face_word)]
             = true;
 
       const std::size_t n_groups = data.group_names.size();
@@ -138,50 +258,50 @@ namespace quoin
       for (const auto &[a, b] : options.joints_between)
       {
         const unsigned int i
-            = index_of(a, data.group_names, "Joints between", "surface");
+            = index_of(a, data.group_names, "Joints between", group_word);
         const unsigned int j
-            = index_of(b, data.group_names, "Joints between", "surface");
+            = index_of(b, data.group_names, "Joints between", group_word);
         if (i == j)
-          fail("Mesh/Joints between pairs surface '" + a
-               + "' with itself. Name two different surfaces; for joints "
-                 "inside a surface, draw a curve and use Joints along.");
+          fail(std::string("Mesh/Joints between pairs ") + group_word + " '" + a
+               + "' with itself. Name two different " + group_word
+               + "s; for joints inside a " + group_word + ", draw a "
+               + face_word + " and use Joints along.");
         is_joint_pair[i * n_groups + j] = is_joint_pair[j * n_groups + i]
             = true;
       }
     }
 
-    void Splitter::find_neighbours()
+    template <int dim>
+    void Splitter<dim>::find_neighbours()
     {
-      // 1. Half-edges by the smaller of their vertices: counting sort.
-      const auto smaller
-          = [&](const unsigned int h) { return std::min(first(h), second(h)); };
+      // 1. Sides by the lowest of their vertices: counting sort.
       bucket_begin.assign(data.vertices.size() + 1, 0);
-      for (unsigned int h = 0; h < n_half_edges; ++h)
-        ++bucket_begin[smaller(h) + 1];
+      for (unsigned int s = 0; s < n_sides; ++s)
+        ++bucket_begin[lowest_vertex(s) + 1];
       std::partial_sum(bucket_begin.begin(), bucket_begin.end(),
                        bucket_begin.begin());
-      bucket.resize(n_half_edges);
+      bucket.resize(n_sides);
       std::vector<unsigned int> end(bucket_begin.begin(),
                                     bucket_begin.end() - 1);
-      for (unsigned int h = 0; h < n_half_edges; ++h)
-        bucket[end[smaller(h)]++] = h;
+      for (unsigned int s = 0; s < n_sides; ++s)
+        bucket[end[lowest_vertex(s)]++] = s;
 
-      // 2. Pairs of opposite direction within the few of each vertex.
-      neighbour.assign(n_half_edges, none);
+      // 2. Pairs that turn oppositely within the few of each vertex.
+      neighbour.assign(n_sides, none);
       for (unsigned int v = 0; v < data.vertices.size(); ++v)
         for (unsigned int i = bucket_begin[v]; i < bucket_begin[v + 1]; ++i)
           for (unsigned int j = bucket_begin[v]; j < i; ++j)
           {
             const unsigned int a = bucket[i], b = bucket[j];
-            const bool same = first(a) == first(b) && second(a) == second(b);
-            const bool opposite
-                = first(a) == second(b) && second(a) == first(b);
-            if (same
-                || (opposite && (neighbour[a] != none || neighbour[b] != none)))
-              fail("triangles overlap at the edge" + at(middle(a))
+            const Turn turn = compare(a, b, std::equal_to<>());
+            if (turn == Turn::same
+                || (turn == Turn::opposite
+                    && (neighbour[a] != none || neighbour[b] != none)))
+              fail(std::string(cells_word) + " overlap at the " + side_word
+                   + at(middle(a))
                    + ": it has more than one of them on a side. Remove the "
-                     "surface that is there twice.");
-            if (opposite)
+                   + group_word + " that is there twice.");
+            if (turn == Turn::opposite)
             {
               neighbour[a] = b;
               neighbour[b] = a;
@@ -189,252 +309,283 @@ namespace quoin
           }
     }
 
-    void Splitter::name_edges()
+    template <int dim>
+    void Splitter<dim>::name_sides()
     {
-      name.assign(n_half_edges, 0);
-      std::vector<bool> has_lines(data.line_names.size(), false);
-      for (std::size_t l = 0; l < data.lines.size(); ++l)
+      name.assign(n_sides, 0);
+      std::vector<bool> has_faces(data.face_names.size(), false);
+      for (std::size_t f = 0; f < data.faces.size(); ++f)
       {
-        const unsigned int a = data.lines[l][0], b = data.lines[l][1];
-        const unsigned int line_name = data.line_name[l];
-        has_lines[line_name]         = true;
+        auto sorted                  = data.faces[f];
+        const unsigned int face_name = data.face_name[f];
+        has_faces[face_name]         = true;
         bool found                   = false;
-        const unsigned int v         = std::min(a, b);
+        std::sort(sorted.begin(), sorted.end());
+        const unsigned int v = sorted[0];
         for (unsigned int i = bucket_begin[v]; i < bucket_begin[v + 1]; ++i)
         {
-          const unsigned int h = bucket[i];
-          if (std::max(first(h), second(h)) != std::max(a, b))
+          const unsigned int s = bucket[i];
+          auto vertices        = vertices_of(s);
+          std::sort(vertices.begin(), vertices.end());
+          if (vertices != sorted)
             continue;
-          if (name[h] != 0 && name[h] != line_name)
-            fail("the curves '" + data.line_names[name[h]] + "' and '"
-                 + data.line_names[line_name] + "' lie on each other"
-                 + at(middle(h)) + ". Leave one of them there.");
-          name[h] = line_name;
+          if (name[s] != 0 && name[s] != face_name)
+            fail(std::string("the ") + face_word + "s '"
+                 + data.face_names[name[s]] + "' and '"
+                 + data.face_names[face_name] + "' lie on each other"
+                 + at(middle(s)) + ". Leave one of them there.");
+          name[s] = face_name;
           found   = true;
         }
-        if (!found && is_joint_curve[line_name])
-          fail(curve(line_name) + " is no edge of the mesh"
-               + at(dealii::Point<2>(0.5
-                                     * (data.vertices[a] + data.vertices[b])))
-               + ". Let it bound the surfaces there, or embed it: Curve{...} "
-                 "In Surface{...};");
+        if (!found && is_joint_name[face_name])
+          fail(named(face_name) + " is no " + side_word + " of the mesh"
+               + at(middle(sorted)) + ". Let it bound the " + group_word
+               + "s there, or embed it: "
+               + (dim == 2 ? "Curve{...} In Surface{...};"
+                           : "Surface{...} In Volume{...};"));
       }
-      for (unsigned int n = 1; n < data.line_names.size(); ++n)
-        if (is_joint_curve[n] && !has_lines[n])
-          fail(curve(n)
-               + " has no line elements, so that there is no joint "
-                 "along it. Save the mesh with its curves.");
+      for (unsigned int n = 1; n < data.face_names.size(); ++n)
+        if (is_joint_name[n] && !has_faces[n])
+          fail(named(n) + " has no "
+               + (dim == 2 ? "line elements" : "triangles")
+               + ", so that there is no joint along it. Save the mesh with its "
+               + face_word + "s.");
     }
 
-    void Splitter::mark_joints()
+    template <int dim>
+    void Splitter<dim>::mark_joints()
     {
       const std::size_t n_groups = data.group_names.size();
-      is_joint.assign(n_half_edges, false);
-      partner.assign(n_half_edges, none);
-      for (unsigned int h = 0; h < n_half_edges; ++h)
-        if (neighbour[h] != none
-            && (is_joint_curve[name[h]]
-                || is_joint_pair[data.triangle_group[h / 3] * n_groups
-                                 + data.triangle_group[neighbour[h] / 3]]))
+      is_joint.assign(n_sides, false);
+      partner.assign(n_sides, none);
+      for (unsigned int s = 0; s < n_sides; ++s)
+        if (neighbour[s] != none
+            && (is_joint_name[name[s]]
+                || is_joint_pair[data.cell_group[cell_of(s)] * n_groups
+                                 + data.cell_group[cell_of(neighbour[s])]]))
         {
-          is_joint[h] = true;
-          partner[h]  = neighbour[h];
+          is_joint[s] = true;
+          partner[s]  = neighbour[s];
         }
     }
 
-    void Splitter::unite_corners()
+    template <int dim>
+    void Splitter<dim>::unite_corners()
     {
-      DisjointSets corners(n_half_edges);
-      DisjointSets cells(data.triangles.size());
-      for (unsigned int h = 0; h < n_half_edges; ++h)
+      DisjointSets corners(n_sides);
+      DisjointSets cells(data.cells.size());
+      for (unsigned int s = 0; s < n_sides; ++s)
       {
-        const unsigned int g = neighbour[h];
-        if (g == none || g < h || is_joint[h])
+        const unsigned int t = neighbour[s];
+        if (t == none || t < s || is_joint[s])
           continue;
-        corners.unite(h, next_corner(g));
-        corners.unite(next_corner(h), g);
-        cells.unite(h / 3, g / 3);
+        for (unsigned int k = 0; k < dim; ++k)
+          corners.unite(corner(s, k), corner(t, vertex_below(s, k, t)));
+        cells.unite(cell_of(s), cell_of(t));
       }
       unsigned int n_vertices                = 0;
       std::tie(vertex_of_corner, n_vertices) = corners.numbers();
       std::tie(block_of_cell, n_blocks)      = cells.numbers();
 
       mesh.vertices.resize(n_vertices);
-      mesh.cells.resize(data.triangles.size());
-      for (unsigned int h = 0; h < n_half_edges; ++h)
-      {
-        mesh.vertices[vertex_of_corner[h]] = data.vertices[first(h)];
-        mesh.cells[h / 3][h % 3]           = vertex_of_corner[h];
-      }
-      mesh.cell_group = data.triangle_group;
+      mesh.cells.resize(data.cells.size());
+      for (unsigned int c = 0; c < data.cells.size(); ++c)
+        for (unsigned int k = 0; k <= dim; ++k)
+        {
+          const unsigned int v = vertex_of_corner[(dim + 1) * c + k];
+          mesh.vertices[v]     = data.vertices[data.cells[c][k]];
+          mesh.cells[c][k]     = v;
+        }
+      mesh.cell_group = data.cell_group;
 
       mesh.quadratic = data.quadratic;
     }
 
-    void Splitter::check_joint_ends() const
+    template <int dim>
+    void Splitter<dim>::check_joint_ends() const
     {
       if (options.joint_ends == SplitOptions::keep)
         return;
-      for (unsigned int h = 0; h < n_half_edges; ++h)
-        if (is_joint[h]
-            && vertex_of_corner[h] == vertex_of_corner[next_corner(partner[h])])
-          fail(
-              curve(name[h]) + " ends inside a block"
-              + at(data.vertices[first(h)])
-              + ". Lead the joint on to another one or to the boundary, or set "
-                "Mesh/Joint ends inside blocks = keep.");
+      for (unsigned int s = 0; s < n_sides; ++s)
+        for (unsigned int k = 0; is_joint[s] && k < dim; ++k)
+          if (vertex_of_corner[corner(s, k)]
+              == vertex_of_corner[corner(partner[s],
+                                         vertex_below(s, k, partner[s]))])
+            fail(named(name[s]) + " ends inside a block" + at(point(s, k))
+                 + ". Lead the joint on to another one or to the boundary, or "
+                   "set Mesh/Joint ends inside blocks = keep.");
     }
 
     /**
-     * Blocks that are apart already: the outer edges whose ends coincide, found
-     * by their middles in a grid of the size of the shortest edge.
+     * Blocks that are apart already: the outer sides whose vertices coincide,
+     * found by their middles in a grid of the size of the shortest edge.
      */
-    void Splitter::match_outer_edges()
+    template <int dim>
+    void Splitter<dim>::match_outer_sides()
     {
       std::vector<unsigned int> outer;
-      double shortest         = std::numeric_limits<double>::max();
-      dealii::Point<2> origin = data.vertices[first(0)];
-      for (unsigned int h = 0; h < n_half_edges; ++h)
+      double shortest = std::numeric_limits<double>::max();
+      Point origin    = point(0, 0);
+      for (unsigned int s = 0; s < n_sides; ++s)
       {
-        const auto &p = data.vertices[first(h)];
-        shortest = std::min(shortest, p.distance(data.vertices[second(h)]));
-        for (unsigned int d = 0; d < 2; ++d)
-          origin[d] = std::min(origin[d], p[d]);
-        if (neighbour[h] == none)
-          outer.push_back(h);
+        for (unsigned int k = 0; k < (dim == 2 ? 1 : dim); ++k)
+        {
+          const Point &p = point(s, k);
+          shortest = std::min(shortest, p.distance(point(s, (k + 1) % dim)));
+          for (unsigned int d = 0; d < dim; ++d)
+            origin[d] = std::min(origin[d], p[d]);
+        }
+        if (neighbour[s] == none)
+          outer.push_back(s);
       }
       const double tolerance = options.coincidence_tolerance * shortest;
       const double width     = std::max(shortest, 4. * tolerance);
 
-      const auto column = [&](const double x, const unsigned int d) {
-        return static_cast<std::int64_t>(std::floor((x - origin[d]) / width));
+      using Box         = std::array<std::int64_t, dim>;
+      const auto box_of = [&](const Point &p, const double shift)
+      {
+        Box box;
+        for (unsigned int d = 0; d < dim; ++d)
+          box[d] = static_cast<std::int64_t>(
+              std::floor((p[d] + shift - origin[d]) / width));
+        return box;
       };
-      using Box = std::pair<std::int64_t, std::int64_t>;
       std::vector<std::pair<Box, unsigned int>> grid;
       grid.reserve(outer.size());
-      for (const unsigned int h : outer)
-      {
-        const auto m = middle(h);
-        grid.push_back({ { column(m[0], 0), column(m[1], 1) }, h });
-      }
+      for (const unsigned int s : outer)
+        grid.push_back({ box_of(middle(s), 0.), s });
       std::sort(grid.begin(), grid.end());
 
       const auto close = [&](const unsigned int v, const unsigned int w)
       { return data.vertices[v].distance(data.vertices[w]) <= tolerance; };
-      for (const unsigned int h : outer)
+      const auto match = [&](const unsigned int s, const unsigned int t)
       {
-        const auto m = middle(h);
-        for (auto x = column(m[0] - tolerance, 0);
-             x <= column(m[0] + tolerance, 0); ++x)
-          for (auto y = column(m[1] - tolerance, 1);
-               y <= column(m[1] + tolerance, 1); ++y)
-          {
-            const Box box(x, y);
-            for (auto it = std::lower_bound(grid.begin(), grid.end(),
-                                            std::make_pair(box, 0U));
-                 it != grid.end() && it->first == box; ++it)
-            {
-              const unsigned int g = it->second;
-              if (g <= h)
-                continue;
-              const bool opposite
-                  = close(first(h), second(g)) && close(second(h), first(g));
-              const bool same
-                  = close(first(h), first(g)) && close(second(h), second(g));
-              if (same
-                  || (opposite && (partner[h] != none || partner[g] != none)))
-                fail("blocks overlap at the edge" + at(m)
-                     + ": more than one of them is on a side of it. "
-                       "Remove the one that is there twice.");
-              if (opposite)
-              {
-                partner[h] = g;
-                partner[g] = h;
-              }
-            }
-          }
+        const Turn turn = compare(s, t, close);
+        if (turn == Turn::same
+            || (turn == Turn::opposite
+                && (partner[s] != none || partner[t] != none)))
+          fail(std::string("blocks overlap at the ") + side_word + at(middle(s))
+               + ": more than one of them is on a side of it. "
+                 "Remove the one that is there twice.");
+        if (turn == Turn::opposite)
+        {
+          partner[s] = t;
+          partner[t] = s;
+        }
+      };
+      for (const unsigned int s : outer)
+      {
+        const Box low  = box_of(middle(s), -tolerance);
+        const Box high = box_of(middle(s), tolerance);
+        for (Box box = low; box[0] <= high[0];)
+        {
+          for (auto it = std::lower_bound(grid.begin(), grid.end(),
+                                          std::make_pair(box, 0U));
+               it != grid.end() && it->first == box; ++it)
+            if (it->second > s)
+              match(s, it->second);
+          // The next box, the last direction first.
+          unsigned int d = dim - 1;
+          for (++box[d]; d > 0 && box[d] > high[d]; ++box[--d])
+            box[d] = low[d];
+        }
       }
     }
 
-    void Splitter::check_curves_on_boundary() const
+    template <int dim>
+    void Splitter<dim>::check_names_on_boundary() const
     {
-      for (unsigned int h = 0; h < n_half_edges; ++h)
-        if (is_joint_curve[name[h]] && partner[h] == none)
-          fail(curve(name[h]) + " dangles" + at(middle(h))
+      for (unsigned int s = 0; s < n_sides; ++s)
+        if (is_joint_name[name[s]] && partner[s] == none)
+          fail(named(name[s]) + " dangles" + at(middle(s))
                + ": it lies on the outer boundary, with no block on the other "
-                 "side. Take this part out of the physical curve, or the curve "
-                 "out of Mesh/Joints along.");
+                 "side. Take this part out of the physical "
+               + face_word + ", or the " + face_word
+               + " out of Mesh/Joints along.");
     }
 
-    void Splitter::fill_faces()
+    template <int dim>
+    void Splitter<dim>::fill_faces()
     {
-      // For edges this close to vertical the normal is taken as horizontal.
-      constexpr double vertical = 1e-6;
+      // A component of the normal this small is none.
+      constexpr double share = 1e-6;
 
       mesh.boundary_faces.clear();
       mesh.joint_faces.clear();
-      for (unsigned int h = 0; h < n_half_edges; ++h)
+      for (unsigned int s = 0; s < n_sides; ++s)
       {
-        const unsigned int g = partner[h];
-        const unsigned int a = vertex_of_corner[h];
-        const unsigned int b = vertex_of_corner[next_corner(h)];
-        if (g == none)
+        const unsigned int t = partner[s];
+        std::array<unsigned int, dim> vertices;
+        for (unsigned int k = 0; k < dim; ++k)
+          vertices[k] = vertex_of_corner[corner(s, k)];
+        if (t == none)
         {
-          if (neighbour[h] == none)
-            mesh.boundary_faces.push_back({ { { a, b } }, h / 3, name[h] });
+          if (neighbour[s] == none)
+            mesh.boundary_faces.push_back({ vertices, cell_of(s), name[s] });
           continue;
         }
 
-        // Each joint comes by twice; it is taken from its lower side. With
-        // n = (t_y, -t_x) lower means t_x < 0, or vertical and t_y > 0.
-        // Coincident edges differ within the tolerance: the direction is
-        // that of both.
-        const auto t = (data.vertices[second(h)] - data.vertices[first(h)])
-                       - (data.vertices[second(g)] - data.vertices[first(g)]);
-        const bool is_lower
-            = std::abs(t[0]) > vertical * t.norm() ? t[0] < 0. : t[1] > 0.;
-        if (!is_lower)
+        // Each joint comes by twice; it is taken from its lower side.
+        // Coincident sides differ within the tolerance: the normal is that of
+        // both.
+        const auto n   = normal(s) - normal(t);
+        unsigned int d = dim - 1;
+        while (d > 0 && !(std::abs(n[d]) > share * n.norm()))
+          --d;
+        if (!(n[d] > 0.))
           continue;
-        unsigned int joint_name = name[h];
+        unsigned int joint_name = name[s];
         if (joint_name == 0
-            || (is_joint_curve[name[g]] && !is_joint_curve[name[h]]))
-          joint_name = name[g];
-        mesh.joint_faces.push_back(
-            { { { a, b } },
-              { { vertex_of_corner[next_corner(g)], vertex_of_corner[g] } },
-              { { h / 3, g / 3 } },
-              joint_name,
-              { { data.triangle_group[h / 3], data.triangle_group[g / 3] } } });
+            || (is_joint_name[name[t]] && !is_joint_name[name[s]]))
+          joint_name = name[t];
+        JointFace<dim> face{ vertices,
+                             {},
+                             { { cell_of(s), cell_of(t) } },
+                             joint_name,
+                             { { data.cell_group[cell_of(s)],
+                                 data.cell_group[cell_of(t)] } } };
+        for (unsigned int k = 0; k < dim; ++k)
+          face.upper[k] = vertex_of_corner[corner(t, vertex_below(s, k, t))];
+        mesh.joint_faces.push_back(face);
       }
     }
 
-    void Splitter::run()
+    template <int dim>
+    void Splitter<dim>::run()
     {
-      if (data.triangles.empty())
-        fail("there are no triangles in it.");
+      if (data.cells.empty())
+        fail(std::string("there are no ") + cells_word + " in it.");
       mesh.group_names        = data.group_names;
-      mesh.line_names         = data.line_names;
+      mesh.face_names         = data.face_names;
       mesh.n_reoriented_cells = data.n_reoriented;
 
       resolve_names();
       find_neighbours();
-      name_edges();
+      name_sides();
       mark_joints();
       unite_corners();
       check_joint_ends();
-      match_outer_edges();
-      check_curves_on_boundary();
+      match_outer_sides();
+      check_names_on_boundary();
       fill_faces();
       number_blocks(mesh, block_of_cell, n_blocks);
     }
   } // namespace
 
-  void split_into_blocks(const MeshData &data, const SplitOptions &options,
-                         BlockMesh<2> &mesh,
+  template <int dim>
+  void split_into_blocks(const MeshData<dim> &data, const SplitOptions &options,
+                         BlockMesh<dim> &mesh,
                          const std::vector<unsigned int> *block_order)
   {
-    Splitter(data, options, mesh).run();
+    Splitter<dim>(data, options, mesh).run();
     if (block_order != nullptr)
       renumber_blocks(mesh, *block_order);
   }
+
+  template void split_into_blocks(const MeshData<2> &, const SplitOptions &,
+                                  BlockMesh<2> &,
+                                  const std::vector<unsigned int> *);
+  template void split_into_blocks(const MeshData<3> &, const SplitOptions &,
+                                  BlockMesh<3> &,
+                                  const std::vector<unsigned int> *);
 } // namespace quoin

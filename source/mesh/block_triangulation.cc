@@ -143,7 +143,7 @@ namespace quoin
         {
           pair.ranks[side] = rank_of_cell[pair.cells[side]];
           boundary_ids[(dim + 1) * pair.cells[side] + pair.faces[side]]
-              = mesh.line_names.size() + face.name;
+              = mesh.face_names.size() + face.name;
         }
         pairs.push_back(pair);
       }
@@ -214,7 +214,7 @@ namespace quoin
     {
       BlockTable<dim> table;
       table.group_names = mesh.group_names;
-      table.face_names  = mesh.line_names;
+      table.face_names  = mesh.face_names;
       table.first_cell  = mesh.block_first_cell;
       for (unsigned int b = 0; b < mesh.n_blocks(); ++b)
         table.group.push_back(mesh.cell_group[mesh.block_first_cell[b]]);

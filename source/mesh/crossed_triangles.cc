@@ -8,7 +8,7 @@
 
 namespace quoin
 {
-  void add_crossed_triangles(const Quadrangles &quadrangles, MeshData &mesh)
+  void add_crossed_triangles(const Quadrangles &quadrangles, MeshData<2> &mesh)
   {
     for (std::size_t q = 0; q < quadrangles.nodes.size(); ++q)
     {
@@ -18,8 +18,8 @@ namespace quoin
       const auto add =
           [&](const unsigned int a, const unsigned int b, const unsigned int c)
       {
-        mesh.triangles.push_back({ { a, b, c } });
-        mesh.triangle_group.push_back(quadrangles.group[q]);
+        mesh.cells.push_back({ { a, b, c } });
+        mesh.cell_group.push_back(quadrangles.group[q]);
       };
 
       // The triangles on either side of each diagonal; a quadrangle is convex

@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 #include <utility>
 
 namespace quoin
@@ -42,10 +43,52 @@ namespace quoin
         fail(filename, "the file is empty. Save it again from gmsh.");
     }
 
-    /** What quoin_gmsh calls the elements that gmsh is to make. */
-    std::string elements_of(const TriangleKind kind)
+    /** Arguments of quoin_gmsh. */
+    std::vector<std::string> arguments(const std::string &file,
+                                       const TriangleKind kind,
+                                       const MeshDimension dimension)
     {
-      return kind == TriangleKind::crossed ? "quadrangles" : "triangles";
+      return { file,
+               kind == TriangleKind::crossed     ? "crossed"
+               : kind == TriangleKind::quadratic ? "quadratic"
+                                                 : "plain",
+               std::to_string(static_cast<int>(dimension)) };
+    }
+
+    /** Takes what quoin_gmsh gave for a mesh of that dimension. */
+    template <int dim>
+    MeshData<dim> take(GmshMesh &read, const std::string &source,
+                       const TriangleKind kind)
+    {
+      MeshData<dim> mesh;
+      mesh.source = source;
+      mesh.vertices.reserve(read.vertices.size());
+      for (const std::array<double, 3> &x : read.vertices)
+      {
+        dealii::Point<dim> &point = mesh.vertices.emplace_back();
+        for (unsigned int d = 0; d < dim; ++d)
+          point[d] = x[d];
+      }
+      mesh.cell_group  = std::move(read.cell_group);
+      mesh.face_name   = std::move(read.face_name);
+      mesh.group_names = std::move(read.group_names);
+      mesh.face_names  = std::move(read.face_names);
+      if constexpr (dim == 2)
+      {
+        mesh.cells = std::move(read.triangles);
+        mesh.faces = std::move(read.lines);
+        add_crossed_triangles(
+            { std::move(read.quadrangles), std::move(read.quadrangle_group) },
+            mesh);
+        mesh.quadratic = kind == TriangleKind::quadratic;
+      }
+      else
+      {
+        mesh.cells = std::move(read.tetrahedra);
+        mesh.faces = std::move(read.triangles);
+      }
+      orient_cells(mesh);
+      return mesh;
     }
 
     /**
@@ -53,52 +96,40 @@ namespace quoin
      * messages that begin with @p source and, where gmsh fails, end with
      * @p cure.
      */
-    MeshData read(const std::string &file, const std::string &geometry,
-                  const std::string &source, const std::string &cure,
-                  const TriangleKind kind)
+    AnyMeshData read(const std::string &file, const std::string &geometry,
+                     const std::string &source, const std::string &cure,
+                     const MeshDimension dimension, const TriangleKind kind)
     {
-      GmshMesh read = run_gmsh(source, { file, elements_of(kind) }, geometry);
+      GmshMesh read
+          = run_gmsh(source, arguments(file, kind, dimension), geometry);
       if (!read.gmsh_errors.empty())
         fail(source, "gmsh could not make a mesh of it: " + read.gmsh_errors
                          + ". " + cure);
       if (!read.refusal.empty())
         fail(source, read.refusal);
-
-      MeshData mesh;
-      mesh.source = source;
-      mesh.vertices.reserve(read.vertices.size());
-      for (const auto &[x, y] : read.vertices)
-        mesh.vertices.emplace_back(x, y);
-      mesh.triangles      = std::move(read.triangles);
-      mesh.triangle_group = std::move(read.triangle_group);
-      mesh.lines          = std::move(read.lines);
-      mesh.line_name      = std::move(read.line_name);
-      mesh.group_names    = std::move(read.group_names);
-      mesh.line_names     = std::move(read.line_names);
-      add_crossed_triangles(
-          { std::move(read.quadrangles), std::move(read.quadrangle_group) },
-          mesh);
-      orient_triangles(mesh);
-      mesh.quadratic = kind == TriangleKind::quadratic;
-      return mesh;
+      if (read.dimension == 3)
+        return take<3>(read, source, kind);
+      return take<2>(read, source, kind);
     }
-  } // namespace
 
-  MeshData read_gmsh(const std::string &filename, const TriangleKind kind)
-  {
-    check_file(filename);
-    return read(filename, "", filename,
-                "Open the file in gmsh and repair it there.", kind);
-  }
+    AnyMeshData read_file(const std::string &filename,
+                          const MeshDimension dimension,
+                          const TriangleKind kind)
+    {
+      check_file(filename);
+      return read(filename, "", filename,
+                  "Open the file in gmsh and repair it there.", dimension,
+                  kind);
+    }
 
-  namespace
-  {
-    /** What @p read gives on the first rank, there. */
+    /** What @p read gives on the first rank, there; its dimension everywhere.
+     */
     template <typename Read>
-    MeshData read_on_first_rank(const MPI_Comm &communicator, const Read &read)
+    AnyMeshData read_on_first_rank(const MPI_Comm &communicator,
+                                   const Read &read)
     {
       // The others must hear of an error, too, or they wait forever.
-      MeshData mesh;
+      AnyMeshData mesh;
       std::string message;
       if (dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
         try
@@ -109,41 +140,72 @@ namespace quoin
         {
           message = error.what();
         }
-      message = dealii::Utilities::MPI::broadcast(communicator, message);
+      bool is_plane               = mesh.index() == 0;
+      std::tie(message, is_plane) = dealii::Utilities::MPI::broadcast(
+          communicator, std::make_pair(message, is_plane));
       if (!message.empty())
         throw InputError(message);
+      if (!is_plane && mesh.index() == 0)
+        mesh = MeshData<3>();
       return mesh;
     }
   } // namespace
 
-  MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator,
-                     const TriangleKind kind)
+  template <int dim>
+  MeshData<dim> read_gmsh(const std::string &filename, const TriangleKind kind)
   {
-    return read_on_first_rank(communicator,
-                              [&]() { return read_gmsh(filename, kind); });
+    return std::get<MeshData<dim>>(
+        read_file(filename, static_cast<MeshDimension>(dim), kind));
   }
 
-  MeshData mesh_gmsh_geometry(const std::string &geometry,
-                              const std::string &maker,
-                              const MPI_Comm &communicator,
-                              const TriangleKind kind)
+  AnyMeshData read_any_gmsh(const std::string &filename,
+                            const MPI_Comm &communicator,
+                            const MeshDimension dimension,
+                            const TriangleKind kind)
   {
-    return read_on_first_rank(
+    return read_on_first_rank(communicator, [&]()
+                              { return read_file(filename, dimension, kind); });
+  }
+
+  template <int dim>
+  MeshData<dim> read_gmsh(const std::string &filename,
+                          const MPI_Comm &communicator, const TriangleKind kind)
+  {
+    return std::get<MeshData<dim>>(read_any_gmsh(
+        filename, communicator, static_cast<MeshDimension>(dim), kind));
+  }
+
+  MeshData<2> mesh_gmsh_geometry(const std::string &geometry,
+                                 const std::string &maker,
+                                 const MPI_Comm &communicator,
+                                 const TriangleKind kind)
+  {
+    return std::get<MeshData<2>>(read_on_first_rank(
         communicator,
         [&]()
         {
           return read("/dev/stdin", geometry, maker,
-                      "Change the parameters of that section.", kind);
-        });
+                      "Change the parameters of that section.",
+                      MeshDimension::two, kind);
+        }));
   }
 
   void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file,
                        const TriangleKind kind)
   {
-    const GmshMesh written
-        = run_gmsh(geo_file, { geo_file, elements_of(kind), msh_file });
+    std::vector<std::string> words
+        = arguments(geo_file, kind, MeshDimension::from_mesh);
+    words.push_back(msh_file);
+    const GmshMesh written = run_gmsh(geo_file, words);
     if (!written.gmsh_errors.empty())
       throw RunError("gmsh cannot write the mesh '" + msh_file
                      + "'. Is the disk full?");
   }
+
+  template MeshData<2> read_gmsh(const std::string &, TriangleKind);
+  template MeshData<3> read_gmsh(const std::string &, TriangleKind);
+  template MeshData<2> read_gmsh(const std::string &, const MPI_Comm &,
+                                 TriangleKind);
+  template MeshData<3> read_gmsh(const std::string &, const MPI_Comm &,
+                                 TriangleKind);
 } // namespace quoin

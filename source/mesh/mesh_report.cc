@@ -6,10 +6,10 @@
 #include <quoin/mesh/mesh_report.h>
 
 #include <deal.II/base/bounding_box.h>
+#include <deal.II/boost_adaptors/point.h>
 
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
 
 #include <algorithm>
@@ -25,6 +25,15 @@ namespace quoin
   namespace
   {
     namespace bg = boost::geometry;
+
+    template <int dim>
+    dealii::Point<3> in_space(const dealii::Point<dim> &p)
+    {
+      dealii::Point<3> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = p[d];
+      return result;
+    }
 
     void add_quality(const BlockMesh<2> &mesh, MeshReport &report)
     {
@@ -44,48 +53,123 @@ namespace quoin
         }
       report.smallest_angle
           = std::acos(std::min(1., largest_cosine)) / constants::degree;
-
-      std::tie(report.lower_left, report.upper_right)
-          = dealii::BoundingBox<2>(mesh.vertices).get_boundary_points();
     }
 
-    void add_joints(const BlockMesh<2> &mesh, MeshReport &report)
+    void add_quality(const BlockMesh<3> &mesh, MeshReport &report)
+    {
+      // Of vertices, and of the faces opposite to them.
+      constexpr unsigned int pairs[6][2]
+          = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
+      report.shortest_edge  = std::numeric_limits<double>::max();
+      double largest_cosine = -1.;
+      for (const auto &cell : mesh.cells)
+      {
+        const auto x
+            = [&](const unsigned int i) { return mesh.vertices[cell[i]]; };
+        std::array<dealii::Tensor<1, 3>, 4> normals;
+        for (unsigned int i = 0; i < 4; ++i)
+        {
+          const auto p = x((i + 1) % 4);
+          normals[i]   = dealii::cross_product_3d(x((i + 2) % 4) - p,
+                                                  x((i + 3) % 4) - p);
+          normals[i] *= (p - x(i)) * normals[i] > 0. ? 1. : -1.;
+        }
+        for (const auto &[i, j] : pairs)
+        {
+          const double length  = x(i).distance(x(j));
+          report.shortest_edge = std::min(report.shortest_edge, length);
+          report.longest_edge  = std::max(report.longest_edge, length);
+          largest_cosine = std::max(largest_cosine, -(normals[i] * normals[j])
+                                                        / normals[i].norm()
+                                                        / normals[j].norm());
+        }
+      }
+      report.smallest_angle
+          = std::acos(std::min(1., largest_cosine)) / constants::degree;
+    }
+
+    template <int dim>
+    double size_of(const BlockMesh<dim> &mesh,
+                   const std::array<unsigned int, dim> &face)
+    {
+      const auto &p = mesh.vertices[face[0]];
+      const auto a  = mesh.vertices[face[1]] - p;
+      if constexpr (dim == 2)
+        return a.norm();
+      else
+        return 0.5
+               * dealii::cross_product_3d(a, mesh.vertices[face[2]] - p).norm();
+    }
+
+    template <int dim>
+    void add_joints(const BlockMesh<dim> &mesh, MeshReport &report)
     {
       std::set<unsigned int> ends;
-      for (const JointFace<2> &face : mesh.joint_faces)
+      for (const JointFace<dim> &face : mesh.joint_faces)
       {
-        const double length = mesh.vertices[face.lower[0]].distance(
-            mesh.vertices[face.lower[1]]);
-        report.joint_length[mesh.line_names[face.name]] += length;
-        report.total_joint_length += length;
+        const double size = size_of<dim>(mesh, face.lower);
+        report.joint_size[mesh.face_names[face.name]] += size;
+        report.total_joint_size += size;
         unsigned int n_ends = 0;
-        for (unsigned int k = 0; k < 2; ++k)
+        for (unsigned int k = 0; k < dim; ++k)
           if (face.lower[k] == face.upper[k])
           {
             ends.insert(face.lower[k]);
             ++n_ends;
           }
-        if (n_ends == 2)
+        if (n_ends == dim)
           ++report.n_tied_joint_faces;
       }
       report.n_joint_ends = ends.size();
     }
 
-    /** The outer edges of a mesh and which of them are near. */
-    class OuterEdges
+    /**
+     * How the line from @p a to @p b crosses the ray from @p p in the direction
+     * of component @p x: 1 towards greater values of component @p y, -1
+     * towards lower ones, 0 not at all. What it says of the reversed line is
+     * the opposite, without rounding.
+     */
+    template <int dim>
+    int crossing_of_line(const dealii::Point<dim> &p,
+                         const dealii::Point<dim> &a,
+                         const dealii::Point<dim> &b, const unsigned int x,
+                         const unsigned int y)
+    {
+      if ((a[y] <= p[y]) == (b[y] <= p[y]))
+        return 0;
+      const bool up  = b[y] > a[y];
+      const auto &lo = up ? a : b, &hi = up ? b : a;
+      const double side
+          = (hi[x] - lo[x]) * (p[y] - lo[y]) - (hi[y] - lo[y]) * (p[x] - lo[x]);
+      if (!(side > 0.)) // p is right of the crossing
+        return 0;
+      return up ? 1 : -1;
+    }
+
+    /** The outer faces of a mesh and which of them are near. */
+    template <int dim>
+    class OuterFaces
     {
     public:
-      OuterEdges(const BlockMesh<2> &mesh, const double tolerance) : mesh(mesh)
+      OuterFaces(const BlockMesh<dim> &mesh, const double tolerance)
+        : mesh(mesh)
       {
         entries.reserve(mesh.boundary_faces.size());
         for (unsigned int f = 0; f < mesh.boundary_faces.size(); ++f)
         {
-          const auto &p = end(f, 0), &q = end(f, 1);
-          entries.push_back({ Box(Corner(std::min(p[0], q[0]) - tolerance,
-                                         std::min(p[1], q[1]) - tolerance),
-                                  Corner(std::max(p[0], q[0]) + tolerance,
-                                         std::max(p[1], q[1]) + tolerance)),
-                              f });
+          dealii::Point<dim> low = corner(f, 0), high = low;
+          for (unsigned int k = 1; k < dim; ++k)
+            for (unsigned int d = 0; d < dim; ++d)
+            {
+              low[d]  = std::min(low[d], corner(f, k)[d]);
+              high[d] = std::max(high[d], corner(f, k)[d]);
+            }
+          for (unsigned int d = 0; d < dim; ++d)
+          {
+            low[d] -= tolerance;
+            high[d] += tolerance;
+          }
+          entries.push_back({ Box(low, high), f });
         }
         tree = Tree(entries);
       }
@@ -94,12 +178,12 @@ namespace quoin
       {
         return entries.size();
       }
-      const dealii::Point<2> &end(const unsigned int f,
-                                  const unsigned int k) const
+      const dealii::Point<dim> &corner(const unsigned int f,
+                                       const unsigned int k) const
       {
         return mesh.vertices[mesh.boundary_faces[f].vertices[k]];
       }
-      /** Calls @p act with each edge after @p f whose box meets its own. */
+      /** Calls @p act with each face after @p f whose box meets its own. */
       template <typename Act>
       void for_near(const unsigned int f, const Act &act)
       {
@@ -110,48 +194,60 @@ namespace quoin
           if (entry.second > f)
             act(entry.second);
       }
-      /** How many blocks lie on each other at @p p: windings around it. */
-      int coverage(const dealii::Point<2> &p, const double right)
+      /** How many blocks lie on each other at @p p: crossings of the ray from
+          there to @p right, outwards less inwards. */
+      int coverage(const dealii::Point<dim> &p, const double right)
       {
         met.clear();
-        tree.query(
-            bg::index::intersects(Box(Corner(p[0], p[1]), Corner(right, p[1]))),
-            std::back_inserter(met));
-        int windings = 0;
+        dealii::Point<dim> end = p;
+        end[0]                 = right;
+        tree.query(bg::index::intersects(Box(p, end)), std::back_inserter(met));
+        int crossings = 0;
         for (const Entry &entry : met)
-        {
-          const auto &a = end(entry.second, 0), &b = end(entry.second, 1);
-          if ((a[1] <= p[1]) == (b[1] <= p[1]))
-            continue;
-          const double side
-              = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-          const bool up = b[1] > a[1];
-          if (up ? side > 0. : side < 0.) // p is left of the crossing
-            windings += up ? 1 : -1;
-        }
-        return windings;
+          crossings += crossing(p, entry.second);
+        return crossings;
       }
 
     private:
-      using Corner = bg::model::point<double, 2, bg::cs::cartesian>;
-      using Box    = bg::model::box<Corner>;
-      using Entry  = std::pair<Box, unsigned int>;
-      using Tree   = bg::index::rtree<Entry, bg::index::rstar<16>>;
+      using Box   = bg::model::box<dealii::Point<dim>>;
+      using Entry = std::pair<Box, unsigned int>;
+      using Tree  = bg::index::rtree<Entry, bg::index::rstar<16>>;
 
-      const BlockMesh<2> &mesh;
+      /** 1 where the ray from @p p in the direction of x leaves a block by face
+          @p f, -1 where it enters one, 0 elsewhere. */
+      int crossing(const dealii::Point<dim> &p, const unsigned int f) const
+      {
+        if constexpr (dim == 2)
+          return crossing_of_line(p, corner(f, 0), corner(f, 1), 0, 1);
+        else
+        {
+          const auto normal = dealii::cross_product_3d(
+              corner(f, 1) - corner(f, 0), corner(f, 2) - corner(f, 0));
+          if (!(normal[0] * ((corner(f, 0) - p) * normal) > 0.))
+            return 0; // it is behind p
+          // Whether p is within the face, seen in the direction of x.
+          int windings = 0;
+          for (unsigned int k = 0; k < 3; ++k)
+            windings += crossing_of_line(p, corner(f, k),
+                                         corner(f, (k + 1) % 3), 1, 2);
+          return windings;
+        }
+      }
+
+      const BlockMesh<dim> &mesh;
       std::vector<Entry> entries;
       Tree tree;
       std::vector<Entry> met;
     };
 
     /** Outer edges of opposite direction that share a part of a line. */
-    void add_unmatched_edges(OuterEdges &edges, const double tolerance,
-                             MeshReport &report)
+    void add_unmatched(OuterFaces<2> &edges, const double tolerance,
+                       MeshReport &report)
     {
       for (unsigned int f = 0; f < edges.n(); ++f)
       {
-        const auto &p       = edges.end(f, 0);
-        const auto edge     = edges.end(f, 1) - p;
+        const auto &p       = edges.corner(f, 0);
+        const auto edge     = edges.corner(f, 1) - p;
         const double length = edge.norm();
         const auto t        = edge / length;
         const auto along    = [&](const auto &x) { return t * (x - p); };
@@ -164,77 +260,182 @@ namespace quoin
             f,
             [&](const unsigned int g)
             {
-              if (off(edges.end(g, 0)) > tolerance
-                  || off(edges.end(g, 1)) > tolerance)
+              if (off(edges.corner(g, 0)) > tolerance
+                  || off(edges.corner(g, 1)) > tolerance)
                 return;
-              const double from = std::max(0., along(edges.end(g, 1)));
-              const double to   = std::min(length, along(edges.end(g, 0)));
+              const double from = std::max(0., along(edges.corner(g, 1)));
+              const double to   = std::min(length, along(edges.corner(g, 0)));
               if (to - from <= 2. * tolerance)
                 return;
-              if (report.unmatched_length == 0.)
-                report.unmatched_position = p + 0.5 * (from + to) * t;
-              report.unmatched_length += to - from;
+              if (report.unmatched_size == 0.)
+                report.unmatched_position
+                    = in_space(dealii::Point<2>(p + 0.5 * (from + to) * t));
+              report.unmatched_size += to - from;
+            });
+      }
+    }
+
+    /** Outer faces of opposite normals that share a part of a plane. */
+    void add_unmatched(OuterFaces<3> &faces, const double tolerance,
+                       MeshReport &report)
+    {
+      using Point = dealii::Point<3>;
+      for (unsigned int f = 0; f < faces.n(); ++f)
+      {
+        const Point &p    = faces.corner(f, 0);
+        const auto normal = dealii::cross_product_3d(faces.corner(f, 1) - p,
+                                                     faces.corner(f, 2) - p);
+        const auto n      = normal / normal.norm();
+        faces.for_near(
+            f,
+            [&](const unsigned int g)
+            {
+              // 1. What of face g lies inside of the edges of f.
+              std::vector<Point> part;
+              for (unsigned int k = 0; k < 3; ++k)
+              {
+                part.push_back(faces.corner(g, k));
+                if (std::abs(n * (part.back() - p)) > tolerance)
+                  return;
+              }
+              for (unsigned int k = 0; k < 3; ++k)
+              {
+                const Point &a  = faces.corner(f, k);
+                const auto edge = faces.corner(f, (k + 1) % 3) - a;
+                const auto in   = dealii::cross_product_3d(n, edge);
+                std::vector<Point> rest;
+                for (std::size_t i = 0; i < part.size(); ++i)
+                {
+                  const Point &q = part[i], &r = part[(i + 1) % part.size()];
+                  const double from = in * (q - a), to = in * (r - a);
+                  if (from >= 0.)
+                    rest.push_back(q);
+                  if ((from >= 0.) != (to >= 0.))
+                    rest.push_back(q + from / (from - to) * (r - q));
+                }
+                part = std::move(rest);
+              }
+
+              // 2. Its area, negative if the normals are alike.
+              dealii::Tensor<1, 3> twice, sum;
+              double perimeter = 0.;
+              for (std::size_t i = 0; i < part.size(); ++i)
+              {
+                const Point &q = part[i], &r = part[(i + 1) % part.size()];
+                twice += dealii::cross_product_3d(q - part[0], r - part[0]);
+                sum += q;
+                perimeter += q.distance(r);
+              }
+              const double area = -0.5 * (twice * n);
+              if (area <= tolerance * perimeter)
+                return;
+              if (report.unmatched_size == 0.)
+                report.unmatched_position = Point(sum / double(part.size()));
+              report.unmatched_size += area;
             });
       }
     }
 
     /** Whether both ends of each edge are well beyond the other one. */
-    bool cross(const OuterEdges &edges, const unsigned int f,
+    bool cross(const OuterFaces<2> &edges, const unsigned int f,
                const unsigned int g)
     {
       // Two meshes along an arc cross by less.
       constexpr double share = 0.1;
       const auto sides = [&](const unsigned int one, const unsigned int other)
       {
-        const auto edge  = edges.end(one, 1) - edges.end(one, 0);
+        const auto edge  = edges.corner(one, 1) - edges.corner(one, 0);
         const auto place = [&](const unsigned int k)
         {
-          const auto d = edges.end(other, k) - edges.end(one, 0);
+          const auto d = edges.corner(other, k) - edges.corner(one, 0);
           return (edge[0] * d[1] - edge[1] * d[0]) / edge.norm();
         };
         const double a = place(0), b = place(1);
         return a * b < 0.
                && std::min(std::abs(a), std::abs(b))
                       > share
-                            * edges.end(other, 0).distance(edges.end(other, 1));
+                            * edges.corner(other, 0).distance(
+                                edges.corner(other, 1));
       };
       return sides(f, g) && sides(g, f);
     }
 
-    void add_overlaps(const BlockMesh<2> &mesh, OuterEdges &edges,
+    /** Whether an edge of one face goes well through the other one. */
+    bool cross(const OuterFaces<3> &faces, const unsigned int f,
+               const unsigned int g)
+    {
+      constexpr double share = 0.1;
+      const auto through = [&](const unsigned int one, const unsigned int other)
+      {
+        const auto &p     = faces.corner(one, 0);
+        const auto normal = dealii::cross_product_3d(faces.corner(one, 1) - p,
+                                                     faces.corner(one, 2) - p);
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          const auto &a     = faces.corner(other, k);
+          const auto edge   = faces.corner(other, (k + 1) % 3) - a;
+          const double from = normal * (a - p), to = normal * (a + edge - p);
+          if (!(from * to < 0.
+                && std::min(std::abs(from), std::abs(to))
+                       > share * edge.norm() * normal.norm()))
+            continue;
+          const auto q = a + from / (from - to) * edge;
+          bool within  = true;
+          for (unsigned int i = 0; i < 3; ++i)
+          {
+            const auto &b = faces.corner(one, i);
+            within        = within
+                     && dealii::cross_product_3d(
+                            faces.corner(one, (i + 1) % 3) - b, q - b)
+                                * normal
+                            > share * normal.norm_square();
+          }
+          if (within)
+            return true;
+        }
+        return false;
+      };
+      return through(f, g) || through(g, f);
+    }
+
+    template <int dim>
+    void add_overlaps(const BlockMesh<dim> &mesh, OuterFaces<dim> &faces,
                       MeshReport &report)
     {
-      const auto add = [&](const dealii::Point<2> &p)
+      const auto add = [&](const dealii::Point<dim> &p)
       {
         if (!report.overlaps)
-          report.overlap_position = p;
+          report.overlap_position = in_space(p);
         report.overlaps = true;
       };
-      for (unsigned int f = 0; f < edges.n() && !report.overlaps; ++f)
-        edges.for_near(f,
-                       [&](const unsigned int g)
-                       {
-                         if (cross(edges, f, g))
-                           add(edges.end(f, 0)
-                               + 0.5 * (edges.end(f, 1) - edges.end(f, 0)));
-                       });
+      for (unsigned int f = 0; f < faces.n() && !report.overlaps; ++f)
+        faces.for_near(
+            f,
+            [&](const unsigned int g)
+            {
+              if (cross(faces, f, g))
+                add(faces.corner(f, 0)
+                    + 0.5 * (faces.corner(f, 1) - faces.corner(f, 0)));
+            });
       // What lies within another block crosses nothing.
       for (unsigned int b = 0; b < mesh.n_blocks() && !report.overlaps; ++b)
       {
         const auto &cell = mesh.cells[mesh.block_first_cell[b]];
-        const dealii::Point<2> middle((mesh.vertices[cell[0]]
-                                       + mesh.vertices[cell[1]]
-                                       + mesh.vertices[cell[2]])
-                                      / 3.);
-        if (edges.coverage(middle, report.upper_right[0]) > 1)
+        dealii::Point<dim> middle;
+        for (const unsigned int v : cell)
+          middle += mesh.vertices[v];
+        middle = middle / (dim + 1.);
+        if (faces.coverage(middle, report.box[1][0]) > 1)
           add(middle);
       }
     }
   } // namespace
 
-  MeshReport make_mesh_report(const BlockMesh<2> &mesh)
+  template <int dim>
+  MeshReport make_mesh_report(const BlockMesh<dim> &mesh)
   {
     MeshReport report;
+    report.dimension          = dim;
     report.n_blocks           = mesh.n_blocks();
     report.n_cells            = mesh.n_cells();
     report.n_nodes            = mesh.n_vertices();
@@ -243,6 +444,9 @@ namespace quoin
     report.n_reoriented_cells = mesh.n_reoriented_cells;
     if (report.n_cells == 0)
       return report;
+    const auto corners
+        = dealii::BoundingBox<dim>(mesh.vertices).get_boundary_points();
+    report.box = { { in_space(corners.first), in_space(corners.second) } };
     add_quality(mesh, report);
     add_joints(mesh, report);
     // A node in the middle of each edge, of which inner ones have two cells.
@@ -252,66 +456,91 @@ namespace quoin
                             / 2
                         - report.n_tied_joint_faces;
     const double tolerance = 1e-3 * report.shortest_edge;
-    OuterEdges edges(mesh, tolerance);
-    add_unmatched_edges(edges, tolerance, report);
-    add_overlaps(mesh, edges, report);
+    OuterFaces<dim> faces(mesh, tolerance);
+    add_unmatched(faces, tolerance, report);
+    add_overlaps(mesh, faces, report);
     return report;
   }
+
+  template MeshReport make_mesh_report(const BlockMesh<2> &);
+  template MeshReport make_mesh_report(const BlockMesh<3> &);
 
   std::string MeshReport::to_text() const
   {
     std::ostringstream text;
+    const bool is_plane = dimension == 2;
+    const char *unit    = is_plane ? " m" : " m2";
     text << n_blocks << " blocks, " << n_cells
-         << (quadratic ? " quadratic" : "") << " triangles, " << n_nodes
-         << " nodes; x " << lower_left[0] << " to " << upper_right[0]
-         << " m, y " << lower_left[1] << " to " << upper_right[1] << " m\n"
-         << "edges " << shortest_edge << " to " << longest_edge
-         << " m, smallest angle " << smallest_angle << " degrees\n"
-         << n_joint_faces << " joint faces, " << total_joint_length << " m";
+         << (quadratic ? " quadratic" : "")
+         << (is_plane ? " triangles, " : " tetrahedra, ") << n_nodes
+         << " nodes; x " << box[0][0] << " to " << box[1][0] << " m, y "
+         << box[0][1] << " to " << box[1][1] << " m";
+    if (!is_plane)
+      text << ", z " << box[0][2] << " to " << box[1][2] << " m";
+    text << "\nedges " << shortest_edge << " to " << longest_edge
+         << " m, smallest angle " << smallest_angle << " degrees"
+         << (is_plane ? "\n" : " between faces\n") << n_joint_faces
+         << " joint faces, " << total_joint_size << unit;
     const char *separator = ": ";
-    for (const auto &[name, length] : joint_length)
+    for (const auto &[name, size] : joint_size)
     {
-      text << separator << (name.empty() ? "unnamed" : name) << ' ' << length
-           << " m";
+      text << separator << (name.empty() ? "unnamed" : name) << ' ' << size
+           << unit;
       separator = ", ";
     }
     if (n_joint_ends > 0)
       text << '\n'
-           << n_joint_ends << " joint ends inside blocks, kept as crack tips";
+           << n_joint_ends
+           << (is_plane ? " joint ends inside blocks, kept as crack tips"
+                        : " nodes where joints end inside blocks, kept as "
+                          "crack fronts");
     if (n_tied_joint_faces > 0)
       text << '\n'
            << n_tied_joint_faces
-           << " joint faces are tied at both ends and cannot open: they are "
-              "single edges inside a block";
+           << (is_plane
+                   ? " joint faces are tied at both ends and cannot open: they "
+                     "are single edges inside a block"
+                   : " joint faces are tied at all corners and cannot open: "
+                     "joints inside a block are one face wide there");
     if (n_reoriented_cells > 0)
-      text << '\n' << n_reoriented_cells << " clockwise triangles turned over";
+      text << '\n'
+           << n_reoriented_cells
+           << (is_plane ? " clockwise triangles" : " tetrahedra")
+           << " turned over";
     return text.str();
   }
 
   std::vector<std::string> MeshReport::warnings() const
   {
     std::vector<std::string> result;
-    if (unmatched_length > 0.)
+    const auto position = [&](const dealii::Point<3> &p)
+    {
+      return dimension == 2 ? text_of("(", p[0], ", ", p[1], ")")
+                            : text_of("(", p[0], ", ", p[1], ", ", p[2], ")");
+    };
+    if (unmatched_size > 0.)
       result.push_back(
-          text_of("outer edges lie on each other over ", unmatched_length,
-                  " m without matching nodes, the first near (",
-                  unmatched_position[0], ", ", unmatched_position[1],
-                  ") m: no joint is made there. Mesh both sides alike."));
+          text_of("outer ", dimension == 2 ? "edges" : "faces",
+                  " lie on each other over ", unmatched_size,
+                  dimension == 2 ? " m" : " m2",
+                  " without matching nodes, the first near ",
+                  position(unmatched_position),
+                  " m: no joint is made there. Mesh both sides alike."));
     // A double has 16 digits.
     double farthest = 0.;
-    for (unsigned int d = 0; d < 2; ++d)
-      farthest = std::max(
-          { farthest, std::abs(lower_left[d]), std::abs(upper_right[d]) });
+    for (const dealii::Point<3> &corner : box)
+      for (unsigned int d = 0; d < 3; ++d)
+        farthest = std::max(farthest, std::abs(corner[d]));
     if (shortest_edge < 1e-8 * farthest)
       result.push_back(text_of(
           "coordinates of up to ", farthest, " m leave few digits to edges of ",
           shortest_edge, " m. Move the model nearer to the origin."));
     if (overlaps)
       result.push_back(text_of(
-          "blocks overlap near (", overlap_position[0], ", ",
-          overlap_position[1],
-          ") m, where both then have their mass and stiffness. Take the "
-          "surface out that is there twice, or cut it out of the other."));
+          "blocks overlap near ", position(overlap_position),
+          " m, where both then have their mass and stiffness. Take the ",
+          dimension == 2 ? "surface" : "volume",
+          " out that is there twice, or cut it out of the other."));
     return result;
   }
 } // namespace quoin

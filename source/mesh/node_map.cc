@@ -232,6 +232,8 @@ namespace quoin
         first, first + owned.n_elements(), dofs.n_dofs(), shared, partners,
         communicator());
 
+    order_cells();
+
     // Joints, by local nodes and cells.
     std::vector<unsigned int> numbers; // of owned cells, ascending
     for (const auto &cell : dofs.active_cell_iterators())
@@ -241,8 +243,8 @@ namespace quoin
         = [&](const unsigned int number, const unsigned int vertex)
     {
       const unsigned int cell
-          = std::lower_bound(numbers.begin(), numbers.end(), number)
-            - numbers.begin();
+          = cell_place[std::lower_bound(numbers.begin(), numbers.end(), number)
+                       - numbers.begin()];
       return table().is_quadratic ? 4 * cell + vertex : cell;
     };
     for (unsigned int p = 0; p < partners_of.size(); ++p)
@@ -287,8 +289,52 @@ namespace quoin
             joint.lower[k] = local(0, k);
             joint.upper[k] = local(1, pair.match[k]);
           }
+        if constexpr (dim == 3)
+        {
+          // deal.II's faces of a tetrahedron turn inwards.
+          std::swap(joint.lower[1], joint.lower[2]);
+          std::swap(joint.upper[1], joint.upper[2]);
+        }
         joints.push_back(joint);
       }
+    }
+  }
+
+  template <int dim>
+  void NodeMap<dim>::order_cells()
+  {
+    const unsigned int n_parts = linear_cells_of(table().is_quadratic);
+    std::vector<bool> is_at_others;
+    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
+    for (const auto &cell : dofs.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      const unsigned int block
+          = table().block_of_cell(cell->id().get_coarse_cell_id());
+      const unsigned int begin = n_parts * is_at_others.size();
+      if (parts.empty() || parts.back().number != block)
+      {
+        parts.push_back({ block, { begin, begin }, begin, { 0, 0 } });
+        n_deformable_parts += !table().is_rigid[block];
+      }
+      cell->get_dof_indices(nodes);
+      is_at_others.push_back(!table().is_rigid[block]
+                             && std::any_of(nodes.begin(), nodes.end(),
+                                            [&](const Dof node) {
+                                              return node_exchange->local(node)
+                                                     >= shared_nodes_begin;
+                                            }));
+      parts.back().first_inner_cell += n_parts * is_at_others.back();
+      parts.back().cells[1] = begin + n_parts;
+    }
+    for (const BlockPart &part : parts)
+    {
+      unsigned int at_others = part.cells[0] / n_parts,
+                   inner     = part.first_inner_cell / n_parts;
+      for (unsigned int c = part.cells[0] / n_parts;
+           c < part.cells[1] / n_parts; ++c)
+        cell_place.push_back(is_at_others[c] ? at_others++ : inner++);
     }
   }
 
@@ -298,8 +344,13 @@ namespace quoin
     const bool is_quadratic = table().is_quadratic;
     points.resize(node_exchange->n_local());
     node_block.resize(points.size(), none);
+    node_numbers.resize(points.size());
     midside.assign(is_quadratic ? points.size() : 0, false);
 
+    const unsigned int n_parts = linear_cells_of(is_quadratic);
+    cells.resize(n_parts * cell_place.size());
+    cell_group.resize(cells.size());
+    unsigned int index = 0;
     std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
     for (const auto &cell : dofs.active_cell_iterators())
     {
@@ -311,29 +362,29 @@ namespace quoin
       for (Dof &node : nodes)
         node = node_exchange->local(node);
       for (unsigned int k = 0; k <= dim; ++k)
-        points[nodes[k]] = cell->vertex(k);
+      {
+        points[nodes[k]]       = cell->vertex(k);
+        node_numbers[nodes[k]] = blocks.vertex_numbers()[cell->vertex_index(k)];
+      }
       if (is_quadratic)
         for (unsigned int f = 0; f <= dim; ++f)
         {
-          const auto face = nodes_of_face<dim>(f, true);
+          const auto face     = nodes_of_face<dim>(f, true);
+          const auto [v0, v1] = std::minmax(
+              { node_numbers[nodes[face[0]]], node_numbers[nodes[face[2]]] });
+          node_numbers[nodes[face[1]]] = (v1 + 1) << 32U | v0;
           points[nodes[face[1]]]
               = 0.5 * (cell->vertex(face[0]) + cell->vertex(face[2]));
           midside[nodes[face[1]]] = true;
         }
       for (const Dof node : nodes)
         node_block[node] = block;
-      if (parts.empty() || parts.back().number != block)
-      {
-        const unsigned int begin = cells.size();
-        parts.push_back({ block, { begin, begin }, { 0, 0 } });
-        n_deformable_parts += !table().is_rigid[block];
-      }
+      unsigned int place = n_parts * cell_place[index++];
       for (const auto &part : linear_cells<dim>(nodes))
       {
-        cells.push_back(part);
-        cell_group.push_back(cell->material_id());
+        cells[place]        = part;
+        cell_group[place++] = cell->material_id();
       }
-      parts.back().cells[1] = cells.size();
     }
 
     // Nodes of a block that are not shared are consecutive.
@@ -356,6 +407,7 @@ namespace quoin
         positions[i][d] = points[i][d];
     node_exchange->update_ghosts(positions.data());
     node_exchange->update_ghosts(node_block.data());
+    node_exchange->update_ghosts(node_numbers.data());
     std::vector<unsigned char> is_midside(midside.begin(), midside.end());
     if (is_quadratic)
       node_exchange->update_ghosts(is_midside.data());
@@ -369,17 +421,35 @@ namespace quoin
   }
 
   template <int dim>
+  std::vector<std::uint64_t> NodeMap<dim>::cell_numbers() const
+  {
+    const unsigned int n_parts = linear_cells_of(table().is_quadratic);
+    std::vector<std::uint64_t> result(cells.size());
+    unsigned int index = 0;
+    for (const auto &cell : dofs.active_cell_iterators())
+      if (cell->is_locally_owned())
+      {
+        const unsigned int place = n_parts * cell_place[index++];
+        for (unsigned int part = 0; part < n_parts; ++part)
+          result[place + part]
+              = n_parts * cell->id().get_coarse_cell_id() + part;
+      }
+    return result;
+  }
+
+  template <int dim>
   void NodeMap<dim>::pack_faces()
   {
     const bool is_quadratic    = table().is_quadratic;
     const unsigned int n_names = table().face_names.size();
     const unsigned int n_parts = linear_cells_of(is_quadratic);
-    unsigned int first         = 0;
+    unsigned int index         = 0;
     std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
     for (const auto &cell : dofs.active_cell_iterators())
     {
       if (!cell->is_locally_owned())
         continue;
+      const unsigned int first = n_parts * cell_place[index++];
       if (cell->at_boundary())
         cell->get_dof_indices(nodes);
       for (unsigned int f = 0; f <= dim; ++f)
@@ -401,7 +471,6 @@ namespace quoin
           outer.push_back(result);
         }
       }
-      first += n_parts;
     }
     std::sort(outer.begin(), outer.end(),
               [](const OuterFace<dim> &a, const OuterFace<dim> &b)

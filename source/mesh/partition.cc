@@ -130,9 +130,9 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  std::vector<unsigned int>
-  partition_cells(const BlockMesh<dim> &mesh, const std::vector<bool> &is_rigid,
-                  const unsigned int n_ranks, const bool may_divide_blocks)
+  std::vector<unsigned int> partition_cells(const BlockMesh<dim> &mesh,
+                                            const std::vector<bool> &is_rigid,
+                                            const unsigned int n_ranks)
   {
     std::vector<unsigned int> rank_of_cell(mesh.n_cells(), 0);
     if (n_ranks == 1)
@@ -161,8 +161,7 @@ namespace quoin
       const auto rank = graph.divide(n_ranks);
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
         rank_of_cell[c] = rank[unit_of_cell[c]];
-      if (!may_divide_blocks
-          || graph.imbalance_of(rank, n_ranks) <= whole_block_imbalance)
+      if (graph.imbalance_of(rank, n_ranks) <= whole_block_imbalance)
         break;
     }
     return rank_of_cell;
@@ -170,8 +169,8 @@ namespace quoin
 
   template std::vector<unsigned int> partition_cells(const BlockMesh<2> &,
                                                      const std::vector<bool> &,
-                                                     unsigned int, bool);
+                                                     unsigned int);
   template std::vector<unsigned int> partition_cells(const BlockMesh<3> &,
                                                      const std::vector<bool> &,
-                                                     unsigned int, bool);
+                                                     unsigned int);
 } // namespace quoin

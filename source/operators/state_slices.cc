@@ -21,6 +21,14 @@ namespace quoin
     return *this;
   }
 
+  void StateSlices::copy_slices(const StateSlices &other)
+  {
+    for (Entry &entry : entries)
+      for (const Entry &from : other.entries)
+        if (entry.name == from.name && *entry.type == *from.type)
+          entry.data = from.copy(from.data.get());
+  }
+
   void StateSlices::refuse_missing(const std::string_view name)
   {
     throw std::logic_error("No operator has added the slice '"
@@ -57,5 +65,12 @@ namespace quoin
     if (n != entries.size())
       boost::serialization::throw_exception(boost::archive::archive_exception(
           boost::archive::archive_exception::input_stream_error));
+  }
+
+  void StateSlices::take_slices(StateSlices &part, Redistribution &moves)
+  {
+    for (std::size_t i = 0; i < entries.size(); ++i)
+      entries[i].take(moves, entries[i].name, entries[i].data.get(),
+                      part.entries[i].data.get());
   }
 } // namespace quoin

@@ -14,15 +14,15 @@ namespace quoin
   namespace
   {
     /**
-     * Energy that boundary elements may seem to have created, by what went
-     * through the model. No domain that was at rest gives energy; the first
-     * moments of a pulse, too short for the elements, may look so by a tenth.
-     * Modes that grow soon owe all they have to the boundary elements.
+     * Largest apparent energy from boundary elements, by the energy throughput
+     * [-]. A domain at rest gives no energy; at the start of a pulse too short
+     * for the elements a tenth may appear. The energy of growing modes soon
+     * comes entirely from the boundary elements.
      */
     constexpr double largest_created_share = 0.5;
 
-    /** Energies that the model could give back and the accounts, dissipated
-        ones first. */
+    /** Columns of stored energies and of the accounts, dissipated ones first.
+     */
     std::vector<std::string> energy_columns()
     {
       std::vector<std::string> names
@@ -37,21 +37,29 @@ namespace quoin
       return names;
     }
 
-    Histories make_histories(const BlockSystem &system)
+    template <int dim>
+    Histories<dim> make_histories(const BlockSystem<dim> &system)
     {
       const Parameters &parameters = system.parameters;
       return naming(parameters.file,
                     [&]()
                     {
-                      return Histories(
-                          parameters.histories, *system.model, *system.solver,
-                          system.boundary_geometry, parameters.boundary,
-                          system.construction->absent_in_the_end());
+                      const auto absent
+                          = system.construction
+                                ? system.construction->absent_in_the_end()
+                                : std::vector<bool>(
+                                    system.nodes->table().group_names.size());
+                      return Histories<dim>(parameters.histories, *system.model,
+                                            *system.solver,
+                                            system.boundary_geometry,
+                                            parameters.boundary, absent);
                     });
     }
   } // namespace
 
-  BlockOutputs::BlockOutputs(BlockSystem &system, const RunContext &run)
+  template <int dim>
+  BlockOutputs<dim>::BlockOutputs(BlockSystem<dim> &system,
+                                  const RunContext &run)
     : system(system), run(run), histories(make_histories(system)),
       row_times(system.parameters.row_times()),
       field_times(system.parameters.field_times()),
@@ -72,7 +80,8 @@ namespace quoin
                                "line search [-]", "linear iterations [-]" });
   }
 
-  void BlockOutputs::open()
+  template <int dim>
+  void BlockOutputs<dim>::open()
   {
     run.on_first_rank(
         [&]()
@@ -85,7 +94,8 @@ namespace quoin
     fields.start();
   }
 
-  void BlockOutputs::write_generated_geometry() const
+  template <int dim>
+  void BlockOutputs<dim>::write_generated_geometry() const
   {
     const GeneratedGeometry &made = system.parameters.generated;
     if (made.geometry.empty())
@@ -98,26 +108,31 @@ namespace quoin
                     system.parameters.triangles);
   }
 
-  std::size_t BlockOutputs::n_columns() const
+  template <int dim>
+  std::size_t BlockOutputs<dim>::n_columns() const
   {
     return energy_columns().size() + histories.column_names().size();
   }
 
-  void BlockOutputs::write_row(const State<2> &state)
+  template <int dim>
+  void BlockOutputs<dim>::write_row(const State<dim> &state)
   {
     measured([&]() { add_rows(state); });
   }
 
-  void BlockOutputs::add_rows(const State<2> &state)
+  template <int dim>
+  void BlockOutputs<dim>::add_rows(const State<dim> &state)
   {
     const auto row = histories.after_step(state);
     write_energies(row.front());
     history_table.add_row(row);
-    if (far_field_table)
-      write_far_field_row(state);
+    if constexpr (dim == 2)
+      if (far_field_table)
+        write_far_field_row(state);
   }
 
-  void BlockOutputs::write_energies(const double time)
+  template <int dim>
+  void BlockOutputs<dim>::write_energies(const double time)
   {
     const Energies &energies = system.solver->energies();
     most_residual = std::max(most_residual, std::abs(energies.residual()));
@@ -133,7 +148,8 @@ namespace quoin
     energy_table.add_row(row);
   }
 
-  void BlockOutputs::write_far_field_row(const State<2> &state)
+  template <>
+  void BlockOutputs<2>::write_far_field_row(const State<2> &state)
   {
     const FarField::Ledger ledger = system.solver->far_field()->ledger(state);
     const double taken            = ledger.radiated + ledger.given;
@@ -154,7 +170,8 @@ namespace quoin
           ledger.mismatch });
   }
 
-  void BlockOutputs::write_iterations()
+  template <>
+  void BlockOutputs<2>::write_iterations()
   {
     for (const IterationReport &report : system.implicit_solver->take_reports())
       convergence_table->add_row({ double(report.step), double(report.attempt),
@@ -163,18 +180,21 @@ namespace quoin
                                    report.linear_iterations });
   }
 
-  void BlockOutputs::write_fields(const State<2> &state)
+  template <int dim>
+  void BlockOutputs<dim>::write_fields(const State<dim> &state)
   {
     if (state.time == fields_time)
       return;
     fields_time = state.time;
     measured([&]() { fields.write(state.time, state); });
-    if (system.solver->far_field())
-      write_boundary(state);
+    if constexpr (dim == 2)
+      if (system.solver->far_field())
+        write_boundary(state);
     run.tables.flush();
   }
 
-  void BlockOutputs::write_boundary(const State<2> &state)
+  template <>
+  void BlockOutputs<2>::write_boundary(const State<2> &state)
   {
     if (!system.solver->far_field_acts() || !state.get<FarFieldState>().active)
       return;
@@ -188,12 +208,17 @@ namespace quoin
         });
   }
 
-  void BlockOutputs::write_mechanism(const State<2> &state,
-                                     const State<2> &base, const double factor)
+  template <int dim>
+  void BlockOutputs<dim>::write_mechanism(const State<dim> &state,
+                                          const State<dim> &base,
+                                          const double factor)
   {
-    ModelOutput mechanism(run.output + "/mechanism", *system.model,
-                          *system.solver);
+    ModelOutput<dim> mechanism(run.output + "/mechanism", *system.model,
+                               *system.solver);
     mechanism.start();
     mechanism.write(factor, state, &base);
   }
+
+  template class BlockOutputs<2>;
+  template class BlockOutputs<3>;
 } // namespace quoin

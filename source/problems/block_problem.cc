@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/results/entry_numbers.h>
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/problems/advice.h>
 #include <quoin/problems/block_problem.h>
 #include <quoin/problems/costs.h>
 #include <quoin/problems/model_summary.h>
 #include <quoin/operators/archive.h>
+
+#include <boost/serialization/map.hpp>
 
 #include <nlohmann/json.hpp>
 
@@ -19,16 +22,17 @@ namespace quoin
 {
   namespace
   {
-    /** Smaller shares of the time are not worth a word. */
+    /** Smaller shares of the time are not reported. */
     constexpr double least_share = 1e-3;
 
-    std::string step_text(const BlockContext &context,
+    template <int dim>
+    std::string step_text(const BlockContext<dim> &context,
                           const StageParameters &stage)
     {
-      const ExplicitSolver &solver = *context.system.explicit_solver;
-      const double dt              = solver.get_time_step();
-      const double critical        = solver.critical_time_step();
-      const double added           = solver.added_mass_share();
+      const ExplicitSolver<dim> &solver = *context.system.explicit_solver;
+      const double dt                   = solver.get_time_step();
+      const double critical             = solver.critical_time_step();
+      const double added                = solver.added_mass_share();
       std::string text = text_of("stage ", stage.name, ": time step ", dt,
                                  " s, ", 100. * dt / critical,
                                  " % of the critical ", critical, " s");
@@ -51,24 +55,28 @@ namespace quoin
     }
   } // namespace
 
-  BlockProblem::BlockProblem(const Parameters &parameters,
-                             const RunContext &run)
-    : Problem(parameters, run), context(parameters, run),
+  template <int dim>
+  BlockProblem<dim>::BlockProblem(const Parameters &parameters,
+                                  MeshData<dim> mesh, const RunContext &run)
+    : Problem(parameters, run), context(parameters, std::move(mesh), run),
       system(context.system), state(context.state)
   {
   }
 
-  const std::string &BlockProblem::fingerprint() const
+  template <int dim>
+  const std::string &BlockProblem<dim>::fingerprint() const
   {
     return system.fingerprint;
   }
 
-  unsigned int BlockProblem::n_stages() const
+  template <int dim>
+  unsigned int BlockProblem<dim>::n_stages() const
   {
     return parameters.stages.size();
   }
 
-  void BlockProblem::report_model()
+  template <int dim>
+  void BlockProblem<dim>::report_model()
   {
     if (!parameters.generated.report.empty())
       run.log.message(parameters.generated.report);
@@ -95,11 +103,12 @@ namespace quoin
     report_stages();
   }
 
-  void BlockProblem::report_stages()
+  template <int dim>
+  void BlockProblem<dim>::report_stages()
   {
-    // Stages are begun with a copy, to find what is wrong with them.
-    State<2> begun     = state;
-    bool time_is_known = true; // until a stage ends when it has settled
+    // Stages are begun with a copy, to find errors in them.
+    State<dim> begun   = state;
+    bool time_is_known = true; // until a static stage, whose end is unknown
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
     {
       const StageParameters &stage = parameters.stages[i];
@@ -120,13 +129,15 @@ namespace quoin
         begun.time += double(context.steps.n_steps())
                       * system.explicit_solver->get_time_step();
     }
-    system.construction->restart();
+    if (system.construction)
+      system.construction->restart();
     if (system.implicit_solver)
       run.log.message("inertia, damping and mass scaling are left out");
   }
 
-  void BlockProblem::advise_about_stage(const unsigned int index,
-                                        const State<2> &begun) const
+  template <int dim>
+  void BlockProblem<dim>::advise_about_stage(const unsigned int index,
+                                             const State<dim> &begun) const
   {
     const StageParameters &stage = parameters.stages[index];
     if (stage.end == StageEnd::time && !system.model->large_displacements())
@@ -140,56 +151,89 @@ namespace quoin
           parameters.boundary, system.boundary_geometry, stage.duration));
   }
 
-  void BlockProblem::report_costs()
+  template <int dim>
+  void BlockProblem<dim>::report_costs()
   {
     report_block_costs(context);
   }
 
-  void BlockProblem::open_outputs()
+  template <int dim>
+  void BlockProblem<dim>::open_outputs()
   {
     context.outputs.open();
   }
 
-  std::unique_ptr<Stage> BlockProblem::make_stage(const unsigned int index)
+  template <int dim>
+  std::unique_ptr<Stage> BlockProblem<dim>::make_stage(const unsigned int index)
   {
-    return parameters.stages[index].safety ? make_safety_stage(context, index)
-           : system.implicit_solver        ? make_implicit_stage(context, index)
-                                    : make_explicit_stage(context, index);
+    if constexpr (dim == 2)
+    {
+      if (parameters.stages[index].safety)
+        return make_safety_stage(context, index);
+      if (system.implicit_solver)
+        return make_implicit_stage(context, index);
+    }
+    return make_explicit_stage(context, index);
   }
 
-  void BlockProblem::restore(const unsigned int index)
+  template <int dim>
+  void BlockProblem<dim>::restore(const unsigned int index)
   {
     context.system.restore(index, state);
   }
 
-  void BlockProblem::complete_state()
+  template <int dim>
+  void BlockProblem<dim>::complete_state()
   {
     system.solver->check_finite(state);
     system.solver->check_cells(state);
     system.solver->save(state);
   }
 
+  template <int dim>
   template <typename Archive>
-  void BlockProblem::archive_all(Archive &archive)
+  void BlockProblem<dim>::archive_all(Archive &archive, State<dim> &archived)
   {
-    archive &state &context.outputs &context.iterations &context.cuts &context
-        .searches;
+    archive &archived &context.outputs &context.iterations &context
+        .cuts &context.searches;
   }
 
-  void BlockProblem::save(boost::archive::binary_oarchive &archive)
+  template <int dim>
+  void BlockProblem<dim>::save(boost::archive::binary_oarchive &archive)
   {
-    archive_all(archive);
+    archive_all(archive, state);
+    const EntryNumbers numbers
+        = number_entries_of(state, *system.model, *system.solver);
+    archive << numbers;
     // Only checkpoints need them.
     system.solver->discard_saved(state);
   }
 
-  void BlockProblem::load(boost::archive::binary_iarchive &archive)
+  template <int dim>
+  void BlockProblem<dim>::load(boost::archive::binary_iarchive &archive,
+                               const ArchiveOrigin &origin)
   {
-    archive_all(archive);
+    if (origin.is_own)
+      return archive_all(archive, state);
+    if (!gathering)
+      gathering = std::make_unique<StateGathering<dim>>(
+          number_entries(*system.model, *system.solver),
+          dealii::Utilities::MPI::this_mpi_process(run.communicator) == 0,
+          state);
+    State<dim> part = state; // with its slices
+    EntryNumbers numbers;
+    archive_all(archive, part);
+    archive >> numbers;
+    gathering->take(part, numbers);
+    if (origin.rank > 0)
+      return;
+    gathering->finish();
+    gathering.reset();
   }
 
-  void BlockProblem::summarise(nlohmann::json &summary,
-                               const double seconds) const
+  template <int dim>
+  void BlockProblem<dim>::summarise(nlohmann::json &summary,
+                                    const double seconds) const
   {
     const MeshReport &report = system.mesh_report;
     const Energies &energies = system.solver->energies();
@@ -199,7 +243,8 @@ namespace quoin
           { "cells", report.n_cells },
           { "nodes", report.n_nodes },
           { "joint faces", report.n_joint_faces },
-          { "joint length [m]", report.total_joint_length },
+          { report.dimension == 2 ? "joint length [m]" : "joint area [m2]",
+            report.total_joint_size },
           { "shortest edge [m]", report.shortest_edge },
           { "smallest angle [deg]", report.smallest_angle },
           { "time [s]", state.time },
@@ -210,7 +255,7 @@ namespace quoin
           { "largest energy residual [J]", context.outputs.largest_residual() },
           { "energy residual share", context.energy_residual() },
           { "solver", system.implicit_solver ? "implicit" : "explicit" } });
-    if (const ExplicitSolver *solver = system.explicit_solver)
+    if (const ExplicitSolver<dim> *solver = system.explicit_solver)
       summary.update(
           { { "time step [s]", solver->get_time_step() },
             { "critical time step [s]", solver->critical_time_step() },
@@ -233,14 +278,16 @@ namespace quoin
       summary["blocks outside the box"]
           = std::count(marks.begin(), marks.end(), block_mark::left_box);
     }
-    if (system.solver->contacts())
-      summarise_contacts(summary, seconds);
+    if constexpr (dim == 2)
+      if (system.solver->contacts())
+        summarise_contacts(summary, seconds);
     if (summary["finished"] && parameters.measure_bandwidth)
       summarise_bandwidth(summary, seconds);
   }
 
-  void BlockProblem::summarise_time(nlohmann::json &summary,
-                                    const double seconds) const
+  template <int dim>
+  void BlockProblem<dim>::summarise_time(nlohmann::json &summary,
+                                         const double seconds) const
   {
     const PhaseClock &clock = system.solver->time_spent();
     std::vector<double> times;
@@ -249,7 +296,7 @@ namespace quoin
     // Processes step together: the mean of their times counts. They have the
     // same phases, because they have the same operators.
     dealii::Utilities::MPI::sum(times, run.communicator, times);
-    // Samples of a short run may say more than there was.
+    // Samples of a short run may exceed the total.
     const double all = std::max(
         seconds * dealii::Utilities::MPI::n_mpi_processes(run.communicator),
         std::accumulate(times.begin(), times.end(), 0.));
@@ -264,7 +311,8 @@ namespace quoin
     summary["time shares"]["other"] = std::max(other, 0.);
   }
 
-  void BlockProblem::summarise_searches(nlohmann::json &summary) const
+  template <int dim>
+  void BlockProblem<dim>::summarise_searches(nlohmann::json &summary) const
   {
     for (unsigned int i = 0; i < context.searches.size(); ++i)
     {
@@ -277,8 +325,9 @@ namespace quoin
     }
   }
 
-  void BlockProblem::summarise_contacts(nlohmann::json &summary,
-                                        const double seconds) const
+  template <>
+  void BlockProblem<2>::summarise_contacts(nlohmann::json &summary,
+                                           const double seconds) const
   {
     const BlockContacts *contacts = system.solver->contacts();
     const double sums[3]
@@ -296,8 +345,9 @@ namespace quoin
     summary["contact search share"] = rate(all[2]);
   }
 
-  void BlockProblem::summarise_bandwidth(nlohmann::json &summary,
-                                         const double seconds) const
+  template <int dim>
+  void BlockProblem<dim>::summarise_bandwidth(nlohmann::json &summary,
+                                              const double seconds) const
   {
     namespace MPI = dealii::Utilities::MPI;
     const double bytes
@@ -311,12 +361,14 @@ namespace quoin
                        : 0.;
   }
 
+  template <int dim>
   Problem::LastWords
-  BlockProblem::last_words(const nlohmann::json &summary) const
+  BlockProblem<dim>::last_words(const nlohmann::json &summary) const
   {
     const auto millions = [&](const char *name)
     { return text_of(summary[name].get<double>() / 1e6, " million "); };
-    /** By the energy throughput; user_guide.md, "Judge the result". */
+    /** Largest error by the energy throughput; user_guide.md, "Judge the
+        result". */
     constexpr double largest = 1e-3;
     const double residual    = context.energy_residual();
     if (std::abs(residual) > largest)
@@ -337,17 +389,21 @@ namespace quoin
                              " % of the energy throughput") };
     std::string shares;
     for (const auto &[phase, share] : summary["time shares"].items())
-      if (share.get<double>() >= least_share)
+      if (share.template get<double>() >= least_share)
         shares += text_of(shares.empty() ? "" : ", ", phase, " ",
-                          std::round(1e3 * share.get<double>()) / 10., " %");
+                          std::round(1e3 * share.template get<double>()) / 10.,
+                          " %");
     words.figures += "\ntime: " + shares;
     if (system.solver->contacts())
-      words.figures
-          += text_of("\ncontacts: ", millions("contact updates per second"),
-                     "updates a second, ", state.get<ContactState>().n_searches,
-                     " searches that took ",
-                     100. * summary["contact search share"].get<double>(),
-                     " % of the time");
+      words.figures += text_of(
+          "\ncontacts: ", millions("contact updates per second"),
+          "updates a second, ", state.template get<ContactState>().n_searches,
+          " searches that took ",
+          100. * summary["contact search share"].get<double>(),
+          " % of the time");
     return words;
   }
+
+  template class BlockProblem<2>;
+  template class BlockProblem<3>;
 } // namespace quoin

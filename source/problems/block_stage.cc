@@ -5,29 +5,34 @@
 
 namespace quoin
 {
-  BlockContext::BlockContext(const Parameters &parameters,
-                             const RunContext &run)
-    : run(run), system(parameters, run.communicator), steps(system, run.log),
-      outputs(system, run), state(system.initial_state()),
-      searches(parameters.stages.size())
+  template <int dim>
+  BlockContext<dim>::BlockContext(const Parameters &parameters,
+                                  MeshData<dim> mesh, const RunContext &run)
+    : run(run), system(parameters, std::move(mesh), run.communicator),
+      steps(system, run.log), outputs(system, run),
+      state(system.initial_state()), searches(parameters.stages.size())
   {
   }
 
-  double BlockContext::energy_residual() const
+  template <int dim>
+  double BlockContext<dim>::energy_residual() const
   {
     const Energies &energies = system.solver->energies();
     const double scale       = energies.throughput();
     return scale > 0. ? energies.residual() / scale : 0.;
   }
 
-  BlockStage::BlockStage(BlockContext &context, const unsigned int index)
+  template <int dim>
+  BlockStage<dim>::BlockStage(BlockContext<dim> &context,
+                              const unsigned int index)
     : context(context), system(context.system), outputs(context.outputs),
       log(context.run.log), index(index),
       stage(system.parameters.stages[index]), state(context.state)
   {
   }
 
-  void BlockStage::end()
+  template <int dim>
+  void BlockStage<dim>::end()
   {
     finish();
     system.solver->check_finite(state);
@@ -37,13 +42,16 @@ namespace quoin
     outputs.write_fields(state);
   }
 
-  void BlockStage::warn_of_slip() const
+  template <int dim>
+  void BlockStage<dim>::warn_of_slip() const
   {
-    /** Half of the blocks' edges is left on each other. */
+    /** Slip by face length at which half of the edges still overlap [-]. */
     constexpr double most = 0.5;
     if (system.model->large_displacements())
       return;
-    const double share = system.solver->largest_slip_share(state);
+    double share = 0.;
+    if constexpr (dim == 2)
+      share = system.solver->largest_slip_share(state);
     if (share > most)
       log.warning("stage ", stage.name, ": joints have slipped by up to ",
                   100. * share,
@@ -52,14 +60,15 @@ namespace quoin
                   "Take 'Displacements = large' in section 'Contact'.");
   }
 
-  ProgressFigures BlockStage::figures_at(const double fraction) const
+  template <int dim>
+  ProgressFigures BlockStage<dim>::figures_at(const double fraction) const
   {
     ProgressFigures figures;
     figures.stage    = stage.name;
     figures.time     = state.time;
     figures.step     = state.step;
     figures.fraction = fraction;
-    if (const ExplicitSolver *solver = system.explicit_solver)
+    if (const ExplicitSolver<dim> *solver = system.explicit_solver)
       figures.share_of_critical
           = solver->get_time_step() / solver->critical_time_step();
     figures.unbalanced_ratio = state.unbalanced_ratio;
@@ -67,20 +76,27 @@ namespace quoin
     return figures;
   }
 
-  double BlockStage::load_share() const
+  template <int dim>
+  double BlockStage<dim>::load_share() const
   {
-    return state.get<ImplicitState>().released < 1.
+    return state.template get<ImplicitState>().released < 1.
                ? 0.
                : state.load_time / system.implicit_solver->duration();
   }
 
-  bool BlockStage::has_settled() const
+  template <int dim>
+  bool BlockStage<dim>::has_settled() const
   {
-    constexpr auto interval = ExplicitSolver::balance_interval;
+    constexpr auto interval = ExplicitSolver<dim>::balance_interval;
     return state.time - state.stage_start >= stage.minimum_duration
            && state.stage_step > interval
            && state.unbalanced_ratio <= stage.static_ratio
            && !system.solver->loads_change(
                state, interval * system.explicit_solver->get_time_step());
   }
+
+  template struct BlockContext<2>;
+  template struct BlockContext<3>;
+  template class BlockStage<2>;
+  template class BlockStage<3>;
 } // namespace quoin

@@ -14,58 +14,36 @@
 
 namespace quoin
 {
-  namespace
-  {
-    MeshData read_mesh_data(const Parameters &parameters,
-                            const MPI_Comm communicator)
-    {
-      const GeneratedGeometry &made = parameters.generated;
-      return made.geometry.empty()
-                 ? read_gmsh(parameters.mesh_file, communicator,
-                             parameters.triangles)
-                 : mesh_gmsh_geometry(made.geometry,
-                                      made.name == "wall" ? "section Wall"
-                                                          : "section Rock",
-                                      communicator, parameters.triangles);
-    }
-
-    /** Contacts and construction want whole blocks. */
-    bool may_divide_blocks(const Parameters &parameters)
-    {
-      return !parameters.model.large_displacements
-             && std::none_of(parameters.stages.begin(), parameters.stages.end(),
-                             [](const StageParameters &stage) {
-                               return !stage.excavate.empty()
-                                      || !stage.fill.empty();
-                             });
-    }
-  } // namespace
-
-  BlockSystem::BlockSystem(const Parameters &parameters,
-                           const MPI_Comm communicator)
+  template <int dim>
+  BlockSystem<dim>::BlockSystem(const Parameters &parameters,
+                                MeshData<dim> as_read,
+                                const MPI_Comm communicator)
     : parameters(parameters), communicator(communicator)
   {
-    MeshData as_read = read_mesh_data(parameters, communicator);
-    const MeshData curves
-        = dealii::Utilities::MPI::broadcast(communicator, curves_of(as_read));
+    MeshData<2> curves;
+    if constexpr (dim == 2)
+      curves
+          = dealii::Utilities::MPI::broadcast(communicator, curves_of(as_read));
     make_mesh(std::move(as_read));
     naming(parameters.file,
            [&]()
            {
-             model = std::make_unique<Model>(*nodes, parameters.model);
-             construction
-                 = std::make_unique<Construction>(*model, parameters.stages);
+             model = std::make_unique<Model<dim>>(*nodes, parameters.model);
+             if constexpr (dim == 2)
+               construction
+                   = std::make_unique<Construction>(*model, parameters.stages);
              make_solver(curves);
            });
   }
 
-  void BlockSystem::make_mesh(MeshData as_read)
+  template <int dim>
+  void BlockSystem<dim>::make_mesh(MeshData<dim> as_read)
   {
     using dealii::Utilities::MPI::broadcast;
     using dealii::Utilities::MPI::n_mpi_processes;
     using dealii::Utilities::MPI::this_mpi_process;
     // The first rank alone has the whole mesh, until it is distributed.
-    BlockMesh<2> mesh;
+    BlockMesh<dim> mesh;
     std::vector<bool> is_rigid;
     std::vector<unsigned int> rank_of_cell;
     all_or_none<InputError>(
@@ -76,54 +54,65 @@ namespace quoin
             return;
           fingerprint = run_fingerprint(parameters, as_read);
           split_into_blocks(as_read, parameters.split, mesh);
-          as_read     = MeshData();
+          as_read     = MeshData<dim>();
           mesh_report = make_mesh_report(mesh);
-          // What touches without matching is in contact then.
+          // Unmatched edges that touch are then in contact.
           if (parameters.model.large_displacements)
-            mesh_report.unmatched_length = 0.;
+            mesh_report.unmatched_size = 0.;
+          const auto &materials = parameters.model.materials;
           naming(parameters.file,
                  [&]()
                  {
-                   const auto &materials = parameters.model.materials;
-                   renumber_blocks(mesh, order_rigid_last(find_rigid_blocks(
-                                             mesh, materials)));
+                   if constexpr (dim == 2)
+                     renumber_blocks(mesh, order_rigid_last(find_rigid_blocks(
+                                               mesh, materials)));
                    is_rigid = find_rigid_blocks(mesh, materials);
                  });
           rank_of_cell
-              = partition_cells(mesh, is_rigid, n_mpi_processes(communicator),
-                                may_divide_blocks(parameters));
+              = partition_cells(mesh, is_rigid, n_mpi_processes(communicator));
         });
     fingerprint = broadcast(communicator, fingerprint);
     mesh_report = broadcast(communicator, mesh_report);
-    blocks      = std::make_unique<BlockTriangulation<2>>(mesh, rank_of_cell,
-                                                     is_rigid, communicator);
-    nodes       = std::make_unique<NodeMap<2>>(*blocks);
+    blocks      = std::make_unique<BlockTriangulation<dim>>(mesh, rank_of_cell,
+                                                       is_rigid, communicator);
+    nodes       = std::make_unique<NodeMap<dim>>(*blocks);
   }
 
-  void BlockSystem::make_solver(const MeshData &curves)
+  template <int dim>
+  void BlockSystem<dim>::make_solver(const MeshData<2> &curves)
   {
-    auto far        = make_far_field(curves);
-    auto static_far = make_static_far_field(far.get());
-    if (parameters.is_implicit)
+    std::unique_ptr<FarField> far;
+    std::unique_ptr<StaticFarField> static_far;
+    if constexpr (dim == 2)
     {
-      std::vector<std::string> joint_sets;
-      for (const JointSetParameters &set : parameters.model.joints)
-        joint_sets.push_back(set.name);
-      auto made = std::make_unique<ImplicitSolver>(
-          *model, parameters.loads, parameters.implicit, joint_sets,
-          std::move(static_far));
-      implicit_solver = made.get();
-      solver          = std::move(made);
-      return;
+      far        = make_far_field(curves);
+      static_far = make_static_far_field(far.get());
+      if (parameters.is_implicit)
+      {
+        std::vector<std::string> joint_sets;
+        for (const JointSetParameters &set : parameters.model.joints)
+          joint_sets.push_back(set.name);
+        auto made = std::make_unique<ImplicitSolver>(
+            *model, parameters.loads, parameters.implicit, joint_sets,
+            std::move(static_far));
+        implicit_solver = made.get();
+        solver          = std::move(made);
+        return;
+      }
     }
-    auto made = std::make_unique<ExplicitSolver>(
-        *model, parameters.loads, parameters.stages, std::move(far),
+    std::vector<LoadParameters> loads;
+    for (const LoadParameters &load : parameters.loads)
+      loads.push_back(load.along_axes<dim>());
+    auto made = std::make_unique<ExplicitSolver<dim>>(
+        *model, loads, parameters.stages, std::move(far),
         std::move(static_far));
     explicit_solver = made.get();
     solver          = std::move(made);
   }
 
-  std::unique_ptr<FarField> BlockSystem::make_far_field(const MeshData &curves)
+  template <>
+  std::unique_ptr<FarField>
+  BlockSystem<2>::make_far_field(const MeshData<2> &curves)
   {
     const auto load
         = std::find_if(parameters.loads.begin(), parameters.loads.end(),
@@ -150,8 +139,9 @@ namespace quoin
     }
   }
 
+  template <>
   std::unique_ptr<StaticFarField>
-  BlockSystem::make_static_far_field(const FarField *far) const
+  BlockSystem<2>::make_static_far_field(const FarField *far) const
   {
     const auto needs_it = [&](const StageParameters &stage)
     {
@@ -169,33 +159,40 @@ namespace quoin
         model->thickness());
   }
 
-  State<2> BlockSystem::initial_state() const
+  template <int dim>
+  State<dim> BlockSystem<dim>::initial_state() const
   {
-    State<2> state = model->initial_state();
+    State<dim> state = model->initial_state();
     solver->prepare(state);
-    if (parameters.initial_motion.is_given)
-      naming(parameters.file,
-             [&]()
-             {
-               all_or_none<InputError>(
-                   communicator,
-                   [&]() { parameters.initial_motion.apply(state); });
-               explicit_solver->account_for_initial_motion(state);
-             });
+    if constexpr (dim == 2)
+      if (parameters.initial_motion.is_given)
+        naming(parameters.file,
+               [&]()
+               {
+                 all_or_none<InputError>(
+                     communicator,
+                     [&]() { parameters.initial_motion.apply(state); });
+                 explicit_solver->account_for_initial_motion(state);
+               });
     return state;
   }
 
-  void BlockSystem::begin_stage(const unsigned int index, State<2> &state,
-                                const bool time_is_known)
+  template <int dim>
+  void BlockSystem<dim>::begin_stage(const unsigned int index,
+                                     State<dim> &state,
+                                     const bool time_is_known)
   {
     const StageParameters &stage    = parameters.stages[index];
     const StageParameters *previous = previous_stage(parameters.stages, index);
     try
     {
-      construction->begin_stage(index, *solver, state);
-      if (implicit_solver)
-        implicit_solver->begin_stage(stage, previous, state);
-      else
+      if constexpr (dim == 2)
+      {
+        construction->begin_stage(index, *solver, state);
+        if (implicit_solver)
+          implicit_solver->begin_stage(stage, previous, state);
+      }
+      if (explicit_solver)
         explicit_solver->begin_stage(stage, previous, state);
       if (time_is_known)
         solver->check_start(state);
@@ -203,43 +200,56 @@ namespace quoin
     catch (const InputError &error)
     {
       const std::string what = parameters.file + ", " + error.what();
-      // Wrong input is what is found before anything is computed.
+      // An InputError is thrown only before anything is computed.
       if (state.step > 0)
         throw RunError(what);
       throw InputError(what);
     }
   }
 
-  void BlockSystem::resume_stage(const unsigned int index, State<2> &state)
+  template <int dim>
+  void BlockSystem<dim>::resume_stage(const unsigned int index,
+                                      State<dim> &state)
   {
-    construction->resume_stage(index, state);
-    if (implicit_solver)
-      implicit_solver->resume_stage(parameters.stages[index], state);
-    else
+    if constexpr (dim == 2)
+    {
+      construction->resume_stage(index, state);
+      if (implicit_solver)
+        implicit_solver->resume_stage(parameters.stages[index], state);
+    }
+    if (explicit_solver)
       explicit_solver->resume_stage(parameters.stages[index], state);
   }
 
-  void BlockSystem::restore(const unsigned int index, const State<2> &state)
+  template <int dim>
+  void BlockSystem<dim>::restore(const unsigned int index,
+                                 const State<dim> &state)
   {
     if (index == 0)
       return;
-    construction->resume_stage(index - 1, state);
+    if constexpr (dim == 2)
+      construction->resume_stage(index - 1, state);
     if (explicit_solver)
       explicit_solver->restore_masses(*previous_stage(parameters.stages, index),
                                       state);
   }
 
-  void BlockSystem::set_properties(const ModelProperties &properties,
-                                   const State<2> &state)
+  template <>
+  void BlockSystem<2>::set_properties(const ModelProperties &properties,
+                                      const State<2> &state)
   {
     model->set_properties(properties, state.get<ConstructionState>());
     if (explicit_solver)
       explicit_solver->set_contact_laws(properties.joints);
   }
 
-  unsigned int BlockSystem::n_rigid_blocks() const
+  template <int dim>
+  unsigned int BlockSystem<dim>::n_rigid_blocks() const
   {
     const auto &is_rigid = model->table().is_rigid;
     return std::count(is_rigid.begin(), is_rigid.end(), true);
   }
+
+  template class BlockSystem<2>;
+  template class BlockSystem<3>;
 } // namespace quoin

@@ -104,9 +104,17 @@ namespace quoin
     archive &context.state &context.boundary_output;
   }
 
-  void BoundaryProblem::load(boost::archive::binary_iarchive &archive)
+  void BoundaryProblem::load(boost::archive::binary_iarchive &archive,
+                             const ArchiveOrigin &origin)
   {
+    // The part of the history of other ranks is joined to this one.
+    SavedHistory later = std::move(context.state.history);
     archive &context.state &context.boundary_output;
+    if (!origin.is_own && origin.rank + 1 < origin.n_ranks)
+    {
+      auto &groups = context.state.history.groups;
+      groups.insert(groups.end(), later.groups.begin(), later.groups.end());
+    }
   }
 
   void BoundaryProblem::summarise(nlohmann::json &summary,

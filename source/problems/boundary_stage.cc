@@ -166,8 +166,8 @@ namespace quoin
       {
         fields.velocity = (fields.displacement - last_displacement) / system.dt;
         fields.traction = context.march->p() + p_incident;
-        // Displacements are those at the end of the step: so are the tractions
-        // where they are known.
+        // Displacements are those at the end of the step, and so are prescribed
+        // tractions.
         const auto &of_traction = system.given->traction_is_given();
         const VectorXd p_given  = system.given->at(end);
         VectorXd p_end          = fields.traction;

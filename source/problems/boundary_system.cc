@@ -21,7 +21,7 @@ namespace quoin
     naming(parameters.file,
            [&]()
            {
-             MeshData mesh;
+             MeshData<2> mesh;
              if (!parameters.mesh_file.empty())
                mesh = read_gmsh(parameters.mesh_file, communicator);
              using dealii::Utilities::MPI::broadcast;

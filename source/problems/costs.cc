@@ -18,7 +18,7 @@ namespace quoin
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
     {
       const StageParameters &stage = parameters.stages[i];
-      // One where the stage ends, whatever the intervals.
+      // Each stage has an output at its end.
       ++result.fields;
       if (i < time_steps.size())
         ++result.rows;
@@ -60,26 +60,28 @@ namespace quoin
 
   namespace
   {
-    /** For measuring what the steps of all stages cost together [s]. */
+    /** Time for measuring the steps of all stages [s]. */
     constexpr double measuring_time = 0.5;
 
-    /** Steps for which the cost of a stage without a known end is told. */
+    /** Steps for which the cost of a stage of unknown length is reported. */
     constexpr double many_steps = 10000.;
 
-    /** Iterations that a step takes at least, if joints yield. */
+    /** Least number of iterations of a step, if joints yield. */
     constexpr double few_iterations = 3.;
 
-    /** From @p start again after the stage's end or a failure. */
-    void take_trial_step(BlockContext &context, const StageParameters &stage,
-                         const State<2> &start, State<2> &state)
+    /** Takes a step, again from @p start after the end or a failure. */
+    template <int dim>
+    void take_trial_step(BlockContext<dim> &context,
+                         const StageParameters &stage, const State<dim> &start,
+                         State<dim> &state)
     {
-      BlockSystem &system = context.system;
+      BlockSystem<dim> &system = context.system;
       if (stage.end == StageEnd::time
           && state.stage_step >= context.steps.n_steps())
         state = start;
-      ExplicitSolver::Requests requests;
+      typename ExplicitSolver<dim>::Requests requests;
       requests.balance
-          = state.stage_step % ExplicitSolver::balance_interval == 0;
+          = state.stage_step % ExplicitSolver<dim>::balance_interval == 0;
       requests.energies
           = context.outputs.row_is_due(state.time,
                                        system.explicit_solver->get_time_step())
@@ -90,21 +92,22 @@ namespace quoin
       }
       catch (const RunError &)
       {
-        // Of no account: the stages before, which bring the model to where this
-        // one begins, have not run.
+        // Failures do not count: the previous stages, which lead to the start
+        // of this one, have not run.
         state = start;
       }
     }
 
-    void report_steps(BlockContext &context, const StageParameters &stage,
-                      const State<2> &start)
+    template <int dim>
+    void report_steps(BlockContext<dim> &context, const StageParameters &stage,
+                      const State<dim> &start)
     {
-      BlockSystem &system          = context.system;
+      BlockSystem<dim> &system     = context.system;
       const Parameters &parameters = system.parameters;
       Log &log                     = context.run.log;
-      // The state is a copy; what steps leave in the solver is lost with it,
-      // since nothing runs after a check.
-      State<2> state      = start;
+      // The state is a copy; changes of the solver do no harm, as nothing runs
+      // after a check.
+      State<dim> state    = start;
       unsigned int period = 1;
       if (system.solver->far_field_acts())
       {
@@ -130,10 +133,10 @@ namespace quoin
                     stage.slows_loads() ? " or more" : "");
     }
 
-    void report_iterations(BlockContext &context, const unsigned int index,
+    void report_iterations(BlockContext<2> &context, const unsigned int index,
                            const State<2> &state)
     {
-      BlockSystem &system          = context.system;
+      BlockSystem<2> &system       = context.system;
       const Parameters &parameters = system.parameters;
       Log &log                     = context.run.log;
       const double seconds         = seconds_per_call(
@@ -149,42 +152,48 @@ namespace quoin
     }
   } // namespace
 
-  void report_block_costs(BlockContext &context)
+  template <int dim>
+  void report_block_costs(BlockContext<dim> &context)
   {
-    BlockSystem &system          = context.system;
+    BlockSystem<dim> &system     = context.system;
     const Parameters &parameters = system.parameters;
-    State<2> state               = context.state;
+    State<dim> state             = context.state;
     std::vector<double> time_steps;
     for (unsigned int i = 0; i < parameters.stages.size(); ++i)
     {
       system.begin_stage(i, state, false);
-      if (system.implicit_solver)
-      {
-        report_iterations(context, i, state);
-        state.time += system.implicit_solver->duration();
-        continue;
-      }
+      if constexpr (dim == 2)
+        if (system.implicit_solver)
+        {
+          report_iterations(context, i, state);
+          state.time += system.implicit_solver->duration();
+          continue;
+        }
       context.steps.choose(parameters.stages[i]);
       time_steps.push_back(system.explicit_solver->get_time_step());
       report_steps(context, parameters.stages[i], state);
     }
-    system.construction->restart();
+    if (system.construction)
+      system.construction->restart();
     report_memory_and_disk(
         context.run, "", planned_output(parameters, time_steps),
         bytes_of_fields(*system.model), context.outputs.n_columns());
   }
 
+  template void report_block_costs(BlockContext<2> &);
+  template void report_block_costs(BlockContext<3> &);
+
   // -- boundary elements alone -----------------------------------------------
 
   namespace
   {
-    /** Integrals over elements, one a step, for measuring a point. */
+    /** Number of integrals over elements, one a step, for measuring a point. */
     constexpr double most_integrals = 1e5;
 
-    /** Of a vtu file for each element or point and moment [B]. */
+    /** Bytes in vtu files of each element or point at an output time. */
     constexpr double bytes_of_element = 250., bytes_of_point = 150.;
 
-    /** What all steps take, by some of them; spoils the history [s]. */
+    /** Time of all steps, estimated from some; overwrites the history [s]. */
     double seconds_of_march(BoundarySystem &system)
     {
       TimeMarching trial(*system.kernel, *system.history,
@@ -204,12 +213,12 @@ namespace quoin
                  measuring_time, system.communicator, system.history->period());
     }
 
-    /** What points in the domain take, by some of them [s]. */
+    /** Time of the points in the domain, estimated from some [s]. */
     double seconds_of_points(const BoundarySystem &system,
                              const StepControl &control)
     {
       const double n_elements = system.geometry.boundary.n_elements();
-      // All steps, or as many as are measured in a moment.
+      // All steps, or as many as are measured quickly.
       const auto n = static_cast<unsigned int>(
           std::clamp(most_integrals / n_elements, 1., double(system.n_steps)));
       const Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(
@@ -217,8 +226,8 @@ namespace quoin
       const BoundaryRecord record{ system.dt, system.settings.decay, zero,
                                    zero };
       const double share = double(system.n_steps) / n;
-      // Far from the boundary waves are late and a point costs less: some
-      // points stand for all.
+      // Points far from the boundary, where waves arrive late, cost less: a
+      // sample of points is taken.
       const auto seconds = [&](const std::vector<Eigen::Vector2d> &points,
                                const std::vector<unsigned int> &steps)
       {

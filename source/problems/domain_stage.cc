@@ -43,8 +43,8 @@ namespace quoin
       {
         return rows.empty() && n_done == system.sampled.points.size();
       }
-      /** Histories first, then some points of the field; the last ones write
-          it. */
+      /** Computes histories first, then some points of the field in each step;
+          the last step writes it. */
       Checkpoint take_step() override
       {
         rows.empty() ? sample() : write_histories();
@@ -64,10 +64,10 @@ namespace quoin
       SampledFieldOutput output;
 
       BoundaryRecord record;
-      /** Of histories.csv, which lack what happens in the domain; empty: none,
+      /** Rows of histories.csv still without values in the domain; empty: none,
           or written. */
       std::vector<double> rows;
-      /** Of the fields, the step before and the step. */
+      /** Steps of the fields and the steps before them. */
       std::vector<unsigned int> steps;
       std::size_t n_done = 0;       /**< points of the field */
       Eigen::MatrixXd displacement; /**< of these in all steps [m] */
@@ -107,7 +107,7 @@ namespace quoin
 
     void DomainStage::write_histories()
     {
-      // A step and, for the velocity, the one before it.
+      // Each step and, for the velocity, the one before it.
       std::vector<unsigned int> wanted;
       std::vector<std::array<std::size_t, 2>> columns;
       for (std::uint64_t step = 0; step <= system.n_steps; ++step)

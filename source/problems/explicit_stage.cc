@@ -8,11 +8,12 @@ namespace quoin
 {
   namespace
   {
-    class ExplicitStage : public BlockStage
+    template <int dim>
+    class ExplicitStage : public BlockStage<dim>
     {
     public:
-      ExplicitStage(BlockContext &context, const unsigned int index)
-        : BlockStage(context, index), solver(*system.explicit_solver)
+      ExplicitStage(BlockContext<dim> &context, const unsigned int index)
+        : BlockStage<dim>(context, index), solver(*system.explicit_solver)
       {
       }
 
@@ -30,49 +31,60 @@ namespace quoin
       {
         return over;
       }
-      Checkpoint take_step() override;
+      Stage::Checkpoint take_step() override;
       ProgressFigures figures() const override
       {
-        return figures_at(stage.end == StageEnd::time
-                              ? state.load_time / stage.duration
-                              : -1.);
+        return this->figures_at(stage.end == StageEnd::time
+                                    ? state.load_time / stage.duration
+                                    : -1.);
       }
 
     private:
-      /** The step is chosen, and a stage may be over before it. */
+      using BlockStage<dim>::context;
+      using BlockStage<dim>::system;
+      using BlockStage<dim>::outputs;
+      using BlockStage<dim>::log;
+      using BlockStage<dim>::index;
+      using BlockStage<dim>::stage;
+      using BlockStage<dim>::state;
+      using Checkpoint = Stage::Checkpoint;
+
+      /** Prepares the stage, which may end before its first step. */
       void prepare();
       /** Whether the stage's last row is due at the next step. */
       bool may_be_last(bool balance) const;
-      /** Of a stage that slows its loads, whether it ends at @p load_time [s].
+      /** Whether a stage with automatic rate control ends at @p load_time [s].
        */
       bool loads_are_over(double load_time) const;
-      /** Of a stage that ends by time. */
+      /** Whether a stage that ends by time has ended. */
       bool time_is_over() const;
       /** Throws a RunError if the stage has taken too many steps. */
       bool ends_here(bool balance) const;
       void report_blocks_outside();
 
-      ExplicitSolver &solver;
+      ExplicitSolver<dim> &solver;
       bool over = false;
     };
 
-    void ExplicitStage::prepare()
+    template <int dim>
+    void ExplicitStage<dim>::prepare()
     {
       context.steps.choose(stage);
       solver.discard_saved(state);
       over = stage.end == StageEnd::time && time_is_over();
     }
 
-    Stage::Checkpoint ExplicitStage::take_step()
+    template <int dim>
+    Stage::Checkpoint ExplicitStage<dim>::take_step()
     {
       const double dt = solver.get_time_step();
       const bool balance
-          = state.stage_step % ExplicitSolver::balance_interval == 0;
+          = state.stage_step % ExplicitSolver<dim>::balance_interval == 0;
       if (outputs.fields_are_due(state.time, dt))
         outputs.write_fields(state);
 
       const bool row_is_due = outputs.row_is_due(state.time, dt);
-      ExplicitSolver::Requests requests;
+      typename ExplicitSolver<dim>::Requests requests;
       requests.energies = row_is_due || may_be_last(balance);
       requests.balance = balance || (row_is_due && outputs.row_needs_balance());
       if (requests.energies)
@@ -100,7 +112,8 @@ namespace quoin
                  : Checkpoint::no;
     }
 
-    bool ExplicitStage::may_be_last(const bool balance) const
+    template <int dim>
+    bool ExplicitStage<dim>::may_be_last(const bool balance) const
     {
       if (stage.slows_loads())
         return loads_are_over(state.load_time
@@ -112,21 +125,24 @@ namespace quoin
                  : balance;
     }
 
-    bool ExplicitStage::loads_are_over(const double load_time) const
+    template <int dim>
+    bool ExplicitStage<dim>::loads_are_over(const double load_time) const
     {
       return load_time >= (1. - 1e-12) * stage.duration;
     }
 
-    bool ExplicitStage::time_is_over() const
+    template <int dim>
+    bool ExplicitStage<dim>::time_is_over() const
     {
       return stage.slows_loads() ? loads_are_over(state.load_time)
                                  : state.stage_step >= context.steps.n_steps();
     }
 
-    bool ExplicitStage::ends_here(const bool balance) const
+    template <int dim>
+    bool ExplicitStage<dim>::ends_here(const bool balance) const
     {
       const bool by_time = stage.end == StageEnd::time;
-      if (by_time ? time_is_over() : balance && has_settled())
+      if (by_time ? time_is_over() : balance && this->has_settled())
         return true;
       if (state.stage_step < stage.maximum_steps
           || (by_time && !stage.slows_loads()))
@@ -147,7 +163,8 @@ namespace quoin
                   "otherwise raise 'Maximum steps' or damp more."));
     }
 
-    void ExplicitStage::report_blocks_outside()
+    template <int dim>
+    void ExplicitStage<dim>::report_blocks_outside()
     {
       const bool removes = system.parameters.model.contact.outside
                            == ContactParameters::Outside::remove;
@@ -163,9 +180,15 @@ namespace quoin
     }
   } // namespace
 
-  std::unique_ptr<Stage> make_explicit_stage(BlockContext &context,
+  template <int dim>
+  std::unique_ptr<Stage> make_explicit_stage(BlockContext<dim> &context,
                                              const unsigned int index)
   {
-    return std::make_unique<ExplicitStage>(context, index);
+    return std::make_unique<ExplicitStage<dim>>(context, index);
   }
+
+  template std::unique_ptr<Stage> make_explicit_stage(BlockContext<2> &,
+                                                      unsigned int);
+  template std::unique_ptr<Stage> make_explicit_stage(BlockContext<3> &,
+                                                      unsigned int);
 } // namespace quoin

@@ -7,11 +7,11 @@ namespace quoin
 {
   namespace
   {
-    class ImplicitStage : public BlockStage
+    class ImplicitStage : public BlockStage<2>
     {
     public:
-      ImplicitStage(BlockContext &context, const unsigned int index)
-        : BlockStage(context, index), solver(*system.implicit_solver)
+      ImplicitStage(BlockContext<2> &context, const unsigned int index)
+        : BlockStage<2>(context, index), solver(*system.implicit_solver)
       {
       }
 
@@ -52,7 +52,7 @@ namespace quoin
       }
       catch (const RunError &error)
       {
-        // The last equilibrium is worth looking at.
+        // The last equilibrium is written.
         outputs.write_iterations();
         outputs.write_fields(state);
         throw FailedStep("stage '" + stage.name + "': " + error.what());
@@ -92,8 +92,8 @@ namespace quoin
         log.message("jumped to another equilibrium at the load time ",
                     jump.load_time, " s, in ", jump.n_steps, " steps, losing ",
                     jump.loss, " J");
-      // What is let go at the start, and a jump, take no time: only where they
-      // end there is a row.
+      // The release of forces at the start, and a jump, take no time and have a
+      // row only at their end.
       const ImplicitState &now = state.get<ImplicitState>();
       if (now.released == 1. && !now.jumps)
         write_row();
@@ -110,7 +110,7 @@ namespace quoin
     }
   } // namespace
 
-  std::unique_ptr<Stage> make_implicit_stage(BlockContext &context,
+  std::unique_ptr<Stage> make_implicit_stage(BlockContext<2> &context,
                                              const unsigned int index)
   {
     return std::make_unique<ImplicitStage>(context, index);

@@ -31,7 +31,7 @@ namespace quoin
       parameters.split.joints_along = geometry.joint_curves;
     }
 
-    /** Lays the wall or the rock, if the file has one. */
+    /** Generates the wall or the rock, if the file has one. */
     bool read_generated(const ParameterSection &top, Parameters &parameters)
     {
       const WallParameters wall
@@ -83,6 +83,13 @@ namespace quoin
                    "the folder of this file; coordinates in [m]. Empty "
                    "with a wall of section 'Wall' or rock of section "
                    "'Rock'.");
+      entries.choice("Dimension", parameters.dimension,
+                     { { "from mesh", MeshDimension::from_mesh },
+                       { "2", MeshDimension::two },
+                       { "3", MeshDimension::three } },
+                     "from mesh: three dimensions if the file has tetrahedra, "
+                     "or a geometry volumes, two if not; 2: the triangles in "
+                     "the plane z = 0; 3: tetrahedra.");
       entries.choice("Triangles", parameters.triangles,
                      { { "plain", TriangleKind::plain },
                        { "crossed", TriangleKind::crossed },
@@ -127,6 +134,10 @@ namespace quoin
       check_mesh_file(section, parameters);
     else if (parameters.split.joints_along.empty())
       parameters.split.joints_along = joints_of_layout;
+    if (generated && parameters.dimension == MeshDimension::three)
+      section.fail("Dimension",
+                   "is 2 for a wall of section 'Wall' or rock of section "
+                   "'Rock', whose meshes are plane: set 'from mesh'.");
     if (parameters.triangles == TriangleKind::quadratic
         && !parameters.is_implicit)
       section.fail("Triangles",

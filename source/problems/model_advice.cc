@@ -14,7 +14,8 @@ namespace quoin
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    void check_ranks(const MeshReport &report, const NodeMap<2> &nodes,
+    template <int dim>
+    void check_ranks(const MeshReport &report, const NodeMap<dim> &nodes,
                      Advice &advice)
     {
       namespace MPI = dealii::Utilities::MPI;
@@ -22,15 +23,15 @@ namespace quoin
           .warn_if(MPI::min(nodes.n_cells(), nodes.communicator()) == 0,
                    "the model has ", count_text(report.n_blocks, "block"),
                    " and the run ", MPI::n_mpi_processes(nodes.communicator()),
-                   " MPI processes, of which some have no cells: blocks stay "
-                   "whole where displacements are large and where stages "
-                   "excavate or fill. Fewer processes would be as "
-                   "fast, but for boundary elements, which all share.");
+                   " MPI processes, of which some have no cells: rigid "
+                   "blocks stay whole. Fewer processes would be as fast, but "
+                   "for boundary elements, which all share.");
     }
 
-    /** Joints that the initial stress takes beyond their strength. */
-    void check_initial_joints(const Parameters &parameters, const Model &model,
-                              const State<2> &state, Advice &advice)
+    /** Warns of joints that the initial stress takes beyond their strength. */
+    void check_initial_joints(const Parameters &parameters,
+                              const Model<2> &model, const State<2> &state,
+                              Advice &advice)
     {
       if (parameters.model.initial_stresses.empty())
         return;
@@ -51,7 +52,7 @@ namespace quoin
                       set.curves);
     }
 
-    /** Whether the set is for joints that come, or change, later. */
+    /** Whether the set is for joints that appear or change later. */
     bool is_for_later(const JointSetParameters &set,
                       const std::vector<StageParameters> &stages)
     {
@@ -68,7 +69,7 @@ namespace quoin
     /** Diagonal of the box around each block [m]. Collective. */
     std::vector<double> block_sizes(const NodeMap<2> &nodes)
     {
-      // Upper corners with the other sign: one minimum finds both.
+      // Upper corners have the other sign, so that one minimum finds both.
       const unsigned int n_blocks = nodes.table().n_blocks();
       std::vector<double> box(4 * n_blocks, infinity);
       for (unsigned int i = 0; i < nodes.n_owned(); ++i)
@@ -86,7 +87,7 @@ namespace quoin
       return sizes;
     }
 
-    /** What lies beside the joints of a set. */
+    /** Cells and blocks beside the joints of a set. */
     struct Neighbours
     {
       bool exist           = false;
@@ -97,10 +98,10 @@ namespace quoin
     /** Collective. */
     Neighbours neighbours(const JointSetParameters &set,
                           const std::vector<MaterialParameters> &materials,
-                          const Model &model)
+                          const Model<2> &model)
     {
       namespace MPI = dealii::Utilities::MPI;
-      // Boxes of blocks are of all ranks' parts.
+      // Boxes of blocks include the parts on all ranks.
       const NodeMap<2> &nodes = model.nodes();
       const auto sizes        = block_sizes(nodes);
       Neighbours result;
@@ -136,15 +137,15 @@ namespace quoin
       return result;
     }
 
-    void check_joints(const Parameters &parameters, const Model &model,
+    void check_joints(const Parameters &parameters, const Model<2> &model,
                       Advice &advice)
     {
       /** Normal stiffness of joints by E/h of the cells beside. */
       constexpr double stiff = 100.;
-      /** The same by E/L of blocks: of their displacement, of which a joint
-          closes by the inverse, double precision keeps six more digits. */
+      /** Upper limit by E/L of blocks: with their displacement in double
+          precision six digits of the closure of a joint are left. */
       constexpr double rigid = 1e10;
-      /** The same by E/L of the blocks beside. */
+      /** Lower limit by E/L of the blocks beside. */
       constexpr double soft = 1e-3;
       for (const JointSetParameters &set : parameters.model.joints)
       {
@@ -160,7 +161,7 @@ namespace quoin
           continue;
         const double kn      = stiffness_bound(set.law)[0];
         const double by_cell = kn / beside.stiffest_cell;
-        // Of rock joints it is a bound that few of them come near.
+        // For rock joints it is a bound that few of them approach.
         checks.warn_if(
             !parameters.is_implicit && !stiffens(set.law)
                 && beside.stiffest_cell > 0. && by_cell > stiff,
@@ -199,10 +200,12 @@ namespace quoin
       }
     }
 
-    void check_materials(const Parameters &parameters, const Model &model,
+    template <int dim>
+    void check_materials(const Parameters &parameters, const Model<dim> &model,
                          Advice &advice)
     {
-      /** Beyond it triangles of constant strain lock in plane strain. */
+      /** Poisson's ratio above which constant-strain triangles in plane strain
+          and tetrahedra lock. */
       constexpr double locking_poisson = 0.45;
       if (parameters.triangles != TriangleKind::plain
           || parameters.model.plane != PlaneAssumption::plane_strain)
@@ -219,14 +222,17 @@ namespace quoin
             .warn_if(is_used[m] && !material.rigid
                          && material.elastic.poisson > locking_poisson,
                      "with Poisson's ratio ", material.elastic.poisson,
-                     " plain triangles lock in plane strain, they are too "
-                     "stiff. Take 'Triangles = crossed' in section 'Mesh'.");
+                     dim == 2 ? " plain triangles lock in plane strain, they "
+                                "are too stiff. Take 'Triangles = crossed' in "
+                                "section 'Mesh'."
+                              : " tetrahedra lock: they are too stiff. Refine "
+                                "the mesh until results no longer change.");
       }
     }
 
     void check_output(const Parameters &parameters, Advice &advice)
     {
-      /** More output times than one can look at. */
+      /** Number of output times above which a warning is given. */
       constexpr double many = 5000.;
       const double duration
           = start_of_stage(parameters.stages, parameters.stages.size());
@@ -241,16 +247,24 @@ namespace quoin
     }
   } // namespace
 
+  template <int dim>
   Advice model_advice(const Parameters &parameters, const MeshReport &report,
-                      const Model &model, const State<2> &state)
+                      const Model<dim> &model, const State<dim> &state)
   {
     Advice advice = report.warnings();
     check_ranks(report, model.nodes(), advice);
     check_laws(parameters, advice);
-    check_initial_joints(parameters, model, state, advice);
+    if constexpr (dim == 2)
+      check_initial_joints(parameters, model, state, advice);
     check_materials(parameters, model, advice);
-    check_joints(parameters, model, advice);
+    if constexpr (dim == 2)
+      check_joints(parameters, model, advice);
     check_output(parameters, advice);
     return advice;
   }
+
+  template Advice model_advice(const Parameters &, const MeshReport &,
+                               const Model<2> &, const State<2> &);
+  template Advice model_advice(const Parameters &, const MeshReport &,
+                               const Model<3> &, const State<3> &);
 } // namespace quoin

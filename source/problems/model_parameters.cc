@@ -20,7 +20,7 @@ namespace quoin
                                      "strain.");
     }
 
-    /** Boundary elements beyond the blocks. */
+    /** Reads the boundary elements beyond the blocks. */
     void read_far_field(const ParameterSection &top, Parameters &parameters)
     {
       std::vector<const LoadParameters *> loads;
@@ -56,7 +56,7 @@ namespace quoin
             .fail("Box", "needs 'Model = boundary elements': leave it empty.");
     }
 
-    /** Histories of boundary elements: where they march beside blocks. */
+    /** Checks histories of boundary elements beyond blocks. */
     void check_coupled_histories(const ParameterSection &top,
                                  const Parameters &parameters)
     {
@@ -92,7 +92,7 @@ namespace quoin
       }
     }
 
-    /** Sections of one kind of model in a file of the other. */
+    /** Refuses sections of one kind of model in a file of the other. */
     void refuse_names(const ParameterSection &top, const std::string &name,
                       const std::string &model)
     {
@@ -111,6 +111,8 @@ namespace quoin
       {
         const ParameterSection subsection(section, history.name);
         const bool interior = history.is_of_interior();
+        if (history.point_has_z)
+          subsection.fail("Point", "must have two coordinates, x and y.");
         if (!interior && !history.is_of_boundary())
           subsection.fail("Quantity",
                           "is one of blocks: with 'Model = boundary "

@@ -47,14 +47,15 @@ namespace quoin
     }
 
     /** The nodes of its curves, or the blocks of its groups. */
+    template <int dim>
     std::string place_text(const LoadParameters &load,
-                           const NodeMap<2> &node_map)
+                           const NodeMap<dim> &node_map)
     {
       using boost::algorithm::join;
       if (!load.boundaries.empty())
       {
         std::set<unsigned int> nodes;
-        for (const BoundaryFace<2> &face :
+        for (const BoundaryFace<dim> &face :
              faces_of_curves(node_map, load.boundaries, load.name))
           nodes.insert(face.nodes.begin(), face.nodes.end());
         return " on " + count_text(nodes.size(), "node") + " of "
@@ -70,8 +71,9 @@ namespace quoin
     }
   } // namespace
 
+  template <int dim>
   std::vector<std::string>
-  material_lines(const Parameters &parameters, const NodeMap<2> &nodes,
+  material_lines(const Parameters &parameters, const NodeMap<dim> &nodes,
                  const std::vector<unsigned int> &material_of_group)
   {
     const auto &materials       = parameters.model.materials;
@@ -90,11 +92,12 @@ namespace quoin
     for (unsigned int m = 0; m < materials.size(); ++m)
     {
       const auto begin = has.begin() + m * n_blocks;
-      lines.push_back(
-          text_of("material ", materials[m].name, ": ",
-                  count_text(std::count(begin, begin + n_blocks, 1.), "block"),
-                  ", ", count_text(n_cells[m], "triangle"), "; ",
-                  material_text(materials[m], parameters.model.plane)));
+      lines.push_back(text_of(
+          "material ", materials[m].name, ": ",
+          count_text(std::count(begin, begin + n_blocks, 1.), "block"), ", ",
+          dim == 2 ? count_text(n_cells[m], "triangle")
+                   : text_of(std::uint64_t(n_cells[m]), " tetrahedra"),
+          "; ", material_text(materials[m], parameters.model.plane)));
     }
     return lines;
   }
@@ -109,14 +112,15 @@ namespace quoin
       for (const std::string &curve : set.curves)
       {
         const auto found
-            = report.joint_length.find(curve == "unnamed" ? "" : curve);
-        if (found != report.joint_length.end())
+            = report.joint_size.find(curve == "unnamed" ? "" : curve);
+        if (found != report.joint_size.end())
           length += found->second;
       }
       const bool takes_new = set.all_new_contacts || !set.new_contacts.empty();
       const auto stiffness = stiffness_bound(set.law);
       lines.push_back(
-          text_of("joints ", set.name, ": ", length, " m",
+          text_of("joints ", set.name, ": ", length,
+                  report.dimension == 2 ? " m" : " m2",
                   takes_new ? " and new contacts" : "", "; ", law_text(set.law),
                   ", ", stiffens(set.law) ? "up to " : "", "kn ", stiffness[0],
                   " Pa/m, ks ", stiffness[1], " Pa/m"));
@@ -124,8 +128,9 @@ namespace quoin
     return lines;
   }
 
+  template <int dim>
   std::vector<std::string> load_lines(const Parameters &parameters,
-                                      const NodeMap<2> &nodes)
+                                      const NodeMap<dim> &nodes)
   {
     std::vector<std::string> lines;
     for (const LoadParameters &load : parameters.loads)
@@ -142,4 +147,15 @@ namespace quoin
     }
     return lines;
   }
+
+  template std::vector<std::string>
+  material_lines(const Parameters &, const NodeMap<2> &,
+                 const std::vector<unsigned int> &);
+  template std::vector<std::string> load_lines(const Parameters &,
+                                               const NodeMap<2> &);
+  template std::vector<std::string>
+  material_lines(const Parameters &, const NodeMap<3> &,
+                 const std::vector<unsigned int> &);
+  template std::vector<std::string> load_lines(const Parameters &,
+                                               const NodeMap<3> &);
 } // namespace quoin

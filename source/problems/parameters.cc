@@ -17,7 +17,7 @@ namespace quoin
   {
     using dealii::ParameterHandler;
 
-    /** Sections with subsections that the user names, which these declare. */
+    /** Sections with named subsections, and functions that declare these. */
     const std::vector<SectionEntries> named_sections
         = { { "Rock regions", RockRegion::declare },
             { "Rock joints", RockJoints::declare },
@@ -140,7 +140,7 @@ namespace quoin
             continue;
           std::string name
               = dealii::Utilities::trim(line.substr(place + word.size()));
-          // What follows: of a table a factor, of a record options.
+          // A factor may follow a table, options a record.
           name = name.substr(0, name.find(word == " table " ? " times " : " "));
           std::error_code error;
           if (std::filesystem::is_regular_file(top.in_folder(name), error))

@@ -15,17 +15,39 @@ namespace quoin
     run.log.message(parameters.title.empty() ? parameters.file
                                              : parameters.title);
     report_model();
-    // Nobody would read it.
+    // Costs are not measured if they are not shown.
     if (run.options.check && !run.options.quiet)
       report_costs();
   }
+
+  namespace
+  {
+    /** The mesh of a file, or of a generated geometry. */
+    AnyMeshData read_mesh_data(const Parameters &parameters,
+                               const MPI_Comm communicator)
+    {
+      const GeneratedGeometry &made = parameters.generated;
+      if (made.geometry.empty())
+        return read_any_gmsh(parameters.mesh_file, communicator,
+                             parameters.dimension, parameters.triangles);
+      return mesh_gmsh_geometry(
+          made.geometry, made.name == "wall" ? "section Wall" : "section Rock",
+          communicator, parameters.triangles);
+    }
+  } // namespace
 
   std::unique_ptr<Problem> make_problem(const Parameters &parameters,
                                         const RunContext &run)
   {
     if (parameters.is_boundary_model)
       return std::make_unique<BoundaryProblem>(parameters, run);
-    return std::make_unique<BlockProblem>(parameters, run);
+    AnyMeshData mesh = read_mesh_data(parameters, run.communicator);
+    if (auto *plane = std::get_if<MeshData<2>>(&mesh))
+      return std::make_unique<BlockProblem<2>>(parameters, std::move(*plane),
+                                               run);
+    check_three_dimensions(parameters);
+    return std::make_unique<BlockProblem<3>>(
+        parameters, std::move(std::get<MeshData<3>>(mesh)), run);
   }
 
   namespace
@@ -40,16 +62,17 @@ namespace quoin
     }
   } // namespace
 
+  template <int dim>
   std::string run_fingerprint(const Parameters &parameters,
-                              const MeshData &mesh)
+                              const MeshData<dim> &mesh)
   {
     std::string text = parameters.effective;
     append(mesh.vertices, text);
-    append(mesh.triangles, text);
-    append(mesh.triangle_group, text);
-    append(mesh.lines, text);
-    append(mesh.line_name, text);
-    for (const auto *names : { &mesh.group_names, &mesh.line_names })
+    append(mesh.cells, text);
+    append(mesh.cell_group, text);
+    append(mesh.faces, text);
+    append(mesh.face_name, text);
+    for (const auto *names : { &mesh.group_names, &mesh.face_names })
       for (const std::string &name : *names)
         text += name + "\n";
     for (const std::string &file : parameters.time_files)
@@ -60,4 +83,7 @@ namespace quoin
     }
     return fingerprint(text);
   }
+
+  template std::string run_fingerprint(const Parameters &, const MeshData<2> &);
+  template std::string run_fingerprint(const Parameters &, const MeshData<3> &);
 } // namespace quoin

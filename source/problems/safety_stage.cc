@@ -11,14 +11,14 @@ namespace quoin
 {
   namespace
   {
-    /** Displacement that may be a failure, by the model's diagonal. */
+    /** Automatic failure displacement, by the model's diagonal. */
     constexpr double failure_share = 1e-3;
 
-    class SafetyStage : public BlockStage
+    class SafetyStage : public BlockStage<2>
     {
     public:
-      SafetyStage(BlockContext &context, const unsigned int index)
-        : BlockStage(context, index), safety(*stage.safety),
+      SafetyStage(BlockContext<2> &context, const unsigned int index)
+        : BlockStage<2>(context, index), safety(*stage.safety),
           search(context.searches[index]), base(state),
           strong(system.model->properties())
       {
@@ -44,12 +44,12 @@ namespace quoin
 
     private:
       void finish() override;
-      /** Strengths are those of the stage's begin, divided by @p factor. */
+      /** Sets the strengths of the start of the stage, divided by @p factor. */
       void set_strength(double factor);
       SafetyTrial try_factor(double factor);
       void come_to_rest(SafetyTrial &trial);
       void find_equilibrium(SafetyTrial &trial);
-      /** Since the stage's begin, of the whole model [m]; collective. */
+      /** Largest one since the start of the stage [m]; collective. */
       double largest_displacement() const;
 
       const SafetyParameters &safety;
@@ -123,22 +123,22 @@ namespace quoin
 
     void SafetyStage::come_to_rest(SafetyTrial &trial)
     {
-      ExplicitSolver &solver = *system.explicit_solver;
+      ExplicitSolver<2> &solver = *system.explicit_solver;
       FailureWatch watch(safety.failure_displacement > 0.
                              ? safety.failure_displacement
                              : failure_share * system.nodes->diagonal());
       context.steps.choose(stage);
       for (;;)
       {
-        ExplicitSolver::Requests requests;
+        ExplicitSolver<2>::Requests requests;
         requests.balance
-            = state.stage_step % ExplicitSolver::balance_interval == 0;
+            = state.stage_step % ExplicitSolver<2>::balance_interval == 0;
         solver.step(state, requests);
         if (!requests.balance)
           continue;
         solver.check_finite(state);
-        // What leaves the box has no equilibrium in it, even if the rest has.
-        // It is back where the next trial begins: no warning.
+        // A block that leaves the box is unstable, even if the rest is not. It
+        // is back at the start of the next trial: no warning.
         if (!solver.take_blocks_outside().empty())
           return;
         trial.is_stable = has_settled();
@@ -206,7 +206,7 @@ namespace quoin
     }
   } // namespace
 
-  std::unique_ptr<Stage> make_safety_stage(BlockContext &context,
+  std::unique_ptr<Stage> make_safety_stage(BlockContext<2> &context,
                                            const unsigned int index)
   {
     return std::make_unique<SafetyStage>(context, index);

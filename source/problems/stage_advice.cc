@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/known_names.h>
+#include <quoin/base/point_text.h>
 #include <quoin/problems/advice.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace quoin
 {
   namespace
   {
-    /** A stage, when it begins, as far as it is known, and its loads. */
+    /** A stage, its start time as far as it is known, and its loads. */
     struct StageOfRun
     {
       StageOfRun(const Parameters &parameters, const unsigned int index)
@@ -33,7 +34,7 @@ namespace quoin
                            { return load->type == type; });
       }
 
-      /** A component by the time since the begin of the stage. */
+      /** A component as a function of the time since the start of the stage. */
       FunctionOfTime function(const LoadComponent &component) const
       {
         return [&component, begin = start](const double t) {
@@ -44,7 +45,7 @@ namespace quoin
       const Parameters &parameters;
       const unsigned int index;
       const StageParameters &stage;
-      const StageParameters *before; /**< that left the model so, or null */
+      const StageParameters *before; /**< that changed the state, or null */
       const double start;            /**< [s] */
       std::vector<const LoadParameters *> loads;
     };
@@ -84,7 +85,7 @@ namespace quoin
           "with 'Damping = local' or 'adaptive'.");
     }
 
-    /** Waves neither come in nor leave by dashpots where motion is given. */
+    /** Warns of viscous and free-field boundaries with prescribed motion. */
     void check_supports(const StageOfRun &run, Checks &checks)
     {
       for (const LoadParameters *held : run.loads)
@@ -126,7 +127,7 @@ namespace quoin
       return sum;
     }
 
-    /** Of a force; without height if there is none worth a word. */
+    /** Jump of a force; its height is 0 if it is small. */
     Jump jump_of(const StageOfRun &run, const LoadParameters &load,
                  const unsigned int d)
     {
@@ -147,7 +148,7 @@ namespace quoin
       else if (run.before)
         last = force_like(parameters, *run.before, load, d, late_time,
                           run.start);
-      // At the start of the run it may be what the initial stress bears.
+      // At the start of the run the initial stress may balance it.
       const bool is_borne
           = run.index == 0 && !parameters.model.initial_stresses.empty();
       if (!is_borne && std::abs(value(0.) - last) > jump.height)
@@ -155,12 +156,12 @@ namespace quoin
       return jump.height > smallest * largest ? jump : Jump();
     }
 
-    /** @p rise: how long a force may take to rise [s]. */
+    /** @p rise: rise time of a force below which it counts as a jump [s]. */
     void check_jumps(const StageOfRun &run, const double rise, Checks &checks)
     {
       if (!run.stage.is_dynamic() || run.stage.stiffness_coefficient > 0.)
         return;
-      // What moves with its weight alone is not shaken by it.
+      // A model that falls under its weight alone is not shaken by it.
       const bool is_held
           = std::any_of(run.loads.begin(), run.loads.end(),
                         [](const LoadParameters *load)
@@ -175,7 +176,7 @@ namespace quoin
             && !(load->type == LoadType::gravity && is_held))
           continue;
         Jump jump;
-        for (unsigned int d = 0; d < 3 && jump.height == 0.; ++d)
+        for (unsigned int d = 0; d < 5 && jump.height == 0.; ++d)
           if (load->functions()[d].quantity == LoadQuantity::force)
             jump = jump_of(run, *load, d);
         checks.warn_if(
@@ -189,7 +190,7 @@ namespace quoin
       }
     }
 
-    /** Gravity acts in the stage before, and not in this one. */
+    /** Warns if gravity acts in the previous stage, but not in this one. */
     void check_weight(const StageOfRun &run, Checks &checks)
     {
       const bool had_weight
@@ -208,38 +209,44 @@ namespace quoin
                        "the load here, too, if that is not meant.");
     }
 
-    /** How coarse the blocks' cells of one material are, for waves. */
+    /** Size of the cells of one material, for waves. */
+    template <int dim>
     struct CellSize
     {
-      /** Largest second-longest edge of a cell: the diagonal of a square of
-          two cells does not count [m]; 0: there is no cell. */
+      /** Largest edge of a cell but for its diagonals [m]: the longest of a
+          triangle, which is that of a square of two cells, and the three
+          longest of a tetrahedron, which are those of a cube of six. 0: there
+          is no cell. */
       double edge = 0.;
-      dealii::Point<2> position; /**< of that cell [m] */
+      dealii::Point<dim> position; /**< of that cell [m] */
     };
 
-    /** Of each material; cells of blocks absent in @p state do not count. */
-    std::vector<CellSize> cell_sizes(const Model &model, const State<2> &state,
-                                     const std::size_t n_materials)
+    /** Cell size of each material; blocks absent in @p state do not count. */
+    template <int dim>
+    std::vector<CellSize<dim>> cell_sizes(const Model<dim> &model,
+                                          const State<dim> &state,
+                                          const std::size_t n_materials)
     {
-      const NodeMap<2> &nodes = model.nodes();
-      std::vector<CellSize> sizes(n_materials);
+      const NodeMap<dim> &nodes = model.nodes();
+      std::vector<CellSize<dim>> sizes(n_materials);
       for (unsigned int c = 0; c < model.n_deformable_cells(); ++c)
       {
         if (state.is_absent(nodes.block_of_cell(c)))
           continue;
-        const auto &[i, j, k] = nodes.cell(c);
-        const auto &p = nodes.point(i), &q = nodes.point(j),
-                   &r = nodes.point(k);
-        std::array<double, 3> edges{ { p.distance(q), q.distance(r),
-                                       r.distance(p) } };
+        std::vector<double> edges;
+        for (unsigned int k = 0; k <= dim; ++k)
+          for (unsigned int l = 0; l < k; ++l)
+            edges.push_back(nodes.point(nodes.cell(c)[k])
+                                .distance(nodes.point(nodes.cell(c)[l])));
         std::sort(edges.begin(), edges.end());
-        CellSize &size = sizes[model.material_of_cell(c)];
-        if (edges[1] > size.edge)
-          size = { edges[1], p };
+        const double edge   = edges[dim == 2 ? 1 : 2];
+        CellSize<dim> &size = sizes[model.material_of_cell(c)];
+        if (edge > size.edge)
+          size = { edge, nodes.point(nodes.cell(c)[0]) };
       }
-      // The largest of all ranks, of several the lowest rank's.
-      for (CellSize &size : sizes)
-        for (const CellSize &other :
+      // The largest of all ranks; among equals that of the lowest rank.
+      for (CellSize<dim> &size : sizes)
+        for (const CellSize<dim> &other :
              dealii::Utilities::MPI::all_gather(nodes.communicator(), size))
           if (other.edge > size.edge)
             size = other;
@@ -253,8 +260,9 @@ namespace quoin
           .s;
     }
 
-    void check_edges(const StageOfRun &run, const std::vector<CellSize> &sizes,
-                     Checks &checks)
+    template <int dim>
+    void check_edges(const StageOfRun &run,
+                     const std::vector<CellSize<dim>> &sizes, Checks &checks)
     {
       if (!run.stage.is_dynamic())
         return;
@@ -274,15 +282,15 @@ namespace quoin
       }
       if (!(fewest < fewest_edges))
         return;
-      const CellSize &size = sizes[worst];
+      const CellSize<dim> &size = sizes[worst];
       checks.warn_if(true, shaking.name, " brings frequencies of up to ",
                      shaking.frequency, " Hz, whose S waves are ", length,
                      " m long in the material ",
                      run.parameters.model.materials[worst].name,
                      ". They need eight to ten edges, but edges are up to ",
-                     size.edge, " m long, at (", size.position[0], ", ",
-                     size.position[1], ") m. Refine the mesh there to ",
-                     0.1 * length, " m, or lower the frequency.");
+                     size.edge, " m long, at ", point_text(size.position),
+                     " m. Refine the mesh there to ", 0.1 * length,
+                     " m, or lower the frequency.");
     }
   } // namespace
 
@@ -304,8 +312,9 @@ namespace quoin
     return fastest;
   }
 
+  template <int dim>
   Advice stage_advice(const Parameters &parameters, const unsigned int index,
-                      const Model &model, const State<2> &state,
+                      const Model<dim> &model, const State<dim> &state,
                       const double time_step)
   {
     const StageOfRun run(parameters, index);
@@ -332,4 +341,9 @@ namespace quoin
                    "that is meant.");
     return advice;
   }
+
+  template Advice stage_advice(const Parameters &, unsigned int,
+                               const Model<2> &, const State<2> &, double);
+  template Advice stage_advice(const Parameters &, unsigned int,
+                               const Model<3> &, const State<3> &, double);
 } // namespace quoin

@@ -13,27 +13,37 @@ namespace quoin
   namespace
   {
     /**
-     * Largest share of the critical step where modes must turn by less than
-     * about 60 degrees a step. Local damping needs it for its sense of
-     * direction: beyond, fast modes keep ringing and hold up the slow ones.
-     * Joints that open and close need it, because the kink in their law falls
-     * between two steps: beyond, stiff joints that chatter create energy.
+     * Safety factor on the time step where the phase of modes must advance by
+     * less than about 60 degrees a step. With local damping fast modes would
+     * otherwise keep ringing and hold up slow ones. With joints that open and
+     * close, whose kink falls between two steps, stiff joints that chatter
+     * would otherwise create energy.
      */
     constexpr double cautious_share = 0.5;
 
-    /** No run of so many steps comes to its end. */
+    /** Largest number of steps of a stage. */
     constexpr double most_steps = 1e12;
-    /** No run of so many steps of boundary elements comes to its end; nor does
-        one with so many steps of blocks in each. */
+    /** Largest number of steps of boundary elements, and of steps of blocks in
+        each. */
     constexpr double most_boundary_steps = 1e9;
+
+    template <int dim>
+    bool joints_may_fail(const Model<dim> &model)
+    {
+      if constexpr (dim == 2)
+        return model.joints().can_fail() || model.large_displacements();
+      return false;
+    }
   } // namespace
 
-  StageSteps::StageSteps(BlockSystem &system, Log &log)
+  template <int dim>
+  StageSteps<dim>::StageSteps(BlockSystem<dim> &system, Log &log)
     : system(system), parameters(system.parameters), log(log)
   {
   }
 
-  void StageSteps::choose(const StageParameters &stage)
+  template <int dim>
+  void StageSteps<dim>::choose(const StageParameters &stage)
   {
     const double critical = system.explicit_solver->critical_time_step();
     double dt             = parameters.time_step;
@@ -53,14 +63,14 @@ namespace quoin
     if (dt == 0.)
       dt = critical
            * (stage.damping == DampingType::local
-                      || system.model->joints().can_fail()
-                      || system.model->large_displacements()
+                      || joints_may_fail(*system.model)
                   ? std::min(parameters.share_of_critical_step, cautious_share)
                   : parameters.share_of_critical_step);
     steps_of_stage = 0;
-    if (system.solver->far_field_acts())
-      dt = choose_far_field_step(stage, dt);
-    else if (stage.end == StageEnd::time)
+    if constexpr (dim == 2)
+      if (system.solver->far_field_acts())
+        dt = choose_far_field_step(stage, dt);
+    if (stage.end == StageEnd::time && !system.solver->far_field_acts())
     {
       // The stage ends at a step, not near one.
       steps_of_stage = std::uint64_t(count_steps(
@@ -74,8 +84,9 @@ namespace quoin
     system.explicit_solver->set_time_step(dt);
   }
 
-  double StageSteps::choose_far_field_step(const StageParameters &stage,
-                                           const double dt)
+  template <>
+  double StageSteps<2>::choose_far_field_step(const StageParameters &stage,
+                                              const double dt)
   {
     FarField &far                             = *system.solver->far_field();
     const BoundaryElementParameters &settings = parameters.boundary;
@@ -121,7 +132,8 @@ namespace quoin
     return step / n_substeps;
   }
 
-  void StageSteps::make_waves(const double step)
+  template <>
+  void StageSteps<2>::make_waves(const double step)
   {
     FarField &far   = *system.solver->far_field();
     double duration = 0.;
@@ -138,7 +150,8 @@ namespace quoin
     log.messages(waves->reports());
   }
 
-  void StageSteps::report_far_field()
+  template <>
+  void StageSteps<2>::report_far_field()
   {
     const FarField &far    = *system.solver->far_field();
     const Boundary &domain = far.domain().boundary;
@@ -159,4 +172,7 @@ namespace quoin
     if (passivity)
       log.message(passivity->advice());
   }
+
+  template class StageSteps<2>;
+  template class StageSteps<3>;
 } // namespace quoin

@@ -72,8 +72,8 @@ namespace quoin
 
   void sync_directory(const std::string &path)
   {
-    // A file system that cannot do this is no reason to stop: the rename is
-    // still atomic for every crash but that of the machine.
+    // Failure is not an error: without it the rename is still atomic in any
+    // crash but that of the machine.
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_DIRECTORY);
     if (descriptor >= 0)
     {
@@ -139,7 +139,7 @@ namespace quoin
     {
       if (!drain())
         return 0;
-      // What does not fit goes past the buffer.
+      // Data that do not fit bypass the buffer.
       if (n >= static_cast<std::streamsize>(buffer.size()))
         return write_all(data, n) ? n : 0;
     }

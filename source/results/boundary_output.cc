@@ -20,11 +20,12 @@ namespace quoin
     grid.cell_type = VtuCellType::line;
     for (std::size_t e = 0; e < fields.a.size(); ++e)
     {
-      // Ends are not shared: the fields jump between elements.
-      grid.cells.push_back(static_cast<std::int32_t>(grid.points.size()));
-      grid.points.push_back(fields.a[e]);
-      grid.cells.push_back(static_cast<std::int32_t>(grid.points.size()));
-      grid.points.push_back(fields.b[e]);
+      // Ends are not shared, as fields are discontinuous between elements.
+      for (const auto *end : { &fields.a[e], &fields.b[e] })
+      {
+        grid.cells.push_back(static_cast<std::int32_t>(grid.points.size() / 2));
+        grid.points.insert(grid.points.end(), end->begin(), end->end());
+      }
     }
     grid.cell_data = { { "displacement", 2, flat(fields.displacement) },
                        { "velocity", 2, flat(fields.velocity) },
@@ -45,7 +46,7 @@ namespace quoin
     VtuGrid grid;
     grid.time       = time;
     grid.cell_type  = VtuCellType::triangle;
-    grid.points     = fields.position;
+    grid.points     = flat(fields.position);
     grid.cells      = flat(fields.triangles);
     grid.point_data = { { "displacement", 2, flat(fields.displacement) },
                         { "velocity", 2, flat(fields.velocity) } };

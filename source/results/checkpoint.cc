@@ -37,8 +37,8 @@ namespace quoin
     };
 
     const std::string first_words = "quoin checkpoint, format ";
-    /** Of archives and manifest: one more when what is written changes. */
-    constexpr unsigned int format = 4;
+    /** Format of archives and manifest; increase it when contents change. */
+    constexpr unsigned int format = 5;
 
     fs::path root_of(const std::string &output_directory)
     {
@@ -66,8 +66,8 @@ namespace quoin
     }
 
     /**
-     * False if the file is not there, not ours or cut short, or if it has
-     * another format.
+     * False if the file does not exist, is not a manifest, is incomplete, or
+     * has another format.
      */
     bool read_manifest(const fs::path &path, Manifest &manifest)
     {
@@ -145,7 +145,7 @@ namespace quoin
         }
         catch (const boost::archive::archive_exception &)
         {
-          // Boost only says that the stream failed; the buffer knows why.
+          // Boost only reports a failure; the buffer has the reason.
           if (buffer.error() == 0)
             throw;
         }
@@ -154,7 +154,7 @@ namespace quoin
       return { buffer.n_bytes(), buffer.checksum() };
     }
 
-    ArchiveRecord examine(const fs::path &path)
+    ArchiveRecord record_of(const fs::path &path)
     {
       ArchiveRecord record;
       std::ifstream in(path, std::ios::binary);
@@ -169,6 +169,19 @@ namespace quoin
       return record;
     }
 
+    void examine(const fs::path &path, const ArchiveRecord &expected)
+    {
+      const ArchiveRecord found = record_of(path);
+      if (found.size != expected.size || found.crc != expected.crc)
+        throw InputError("The checkpoint file '" + path.string()
+                         + "' is damaged (" + std::to_string(found.size)
+                         + " of " + std::to_string(expected.size) + " bytes"
+                         + (found.size == expected.size
+                                ? ", but their checksum is wrong"
+                                : "")
+                         + "): start the run without --resume.");
+    }
+
     void rename_directory(const fs::path &from, const fs::path &to)
     {
       sync_directory(from.string());
@@ -179,7 +192,7 @@ namespace quoin
 
     void remove_others(const fs::path &root, const std::string &keep)
     {
-      // Older checkpoints that cannot be removed cost space and nothing else.
+      // Older checkpoints that cannot be removed only take space.
       std::error_code error;
       std::vector<fs::path> old;
       for (const fs::directory_entry &entry :
@@ -191,9 +204,9 @@ namespace quoin
         fs::remove_all(path, error);
     }
 
-    /** The checks that need no archive; each refusal is a sentence. */
+    /** Checks that need no archive. */
     Manifest acceptable_manifest(const std::string &output_directory,
-                                 const int n_ranks, const std::string &version,
+                                 const std::string &version,
                                  const std::string &parameters)
     {
       const fs::path root     = root_of(output_directory);
@@ -215,11 +228,6 @@ namespace quoin
         throw InputError(where + "was written by version "
                          + manifest.info.version + " and this is version "
                          + version + ": use that version or " + fresh);
-      if (manifest.archives.size() != static_cast<std::size_t>(n_ranks))
-        throw InputError(
-            where + "was written by " + std::to_string(manifest.archives.size())
-            + " MPI ranks and this run has " + std::to_string(n_ranks)
-            + ": use the same number or " + fresh);
       if (manifest.info.parameters != parameters)
         throw InputError(where
                          + "belongs to other parameters than those of "
@@ -252,11 +260,11 @@ namespace quoin
   {
     const fs::path root = root_of(output_directory);
     std::error_code error;
-    // The manifest first: without it the rest is no checkpoint.
+    // The manifest is removed first: without it the rest is not a checkpoint.
     for (const char *name : { "latest", "latest.tmp" })
       fs::remove(root / name, error);
     remove_others(root, "");
-    fs::remove(root, error); // unless other things are in it
+    fs::remove(root, error); // unless it has other contents
   }
 
   void
@@ -271,7 +279,7 @@ namespace quoin
     const fs::path root  = root_of(output_directory);
     const fs::path aside = root / (std::to_string(info.step) + ".tmp");
 
-    // 1. An empty directory aside.
+    // 1. An empty directory under a temporary name.
     all_or_none<RunError>(communicator,
                           [&]()
                           {
@@ -313,54 +321,58 @@ namespace quoin
   CheckpointInfo load_checkpoint_archives(
       const std::string &output_directory, const MPI_Comm communicator,
       const std::string &version, const std::string &parameters,
-      const std::function<void(std::streambuf &)> &read)
+      const std::function<void(std::streambuf &, const ArchiveOrigin &)> &read)
   {
     int rank, n_ranks;
     MPI_Comm_rank(communicator, &rank);
     MPI_Comm_size(communicator, &n_ranks);
 
-    // 1. Nothing is read before every rank has found its archive sound.
+    // 1. All archives are checked before any is read.
     Manifest manifest;
-    fs::path path;
+    const auto path_of = [&](const unsigned int writer)
+    {
+      return root_of(output_directory) / manifest.directory
+             / archive_name(writer);
+    };
     all_or_none<InputError>(
         communicator,
         [&]()
         {
-          manifest = acceptable_manifest(output_directory, n_ranks, version,
-                                         parameters);
-          path     = root_of(output_directory) / manifest.directory
-                 / archive_name(rank);
-          const ArchiveRecord found    = examine(path);
-          const ArchiveRecord expected = manifest.archives[rank];
-          if (found.size != expected.size || found.crc != expected.crc)
-            throw InputError("The checkpoint file '" + path.string()
-                             + "' is damaged (" + std::to_string(found.size)
-                             + " of " + std::to_string(expected.size) + " bytes"
-                             + (found.size == expected.size
-                                    ? ", but their checksum is wrong"
-                                    : "")
-                             + "): start the run without --resume.");
+          manifest = acceptable_manifest(output_directory, version, parameters);
+          for (unsigned int writer = rank; writer < manifest.archives.size();
+               writer += n_ranks)
+            examine(path_of(writer), manifest.archives[writer]);
         });
 
     // 2. The contents.
-    all_or_none<InputError>(
-        communicator,
-        [&]()
-        {
-          std::filebuf buffer;
-          buffer.open(path, std::ios::in | std::ios::binary);
-          try
+    const unsigned int n_writers = manifest.archives.size();
+    const auto read_archive      = [&](const ArchiveOrigin &origin)
+    {
+      all_or_none<InputError>(
+          communicator,
+          [&]()
           {
-            read(buffer);
-          }
-          // Of the archive, or of arrays too large for what it says.
-          catch (const std::exception &error)
-          {
-            throw InputError("The checkpoint file '" + path.string()
-                             + "' cannot be read (" + error.what()
-                             + "): start the run without --resume.");
-          }
-        });
+            const fs::path path = path_of(origin.rank);
+            std::filebuf buffer;
+            buffer.open(path, std::ios::in | std::ios::binary);
+            try
+            {
+              read(buffer, origin);
+            }
+            // Errors of the archive, or of array sizes that do not fit.
+            catch (const std::exception &error)
+            {
+              throw InputError("The checkpoint file '" + path.string()
+                               + "' cannot be read (" + error.what()
+                               + "): start the run without --resume.");
+            }
+          });
+    };
+    if (n_writers == static_cast<unsigned int>(n_ranks))
+      read_archive({ static_cast<unsigned int>(rank), n_writers, true });
+    else
+      for (unsigned int writer = n_writers; writer-- > 0;)
+        read_archive({ writer, n_writers, false });
     return manifest.info;
   }
 } // namespace quoin

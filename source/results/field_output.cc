@@ -6,26 +6,33 @@
 
 namespace quoin
 {
-  BlockFields block_fields(const Model &model, const State<2> &state)
+  template <int dim>
+  BlockFields<dim> block_fields(const Model<dim> &model,
+                                const State<dim> &state)
   {
     // Blocks that were removed are left out with their nodes and cells.
-    BlockFields fields;
-    const NodeMap<2> &nodes = model.nodes();
-    const auto &plastic     = state.get<PlasticHistory>();
-    std::vector<std::array<double, 4>> stress;
-    std::vector<PlaneTensor> strain;
+    BlockFields<dim> fields;
+    const NodeMap<dim> &nodes = model.nodes();
+    const auto &plastic       = state.template get<PlasticHistory>();
+    decltype(fields.stress) stress;
+    decltype(fields.strain) strain;
     model.blocks().stresses(state.nodes.data(), plastic, stress, strain);
-    stress.resize(nodes.n_cells(), { { 0., 0., 0., 0. } }); // rigid
-    strain.resize(nodes.n_cells(), { { 0., 0., 0. } });
+    stress.resize(nodes.n_cells()); // those of rigid blocks are zero
+    strain.resize(nodes.n_cells());
     std::vector<std::int32_t> number(nodes.n_local(), -1);
     const auto add_node = [&](const unsigned int i)
     {
-      const NodeRecord<2> &node = state.nodes[i];
-      number[i]                 = std::int32_t(fields.position.size());
-      fields.position.push_back({ { node.X[0], node.X[1] } });
-      fields.displacement.push_back({ { node.u[0], node.u[1] } });
-      fields.velocity.push_back(
-          { { state.velocity[i].v[0], state.velocity[i].v[1] } });
+      const NodeRecord<dim> &node = state.nodes[i];
+      number[i]                   = std::int32_t(fields.position.size());
+      const auto vector           = [](const double *components)
+      {
+        typename BlockFields<dim>::Vector result;
+        std::copy_n(components, dim, result.begin());
+        return result;
+      };
+      fields.position.push_back(vector(node.X));
+      fields.displacement.push_back(vector(node.u));
+      fields.velocity.push_back(vector(state.velocity[i].v));
     };
     for (const BlockPart &part : nodes.block_parts())
     {
@@ -36,12 +43,12 @@ namespace quoin
         add_node(i);
       for (unsigned int own = part.cells[0]; own < part.cells[1]; ++own)
       {
-        // Nodes that other ranks share come with the first cell they have.
+        // Shared nodes are added with their first cell.
         for (const unsigned int i : nodes.cell(own))
           if (number[i] < 0)
             add_node(i);
         fields.cells.emplace_back();
-        for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int k = 0; k <= dim; ++k)
           fields.cells.back()[k] = number[nodes.cell(own)[k]];
         fields.stress.push_back(stress[own]);
         fields.strain.push_back(strain[own]);
@@ -58,7 +65,7 @@ namespace quoin
     return fields;
   }
 
-  JointFields joint_fields(const Model &model, const State<2> &state)
+  JointFields joint_fields(const Model<2> &model, const State<2> &state)
   {
     JointFields fields;
     const JointHistory &history = state.get<JointHistory>();
@@ -67,7 +74,7 @@ namespace quoin
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
     {
       const auto &segment = model.joints().segment(i);
-      // A joint between two ranks is written by that of its lower side.
+      // A joint between two ranks is written by the rank of its lower side.
       if (!model.nodes().joint_faces()[segment.face].is_own[0]
           || history.handed_over[i])
         continue;
@@ -154,24 +161,37 @@ namespace quoin
     return fields;
   }
 
-  double bytes_of_fields(const Model &model)
+  template <int dim>
+  double bytes_of_fields(const Model<dim> &model)
   {
-    // Arrays of vtu files, as BlockOutput and JointOutput have them.
-    constexpr double of_node = 3 * 3 * 8, of_cell = 4 * 8 + 2 * 8 + 3 * 3 * 8
-                                                    + 2 * 4 + 3 * 4 + 4 + 1;
+    // Bytes of the arrays of BlockOutput and JointOutput.
+    constexpr double of_node = 3 * 3 * 8,
+                     of_cell = (dim == 2 ? 4 + 3 : 6 + 6) * 8
+                               + dim * (1 + 3) * 8 + 2 * 4 + (dim + 1) * 4 + 4
+                               + 1;
     constexpr double of_plastic_cell = 4 + 8;
-    const double of_joint_point
-        = 2 * 3 * 8 + 4 * 8 + 1 + 8 * model.joints().field_names().size();
-    constexpr double of_joint = 1 + 4 + 8 + 2 * 4 + 4 + 1;
-    constexpr double of_files = 5000.; // XML
-    const double n_cells      = model.nodes().n_cells();
+    constexpr double of_files        = 5000.; // XML
+    const double n_cells             = model.nodes().n_cells();
     double bytes
         = of_files + of_node * model.exchange().n_owned() + of_cell * n_cells;
     if (model.blocks().is_plastic())
       bytes += of_plastic_cell * n_cells;
-    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
-      if (model.nodes().joint_faces()[model.joints().segment(i).face].is_own[0])
-        bytes += of_joint + 2. * of_joint_point;
+    if constexpr (dim == 2)
+    {
+      const double of_joint_point
+          = 2 * 3 * 8 + 4 * 8 + 1 + 8 * model.joints().field_names().size();
+      constexpr double of_joint = 1 + 4 + 8 + 2 * 4 + 4 + 1;
+      for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+        if (model.nodes()
+                .joint_faces()[model.joints().segment(i).face]
+                .is_own[0])
+          bytes += of_joint + 2. * of_joint_point;
+    }
     return dealii::Utilities::MPI::sum(bytes, model.exchange().communicator());
   }
+
+  template BlockFields<2> block_fields(const Model<2> &, const State<2> &);
+  template double bytes_of_fields(const Model<2> &);
+  template BlockFields<3> block_fields(const Model<3> &, const State<3> &);
+  template double bytes_of_fields(const Model<3> &);
 } // namespace quoin

@@ -12,41 +12,60 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 
 namespace quoin
 {
   namespace
   {
-    /** Squared distance by which nodes are put after others at their place
+    /** Squared distance added to put nodes after others at the same position
         [m^2]. */
     constexpr double just_behind = 1e-18;
 
     /**
-     * What of this rank is nearest to a point. Of several at the same distance
-     * that of a block in which the point lies, then the lower, then the left
-     * one: numbers depend on the number of ranks.
+     * The nearest node, cell or joint point of this rank. Among equal distances
+     * one of a block that contains the point, then the lower, then the left one
+     * is chosen, as numbers depend on the number of ranks.
      */
+    template <int dim>
     struct Nearest
     {
-      /** Squared distance [m^2], 1 outside of the block, y, x. */
-      using Key                    = std::array<double, 4>;
+      /** 1 outside of the block, then the last coordinate first. */
+      using Rest = std::array<double, dim + 1>;
+      /** Squared distance [m^2] and Rest. */
+      using Key                    = std::array<double, dim + 2>;
       static constexpr double none = std::numeric_limits<double>::max();
 
-      dealii::Point<2> point;
+      static Rest place(const double outside, const dealii::Point<dim> &p)
+      {
+        Rest rest;
+        rest[0] = outside;
+        std::reverse_copy(p.begin_raw(), p.end_raw(), rest.begin() + 1);
+        return rest;
+      }
+
+      explicit Nearest(const dealii::Point<dim> &point) : point(point)
+      {
+        key.fill(none);
+      }
+
+      dealii::Point<dim> point;
       unsigned int entity = 0; /**< node, cell or joint point */
-      Key key{ { none, none, none, none } };
+      Key key;
 
       /** @p finer: the key but for the distance. */
       template <typename Finer>
-      void consider(const dealii::Point<2> &p, const unsigned int candidate,
+      void consider(const dealii::Point<dim> &p, const unsigned int candidate,
                     const Finer &finer, const double farther = 0.)
       {
         const double distance = p.distance_square(point) + farther;
         if (distance > key[0])
           return;
-        const std::array<double, 3> rest = finer();
-        const Key other{ { distance, rest[0], rest[1], rest[2] } };
+        const Rest rest = finer();
+        Key other;
+        other[0] = distance;
+        std::copy(rest.begin(), rest.end(), other.begin() + 1);
         if (other < key)
         {
           key    = other;
@@ -55,70 +74,129 @@ namespace quoin
       }
     };
 
-    bool contains(const NodeMap<2> &nodes, const unsigned int cell,
-                  const dealii::Point<2> &point)
+    /** Twice the area or six times the volume. */
+    template <int dim>
+    double size(const std::array<dealii::Point<dim>, dim + 1> &corners)
     {
-      for (unsigned int k = 0; k < 3; ++k)
+      dealii::Tensor<2, dim> edges;
+      for (unsigned int k = 0; k < dim; ++k)
+        edges[k] = corners[k + 1] - corners[0];
+      return determinant(edges);
+    }
+
+    template <int dim>
+    std::array<dealii::Point<dim>, dim + 1> corners(const NodeMap<dim> &nodes,
+                                                    const unsigned int cell)
+    {
+      std::array<dealii::Point<dim>, dim + 1> result;
+      for (unsigned int k = 0; k <= dim; ++k)
+        result[k] = nodes.point(nodes.cell(cell)[k]);
+      return result;
+    }
+
+    template <int dim>
+    bool contains(const NodeMap<dim> &nodes, const unsigned int cell,
+                  const dealii::Point<dim> &point)
+    {
+      for (unsigned int k = 0; k <= dim; ++k)
       {
-        const auto &p     = nodes.point(nodes.cell(cell)[k]);
-        const auto along  = nodes.point(nodes.cell(cell)[(k + 1) % 3]) - p;
-        const auto beyond = point - p;
-        if (along[0] * beyond[1] < along[1] * beyond[0])
+        auto with_point = corners(nodes, cell);
+        with_point[k]   = point;
+        if (size<dim>(with_point) < 0.)
           return false;
       }
       return true;
     }
 
-    std::array<double, 3> place_of_block(const NodeMap<2> &nodes,
-                                         const unsigned int block,
-                                         const dealii::Point<2> &point)
+    /** What of the nodes at the least distance says which comes first: of their
+        block, which may lie on several ranks. Collective. */
+    template <int dim>
+    typename Nearest<dim>::Rest place_of_block(const Model<dim> &model,
+                                               const unsigned int block,
+                                               const dealii::Point<dim> &point)
     {
-      const BlockPart &part = nodes.block_parts()[nodes.find_part(block)];
-      bool inside           = false;
-      for (unsigned int c = part.cells[0]; c < part.cells[1]; ++c)
-        inside = inside || contains(nodes, c, point);
-      dealii::Point<2> sum;
-      for (unsigned int node = part.nodes[0]; node < part.nodes[1]; ++node)
-        sum += nodes.point(node);
-      const unsigned int n = part.nodes[1] - part.nodes[0];
-      return { { inside ? 0. : 1., sum[1] / n, sum[0] / n } };
-    }
-
-    void consider_nodes(const Model &model,
-                        const std::vector<bool> &absent_in_the_end,
-                        Nearest &nearest)
-    {
-      const NodeMap<2> &nodes = model.nodes();
-      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      const NodeMap<dim> &nodes = model.nodes();
+      const unsigned int part   = nodes.find_part(block);
+      unsigned int inside       = 0;
+      if (part < nodes.block_parts().size())
       {
-        const unsigned int block = nodes.block_of_node(i);
-        const bool absent = absent_in_the_end[model.table().group[block]];
-        nearest.consider(
-            nodes.point(i), i,
-            [&] { return place_of_block(nodes, block, nearest.point); },
-            absent ? just_behind : 0.);
+        const auto &[begin, end] = nodes.block_parts()[part].cells;
+        for (unsigned int c = begin; c < end; ++c)
+          if (contains(nodes, c, point))
+            inside = 1;
       }
+      // Sum of positions, and how many there are.
+      std::vector<double> sums(dim + 1, 0.);
+      for (const unsigned int node : model.owned_nodes(block))
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          sums[d] += nodes.point(node)[d];
+        ++sums[dim];
+      }
+      namespace MPI = dealii::Utilities::MPI;
+      MPI::sum(sums, nodes.communicator(), sums);
+      dealii::Point<dim> centre;
+      for (unsigned int d = 0; d < dim; ++d)
+        centre[d] = sums[d] / sums[dim];
+      return Nearest<dim>::place(
+          MPI::max(inside, nodes.communicator()) > 0 ? 0. : 1., centre);
     }
 
-    void consider_cells(const Model &model, Nearest &nearest)
+    /** Collective. */
+    template <int dim>
+    void consider_nodes(const Model<dim> &model,
+                        const std::vector<bool> &absent_in_the_end,
+                        Nearest<dim> &nearest)
     {
-      const NodeMap<2> &nodes = model.nodes();
+      const NodeMap<dim> &nodes = model.nodes();
+      const auto farther        = [&](const unsigned int node)
+      {
+        return absent_in_the_end[model.table().group[nodes.block_of_node(node)]]
+                   ? just_behind
+                   : 0.;
+      };
+      const auto distance = [&](const unsigned int node) {
+        return nodes.point(node).distance_square(nearest.point) + farther(node);
+      };
+      double least = Nearest<dim>::none;
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        least = std::min(least, distance(i));
+      namespace MPI = dealii::Utilities::MPI;
+      least         = MPI::min(least, nodes.communicator());
+      // The blocks that have a node there, on all ranks.
+      std::vector<unsigned int> has_one(model.table().n_blocks(), 0);
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        if (distance(i) == least)
+          has_one[nodes.block_of_node(i)] = 1;
+      MPI::max(has_one, nodes.communicator(), has_one);
+      std::map<unsigned int, typename Nearest<dim>::Rest> places;
+      for (unsigned int b = 0; b < has_one.size(); ++b)
+        if (has_one[b])
+          places[b] = place_of_block(model, b, nearest.point);
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        if (distance(i) == least)
+          nearest.consider(
+              nodes.point(i), i,
+              [&] { return places.at(nodes.block_of_node(i)); }, farther(i));
+    }
+
+    template <int dim>
+    void consider_cells(const Model<dim> &model, Nearest<dim> &nearest)
+    {
+      const NodeMap<dim> &nodes = model.nodes();
       for (unsigned int c = 0; c < nodes.n_cells(); ++c)
       {
-        const auto &[i, j, k] = nodes.cell(c);
-        const dealii::Point<2> centroid(
-            (nodes.point(i) + nodes.point(j) + nodes.point(k)) / 3.);
-        nearest.consider(
-            centroid, c,
-            [&] {
-              return std::array<double, 3>{ { 0., centroid[1], centroid[0] } };
-            });
+        dealii::Point<dim> centroid;
+        for (const auto &corner : corners(nodes, c))
+          centroid += corner / (dim + 1.);
+        nearest.consider(centroid, c,
+                         [&] { return Nearest<dim>::place(0., centroid); });
       }
     }
 
-    /** Of joints on @p curve; on any, if it is empty. */
-    void consider_joint_points(const Model &model, const std::string &curve,
-                               Nearest &nearest)
+    /** Considers joint points on @p curve; on all curves if it is empty. */
+    void consider_joint_points(const Model<2> &model, const std::string &curve,
+                               Nearest<2> &nearest)
     {
       const NodeMap<2> &nodes = model.nodes();
       for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
@@ -130,23 +208,22 @@ namespace quoin
         {
           const auto &here  = nodes.point(face.lower[k]);
           const auto &other = nodes.point(face.lower[1 - k]);
-          nearest.consider(
-              here, 2 * i + k,
-              [&]
-              {
-                return std::array<double, 3>{ { 0., 0.5 * (here[1] + other[1]),
-                                                0.5 * (here[0] + other[0]) } };
-              });
+          nearest.consider(here, 2 * i + k,
+                           [&] {
+                             return Nearest<2>::place(
+                                 0., dealii::Point<2>(0.5 * (here + other)));
+                           });
         }
       }
     }
   } // namespace
 
-  Histories::Histories(const std::vector<HistoryParameters> &parameters,
-                       const Model &model, const Solver &solver,
-                       const BoundaryGeometry &geometry,
-                       const BoundaryElementParameters &boundaries,
-                       const std::vector<bool> &absent_in_the_end)
+  template <int dim>
+  Histories<dim>::Histories(const std::vector<HistoryParameters> &parameters,
+                            const Model<dim> &model, const Solver<dim> &solver,
+                            const BoundaryGeometry &geometry,
+                            const BoundaryElementParameters &boundaries,
+                            const std::vector<bool> &absent_in_the_end)
     : model(model), solver(solver),
       communicator(model.exchange().communicator()),
       absent_in_the_end(absent_in_the_end)
@@ -156,6 +233,7 @@ namespace quoin
     {
       Probe probe;
       probe.parameters = history;
+      history.check_dimension<dim>();
       locate(probe);
       probes.push_back(probe);
       if (history.is_of_boundary())
@@ -167,7 +245,8 @@ namespace quoin
           boundary_probes, geometry, boundaries, model.thickness());
   }
 
-  std::vector<std::string> Histories::column_names() const
+  template <int dim>
+  std::vector<std::string> Histories<dim>::column_names() const
   {
     std::vector<std::string> names = { "time [s]" };
     for (const Probe &probe : probes)
@@ -176,10 +255,14 @@ namespace quoin
     return names;
   }
 
-  void Histories::locate(Probe &probe) const
+  template <int dim>
+  void Histories<dim>::locate(Probe &probe) const
   {
     const HistoryParameters &wanted = probe.parameters;
-    Nearest nearest{ { wanted.point[0], wanted.point[1] } };
+    dealii::Point<dim> point;
+    for (unsigned int d = 0; d < dim; ++d)
+      point[d] = wanted.point[d];
+    Nearest<dim> nearest(point);
     switch (wanted.quantity)
     {
     case HistoryQuantity::displacement:
@@ -187,12 +270,14 @@ namespace quoin
       consider_nodes(model, absent_in_the_end, nearest);
       break;
     case HistoryQuantity::stress:
+    case HistoryQuantity::principal_stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
       consider_cells(model, nearest);
       break;
     case HistoryQuantity::joint:
-      consider_joint_points(model, wanted.curve, nearest);
+      if constexpr (dim == 2)
+        consider_joint_points(model, wanted.curve, nearest);
       break;
     case HistoryQuantity::reaction:
     case HistoryQuantity::platen_displacement:
@@ -214,7 +299,8 @@ namespace quoin
     find_owner(probe, nearest.key);
   }
 
-  void Histories::find_load(Probe &probe) const
+  template <int dim>
+  void Histories<dim>::find_load(Probe &probe) const
   {
     const HistoryParameters &wanted = probe.parameters;
     const std::string section = "section 'Histories/" + wanted.name + "': ";
@@ -227,7 +313,7 @@ namespace quoin
       throw InputError(section + "'Load = " + wanted.load
                        + "' is no prescribed motion, platen or "
                          "viscous boundary. These are: "
-                       + known_names(constraints, &MotionConstraint<2>::name)
+                       + known_names(constraints, &MotionConstraint<dim>::name)
                        + ".");
     if ((*found)->is_rigid_body())
       probe.platen = found->get();
@@ -236,32 +322,36 @@ namespace quoin
                        + "' is no platen. Use 'reaction' for other loads.");
   }
 
-  void Histories::find_owner(Probe &probe,
-                             const std::array<double, 4> &key) const
+  template <int dim>
+  void Histories<dim>::find_owner(Probe &probe,
+                                  const std::array<double, dim + 2> &key) const
   {
     const HistoryParameters &wanted = probe.parameters;
     const std::string section = "section 'Histories/" + wanted.name + "': ";
-    const NodeMap<2> &nodes   = model.nodes();
-    // The least key of all ranks; more than one know joints between them.
+    const NodeMap<dim> &nodes = model.nodes();
+    // The least key of all ranks; several ranks may have the same joint.
     probe.here           = true;
     const double nearest = dealii::Utilities::MPI::min(key[0], communicator);
     for (const double part : key)
     {
       const double least = dealii::Utilities::MPI::min(
-          probe.here ? part : Nearest::none, communicator);
+          probe.here ? part : Nearest<dim>::none, communicator);
       probe.here = probe.here && part == least;
     }
     double longest = 0.;
     for (const auto &cell : nodes.all_cells())
-      for (unsigned int k = 0; k < 3; ++k)
-        longest = std::max(longest, nodes.point(cell[k]).distance_square(
-                                        nodes.point(cell[(k + 1) % 3])));
+      for (unsigned int k = 0; k <= dim; ++k)
+        for (unsigned int l = 0; l < k; ++l)
+          longest = std::max(longest, nodes.point(cell[k]).distance_square(
+                                          nodes.point(cell[l])));
     longest = dealii::Utilities::MPI::max(longest, communicator);
     if (nearest > 4. * longest && nearest != std::numeric_limits<double>::max())
     {
       std::ostringstream message;
-      message << section << "'Point = " << wanted.point[0] << ", "
-              << wanted.point[1] << "' is " << std::sqrt(nearest)
+      message << section << "'Point = ";
+      for (unsigned int d = 0; d < dim; ++d)
+        message << (d == 0 ? "" : ", ") << wanted.point[d];
+      message << "' is " << std::sqrt(nearest)
               << " m from the nearest node, cell or joint of the model, more "
                  "than two of its longest edges. Give a point of the model in "
                  "metres.";
@@ -280,7 +370,9 @@ namespace quoin
                                                 communicator);
   }
 
-  double Histories::point_value(const Probe &probe, const State<2> &state) const
+  template <int dim>
+  double Histories<dim>::point_value(const Probe &probe,
+                                     const State<dim> &state) const
   {
     const HistoryParameters &wanted = probe.parameters;
     if (is_absent(probe, state))
@@ -291,51 +383,72 @@ namespace quoin
       return state.nodes[probe.entity].u[wanted.component];
     case HistoryQuantity::velocity:
       return state.velocity[probe.entity].v[wanted.component];
-    case HistoryQuantity::rotation:
-      return rotation(probe.entity, state) / constants::degree;
     case HistoryQuantity::stress:
+    case HistoryQuantity::principal_stress:
     {
       if (probe.entity >= model.n_deformable_cells())
         return 0.;
       const auto stress = model.blocks().cell_stress(
-          state.nodes.data(), state.get<PlasticHistory>(), probe.entity);
-      if (wanted.component < 4)
-        return stress[wanted.component];
-      const PrincipalStress principal
-          = principal_stress(stress[0], stress[1], stress[2]);
-      return wanted.component == 4 ? principal.s1 : principal.s2;
-    }
-    case HistoryQuantity::yielding:
-    {
-      if (probe.entity >= model.n_deformable_cells()
-          || !model.blocks().cell_law(probe.entity))
-        return 0.;
-      const PlasticPoint point = model.blocks().cell_history(
-          state.nodes.data(), state.get<PlasticHistory>(), probe.entity);
-      return wanted.component == 0 ? point.state : point.plastic_shear;
-    }
-    case HistoryQuantity::joint:
-    {
-      const unsigned int p        = probe.entity;
-      const JointHistory &history = state.get<JointHistory>();
-      if (wanted.component < 2)
-        return model.joints().gaps(state.nodes.data(),
-                                   p / 2)[p % 2][wanted.component];
-      if (wanted.component == 2)
-        return history.normal_traction[p];
-      if (wanted.component == 3)
-        return history.shear_traction[p];
-      if (wanted.component == 4)
-        return static_cast<double>(history.state[p]);
-      return model.joints().field(wanted.component == 5 ? "damage" : "crushing",
-                                  p, history);
+          state.nodes.data(), state.template get<PlasticHistory>(),
+          probe.entity);
+      if (wanted.quantity == HistoryQuantity::principal_stress)
+        return principal_stress(stress).value[wanted.component];
+      // Index from the order xx, yy, xy, zz, xz, yz.
+      constexpr std::array<unsigned int, 6> in_space = { 0, 1, 3, 2, 4, 5 };
+      return stress[dim == 2 ? wanted.component : in_space[wanted.component]];
     }
     default:
-      return 0.;
+      break;
     }
+    if constexpr (dim == 2)
+      switch (wanted.quantity)
+      {
+      case HistoryQuantity::rotation:
+        return rotation(probe.entity, state) / constants::degree;
+      case HistoryQuantity::yielding:
+        return yield_value(probe, state);
+      case HistoryQuantity::joint:
+        return joint_value(probe, state);
+      default:
+        break;
+      }
+    return 0.;
   }
 
-  bool Histories::is_absent(const Probe &probe, const State<2> &state) const
+  template <>
+  double Histories<2>::yield_value(const Probe &probe,
+                                   const State<2> &state) const
+  {
+    if (probe.entity >= model.n_deformable_cells()
+        || !model.blocks().cell_law(probe.entity))
+      return 0.;
+    const PlasticPoint point = model.blocks().cell_history(
+        state.nodes.data(), state.get<PlasticHistory>(), probe.entity);
+    return probe.parameters.component == 0 ? point.state : point.plastic_shear;
+  }
+
+  template <>
+  double Histories<2>::joint_value(const Probe &probe,
+                                   const State<2> &state) const
+  {
+    const unsigned int p         = probe.entity;
+    const unsigned int component = probe.parameters.component;
+    const JointHistory &history  = state.get<JointHistory>();
+    if (component < 2)
+      return model.joints().gaps(state.nodes.data(), p / 2)[p % 2][component];
+    if (component == 2)
+      return history.normal_traction[p];
+    if (component == 3)
+      return history.shear_traction[p];
+    if (component == 4)
+      return static_cast<double>(history.state[p]);
+    return model.joints().field(component == 5 ? "damage" : "crushing", p,
+                                history);
+  }
+
+  template <int dim>
+  bool Histories<dim>::is_absent(const Probe &probe,
+                                 const State<dim> &state) const
   {
     switch (probe.parameters.quantity)
     {
@@ -343,18 +456,22 @@ namespace quoin
     case HistoryQuantity::velocity:
       return state.is_absent(model.nodes().block_of_node(probe.entity));
     case HistoryQuantity::stress:
+    case HistoryQuantity::principal_stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
       return state.is_absent(model.nodes().block_of_cell(probe.entity));
     case HistoryQuantity::joint:
-      return model.is_at_absent_block(probe.entity / 2, state);
+      if constexpr (dim == 2)
+        return model.is_at_absent_block(probe.entity / 2, state);
+      return false;
     default:
       return false;
     }
   }
 
-  double Histories::rotation(const unsigned int cell,
-                             const State<2> &state) const
+  template <>
+  double Histories<2>::rotation(const unsigned int cell,
+                                const State<2> &state) const
   {
     const auto &nodes = model.nodes().cell(cell);
     if (cell >= model.n_deformable_cells())
@@ -371,7 +488,8 @@ namespace quoin
     return std::atan2(strain.s, strain.c);
   }
 
-  bool Histories::need_balance() const
+  template <int dim>
+  bool Histories<dim>::need_balance() const
   {
     return std::any_of(probes.begin(), probes.end(),
                        [](const Probe &probe) {
@@ -380,7 +498,8 @@ namespace quoin
                        });
   }
 
-  void Histories::before_step(const State<2> &state)
+  template <int dim>
+  void Histories<dim>::before_step(const State<dim> &state)
   {
     std::fill(row.begin(), row.end(), 0.);
     row[0]     = state.time;
@@ -401,13 +520,14 @@ namespace quoin
     }
   }
 
-  std::vector<double> Histories::after_step(const State<2> &state)
+  template <int dim>
+  std::vector<double> Histories<dim>::after_step(const State<dim> &state)
   {
     for (unsigned int i = 0; i < probes.size(); ++i)
     {
       const Probe &probe = probes[i];
-      // The velocity at the full step is the mean of the half steps'; the
-      // step has brought the joint tractions to its time.
+      // The velocity at the full step is the mean of those at half steps; joint
+      // tractions were updated in the step.
       if (probe.here && probe.parameters.quantity == HistoryQuantity::velocity)
         row[1 + i] = 0.5 * (row[1 + i] + point_value(probe, state));
       if (probe.here && probe.parameters.quantity == HistoryQuantity::joint
@@ -417,10 +537,11 @@ namespace quoin
     for (unsigned int i = 0; i < probes.size(); ++i)
       if (probes[i].parameters.quantity == HistoryQuantity::contacts
           && solver.contacts())
-        row[1 + i] = solver.contacts()->n_touching(state.get<ContactState>());
+        row[1 + i]
+            = solver.contacts()->n_touching(state.template get<ContactState>());
     const double time          = row[0];
     std::vector<double> result = row;
-    // Platen displacements are known to all ranks, points to one.
+    // All ranks have platen displacements, one rank has a point.
     for (unsigned int i = 0; i < probes.size(); ++i)
       if (probes[i].platen
           && dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
@@ -444,17 +565,19 @@ namespace quoin
         result[1 + i] = solver.energies().kinetic
                         / std::max(solver.energies().throughput(), 1e-300);
     }
-    if (of_boundary && state.get<FarFieldState>().active)
-      add_boundary_values(state, result);
+    if constexpr (dim == 2)
+      if (of_boundary && state.template get<FarFieldState>().active)
+        add_boundary_values(state, result);
     return result;
   }
 
-  void Histories::add_boundary_values(const State<2> &state,
-                                      std::vector<double> &result) const
+  template <>
+  void Histories<2>::add_boundary_values(const State<2> &state,
+                                         std::vector<double> &result) const
   {
     const FarField &far  = *solver.far_field();
     BoundaryState fields = boundary_state(far, state);
-    // The row is of the time before the step that is over.
+    // The row is for the time before the last step.
     const double since = (double(state.get<FarFieldState>().substep) - 1.)
                          * far.time_step() / far.n_substeps();
     fields.displacement += since * fields.velocity;
@@ -464,4 +587,7 @@ namespace quoin
       if (probes[i].parameters.is_of_boundary())
         result[1 + i] = values[next++];
   }
+
+  template class Histories<2>;
+  template class Histories<3>;
 } // namespace quoin

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/exceptions.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/results/history_parameters.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 #include <vector>
@@ -17,22 +19,29 @@ namespace quoin
       HistoryQuantity quantity;
       unsigned int component;
       const char *unit;
+      /** Dimension of the models of blocks that have it; 0: any. */
+      unsigned int dimension = 2;
     };
 
     const std::map<std::string, Kind> &kinds()
     {
       using Q                                        = HistoryQuantity;
       static const std::map<std::string, Kind> table = {
-        { "displacement x", { Q::displacement, 0, "m" } },
-        { "displacement y", { Q::displacement, 1, "m" } },
-        { "velocity x", { Q::velocity, 0, "m/s" } },
-        { "velocity y", { Q::velocity, 1, "m/s" } },
-        { "stress xx", { Q::stress, 0, "Pa" } },
-        { "stress yy", { Q::stress, 1, "Pa" } },
-        { "stress xy", { Q::stress, 2, "Pa" } },
-        { "stress zz", { Q::stress, 3, "Pa" } },
-        { "stress 1", { Q::stress, 4, "Pa" } },
-        { "stress 2", { Q::stress, 5, "Pa" } },
+        { "displacement x", { Q::displacement, 0, "m", 0 } },
+        { "displacement y", { Q::displacement, 1, "m", 0 } },
+        { "displacement z", { Q::displacement, 2, "m", 3 } },
+        { "velocity x", { Q::velocity, 0, "m/s", 0 } },
+        { "velocity y", { Q::velocity, 1, "m/s", 0 } },
+        { "velocity z", { Q::velocity, 2, "m/s", 3 } },
+        { "stress xx", { Q::stress, 0, "Pa", 0 } },
+        { "stress yy", { Q::stress, 1, "Pa", 0 } },
+        { "stress xy", { Q::stress, 2, "Pa", 0 } },
+        { "stress zz", { Q::stress, 3, "Pa", 0 } },
+        { "stress xz", { Q::stress, 4, "Pa", 3 } },
+        { "stress yz", { Q::stress, 5, "Pa", 3 } },
+        { "stress 1", { Q::principal_stress, 0, "Pa", 0 } },
+        { "stress 2", { Q::principal_stress, 1, "Pa", 0 } },
+        { "stress 3", { Q::principal_stress, 2, "Pa", 3 } },
         { "yielding", { Q::yielding, 0, "-" } },
         { "plastic shear strain", { Q::yielding, 1, "-" } },
         { "rotation", { Q::rotation, 0, "deg" } },
@@ -43,8 +52,9 @@ namespace quoin
         { "joint state", { Q::joint, 4, "-" } },
         { "joint damage", { Q::joint, 5, "-" } },
         { "joint crushing", { Q::joint, 6, "m" } },
-        { "reaction x", { Q::reaction, 0, "N" } },
-        { "reaction y", { Q::reaction, 1, "N" } },
+        { "reaction x", { Q::reaction, 0, "N", 0 } },
+        { "reaction y", { Q::reaction, 1, "N", 0 } },
+        { "reaction z", { Q::reaction, 2, "N", 3 } },
         { "reaction moment", { Q::reaction, 2, "N m" } },
         { "platen displacement x", { Q::platen_displacement, 0, "m" } },
         { "platen displacement y", { Q::platen_displacement, 1, "m" } },
@@ -53,10 +63,10 @@ namespace quoin
         { "platen force x", { Q::platen_force, 0, "N" } },
         { "platen force y", { Q::platen_force, 1, "N" } },
         { "platen force moment", { Q::platen_force, 2, "N m" } },
-        { "unbalanced ratio", { Q::unbalanced_ratio, 0, "-" } },
-        { "kinetic energy share", { Q::kinetic_share, 0, "-" } },
-        { "load time", { Q::load_time, 0, "s" } },
-        { "loading rate", { Q::loading_rate, 0, "-" } },
+        { "unbalanced ratio", { Q::unbalanced_ratio, 0, "-", 0 } },
+        { "kinetic energy share", { Q::kinetic_share, 0, "-", 0 } },
+        { "load time", { Q::load_time, 0, "s", 0 } },
+        { "loading rate", { Q::loading_rate, 0, "-", 0 } },
         { "contacts", { Q::contacts, 0, "-" } },
         { "boundary displacement x", { Q::boundary_displacement, 0, "m" } },
         { "boundary displacement y", { Q::boundary_displacement, 1, "m" } },
@@ -81,7 +91,8 @@ namespace quoin
       entries.choice(
           "Quantity", quantity, words,
           "What the column holds, in SI units; 'stress 1' and 'stress 2' are "
-          "the larger and the smaller principal stress; 'yielding' is 0 in a "
+          "the larger and the smaller principal stress in the plane, in three "
+          "dimensions the largest and the middle one; 'yielding' is 0 in a "
           "cell that never yielded, else a sum of 1 for shear and 2 for "
           "tension in the last step, 4 and 8 for either before it; 'plastic "
           "shear strain' is accumulated; 'kinetic energy share' is kinetic "
@@ -102,13 +113,25 @@ namespace quoin
       history.quantity  = kind.quantity;
       history.component = kind.component;
       history.unit      = kind.unit;
-      entries.numbers("Point", history.point,
-                      "x, y of the point whose nearest node, cell or joint "
-                      "point, or boundary element, is recorded; of boundary "
-                      "elements: the point in the domain, and the point about "
-                      "which the moment is taken. Of nodes at one place: that "
-                      "of the block in which the point is, else of the lower "
-                      "or left block [m]");
+      history.word      = quantity;
+      history.dimension = kind.dimension;
+      entries.other("Point", "0, 0",
+                    "x, y and, in three dimensions, z of the point whose "
+                    "nearest node, cell or joint "
+                    "point, or boundary element, is recorded; of boundary "
+                    "elements: the point in the domain, and the point about "
+                    "which the moment is taken. Of nodes at one place: that "
+                    "of the block in which the point is, else of the lower "
+                    "or left block [m]",
+                    [&](const ParameterSection &from)
+                    {
+                      history.point_has_z = from.list("Point").size() == 3;
+                      if (history.point_has_z)
+                        history.point = from.numbers<3>("Point");
+                      else
+                        std::copy_n(from.numbers<2>("Point").begin(), 2,
+                                    history.point.begin());
+                    });
       entries.text("Load", history.load,
                    "Load whose reaction or platen is recorded.");
       entries.text("Curve", history.curve,
@@ -131,6 +154,29 @@ namespace quoin
                                "acts.");
     }
   } // namespace
+
+  template <int dim>
+  void HistoryParameters::check_dimension() const
+  {
+    const std::string where = "section 'Histories/" + name + "': ";
+    if (dimension != 0 && dimension != dim)
+      throw InputError(where + "'Quantity = " + word + "' is one of models in "
+                       + (dim == 2 ? "three dimensions, and this one has two"
+                                   : "two dimensions, and this one has three")
+                       + ". Name another quantity.");
+    const bool has_point = quantity == HistoryQuantity::displacement
+                           || quantity == HistoryQuantity::velocity
+                           || quantity == HistoryQuantity::stress
+                           || quantity == HistoryQuantity::principal_stress;
+    if (point_has_z != (dim == 3) && (has_point || point_has_z))
+      throw InputError(where + "'Point' must have "
+                       + (dim == 2 ? "two coordinates, x and y"
+                                   : "three coordinates, x, y and z")
+                       + ", in metres.");
+  }
+
+  template void HistoryParameters::check_dimension<2>() const;
+  template void HistoryParameters::check_dimension<3>() const;
 
   void HistoryParameters::declare(dealii::ParameterHandler &prm)
   {

@@ -45,7 +45,7 @@ namespace quoin
     VtuGrid grid;
     grid.time      = time;
     grid.cell_type = VtuCellType::line;
-    grid.points.resize(n_points);
+    grid.points.resize(2 * n_points);
     grid.cells.resize(n_points);
     std::vector<std::uint8_t> point_state(n_points), face_state(n_faces);
     for (std::size_t i = 0; i < n_points; ++i)
@@ -53,7 +53,8 @@ namespace quoin
       const std::array<double, 2> &X = fields.position[i];
       const std::array<double, 2> &u = fields.displacement[i];
 
-      grid.points[i] = { { X[0] + u[0], X[1] + u[1] } };
+      for (unsigned int d = 0; d < 2; ++d)
+        grid.points[2 * i + d] = X[d] + u[d];
       grid.cells[i]  = static_cast<std::int32_t>(i);
       point_state[i] = static_cast<std::uint8_t>(fields.state[i]);
     }

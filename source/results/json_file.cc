@@ -10,7 +10,7 @@ namespace quoin
 {
   void write_json(const std::string &path, const nlohmann::json &object)
   {
-    // File names need not be valid UTF-8; they are no reason to stop here.
+    // File names need not be valid UTF-8; invalid bytes are replaced.
     write_text(path, object.dump(2, ' ', false,
                                  nlohmann::json::error_handler_t::replace)
                          + "\n");

@@ -20,7 +20,7 @@ namespace quoin
     unsigned int terminal_width()
     {
       // mpirun gives its processes a terminal without a size even if its own
-      // output goes to a file, where a redrawn line would be rubbish.
+      // output goes to a file, where a line cannot be redrawn.
       winsize size{};
       return ::isatty(STDOUT_FILENO) != 0
                      && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0

@@ -19,7 +19,7 @@ namespace quoin
 
   namespace
   {
-    /** Budgets that may be spent for a whole period. */
+    /** Number of budgets allowed for a whole period. */
     constexpr double patience = 4.;
 
     dealii::Utilities::System::MemoryStats memory_stats()
@@ -46,7 +46,7 @@ namespace quoin
         task();
       row = seconds_since(start);
       n_calls += n;
-      // The next row takes as long as all before.
+      // The next series takes as long as all before.
       const double to_come
           = MPI::broadcast(communicator, seconds_since(begin) + 2. * row);
       if (to_come > (n_calls < period ? patience : 1.) * budget)

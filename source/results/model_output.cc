@@ -6,8 +6,9 @@
 
 namespace quoin
 {
-  ModelOutput::ModelOutput(const std::string &folder, const Model &model,
-                           Solver &solver)
+  template <int dim>
+  ModelOutput<dim>::ModelOutput(const std::string &folder,
+                                const Model<dim> &model, Solver<dim> &solver)
     : model(model), solver(solver),
       blocks(folder, model.exchange().communicator()),
       joints(folder, model.exchange().communicator()),
@@ -15,37 +16,46 @@ namespace quoin
   {
   }
 
-  void ModelOutput::start()
+  template <int dim>
+  void ModelOutput<dim>::start()
   {
     blocks.start();
-    joints.start();
+    if constexpr (dim == 2)
+      joints.start();
     if (solver.contacts())
       contacts.start();
   }
 
-  void ModelOutput::write(const double time, const State<2> &state,
-                          const State<2> *base)
+  template <int dim>
+  void ModelOutput<dim>::write(const double time, const State<dim> &state,
+                               const State<dim> *base)
   {
-    // Internal variables are those of the step before.
-    State<2> now = state;
+    // Internal variables are those of the previous step.
+    State<dim> now = state;
     solver.update_histories(now);
-    BlockFields fields = block_fields(model, now);
+    BlockFields<dim> fields = block_fields(model, now);
     if (base)
     {
-      // Of the blocks that are left.
-      State<2> begin          = *base;
-      begin.block_marks       = now.block_marks;
-      const BlockFields start = block_fields(model, begin);
+      // Only blocks that are still present are written.
+      State<dim> begin             = *base;
+      begin.block_marks            = now.block_marks;
+      const BlockFields<dim> start = block_fields(model, begin);
       for (std::size_t i = 0; i < fields.position.size(); ++i)
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
         {
           fields.position[i][d] += start.displacement[i][d];
           fields.displacement[i][d] -= start.displacement[i][d];
         }
     }
     blocks.write(time, fields);
-    joints.write(time, joint_fields(model, now));
-    if (const BlockContacts *all = solver.contacts())
-      contacts.write(time, contact_fields(*all, now));
+    if constexpr (dim == 2)
+    {
+      joints.write(time, joint_fields(model, now));
+      if (const BlockContacts *all = solver.contacts())
+        contacts.write(time, contact_fields(*all, now));
+    }
   }
+
+  template class ModelOutput<2>;
+  template class ModelOutput<3>;
 } // namespace quoin

@@ -20,8 +20,8 @@ namespace quoin
 
   void OutputLock::take(const std::string &directory)
   {
-    // NFS wants a file that may be written. If it cannot be, the files of the
-    // run cannot either, and say so better.
+    // NFS needs a writable file. If it is not writable, the files of the run
+    // are not either and give a better message.
     descriptor = ::open((directory + "/lock").c_str(),
                         O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor >= 0 && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0

@@ -85,7 +85,7 @@ namespace quoin
   void Progress::finish(const ProgressFigures &figures)
   {
     log.status("");
-    // A stage in which nothing went on needs no line.
+    // A stage without steps needs no line.
     if (figures.step == first_step
         && std::max(figures.fraction, 0.) == first_fraction)
       return;

@@ -13,6 +13,31 @@
 
 namespace quoin
 {
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    /** Removes the pieces in fields/ of the series @p names, a regular
+        expression, that have the number @p first or a later one. */
+    void remove_pieces(const std::string &output_directory,
+                       const std::string &names, const unsigned int first)
+    {
+      std::error_code error, ignored;
+      const std::regex piece("(" + names + ")_([0-9]{4,9})_[0-9]+\\.vtu");
+      std::vector<fs::path> pieces;
+      std::smatch match;
+      for (fs::directory_iterator entry(output_directory + "/fields", error);
+           !error && entry != fs::directory_iterator(); entry.increment(error))
+        if (const std::string name = entry->path().filename().string();
+            std::regex_match(name, match, piece)
+            && std::stoul(match[2]) >= first
+            && fs::is_regular_file(entry->symlink_status(ignored)))
+          pieces.push_back(entry->path());
+      for (const fs::path &path : pieces)
+        fs::remove(path, ignored);
+    }
+  } // namespace
+
   VtuSeries::VtuSeries(const std::string &output_directory,
                        const std::string &name, const MPI_Comm communicator)
     : directory(output_directory), name(name), communicator(communicator),
@@ -34,6 +59,8 @@ namespace quoin
                             {
                               make_directory(directory + "/fields");
                               list.write();
+                              // Pieces of more ranks would remain.
+                              remove_pieces(directory, name, index);
                             }
                           });
   }
@@ -44,7 +71,7 @@ namespace quoin
     all_or_none<RunError>(
         communicator, [&]()
         { write_vtu(directory + "/" + file_name(rank), std::move(grid)); });
-    // Only now, so that the list never names a file that is not there.
+    // Added only now, so that the list never names a missing file.
     for (unsigned int part = 0; part < n_ranks; ++part)
       list.add(time, file_name(part), part);
     ++index;
@@ -66,20 +93,10 @@ namespace quoin
 
   void remove_series(const std::string &output_directory)
   {
-    namespace fs = std::filesystem;
-    std::error_code error, ignored;
+    std::error_code ignored;
     for (const char *name :
          { "blocks", "joints", "contacts", "boundary", "field" })
       fs::remove(output_directory + "/" + name + ".pvd", ignored);
-    const std::regex piece("(blocks|joints|contacts|boundary|field)"
-                           "_[0-9]{4,}_[0-9]+\\.vtu");
-    std::vector<fs::path> pieces;
-    for (fs::directory_iterator entry(output_directory + "/fields", error);
-         !error && entry != fs::directory_iterator(); entry.increment(error))
-      if (std::regex_match(entry->path().filename().string(), piece)
-          && fs::is_regular_file(entry->symlink_status(ignored)))
-        pieces.push_back(entry->path());
-    for (const fs::path &path : pieces)
-      fs::remove(path, ignored);
+    remove_pieces(output_directory, "blocks|joints|contacts|boundary|field", 0);
   }
 } // namespace quoin

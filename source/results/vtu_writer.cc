@@ -85,7 +85,7 @@ namespace quoin
       return space;
     }
 
-    /** Checks sizes and gives every vector in the plane its z. */
+    /** Checks sizes and adds z = 0 to vectors in the plane. */
     void prepare(std::vector<VtuField> &fields, const std::size_t n)
     {
       for (VtuField &field : fields)
@@ -118,34 +118,25 @@ namespace quoin
             field.values);
       document.xml += "</" + tag + ">\n";
     }
-
-    std::vector<double>
-    flattened(const std::vector<std::array<double, 2>> &points)
-    {
-      std::vector<double> flat(3 * points.size(), 0.);
-      for (std::size_t i = 0; i < points.size(); ++i)
-      {
-        flat[3 * i]     = points[i][0];
-        flat[3 * i + 1] = points[i][1];
-      }
-      return flat;
-    }
   } // namespace
 
   void write_vtu(const std::string &path, VtuGrid grid)
   {
-    const std::size_t n_cells = grid.n_cells();
-    const int n_per_cell      = grid.cell_type == VtuCellType::line ? 2 : 3;
+    const std::size_t n_cells   = grid.n_cells();
+    const std::size_t n_nodes   = grid.points.size() / grid.dimension;
+    const unsigned int per_cell = n_points(grid.cell_type);
 
-    prepare(grid.point_data, grid.points.size());
+    prepare(grid.point_data, n_nodes);
     prepare(grid.cell_data, n_cells);
 
-    // The document refers to the grid and to these until it is written.
+    // The document refers to the grid and these arrays until it is written.
     const std::vector<double> time(1, grid.time);
-    const std::vector<double> points = flattened(grid.points);
+    const std::vector<double> points = grid.dimension == 2
+                                           ? with_third_component(grid.points)
+                                           : std::move(grid.points);
     std::vector<std::int32_t> offsets(n_cells);
     for (std::size_t i = 0; i < n_cells; ++i)
-      offsets[i] = static_cast<std::int32_t>(n_per_cell * (i + 1));
+      offsets[i] = static_cast<std::int32_t>(per_cell * (i + 1));
     const std::vector<std::uint8_t> types(
         n_cells, static_cast<std::uint8_t>(grid.cell_type));
 
@@ -156,7 +147,7 @@ namespace quoin
                    "<UnstructuredGrid>\n<FieldData>\n";
     document.add_array("TimeValue", 1, time, {}, " NumberOfTuples=\"1\"");
     document.xml += "</FieldData>\n<Piece NumberOfPoints=\""
-                    + std::to_string(grid.points.size()) + "\" NumberOfCells=\""
+                    + std::to_string(n_nodes) + "\" NumberOfCells=\""
                     + std::to_string(n_cells) + "\">\n";
     add_fields(document, "PointData", grid.point_data);
     add_fields(document, "CellData", grid.cell_data);

@@ -446,47 +446,76 @@ namespace quoin
       block_begun = false;
   }
 
-  std::vector<double> ClusteredHistory::save() const
+  SavedHistory ClusteredHistory::save() const
   {
-    std::vector<double> saved{ double(step), double(first_kept),
-                               double(block_begun), double(in_block) };
-    const auto add = [&saved](const auto &values)
+    const auto add = [](std::vector<double> &saved, const auto &values)
     { saved.insert(saved.end(), values.begin(), values.end()); };
-    add(block.reshaped());
+    SavedHistory result;
+    result.common = { double(step), double(first_kept), double(block_begun),
+                      double(in_block) };
     for (const Cluster &cluster : clusters)
     {
-      add(cluster.past);
-      add(cluster.moments);
+      add(result.common, cluster.past);
+      add(result.common, cluster.moments);
     }
-    for (const Pair &pair : pairs)
-      add(pair.state.reshaped());
-    return saved;
+    // A group is what a cluster's equations need.
+    result.first_group = first_cluster;
+    unsigned row = 0, p = 0;
+    for (unsigned c = first_cluster; c < end_cluster; ++c)
+    {
+      const unsigned n_rows      = 2 * clusters[c].elements.size();
+      std::vector<double> &group = result.groups.emplace_back();
+      add(group, block.middleRows(row, n_rows).eval().reshaped());
+      row += n_rows;
+      for (; p < pairs.size() && pairs[p].row == c; ++p)
+        add(group, pairs[p].state.reshaped());
+    }
+    return result;
   }
 
-  void ClusteredHistory::restore(const std::vector<double> &saved)
+  void ClusteredHistory::restore(const SavedHistory &saved)
   {
-    if (saved.size() != save().size())
+    const SavedHistory own = save();
+    const auto fits        = [&](const std::size_t k)
+    {
+      const std::size_t group = first_cluster - saved.first_group + k;
+      return group < saved.groups.size()
+             && saved.groups[group].size() == own.groups[k].size();
+    };
+    bool all_fit = saved.common.size() == own.common.size()
+                   && saved.first_group <= first_cluster;
+    for (std::size_t k = 0; all_fit && k < own.groups.size(); ++k)
+      all_fit = fits(k);
+    if (!all_fit)
       throw InputError("Boundary elements: the history in the checkpoint is "
-                       "that of another boundary or tolerance, or of another "
-                       "number of ranks.");
-    auto next       = saved.begin();
-    step            = static_cast<unsigned long>(*next++);
-    first_kept      = long(*next++);
-    block_begun     = *next++ != 0.;
-    in_block        = unsigned(*next++);
+                       "that of another boundary or tolerance.");
+    auto next       = saved.common.begin();
     const auto take = [&next](auto &&values)
     {
       for (auto &value : values)
         value = *next++;
     };
-    take(block.reshaped());
+    step        = static_cast<unsigned long>(*next++);
+    first_kept  = long(*next++);
+    block_begun = *next++ != 0.;
+    in_block    = unsigned(*next++);
     for (Cluster &cluster : clusters)
     {
       take(cluster.past);
       take(cluster.moments);
     }
-    for (Pair &pair : pairs)
-      take(pair.state.reshaped());
+    unsigned row = 0, p = 0;
+    for (unsigned c = first_cluster; c < end_cluster; ++c)
+    {
+      const unsigned n_rows = 2 * clusters[c].elements.size();
+      MatrixXd rows(n_rows, block.cols());
+      next = saved.groups[c - saved.first_group].begin();
+      take(rows.reshaped());
+      block.middleRows(row, n_rows) = rows;
+      row += n_rows;
+      for (; p < pairs.size() && pairs[p].row == c; ++p)
+        take(pairs[p].state.reshaped());
+    }
   }
 
   std::size_t ClusteredHistory::memory() const

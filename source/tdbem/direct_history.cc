@@ -34,19 +34,21 @@ namespace quoin
     ps.push_back(p);
   }
 
-  std::vector<double> DirectHistory::save() const
+  SavedHistory DirectHistory::save() const
   {
-    std::vector<double> saved;
+    SavedHistory result;
+    auto &saved = result.common;
     for (std::size_t step = 0; step < us.size(); ++step)
     {
       saved.insert(saved.end(), us[step].begin(), us[step].end());
       saved.insert(saved.end(), ps[step].begin(), ps[step].end());
     }
-    return saved;
+    return result;
   }
 
-  void DirectHistory::restore(const std::vector<double> &saved)
+  void DirectHistory::restore(const SavedHistory &given)
   {
+    const auto &saved = given.common;
     us.clear();
     ps.clear();
     const std::size_t size = kernel.size();

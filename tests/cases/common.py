@@ -15,6 +15,8 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(
 VERIFICATION = os.path.join(ROOT, "parameter_files", "verification")
 MASONRY = os.path.join(ROOT, "parameter_files", "masonry")
 SLED = os.path.join(ROOT, "tests", "cases", "sled.prm")
+DIG = os.path.join(ROOT, "tests", "cases", "dig.prm")
+SLIDE = os.path.join(ROOT, "tests", "cases", "slide.prm")
 
 MPI_ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",

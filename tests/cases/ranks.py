@@ -10,9 +10,11 @@ new. The patch test once more with blocks that yield. Motion with many impacts
 would not agree: it multiplies rounding. The cavity: boundary elements, whose
 history and points the ranks share. A block that is distributed over several ranks,
 without and with joints inside. A static far field, which every rank has as a
-whole, and dashpots that hold what it carried. Blocks placed and excavated. A wall in equilibrium, cracking, to
-what its iterations leave, by both linear solvers; a block that is distributed over 2
-and 3 ranks in equilibrium, without and with joints inside.
+whole, and dashpots that hold what it carried. Blocks placed and excavated, whole
+and divided. A divided block that slides along another one, from a joint that slipped
+on. Tetrahedra. A wall in equilibrium, cracking, to what its iterations leave, by both
+linear solvers; a block that is distributed over 2 and 3 ranks in equilibrium, without
+and with joints inside.
 """
 import json
 import os
@@ -88,6 +90,15 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                         "Boundary elements/Passivity frequencies=0"]),
             "static far field": (AFTER_SWITCH, UNSETTLED),
             "construction": (FILL, SHORT),
+            # divided blocks, one of them excavated and placed again
+            "construction, divided": (common.DIG, []),
+            # general contacts, both blocks in several ranks
+            "contacts, divided": (common.SLIDE, []),
+            # a block of tetrahedra in several ranks, with dashpots
+            "space": (os.path.join(common.VERIFICATION, "space_waves",
+                                   "s.prm"),
+                      ["Stages/wave/Damping=Rayleigh",
+                       "Stages/wave/Rayleigh stiffness coefficient=1e-6"]),
             "implicit, divided": (
                 os.path.join(common.VERIFICATION, "kirsch", "case.prm"),
                 ["Solver=implicit"]),
@@ -102,7 +113,8 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "implicit, iterative": (
                 WALL, PUSHED + ["Implicit/Linear solver=iterative"])}
 # Other than 2 and 4.
-RANKS = {"implicit, divided": (2, 3), "implicit, divided, cracked": (2, 3)}
+RANKS = {"contacts, divided": (2, 3, 4), "implicit, divided": (2, 3),
+         "implicit, divided, cracked": (2, 3)}
 TOLERANCE = 1e-10
 # Of the peak, where an equilibrium is found to 'Force ratio'.
 LOOSE = {"implicit": 1e-6, "implicit, iterative": 1e-6}

@@ -36,6 +36,9 @@ CASES = {
                    ["Output/Checkpoint interval=0.05",
                     "Stages/shake/Duration=2",
                     "Initial motion/Velocity=1e-3*exp(-x*x); 0"], 1, 2),
+    # tetrahedra and dashpots
+    "space": (os.path.join(common.VERIFICATION, "space_waves", "s.prm"),
+              ["Output/Checkpoint interval=0.02"], 2, 2),
     # cells that yield
     "salencon": (os.path.join(common.VERIFICATION, "salencon", "case.prm"),
                  ["Output/Checkpoint interval=0.05",

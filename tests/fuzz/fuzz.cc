@@ -198,20 +198,19 @@ namespace
     Run(parameters, check, MPI_COMM_SELF).run();
   }
 
-  void try_mesh(const Input &input, Mutator &mutator)
+  template <int dim>
+  void try_mesh_data(const MeshData<dim> &data, Mutator &mutator)
   {
-    const MeshData data = read_gmsh(
-        input.file.string(),
-        mutator.below(4) == 0 ? TriangleKind::quadratic : TriangleKind::plain);
     for (const auto &p : data.vertices)
-      require(std::isfinite(p[0]) && std::isfinite(p[1]),
-              "a vertex that is not finite was accepted");
+      for (unsigned int d = 0; d < dim; ++d)
+        require(std::isfinite(p[d]),
+                "a vertex that is not finite was accepted");
     SplitOptions options;
     options.between_all = mutator.below(2) == 0;
-    for (std::size_t i = 1; i < data.line_names.size(); ++i)
+    for (std::size_t i = 1; i < data.face_names.size(); ++i)
       if (mutator.below(2) == 0)
-        options.joints_along.push_back(data.line_names[i]);
-    BlockMesh<2> mesh;
+        options.joints_along.push_back(data.face_names[i]);
+    BlockMesh<dim> mesh;
     split_into_blocks(data, options, mesh);
     require(mesh.n_blocks() > 0, "a mesh without blocks was accepted");
     const MeshReport report = make_mesh_report(mesh);
@@ -223,9 +222,18 @@ namespace
                                [](const unsigned int r) { return r < 3; }),
             "cells without a rank");
     const std::vector<unsigned int> first(mesh.n_cells(), 0);
-    const BlockTriangulation<2> blocks(mesh, first, is_rigid, MPI_COMM_SELF);
-    require(NodeMap<2>(blocks).n_global() == report.n_nodes,
+    const BlockTriangulation<dim> blocks(mesh, first, is_rigid, MPI_COMM_SELF);
+    require(NodeMap<dim>(blocks).n_global() == report.n_nodes,
             "nodes are not those of the report");
+  }
+
+  void try_mesh(const Input &input, Mutator &mutator)
+  {
+    std::visit([&](const auto &data) { try_mesh_data(data, mutator); },
+               read_any_gmsh(input.file.string(), MPI_COMM_SELF,
+                             MeshDimension::from_mesh,
+                             mutator.below(4) == 0 ? TriangleKind::quadratic
+                                                   : TriangleKind::plain));
   }
 
   void try_table(const Input &input)

@@ -43,6 +43,7 @@ TESTS = {("compare.py", "column"): ["column"],
          ("hybrid_long_run.py",): ["hybrid_long_run"],
          ("ranks.py",): ["ranks"], ("reflection.py",): ["boundary_reflection"],
          ("resume.py",): ["resume"],
+         ("resume_ranks.py",): ["resume_ranks"],
          ("wall_stability.py",): ["tue_wall_stability"]}
 
 

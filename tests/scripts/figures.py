@@ -27,6 +27,8 @@ import joint_figure  # noqa: E402
 import moments  # noqa: E402
 import run_parameters  # noqa: E402
 import stress_figure  # noqa: E402
+import synthetic_runs  # noqa: E402
+import vtu  # noqa: E402
 from vtu import Grid  # noqa: E402
 
 SMALL_WALL = os.path.join(ROOT, "parameter_files", "tutorials", "small_wall")
@@ -43,6 +45,16 @@ class Says(unittest.TestCase):
             function(*arguments)
         for word in words:
             self.assertIn(word, str(caught.exception))
+
+
+class Space(Says):
+    def test_tetrahedra_are_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "blocks.vtu")
+            synthetic_runs.write_vtu(path, 0., np.zeros((4, 2)),
+                                     np.array([[0, 1, 2, 3]]), {}, {})
+            self.says(["three dimensions", "paraview_view"], vtu.read_vtu,
+                      path)
 
 
 class Moments(Says):

@@ -12,9 +12,9 @@ namespace quoin
 {
   /**
    * Makes the folder @p output and takes its @p lock; if the run does not
-   * @p resume another, results of earlier runs go that this one may not write
-   * again, and would be taken for its own. Throws an InputError if there can
-   * be no such folder, or if another run holds it.
+   * @p resume another, removes results of earlier runs, which could be taken
+   * for its own. Throws an InputError if the folder cannot be made, or if
+   * another run holds it.
    */
   void take_output(const std::string &output, bool resume, OutputLock &lock);
 } // namespace quoin

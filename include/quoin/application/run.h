@@ -34,7 +34,7 @@ namespace quoin
     void save_checkpoint();
     bool is_over() const;
 
-    /** Archives how far run, tables and problem are. */
+    /** Archives the progress of run, tables and problem. */
     template <typename Archive>
     void archive_progress(Archive &archive);
 
@@ -50,9 +50,9 @@ namespace quoin
     const RunContext context;
     CheckpointClock checkpoint_clock;
     std::unique_ptr<Problem> problem;
-    std::unique_ptr<Stage> stage; /**< under way, or the last one */
+    std::unique_ptr<Stage> stage; /**< current stage, or the last one */
 
-    unsigned int stage_index = 0; /**< of the one under way or to come */
+    unsigned int stage_index = 0; /**< of the current or next stage */
     bool stage_begun         = false;
     double wall_time         = 0.; /**< of all steps [s] */
     double seconds           = 0.; /**< of the steps of this process [s] */

@@ -8,8 +8,8 @@
 
 namespace quoin
 {
-  /** In a namespace of their own: tests and cases have locals of these names.
-   */
+  /** Constants, in a namespace because tests have local variables of these
+      names. */
   namespace constants
   {
     constexpr double pi      = 3.14159265358979323846;
@@ -17,7 +17,7 @@ namespace quoin
     constexpr double gravity = 9.80665;   /**< standard [m/s^2] */
   }                                       // namespace constants
 
-  /** tan of @p angle in degrees, as friction and dilation are given. */
+  /** tan of @p angle [degrees], the unit of friction and dilation angles. */
   inline double tangent_of_degrees(const double angle)
   {
     return std::tan(angle * constants::pi / 180.);

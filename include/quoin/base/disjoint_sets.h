@@ -13,9 +13,9 @@ namespace quoin
 {
   /**
    * Disjoint sets of the numbers below n. The representative of a set is its
-   * smallest member, so that what is numbered by representatives does not
-   * depend on the order of the unions; in boost::disjoint_sets it is so only
-   * between a call of normalize_sets() and the next union.
+   * smallest member, so that numbers by representatives do not depend on the
+   * order of the unions; in boost::disjoint_sets this holds only between a call
+   * of normalize_sets() and the next union.
    */
   class DisjointSets
   {
@@ -39,8 +39,8 @@ namespace quoin
       parent[std::max(a, b)] = std::min(a, b);
     }
 
-    /** The number of each one's set, in the order of first members; and how
-        many sets there are. */
+    /** The number of the set of each i, in the order of first members, and the
+        number of sets. */
     std::pair<std::vector<unsigned int>, unsigned int> numbers()
     {
       std::vector<unsigned int> result(parent.size());

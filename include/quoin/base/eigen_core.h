@@ -6,8 +6,8 @@
 
 #include <quoin/base/intrinsics.h>
 
-// GCC 12 takes Eigen's wide loads of small matrices, which are never reached,
-// for reads beyond them. To be included before other headers of Eigen.
+// GCC 12 warns of reads beyond small matrices in wide loads of Eigen that are
+// never executed. Include this before other headers of Eigen.
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Warray-bounds"

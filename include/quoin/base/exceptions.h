@@ -21,9 +21,9 @@ namespace quoin
   };
 
   /**
-   * A run that cannot go on (instability, full disk). The message says where,
-   * when and what to try; the program ends with exit status 2 and keeps the
-   * last checkpoint and all output.
+   * A run that cannot continue (instability, full disk). The message says
+   * where, when and what to try; the program ends with exit status 2 and keeps
+   * the last checkpoint and all output.
    */
   class RunError : public std::runtime_error
   {
@@ -32,9 +32,9 @@ namespace quoin
   };
 
   /**
-   * A RunError about the model and not about the machine, thrown by all ranks:
-   * there is no equilibrium, a block has left the box. Where a factor of safety
-   * is sought, the model has failed.
+   * A RunError about the model and not the machine, thrown by all ranks: there
+   * is no equilibrium, a block has left the box. In a search for a factor of
+   * safety it means that the trial is unstable.
    */
   class ModelFailure : public RunError
   {

@@ -9,7 +9,7 @@
 
 namespace quoin
 {
-  /** The numbers in @p words; none if one of them is no finite number. */
+  /** The numbers in @p words; empty if one of them is not a finite number. */
   std::vector<double> finite_numbers(const std::vector<std::string> &words);
 } // namespace quoin
 

@@ -15,7 +15,7 @@ namespace quoin
   using FourierPlan
       = std::unique_ptr<fftw_plan_s, decltype(&fftw_destroy_plan)>;
 
-  /** Owns @p plan of FFTW. Throws a RunError where FFTW could make none. */
+  /** Owns @p plan of FFTW. Throws a RunError if FFTW could not create one. */
   inline FourierPlan owned(const fftw_plan plan)
   {
     if (!plan)

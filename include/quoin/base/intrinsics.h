@@ -4,9 +4,9 @@
 #ifndef quoin_base_intrinsics_h
 #define quoin_base_intrinsics_h
 
-// GCC 12 mistakes its own AVX-512 intrinsics for reads of what is not set. A
-// warning is judged by the place of the code that it complains of, so that this
-// header must come before others that include immintrin.h.
+// GCC 12 warns of uninitialised reads in its own AVX-512 intrinsics. Warnings
+// are switched off by the place of the code, so this header must come before
+// others that include immintrin.h.
 
 #ifdef __AVX__
 #pragma GCC diagnostic push

@@ -11,9 +11,9 @@
 namespace quoin
 {
   /**
-   * "a, b" for a message that says what there is: @p name_of each of @p items,
-   * a function or a pointer to a member. Empty names are left out; "none" if
-   * nothing is left.
+   * "a, b" for a message that lists known names: @p name_of, a function or a
+   * pointer to a member, of each of @p items. Empty names are left out; "none"
+   * if nothing is left.
    */
   template <typename Items, typename NameOf>
   std::string known_names(const Items &items, const NameOf &name_of)
@@ -28,7 +28,7 @@ namespace quoin
     return text.empty() ? "none" : text;
   }
 
-  /** The same of names. */
+  /** The same for a list of names. */
   template <typename Names>
   std::string known_names(const Names &names)
   {

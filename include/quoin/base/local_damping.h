@@ -10,12 +10,12 @@
 namespace quoin
 {
   /**
-   * What local damping takes off the velocity that a freedom would reach.
-   * Cundall's damping force is a share of the unbalanced force against the
-   * velocity. Against that of the half step before it would drive modes near
-   * the critical step, whose velocity changes sign every step; so it acts
-   * against the mean of @p v0 before and @p v1 after the step, at most
-   * halving it, and never does positive work.
+   * Reduction of the velocity of a degree of freedom by local damping [m/s].
+   * Cundall's damping force is a share of the unbalanced force, opposite to the
+   * velocity. With the velocity of the last half step it would drive modes near
+   * the critical step, whose velocity changes sign every step; so it opposes
+   * the mean of @p v0 before and @p v1 after the step, at most halving it, and
+   * never does positive work.
    *
    * @p strength is the share times |force| dt / m [m/s].
    */

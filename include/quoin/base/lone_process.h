@@ -9,19 +9,19 @@
 namespace quoin
 {
   /**
-   * Spares Open MPI what a process started without mpirun does not need, to be
-   * called before MPI_Init(): a daemon beside it, in case that it spawned
-   * others, and folders in the folder for temporary files. Lone processes share
-   * their names there, so that one which ends may remove them while another
-   * begins, whose MPI_Init() then fails. Of no process does Open MPI catch the
-   * signals of a crash: its report asks for memory, which where memory is
-   * damaged never ends.
+   * Switches off what Open MPI does not need in a process started without
+   * mpirun, before MPI_Init(): the daemon for spawned processes and session
+   * folders among the temporary files. Such processes share folder names, so
+   * that one that ends may remove them while another starts, whose MPI_Init()
+   * then fails. Open MPI's handlers of crash signals are switched off for all
+   * processes: their report allocates memory, which may hang if memory is
+   * corrupted.
    */
   inline void prepare_lone_process()
   {
     setenv("OMPI_MCA_opal_signal", "", 0);
     if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr)
-      return; // one of mpirun
+      return; // started by mpirun
     setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
     setenv("OMPI_MCA_orte_create_session_dirs", "0", 0);
   }

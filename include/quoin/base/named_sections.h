@@ -11,8 +11,8 @@
 
 namespace quoin
 {
-  /** A section whose entries @p declare declares; of sections with 'Names',
-      those of each subsection that these list. */
+  /** A section and the function that declares its entries; for sections with
+      'Names', those of each listed subsection. */
   struct SectionEntries
   {
     std::string name;
@@ -29,7 +29,7 @@ namespace quoin
 
   /**
    * Declares the subsections that 'Names' in @p names lists. Throws an
-   * InputError that begins with @p file about names that come twice or are
+   * InputError that begins with @p file about names that appear twice or are
    * parameters.
    */
   void declare_listed(const std::vector<SectionEntries> &sections,

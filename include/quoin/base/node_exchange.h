@@ -17,8 +17,8 @@ namespace quoin
    * numbered from 0, and after them copies of nodes: first the shared ones,
    * nodes of its own cells that other ranks own, whose forces it adds to those
    * of the owner; then partners, the nodes across joints of which another rank
-   * has the cell, which it only reads. A node may be there more than once: what
-   * is added to a partner is nobody's, whoever owns the node.
+   * has the cell, which it only reads. A node may appear more than once; values
+   * added to a partner are discarded.
    */
   class NodeExchange
   {
@@ -28,13 +28,13 @@ namespace quoin
                  const std::vector<unsigned int> &partners,
                  MPI_Comm communicator);
 
-    /** Mirrors @p shared nodes, ascending, too. Collective. */
+    /** Also mirrors @p shared nodes, ascending. Collective. */
     NodeExchange(unsigned int first, unsigned int last, unsigned int n_global,
                  const std::vector<unsigned int> &shared,
                  const std::vector<unsigned int> &partners,
                  MPI_Comm communicator);
 
-    /** Owns what this exchange does, mirrors @p partners alone. Collective. */
+    /** Exchange of the same nodes with @p partners alone. Collective. */
     NodeExchange with_partners(const std::vector<unsigned int> &partners) const;
 
     unsigned int n_owned() const
@@ -89,24 +89,27 @@ namespace quoin
       update_ghosts(values, values + n_owned());
     }
 
-    /** The same with the ghosts in an array of their own. */
+    /** Updates ghosts in a separate array. */
     template <typename T>
     void update_ghosts(const T *owned, T *ghosts) const;
 
     /**
      * Adds the entries of shared nodes of @p values, n_local() long, to those
-     * of their owners on other ranks. The entries here stay. @p T is an
+     * of their owners on other ranks. The entries of this rank stay. @p T is an
      * aggregate of doubles.
      */
     template <typename T>
     void add_to_owners(T *values) const;
 
   private:
+    template <typename T>
+    friend class OwnerSum;
+
     dealii::Utilities::MPI::Partitioner partitioner, shared_partitioner;
     std::vector<unsigned int> partners; /**< global, ascending */
-    /** Where the values of shared nodes and then of partners come from: below
-        n_owned() an owned node, else a ghost of the partitioner. Empty if it is
-        the ghosts in their order. */
+    /** Sources of the values of shared nodes and then of partners: below
+        n_owned() an owned node, else a ghost of the partitioner. Empty if they
+        are the ghosts in order. */
     std::vector<unsigned int> sources;
   };
 
@@ -146,41 +149,75 @@ namespace quoin
           = source < n_owned() ? owned[source] : arrived[source - n_owned()];
   }
 
+  /**
+   * NodeExchange::add_to_owners() in two halves, between which the caller works
+   * on other nodes. Keeps its buffers.
+   */
+  template <typename T>
+  class OwnerSum
+  {
+  public:
+    /** Keeps a reference to @p exchange. */
+    explicit OwnerSum(const NodeExchange &exchange)
+      : exchange(exchange), partitioner(exchange.shared_partitioner),
+        arrived(partitioner.n_import_indices()),
+        requests(partitioner.ghost_targets().size()
+                 + partitioner.import_targets().size())
+    {
+    }
+
+    /** Sends the entries of shared nodes of @p values, n_local() long, which
+        must not change before finish(). */
+    void start(const T *values)
+    {
+      auto request = requests.begin();
+      T *incoming  = arrived.data();
+      for (const auto &[rank, count] : partitioner.import_targets())
+      {
+        MPI_Irecv(incoming, count * sizeof(T), MPI_BYTE, rank, 1,
+                  exchange.communicator(), &*request++);
+        incoming += count;
+      }
+      const T *outgoing = values + exchange.n_owned();
+      for (const auto &[rank, count] : partitioner.ghost_targets())
+      {
+        MPI_Isend(outgoing, count * sizeof(T), MPI_BYTE, rank, 1,
+                  exchange.communicator(), &*request++);
+        outgoing += count;
+      }
+    }
+
+    /** Adds the received entries to the owned entries of @p values. */
+    void finish(T *values)
+    {
+      constexpr unsigned int n_components = sizeof(T) / sizeof(double);
+      if (requests.empty())
+        return;
+      MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+      const T *part = arrived.data();
+      for (const auto &[begin, end] : partitioner.import_indices())
+        for (unsigned int i = begin; i < end; ++i, ++part)
+        {
+          double *sum        = reinterpret_cast<double *>(values + i);
+          const double *term = reinterpret_cast<const double *>(part);
+          for (unsigned int c = 0; c < n_components; ++c)
+            sum[c] += term[c];
+        }
+    }
+
+  private:
+    const NodeExchange &exchange;
+    const dealii::Utilities::MPI::Partitioner &partitioner;
+    std::vector<T> arrived;
+    std::vector<MPI_Request> requests;
+  };
+
   template <typename T>
   void NodeExchange::add_to_owners(T *values) const
   {
-    constexpr unsigned int n_components = sizeof(T) / sizeof(double);
-    const auto &targets                 = shared_partitioner.ghost_targets();
-    const auto &senders                 = shared_partitioner.import_targets();
-    if (senders.empty() && targets.empty())
-      return;
-    std::vector<T> arrived(shared_partitioner.n_import_indices());
-    std::vector<MPI_Request> requests(senders.size() + targets.size());
-    auto request = requests.begin();
-    T *incoming  = arrived.data();
-    for (const auto &[rank, count] : senders)
-    {
-      MPI_Irecv(incoming, count * sizeof(T), MPI_BYTE, rank, 1, communicator(),
-                &*request++);
-      incoming += count;
-    }
-    const T *outgoing = values + n_owned();
-    for (const auto &[rank, count] : targets)
-    {
-      MPI_Isend(outgoing, count * sizeof(T), MPI_BYTE, rank, 1, communicator(),
-                &*request++);
-      outgoing += count;
-    }
-    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
-    const T *part = arrived.data();
-    for (const auto &[begin, end] : shared_partitioner.import_indices())
-      for (unsigned int i = begin; i < end; ++i, ++part)
-      {
-        double *sum        = reinterpret_cast<double *>(values + i);
-        const double *term = reinterpret_cast<const double *>(part);
-        for (unsigned int c = 0; c < n_components; ++c)
-          sum[c] += term[c];
-      }
+    OwnerSum<T> sum(*this);
+    sum.start(values);
+    sum.finish(values);
   }
 } // namespace quoin
 

@@ -10,7 +10,7 @@
 
 namespace quoin
 {
-  /** Allocator for arrays that vector loads may touch: 64-byte aligned. */
+  /** Allocator of 64-byte aligned arrays for vector loads. */
   template <typename T>
   struct CacheAlignedAllocator
   {
@@ -46,8 +46,8 @@ namespace quoin
 
   /**
    * One node of a block: reference position X and displacement u [m]; the
-   * current position is X + u. Kept together, in two dimensions in 32 bytes,
-   * because the block kernel loads both of every node it enters.
+   * current position is X + u. They are kept together, in two dimensions in 32
+   * bytes, because the block kernel always loads both.
    */
   template <int dim>
   struct alignas(dim == 2 ? 32 : 16) NodeRecord
@@ -56,7 +56,7 @@ namespace quoin
     double u[dim];
   };
 
-  /** A pair of components per node: velocity [m/s] or force [N]. */
+  /** Components of a vector at a node: velocity [m/s] or force [N]. */
   template <int dim>
   struct alignas(dim == 2 ? 16 : 8) NodeVector
   {

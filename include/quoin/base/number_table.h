@@ -11,16 +11,16 @@ namespace quoin
 {
   struct TableRow
   {
-    unsigned int line; /**< of the file, from 1 */
+    unsigned int line; /**< line number in the file, from 1 */
     std::vector<double> values;
   };
 
   /**
    * Reads the rows of a text file, each of @p n_columns finite numbers
-   * separated by commas or blanks. What follows a # is a comment; lines without
-   * a number before the first row are a heading. @p row: what a row should be,
-   * for messages. Throws InputError, with the file and the line: a file that
-   * cannot be read, other rows, none at all.
+   * separated by commas or blanks. Text after a # is a comment; lines without a
+   * number before the first row are a heading. @p row: what a row should be,
+   * for messages. Throws an InputError, with the file and the line, if the file
+   * cannot be read, a row is different, or there is none.
    */
   std::vector<TableRow> read_number_table(const std::string &file,
                                           unsigned int n_columns,

@@ -30,7 +30,7 @@ namespace quoin
   /** "from 1 to 5", or "5" of numbers that do not differ in four digits. */
   inline std::string range_text(const double low, const double high)
   {
-    // Without the sign of a zero.
+    // Adding 0 removes the sign of a zero.
     const std::string first = number_text(low + 0.),
                       last  = number_text(high + 0.);
     return first == last ? last : "from " + first + " to " + last;

@@ -29,7 +29,7 @@ namespace quoin
    * that declare_entries() and read_entries() call. Where entries are declared
    * the variables hold the defaults; where they are read they get the values,
    * and wrong ones are refused as by ParameterSection. The last argument of
-   * each function is the sentence of the reference.
+   * each function is its sentence in the reference manual.
    */
   class ParameterEntries
   {
@@ -42,20 +42,20 @@ namespace quoin
     {
     }
 
-    /** Whether to go on with entries that are read if @p condition holds: all
+    /** Whether to process entries that are read only if @p condition holds; all
         are declared. */
     bool reads_if(const bool condition) const
     {
       return prm != nullptr || condition;
     }
-    /** The section that is read; null where entries are declared. Checks of
-        several values belong behind it. */
+    /** The section that is read; null while entries are declared. Check
+        combinations of values only if it is not null. */
     const ParameterSection *read_section() const
     {
       return section;
     }
 
-    /** A finite number; @p unit: what 1 in the file is in the program. */
+    /** A finite number; @p unit: value in the program of 1 in the file. */
     void number(const std::string &name, double &value,
                 const std::string &sentence, double unit = 1.);
     /** A positive number, see ParameterSection::positive(). */
@@ -66,7 +66,7 @@ namespace quoin
     /** A number in [@p low, @p high], both as in the file. */
     void within(const std::string &name, double &value, double low, double high,
                 const std::string &sentence, double unit = 1.);
-    /** A number, or the word that stands for @p word_value. */
+    /** A number, or @p word for @p word_value. */
     void number_or(const std::string &word, double word_value,
                    const std::string &name, double &value,
                    const std::string &sentence);
@@ -88,7 +88,7 @@ namespace quoin
               const std::string &sentence);
     void text(const std::string &name, std::string &value,
               const std::string &sentence);
-    /** Words with commas between them. */
+    /** Comma-separated words. */
     void list(const std::string &name, std::vector<std::string> &value,
               const std::string &sentence);
     /** Pairs a:b, see ParameterSection::pairs(). */
@@ -97,7 +97,7 @@ namespace quoin
                const std::string &must_be, const std::string &sentence,
                bool *all = nullptr);
 
-    /** N numbers with commas between them. */
+    /** N comma-separated numbers. */
     template <std::size_t N>
     void numbers(const std::string &name, std::array<double, N> &value,
                  const std::string &sentence)
@@ -108,8 +108,8 @@ namespace quoin
       value = section->numbers<N>(name);
     }
 
-    /** One of the words of @p table, and what it stands for; of words for the
-        same, the first one is the default. */
+    /** One of the words of @p table and its value; of several words for a
+        value, the first one is the default. */
     template <typename T>
     void choice(const std::string &name, T &value,
                 const std::vector<std::pair<std::string, T>> &table,
@@ -143,7 +143,7 @@ namespace quoin
     }
 
   private:
-    /** Whether this was a declaration. */
+    /** Declares the entry unless a section is read; returns whether it did. */
     bool declare(const std::string &name, const std::string &preset,
                  const dealii::Patterns::PatternBase &pattern,
                  const std::string &sentence);

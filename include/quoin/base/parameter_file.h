@@ -11,7 +11,7 @@
 
 namespace quoin
 {
-  /** The text of a parameter file, with what the command line overrides. */
+  /** The text of a parameter file, with the overrides of the command line. */
   class ParameterFile
   {
   public:
@@ -22,10 +22,10 @@ namespace quoin
     ParameterFile(std::string file, std::vector<std::string> overrides);
 
     /**
-     * Puts its values into @p prm, those of the command line last;
-     * 'include' resolves against the folder of the file. With
-     * @p skip_undefined it passes over what @p prm does not declare. Throws
-     * an InputError that names file, line, section and cure.
+     * Puts its values into @p prm, those of the command line last; 'include'
+     * resolves against the folder of the file. With @p skip_undefined it skips
+     * entries that @p prm does not declare. Throws an InputError that names
+     * file, line, section and cure.
      */
     void parse(dealii::ParameterHandler &prm, bool skip_undefined) const;
 

@@ -67,7 +67,7 @@ namespace quoin
     std::vector<std::pair<std::string, std::string>>
     pairs(const std::string &name, const std::string &must_be,
           bool *all = nullptr) const;
-    /** One of the words of @p table, and what it stands for. */
+    /** One of the words of @p table, returned as its value. */
     template <typename Enum>
     Enum choice(const std::string &name,
                 const std::vector<std::pair<std::string, Enum>> &table) const
@@ -86,7 +86,7 @@ namespace quoin
     [[noreturn]] void fail(const std::string &name,
                            const std::string &why) const;
 
-    /** What @p make() gives; its InputErrors become such of @p name. */
+    /** The result of @p make(); its InputErrors become errors of @p name. */
     template <typename Make>
     auto made(const std::string &name, const Make &make) const
     {

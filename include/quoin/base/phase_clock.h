@@ -13,20 +13,19 @@
 namespace quoin
 {
   /**
-   * How the time of a run is shared by the phases of its steps. A step of a
-   * small model takes a microsecond, in which looking at a clock between all
-   * phases would be felt: so one step in many is measured and counts for all
-   * of them, while phases that come seldom, such as output, are always
-   * measured.
+   * Wall time of the phases of steps. A step of a small model takes a
+   * microsecond, in which reading a clock between all phases would be costly:
+   * one step in many is measured and counts for all of them, while rare phases,
+   * such as output, are always measured.
    */
   class PhaseClock
   {
   public:
-    /** Prime, so that what is done every tenth or hundredth step is met as
-        often as it comes. */
+    /** Steps per measured step; prime, so that tasks of every tenth or
+        hundredth step are sampled in proportion. */
     static constexpr unsigned int steps_per_sample = 17;
 
-    /** Number of the phase @p name, which it has from now on. */
+    /** Number of the phase @p name, added if it is new. */
     unsigned int phase(const std::string &name)
     {
       const auto found = std::find(names.begin(), names.end(), name);
@@ -48,8 +47,7 @@ namespace quoin
         weight = 0.;
     }
 
-    /** What was done since begin_step() or the last lap belongs to @p phase.
-     */
+    /** Books the time since begin_step() or the last lap to @p phase. */
     void lap(const unsigned int phase)
     {
       if (weight == 0.)
@@ -59,8 +57,8 @@ namespace quoin
       last = now;
     }
 
-    /** Does @p task and books its time; within a step it is no part of a lap.
-     */
+    /** Runs @p task and books its time, which within a step is excluded from
+        laps. */
     template <typename Task>
     void measure(const unsigned int phase, const Task &task)
     {

@@ -29,8 +29,8 @@ namespace quoin
   }
 
   /**
-   * Of @p p from the segment, which may be a point [m]; at its ends zero
-   * without rounding. A Vector has components [0] and [1].
+   * Distance of @p p from the segment, which may be a point [m]; exactly zero
+   * at its ends. A Vector has components [0] and [1].
    */
   template <typename Vector>
   double distance_to_segment(const Vector &p, const Vector &a, const Vector &b)

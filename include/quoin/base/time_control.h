@@ -14,8 +14,8 @@
 namespace quoin
 {
   /**
-   * Whether a multiple of an interval is nearest to this step. Keeps no
-   * memory, so that a resumed run answers as the uninterrupted one did.
+   * Output times: whether a multiple of an interval is nearest to a step. It
+   * has no memory, so that a resumed run has the same output times.
    */
   class TimeControl
   {
@@ -25,7 +25,7 @@ namespace quoin
     {
     }
 
-    /** At @p time [s], with steps of @p dt [s]. */
+    /** Whether output is due at @p time [s], with steps of @p dt [s]. */
     bool is_due(const double time, const double dt) const
     {
       if (interval < 0.)
@@ -41,8 +41,8 @@ namespace quoin
   };
 
   /**
-   * Steps of at most @p step [s] in @p duration [s], one at least; a quotient
-   * that should be whole is not rounded up. Throws an InputError, "@p what
+   * Number of steps of at most @p step [s] in @p duration [s], at least one; an
+   * integer up to rounding is not rounded up. Throws an InputError, "@p what
    * takes ... steps ... @p cure", if they are more than @p most.
    */
   inline double count_steps(const double duration, const double step,

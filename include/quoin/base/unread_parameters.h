@@ -11,18 +11,18 @@
 
 namespace quoin
 {
-  /** A parameter that has no meaning for all kinds of its section. */
+  /** A parameter that only some kinds of its section use. */
   struct SelectiveParameter
   {
     std::string name;
     std::string unset;              /**< its value where it is not given */
-    std::vector<std::string> kinds; /**< that read it */
+    std::vector<std::string> kinds; /**< kinds that use it */
   };
 
   /**
-   * Refuses what is set without effect: a parameter of @p table that the kind
-   * of the section, the value of @p chooser, does not read. Numbers are
-   * compared as such.
+   * Refuses parameters set without effect: those of @p table that the kind of
+   * the section, the value of @p chooser, does not use. Numbers are compared as
+   * such.
    */
   void refuse_unread(const ParameterSection &section,
                      const std::string &chooser,

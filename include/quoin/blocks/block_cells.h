@@ -12,15 +12,15 @@
 
 namespace quoin
 {
-  // What operators take from the deformable cells of a NodeMap.
+  // Data of the deformable cells of a NodeMap for operators.
 
   /** Fills in cells and blocks of @p data. */
   template <int dim>
   void take_cells(const NodeMap<dim> &nodes, BlockForcesData<dim> &data);
 
   /**
-   * Lumped masses of the local nodes, those of rigid blocks too [kg].
-   * @p density: of each cell group; @p thickness: in two dimensions [m].
+   * Lumped masses of the local nodes, rigid blocks included [kg]. @p density:
+   * of each cell group [kg/m^3]; @p thickness: in two dimensions [m].
    * Collective.
    */
   template <int dim>
@@ -32,17 +32,6 @@ namespace quoin
   template <int dim>
   using CellStiffness
       = std::conditional_t<dim == 2, PlaneStiffness, SpaceStiffness>;
-
-  /**
-   * S_i of StableTimeStep of the local nodes by the cells of this rank [N/m];
-   * to be added to those of owners. @p stiffness and @p density: of each cell
-   * group.
-   */
-  template <int dim>
-  std::vector<typename StableTimeStep<dim>::Bound>
-  cell_bounds(const NodeMap<dim> &nodes,
-              const std::vector<CellStiffness<dim>> &stiffness,
-              const std::vector<double> &density, double thickness = 1.);
 } // namespace quoin
 
 #endif

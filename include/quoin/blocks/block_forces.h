@@ -20,7 +20,7 @@
 
 namespace quoin
 {
-  /** What the block kernel knows of a mesh; copied by prepare(). */
+  /** Mesh data of the block kernel; copied by prepare(). */
   template <int dim>
   struct BlockForcesData;
 
@@ -28,7 +28,7 @@ namespace quoin
   template <int dim>
   class BlockForces;
 
-  /** What the block kernel knows of a mesh of triangles. */
+  /** Mesh data of the block kernel: triangles. */
   template <>
   struct BlockForcesData<2>
   {
@@ -42,7 +42,7 @@ namespace quoin
     /** Index into stiffness of each cell; empty if there is only one. */
     std::vector<unsigned int> cell_stiffness;
 
-    /** How cells of each stiffness yield, if they do; empty: none does. */
+    /** Yield law of cells of each stiffness, if any; empty: no cell yields. */
     std::vector<std::optional<MohrCoulomb>> laws;
 
     /**
@@ -54,15 +54,15 @@ namespace quoin
     double thickness = 1.; /**< [m] */
 
     /**
-     * Each four cells are one six-node triangle, cut as the function
-     * NodeMap does. What goes cell by cell, strains,
-     * stresses and linearise(), is then of that triangle at the centroids of
-     * the cells; add_forces() and what else goes in lanes is not.
+     * Whether each four cells are one six-node triangle, cut as by NodeMap.
+     * Functions of one cell (strains, stresses, linearise()) are then those of
+     * that triangle at the centroids of the cells; add_forces() and others in
+     * lanes are not.
      */
     bool quadratic = false;
   };
 
-  /** How the block kernel cuts its work; the defaults suit usual caches. */
+  /** Division of the kernel's work; the defaults suit usual caches. */
   struct BlockForcesOptions
   {
     /** Nodes of a tile stay below this many bytes, if a block does. */
@@ -74,7 +74,7 @@ namespace quoin
      */
     std::size_t max_run_cells = 4096;
 
-    /** Triangles computed at once: 4, 8, or 0 for what the machine has. */
+    /** Triangles computed at once: 4, 8, or 0: what the machine supports. */
     unsigned int n_lanes = 0;
   };
 
@@ -88,7 +88,7 @@ namespace quoin
     std::array<unsigned int, 6> nodes;
     std::array<double, 12> force;                     /**< [N] */
     std::array<std::array<double, 12>, 12> stiffness; /**< [N/m] */
-    double dissipated; /**< by the update of the history [J] */
+    double dissipated; /**< by the update of the internal variables [J] */
   };
 
   struct NodeRange
@@ -104,8 +104,8 @@ namespace quoin
 
   /**
    * Internal forces of blocks that undergo any rotation (triangle.h has the
-   * element), linear elastic or with a law by which they yield. Tension is
-   * positive, and a force is what the cells exert on their nodes [N].
+   * element), linear elastic or elastoplastic. Tension is positive, and a force
+   * is what the cells exert on their nodes [N].
    *
    * The work comes in tiles, consecutive whole blocks whose nodes fit into
    * the second level cache, so that the caller can do everything else with a
@@ -148,6 +148,14 @@ namespace quoin
       return strain_energy(state.nodes.data(), state.get<PlasticHistory>());
     }
 
+    void linearise(State<2> &state, bool with_stiffness,
+                   const TakeElement<2> &take) const override;
+
+    /** Adds the bound of linear cells. */
+    void add_stiffness_bound(
+        const State<2> &state, const NodeRatio &ratio,
+        std::vector<NodeStiffness<2>> &stiffness) const override;
+
     unsigned int n_tiles() const
     {
       return tiles.size();
@@ -164,15 +172,15 @@ namespace quoin
       return tiles[tile].cells;
     }
 
-    /** Histories of cells without strain; empty if none of them yields. */
+    /** Internal variables of cells without strain; empty: no cell yields. */
     PlasticHistory initial_history() const;
 
-    /** Makes @p cell what it is in initial_history(), if any cell yields. */
+    /** Resets @p cell to initial_history(), if any cell yields. */
     void forget_history(unsigned int cell, PlasticHistory &history) const;
 
     /**
-     * Adds the internal forces of a tile's cells. Brings @p history to the
-     * positions and returns what that dissipated [J].
+     * Adds the internal forces of a tile's cells. Updates @p history for the
+     * current positions and returns the energy that this dissipates [J].
      */
     double add_forces(unsigned int tile, const NodeRecord<2> *nodes,
                       PlasticHistory &history, NodeVector<2> *force) const;
@@ -183,16 +191,15 @@ namespace quoin
     }
 
     /**
-     * What add_forces() does for one cell, with its derivative, consistent
-     * with the update of @p history, if @p with_stiffness; otherwise the
-     * stiffness is not set. Does nothing and returns false for a cell without
-     * weight.
+     * As add_forces() for one cell, with the derivative consistent with the
+     * update of @p history if @p with_stiffness; otherwise the stiffness is not
+     * set. Does nothing and returns false for a cell without weight.
      */
     bool linearise(unsigned int cell, const NodeRecord<2> *nodes,
                    PlasticHistory &history, CellLinearisation &result,
                    bool with_stiffness = true) const;
 
-    /** What add_forces() of all tiles does to @p history; returns the same. */
+    /** Updates @p history as add_forces(); returns the dissipation [J]. */
     double update(const NodeRecord<2> *nodes, PlasticHistory &history) const;
 
     /**
@@ -205,7 +212,7 @@ namespace quoin
                             const NodeVector<2> *velocity, double beta,
                             NodeVector<2> *force) const;
 
-    /** add_forces() cell by cell: what the strips are compared with. */
+    /** add_forces() cell by cell, as a reference for the strips. */
     double add_forces_by_cell(unsigned int tile, const NodeRecord<2> *nodes,
                               PlasticHistory &history,
                               NodeVector<2> *force) const;
@@ -225,10 +232,10 @@ namespace quoin
                          const PlasticHistory &history) const;
 
     /**
-     * Stress xx, yy, xy, zz [Pa] and, if asked for, strain xx, yy, xy of a
-     * cell in the fixed frame: R S R^T and R e R^T. The initial stress is
-     * part of the stress. A cell that yields has the stress to which the
-     * positions bring its @p history.
+     * Stress xx, yy, xy, zz [Pa] and, if asked for, strain xx, yy, xy of a cell
+     * in the fixed frame: R S R^T and R e R^T. The initial stress is part of
+     * the stress. A cell that yields has the stress of its @p history updated
+     * for the positions.
      */
     std::array<double, 4> cell_stress(const NodeRecord<2> *nodes,
                                       const PlasticHistory &history,
@@ -238,8 +245,8 @@ namespace quoin
     /**
      * Stress xx, yy, xy, zz [Pa] in the rotating frame by the strain of a cell
      * less the plastic one of its @p history, with any @p stiffness and law
-     * (null: elastic). With those of the cell and initial_stress() it is the
-     * stress, if the history is that of the positions.
+     * (null: elastic). With those of the cell plus initial_stress() it is the
+     * cell's stress, if the history is up to date.
      */
     std::array<double, 4> stress_of_strain(const NodeRecord<2> *nodes,
                                            const PlasticHistory &history,
@@ -266,20 +273,20 @@ namespace quoin
                                                  : data.cell_stiffness[cell]];
     }
 
-    /** Whether any cell yields. */
+    /** Whether any cell has a yield law. */
     bool is_plastic() const
     {
       return std::any_of(data.laws.begin(), data.laws.end(),
                          [](const auto &law) { return law.has_value(); });
     }
 
-    /** How a cell yields; null if it is elastic. */
+    /** Yield law of a cell; null: elastic. */
     const MohrCoulomb *cell_law(const unsigned int cell) const
     {
       return law(data.cell_stiffness.empty() ? 0 : data.cell_stiffness[cell]);
     }
 
-    /** History of a cell that yields, brought to the positions. */
+    /** Internal variables of a cell that yields, updated for the positions. */
     PlasticPoint cell_history(const NodeRecord<2> *nodes,
                               const PlasticHistory &history,
                               unsigned int cell) const;
@@ -339,7 +346,7 @@ namespace quoin
       std::array<std::array<double, 2>, 6> gradients;
       double area;
 
-      /** Of the displacements: [[11, 12], [21, 22]]. */
+      /** Displacement gradient [[11, 12], [21, 22]]. */
       std::array<double, 4>
       displacement_gradient(const NodeRecord<2> *records) const;
     };
@@ -349,7 +356,7 @@ namespace quoin
     CorotatedStrain cell_strain(const NodeRecord<2> *nodes, std::size_t cell,
                                 double *area = nullptr) const;
 
-    /** Brings @p history of a cell that yields to @p strain [J/m^3]. */
+    /** Updates @p history for @p strain; returns the dissipation [J/m^3]. */
     double update_cell(std::size_t cell, const PlaneTensor &strain,
                        PlasticHistory &history) const;
 
@@ -365,15 +372,15 @@ namespace quoin
     AlignedArray<std::uint32_t> offsets;
 
     /**
-     * The groups of four consecutive nodes that each run meets: what is to
-     * be fetched while the run before is at work.
+     * The groups of four consecutive nodes of each run, prefetched during the
+     * run before.
      */
     std::vector<std::uint32_t> node_groups;
 
-    /** Bit l says that lane l completes a triangle. */
+    /** Bit l: whether lane l completes a triangle. */
     std::vector<std::uint8_t> masks;
 
-    /** As offsets, the triangles' cells; empty if none yields. */
+    /** Cells of the triangles, ordered as offsets; empty if none yields. */
     AlignedArray<std::uint32_t> lane_cells;
 
     /**

@@ -9,7 +9,7 @@
 
 namespace quoin
 {
-  /** What the block kernel knows of a mesh of tetrahedra. */
+  /** Mesh data of the block kernel: tetrahedra. */
   template <>
   struct BlockForcesData<3>
   {
@@ -17,8 +17,8 @@ namespace quoin
     std::vector<std::array<unsigned int, 4>> cells;
     std::vector<unsigned int> block_first_cell; /**< n_blocks + 1 entries */
 
-    /** Nodes that each block has for itself, n_blocks + 1 entries. Its cells
-        may have others, which several blocks or tiles share. */
+    /** First node of each block, n_blocks + 1 entries, without the nodes that
+        several blocks or tiles share. */
     std::vector<unsigned int> block_first_node;
 
     std::vector<SpaceStiffness> stiffness; /**< the different ones */
@@ -56,7 +56,7 @@ namespace quoin
     {
       return "blocks";
     }
-    /** Elastic cells keep nothing; the slice is empty. */
+    /** Adds an empty slice: elastic cells have no internal variables. */
     void prepare(State<3> &state) const override;
     void add_forces(const StepContext &step, State<3> &state,
                     const NodeForces<3> &forces) override;
@@ -64,6 +64,14 @@ namespace quoin
     {
       return strain_energy(state.nodes.data(), state.get<PlasticHistory>());
     }
+
+    void linearise(State<3> &state, bool with_stiffness,
+                   const TakeElement<3> &take) const override;
+
+    /** Adds the bound of linear cells. */
+    void add_stiffness_bound(
+        const State<3> &state, const NodeRatio &ratio,
+        std::vector<NodeStiffness<3>> &stiffness) const override;
 
     unsigned int n_tiles() const
     {
@@ -86,7 +94,7 @@ namespace quoin
       return data.cells.size();
     }
 
-    /** No cell yields: no history. */
+    /** Empty history: no cell yields. */
     PlasticHistory initial_history() const
     {
       return {};
@@ -101,7 +109,7 @@ namespace quoin
     double add_forces(unsigned int tile, const NodeRecord<3> *nodes,
                       PlasticHistory &history, NodeVector<3> *force) const;
 
-    /** add_forces() cell by cell: what the lanes are compared with. */
+    /** add_forces() cell by cell, as a reference for the lanes. */
     double add_forces_by_cell(unsigned int tile, const NodeRecord<3> *nodes,
                               PlasticHistory &history,
                               NodeVector<3> *force) const;
@@ -159,10 +167,10 @@ namespace quoin
     }
 
     /**
-     * The first cell that is turned inside out, or is so in the reference
-     * configuration; n_cells() if there is none. A stress of the order of
-     * Young's modulus crushes a cell to nothing: forces are finite and push
-     * it back, but what is computed from then on means nothing.
+     * The first cell that is inverted, also in the reference configuration;
+     * n_cells() if there is none. A stress of the order of Young's modulus can
+     * invert a cell: its forces are finite and push it back, but results are
+     * meaningless from then on.
      */
     unsigned int first_inverted_cell(const NodeRecord<3> *nodes) const;
 

@@ -28,7 +28,7 @@ namespace quoin
                             const double *__restrict inverse_mass,
                             const double dt_velocity, const double dt)
   {
-    // x and y at once: compilers do not find this by themselves.
+    // x and y at once: compilers do not vectorise this by themselves.
     using Pair = double __attribute__((vector_size(16), aligned(8), may_alias));
     for (std::size_t i = begin; i < end; ++i)
     {
@@ -50,24 +50,24 @@ namespace quoin
     }
   }
 
-  /** Damping as one step applies it; zero factors switch a part off. */
+  /** Damping in one step; zero factors switch a part off. */
   struct DampingFactors
   {
     double local;       /**< Cundall's: share of the unbalanced force [-] */
     double mass;        /**< alpha [1/s] */
-    double dt_before;   /**< of the step before [s] */
+    double dt_before;   /**< previous step [s] */
     double dt_velocity; /**< from t - dt/2 to t + dt/2 [s] */
   };
 
-  /** What damping did in one step. */
+  /** Energies of damping in one step. */
   struct DampingWork
   {
     double before = 0.; /**< energy taken from t - dt/2 to t [J] */
-    double after  = 0.; /**< and from t to t + dt/2 [J] */
+    double after  = 0.; /**< energy taken from t to t + dt/2 [J] */
 
     /** Power of mass-proportional damping per alpha [J]. */
     double mass_power = 0.;
-    /** Of the kinetic energy [J]. */
+    /** Change of kinetic energy [J]. */
     double kinetic_change = 0.;
 
     DampingWork &operator+=(const DampingWork &other)
@@ -86,9 +86,9 @@ namespace quoin
    * Mass-proportional damping is centred in time (@cite JinWangZhang1998,
    * Eq. 5) and does not affect stability.
    *
-   * @p mass and @p inverse_mass are both zero where a node does not move by
-   * its own force; it is damped elsewhere. Power and change of kinetic energy
-   * are found if @p adaptive.
+   * @p mass and @p inverse_mass are both zero at constrained nodes, which are
+   * damped elsewhere. Power and change of kinetic energy are computed if
+   * @p adaptive.
    */
   template <bool adaptive, int dim>
   inline DampingWork advance_nodes_damped(

@@ -4,6 +4,8 @@
 #ifndef quoin_blocks_stable_time_step_h
 #define quoin_blocks_stable_time_step_h
 
+#include <quoin/operators/force_operator.h>
+
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -21,15 +23,14 @@ namespace quoin
    * so omega^2 <= max_i eig(S_i) / m_i: exact for one element and for one
    * spring, and never too low. Mass scaling raises m_i.
    *
-   * The nodes of a rigid block have one matrix, that of its three freedoms
-   * (RigidBlocks::largest_eigenvalue()); by themselves they count for nothing.
+   * A rigid block has one matrix, that of its three degrees of freedom
+   * (RigidBlocks::largest_eigenvalue()); its nodes do not count.
    */
   template <int dim>
   class StableTimeStep
   {
   public:
-    /** Symmetric matrix: xx, yy, xy or xx, yy, zz, xy, xz, yz. */
-    using Bound = std::array<double, dim *(dim + 1) / 2>;
+    using Bound = NodeStiffness<dim>;
 
     /** @p bound: S_i [N/m] of each owned node. */
     explicit StableTimeStep(const std::vector<Bound> &bound);
@@ -46,7 +47,8 @@ namespace quoin
       return eigenvalue[i] * dt * dt / 4.;
     }
 
-    /** The same for rigid block @p b: by what its mass is multiplied. */
+    /** Mass factor of rigid block @p b for the step @p dt to be critical [-].
+     */
     double rigid_factor(const unsigned int b, const double dt) const
     {
       return std::max(1., rigid_eigenvalue[b] * dt * dt / 4.);

@@ -27,19 +27,19 @@
  * D being the product of the sums of any two principal stretches. This has
  * no cancellation at small strains and no singularity at any rotation.
  *
- * det F has its sign: a tetrahedron that is turned inside out has one
- * negative stretch, and its forces push it back. They are no longer unique
- * where the two smallest stretches add up to zero, D = 0.
+ * det F has a sign: an inverted tetrahedron has one negative stretch, and its
+ * forces push it back. They are no longer unique where the two smallest
+ * stretches add up to zero, D = 0.
  *
- * What computes is a template of the lanes: OneLane here, several cells at
- * once in the block kernel.
+ * Functions are templates of the lanes: OneLane here, several cells at once in
+ * the block kernel.
  */
 namespace quoin
 {
   /** Six components of a symmetric tensor: 11, 22, 33, 12, 13, 23. */
   using SpaceTensor = std::array<double, 6>;
 
-  /** Where a component i, j of a symmetric tensor is. */
+  /** Index of component i, j of a symmetric tensor. */
   constexpr unsigned int symmetric_index[3][3]
       = { { 0, 3, 4 }, { 3, 1, 5 }, { 4, 5, 2 } };
 
@@ -55,7 +55,7 @@ namespace quoin
     }
   };
 
-  /** Lamé's moduli, or the same times what else all stresses have. */
+  /** Lamé's moduli, possibly times a common factor of all stresses. */
   template <typename L>
   struct LameModuli
   {
@@ -117,9 +117,9 @@ namespace quoin
   };
 
   /**
-   * Rotation and Biot strain of displacement gradients. The constructor, then
-   * find_trace(), then the rest: apart, so that the kernel can have two groups
-   * of cells under way.
+   * Rotation and Biot strain of displacement gradients. Call the constructor,
+   * find_trace(), then the rest; they are separate so that the kernel can
+   * interleave two groups of cells.
    */
   template <typename L>
   struct PolarDecomposition
@@ -195,7 +195,7 @@ namespace quoin
       inverse_D           = inverse + inverse * inverse * slope * step;
       if (L::greater(square, Value{} + 1e-6))
       {
-        // From above, where the convergence is monotone.
+        // Newton's method from above, where it converges monotonically.
         a = 0.5 * g1;
         Value step;
         unsigned int n = 0;

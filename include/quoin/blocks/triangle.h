@@ -33,7 +33,7 @@ namespace quoin
   /** Three components of a symmetric tensor: 11, 22, 12. */
   using PlaneTensor = std::array<double, 3>;
 
-  /** Where the nodes of one cell are. */
+  /** Reference geometry of one cell. */
   struct Triangle
   {
     double det;   /**< twice the reference area, signed [m^2] */

@@ -11,9 +11,9 @@
 namespace quoin
 {
   /**
-   * One node of a strip sequence. Together with the two nodes before it, it
-   * makes the triangle @p cell, or none: where a strip begins (twice), or
-   * where it turns about its last node (once).
+   * One node of a strip sequence. With the two nodes before it, it makes the
+   * triangle @p cell, or none where a strip begins (twice) or turns about its
+   * last node (once).
    */
   struct StripEntry
   {
@@ -42,9 +42,9 @@ namespace quoin
    * six times. Each member appears in exactly one entry. The triangle's nodes
    * may come in either orientation.
    *
-   * Greedy: a strip begins at a cell with the fewest free neighbours, near
-   * the previous strip, and takes the longest way. Where it ends it turns to
-   * the longest way among the free cells around its last node, if any.
+   * The algorithm is greedy: a strip begins at a cell with the fewest free
+   * neighbours, near the previous strip, and takes the longest path. At its end
+   * it turns to the longest path of free cells around its last node, if any.
    */
   std::vector<StripEntry>
   make_strips(const std::vector<std::array<unsigned int, 3>> &cells,

@@ -11,8 +11,8 @@
 /**
  * The derivative of the co-rotated element of triangle.h, for Newton solvers.
  *
- * All of the element is a function of q = (T, B, h_1, h_2). With the stresses
- * that are conjugate to (tr e, e_11 - e_22, 2 e_12),
+ * The energy of the element is a function of q = (T, B, h_1, h_2). With the
+ * stresses that are conjugate to (tr e, e_11 - e_22, 2 e_12),
  * @f[ M = \tfrac12 (S_{11} + S_{22}), \quad D = \tfrac12 (S_{11} - S_{22}),
  *     \quad G = S_{12}, @f]
  * the gradient of the energy density with respect to q is linear in them, and

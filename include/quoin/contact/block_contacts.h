@@ -9,6 +9,7 @@
 #include <quoin/contact/contact_edges.h>
 #include <quoin/contact/contact_parameters.h>
 #include <quoin/contact/matched_joints.h>
+#include <quoin/contact/pair_copies.h>
 #include <quoin/joints/joint_parameters.h>
 
 #include <array>
@@ -60,7 +61,8 @@ namespace quoin
    * pair between the same blocks that shares a vertex with it.
    *
    * A pair across two ranks is computed by both from the same numbers; each
-   * then counts half of its energy.
+   * then counts half of its energy. Where a block is divided, the pair that a
+   * new one takes over from may be a copy of another rank's.
    */
   class BlockContacts : public ForceOperator<2>
   {
@@ -120,6 +122,11 @@ namespace quoin
     const ContactEdges &contact_edges() const
     {
       return edges;
+    }
+    /** Of ContactState::search_positions, local. */
+    const std::vector<unsigned int> &watched_nodes() const
+    {
+      return boundary_nodes;
     }
 
     /** One contact as it is written to files. */
@@ -189,6 +196,14 @@ namespace quoin
     void bind_edges(const ContactState &contacts);
     void bind_nodes();
     void bind_pairs(const ContactState &contacts);
+    /** Of an entry of edge_pairs. */
+    const ContactPair &pair_or_copy(const ContactState &contacts,
+                                    const unsigned int i) const
+    {
+      return i < contacts.pairs.size()
+                 ? contacts.pairs[i]
+                 : copies.pairs()[i - contacts.pairs.size()];
+    }
     /** Of an edge, into local_edges. */
     unsigned int local_edge(unsigned int edge) const;
     void gather(const State<2> &state);
@@ -255,6 +270,7 @@ namespace quoin
     const MatchedJoints &joints;
     const NodeExchange &exchange;
     ContactEdges edges;
+    PairCopies copies;
     const ContactParameters parameters;
     const double thickness;
     double skin;
@@ -274,11 +290,13 @@ namespace quoin
     std::vector<unsigned int> far_nodes;   /**< of foreign edges, global */
     std::vector<NodeRecord<2>> ghost_nodes;
     std::vector<NodeVector<2>> ghost_velocity;
-    std::vector<std::array<unsigned int, 2>> pair_edges; /**< local */
+    /** Local edges of pairs, then of copies. */
+    std::vector<std::array<unsigned int, 2>> pair_edges;
     std::vector<float> pair_share;          /**< of the energy that we count */
     std::vector<double> pair_depth;         /**< that is too deep [m] */
     std::vector<double> reference_lengths;  /**< of the local edges [m] */
     std::vector<unsigned int> edge_numbers; /**< of the local edges */
+    /** Pairs and copies of each local edge, ascending in their edges. */
     std::vector<unsigned int> edge_pairs_begin, edge_pairs;
 
     AlignedArray<NodeVector<2>> position, compact_force, compact_velocity,

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <vector>
 
 namespace quoin
@@ -48,10 +49,10 @@ namespace quoin
    * The boundaries of blocks, joint or not, as edges between which contacts
    * are found. A rank has those of its own cells and knows of other ranks those
    * which lie across its joints, and which it has met or asked for: no rank has
-   * all of them. Edges have numbers that are those of all ranks: by block,
-   * within a block by the rank of the cell, then by their first node. Where the
-   * side of a rigid block is straight, it is one edge, whatever its mesh,
-   * unless it is part of a joint.
+   * all of them. Edges have numbers that are those of all ranks and do not
+   * depend on how many there are: by block, within a block by their first
+   * vertex. Where the side of a rigid block is straight, it is one edge,
+   * whatever its mesh, unless it is part of a joint.
    */
   class ContactEdges
   {
@@ -80,6 +81,13 @@ namespace quoin
     const std::vector<ContactEdge> &foreign() const
     {
       return foreign_edges;
+    }
+
+    /** Where blocks are divided: edges of other ranks before or after own ones,
+        and their ranks. Those have edges of this rank beside theirs, too. */
+    const std::map<unsigned int, unsigned int> &ranks_beside() const
+    {
+      return rank_of_neighbour;
     }
 
     bool is_own(const unsigned int number) const
@@ -156,6 +164,7 @@ namespace quoin
     std::vector<std::array<unsigned int, 2>> own_nodes;
     std::vector<JointEdges> edges_of_joints;
     std::vector<unsigned int> across_joints; /**< foreign, ascending */
+    std::map<unsigned int, unsigned int> rank_of_neighbour;
     std::vector<bool> interface_has_tip;
   };
 } // namespace quoin

@@ -6,6 +6,8 @@
 
 #include <quoin/joints/joint_history.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace quoin
@@ -41,6 +43,12 @@ namespace quoin
     double shift       = 0.;
     double shift_start = 0.; /**< slip at that time [m] */
     ContactPoint points[2];
+
+    /** Both edges, ascending; so pairs are sorted. */
+    std::array<unsigned int, 2> edges() const
+    {
+      return { std::min(lower, upper), std::max(lower, upper) };
+    }
   };
 
   /** Contacts that come and go; empty if displacements are small. */
@@ -57,10 +65,19 @@ namespace quoin
     std::uint64_t next_check = 0; /**< step of the next look at motions */
     std::uint64_t n_searches = 0;
 
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.between(pairs);
+      visitor.same(handed_over);
+      visitor.own(search_positions);
+      visitor.same(next_check, n_searches);
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &pairs &handed_over &search_positions &next_check &n_searches;
+      archive_members(archive, *this);
     }
   };
 } // namespace quoin

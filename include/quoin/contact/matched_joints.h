@@ -35,6 +35,27 @@ namespace quoin
     std::array<double, 8> inelastic_gradient;
   };
 
+  /** Points of brittle joints that may break in a step of an implicit solver;
+      see MatchedJoints::linearise(). */
+  struct BreakingJoints
+  {
+    static constexpr const char *slice_name = "breaking joints";
+
+    std::vector<std::uint8_t> points; /**< 1: it may; one entry for each */
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.own(points, 2, JointHistory::slice_name);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive_members(archive, *this);
+    }
+  };
+
   /**
    * The zero-thickness joints between coincident edges of two blocks, or of
    * the two lips of a crack.
@@ -150,15 +171,18 @@ namespace quoin
                             NodeVector<2> *force) const;
 
     /**
-     * What add_forces() does for segment @p i, with its derivative, consistent
-     * with the update of @p history, if @p with_stiffness; otherwise stiffness
-     * and inelastic_gradient are not set. Books the dissipation.
+     * What add_forces() does, of all segments or of segment @p i, with its
+     * derivative, consistent with the update of @p history, if
+     * @p with_stiffness; otherwise stiffness and inelastic_gradient are not
+     * set. Books the dissipation.
      *
      * The tractions of a brittle joint jump when it breaks, which no Newton
      * iteration survives. So intact points of a brittle law stay elastic here
-     * beyond their strength unless @p broken, an entry for each point, says
-     * that they break; see excess().
+     * beyond their strength unless @p broken or BreakingJoints of the state, an
+     * entry for each point, say that they break; see excess().
      */
+    void linearise(State<2> &state, bool with_stiffness,
+                   const TakeElement<2> &take) const override;
     void linearise(unsigned int i, const NodeRecord<2> *nodes,
                    const std::vector<std::uint8_t> &broken,
                    JointHistory &history, EnergyAccounts &energy,
@@ -175,32 +199,9 @@ namespace quoin
     double stored_energy(const NodeRecord<2> *nodes,
                          const JointHistory &history) const;
 
-    /** What node a counts for against node b, see add_stiffness_bound(). */
-    using NodeRatio = std::function<double(unsigned int, unsigned int)>;
-
-    /**
-     * Adds to the 2x2 matrices @p stiffness (xx, yy, xy per local node) the
-     * springs' share of a bound of the highest frequency: a spring k between
-     * the nodes a and b adds (1 + r) k to node a and (1 + 1/r) k to node b,
-     * with r = @p ratio (a, b) and 1/r = @p ratio (b, a). The bound holds with
-     * any r > 0 and is closest where r is that of the masses, m_a / m_b.
-     */
-    void
-    add_stiffness_bound(const NodeRecord<2> *nodes, const NodeRatio &ratio,
-                        std::vector<std::array<double, 3>> &stiffness) const;
-
-    /** The same with the ratio of the node masses @p mass. */
-    void
-    add_stiffness_bound(const NodeRecord<2> *nodes,
-                        const std::vector<double> &mass,
-                        std::vector<std::array<double, 3>> &stiffness) const
-    {
-      add_stiffness_bound(
-          nodes,
-          [&](const unsigned int a, const unsigned int b)
-          { return mass[a] / mass[b]; },
-          stiffness);
-    }
+    void add_stiffness_bound(
+        const State<2> &state, const NodeRatio &ratio,
+        std::vector<NodeStiffness<2>> &stiffness) const override;
 
     struct Segment
     {

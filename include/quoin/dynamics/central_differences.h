@@ -15,21 +15,20 @@
 
 namespace quoin
 {
-  /** What a step sums over the nodes of this rank. */
+  /** Sums of a step over the nodes of this rank. */
   struct StepSums
   {
     DampingWork damping;
-    double applied    = 0.; /**< by joints, contacts and loads [N] */
+    double applied    = 0.; /**< forces of joints, contacts and loads [N] */
     double unbalanced = 0.; /**< [N] */
   };
 
   /**
    * Steps of the nodes of deformable blocks by central differences with
-   * velocities at half steps (@cite JinWangZhang1998, Eqs. 4-5): the forces of
-   * operators and blocks, damping, motion, and what constraints make of it.
-   * The parts of a step are called one after the other, as
-   * ExplicitSolver::step() does; time and what the parts have in common comes
-   * in a StepContext.
+   * velocities at half steps (@cite JinWangZhang1998, Eqs. 4-5): forces of
+   * operators and blocks, damping, update of velocities and displacements,
+   * constraints. ExplicitSolver::step() calls the parts of a step one after the
+   * other; they share a StepContext.
    *
    * On entry of a step positions are those of t, velocities those of t - dt/2.
    */
@@ -43,10 +42,10 @@ namespace quoin
 
     // For a stage, in this order.
 
-    /** Masses of the local nodes as they act [kg]. */
+    /** Sets the masses of the local nodes, with mass scaling [kg]. */
     void set_mass(const std::vector<double> &mass);
-    /** What acts, in this order, and the damping of @p stage; @p begun: those
-        of @p forces that did not act in the stage before. */
+    /** Sets operators, in order of action, and the damping of @p stage;
+        @p begun: those of @p forces that did not act in the previous stage. */
     void set_operators(const std::vector<ForceOperator<dim> *> &forces,
                        const std::vector<ForceOperator<dim> *> &begun,
                        const std::vector<MotionConstraint<dim> *> &constraints,
@@ -54,59 +53,60 @@ namespace quoin
     /** Finds the nodes that constraints move, but for those that are @p absent
         (local nodes), which stay where they are. */
     void capture_nodes(const std::vector<bool> &absent);
-    /** These nodes keep their velocity, and no force acts on them. */
-    void hold(const NodeRange &range);
+    /** Makes @p nodes keep their velocity; no force acts on them. */
+    void hold(const std::vector<unsigned int> &nodes);
 
-    /** At @p state, with a step of @p dt [s]. */
+    /** The context of a step of @p dt [s] from @p state. */
     StepContext context(const State<dim> &state, double dt) const;
 
     // The parts of a step.
 
-    /** Operators look for neighbours. Collective. */
+    /** Operators search for contacts. Collective. */
     void update_neighbours(State<dim> &state, const StepContext &context);
-    /** Forces of operators, and their work since the last step. Collective. */
+    /** Adds forces of operators and books their last work. Collective. */
     void add_forces(State<dim> &state, const StepContext &context);
-    /** Takes velocities for kinetic_energy() and squared_change(). */
+    /** Copies the velocities for kinetic_energy() and squared_change(). */
     void keep_velocities(const State<dim> &state)
     {
       velocity_before = state.velocity;
     }
-    /** Forces of blocks tile by tile, and the motion of the nodes that no other
-        rank shares; @p balance: with the sum of unbalanced forces. */
+    /** Adds the forces of blocks tile by tile and moves the nodes that no other
+        rank shares, while forces on shared nodes are exchanged; @p balance:
+        also sums the unbalanced forces. */
     void advance_tiles(State<dim> &state, const StepContext &context,
                        bool balance, StepSums &sums);
-    /** Nodes of blocks that lie on several ranks. Collective. */
+    /** Moves the nodes of blocks that lie on several ranks. Collective. */
     void advance_shared_nodes(State<dim> &state, const StepContext &context,
                               bool balance, StepSums &sums);
-    /** Those of rigid blocks that are captured. */
+    /** Captures the constrained nodes of rigid blocks. */
     void capture_rigid_blocks(const State<dim> &state);
     /** Collective. */
     void move_constrained_nodes(State<dim> &state, const StepContext &context);
-    /** Work of operators and damping until the middle of the step. Collective
-        with adaptive damping. */
+    /** Books the work of operators and damping until the middle of the step.
+        Collective with adaptive damping. */
     void book_work(State<dim> &state, const StepContext &context,
                    const StepSums &sums) const;
     /** Collective. */
     void exchange_positions(State<dim> &state);
 
-    // What there is to know of a step.
+    // Sums and energies of a step.
 
     /** Sum of the forces of operators on this rank's nodes [N], after
         add_forces(). Collective. */
     double applied_force() const;
-    /** Of the nodes of this rank at the time of the step [J], from velocities
-        before and after it. */
+    /** Kinetic energy of the nodes of this rank at the time of the step [J],
+        from velocities before and after it. */
     double kinetic_energy(const State<dim> &state,
                           const StepContext &context) const;
     /** Sum of mass times squared change of velocity in the step [J]. */
     double squared_change(const State<dim> &state) const;
-    /** Unbalanced by applied force, of all ranks. Collective. */
+    /** Ratio of unbalanced to applied force, of all ranks [-]. Collective. */
     double unbalanced_ratio(const State<dim> &state, const StepContext &context,
                             StepSums sums) const;
     /** Recoverable energy of operators, of this rank [J]. */
     double stored_energy(const State<dim> &state) const;
 
-    /** Of local nodes [N]; zero after a step. */
+    /** Forces on the local nodes [N]; zero after a step. */
     NodeForces<dim> node_forces()
     {
       return { force.data(),
@@ -126,16 +126,19 @@ namespace quoin
     {
       return stage.stiffness_coefficient > 0.;
     }
-    /** CapturedNode::begun of the stage's first step. */
+    /** Finds CapturedNode::begun in the stage's first step. */
     void find_begun_forces(const StepContext &context, State<dim> &state);
     /** Moves free nodes of @p range; @p first_captured: into captured_begin.
      */
     void advance_range(State<dim> &state, const StepContext &context,
                        bool balance, const NodeRange &range,
                        unsigned int first_captured, StepSums &sums);
-    /** Adds what this rank has on shared nodes to their owners', and forgets
-        it. Collective. */
-    void add_shared_forces(AlignedArray<NodeVector<dim>> &values);
+    void advance_tile(unsigned int tile, State<dim> &state,
+                      const StepContext &context, bool balance, StepSums &sums);
+    /** Waits until other ranks' forces are added to those of shared nodes that
+        this rank owns, and clears those of nodes that it does not own. */
+    void finish_sum(OwnerSum<NodeVector<dim>> &sum,
+                    AlignedArray<NodeVector<dim>> &values);
     void capture(CapturedNode<dim> &node, const State<dim> &state) const;
     void adapt_damping(State<dim> &state, const StepContext &context,
                        const DampingWork &work) const;
@@ -148,17 +151,21 @@ namespace quoin
     std::vector<ForceOperator<dim> *> forces, begun;
     std::vector<MotionConstraint<dim> *> constraints;
     StageParameters stage;
-    /** Phases of forces and constraints. */
+    /** Clock phases of forces and constraints. */
     std::vector<unsigned int> force_phases, constraint_phases;
     const struct
     {
       unsigned int blocks, search, loads, exchange;
     } phases;
 
+    /** Tiles whose cells have shared nodes, then the others. */
+    std::vector<unsigned int> tiles;
+    unsigned int n_tiles_at_others = 0; /**< tiles that have shared nodes */
+
     std::vector<double> node_mass;    /**< local nodes [kg] */
     std::vector<double> moving_mass;  /**< zero at constrained nodes [kg] */
     std::vector<double> inverse_mass; /**< zero at constrained nodes [1/kg] */
-    std::vector<NodeRange> held;
+    std::vector<unsigned int> held;   /**< ascending */
 
     std::vector<CapturedNode<dim>> captured; /**< ascending nodes */
     /** First entry of each tile, of shared nodes, and of rigid blocks. */
@@ -167,6 +174,7 @@ namespace quoin
     AlignedArray<NodeVector<dim>> force;
     AlignedArray<NodeVector<dim>> viscous_force;
     AlignedArray<NodeVector<dim>> velocity_before;
+    OwnerSum<NodeVector<dim>> force_sum, viscous_sum;
   };
 } // namespace quoin
 

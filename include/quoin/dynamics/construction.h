@@ -14,48 +14,48 @@
 namespace quoin
 {
   /**
-   * Physical surfaces that a stage places before any takes them away: they are
-   * absent where the run begins.
+   * Physical surfaces that a stage fills before any excavates them: they are
+   * absent at the start of the run.
    */
   std::vector<std::string>
   groups_placed_later(const std::vector<StageParameters> &stages);
 
   /**
-   * What stages do to the model before the solver begins them: blocks that are
-   * taken away and placed, materials and joint laws that change.
+   * Staged construction: excavation and fill of blocks and changes of materials
+   * and joint laws, done before the solver begins a stage.
    *
-   * Taken blocks stay in the arrays: State::block_marks says that they are
-   * absent, their nodes are held, the joints to them are let go. What they
-   * exerted on the others goes to ConstructionState::held, which Release lets
-   * go. Energy that they had is booked as done from outside, as is what
-   * a change of stiffness adds.
+   * Excavated blocks stay in the arrays: State::block_marks says that they are
+   * absent, their nodes are held, their joints are deactivated. The forces that
+   * they exerted on the others go to ConstructionState::held, which Release
+   * ramps down. Their energy is booked as external work, as is what a change of
+   * stiffness adds.
    */
   class Construction
   {
   public:
     /**
-     * Keeps a reference to @p model. Throws an InputError about stages whose
-     * names or order are wrong, or that would cut a block.
+     * Keeps a reference to @p model. Throws an InputError about stages that
+     * name or order groups wrongly, or that would cut a block.
      */
-    Construction(Model &model, const std::vector<StageParameters> &stages);
+    Construction(Model<2> &model, const std::vector<StageParameters> &stages);
 
     /**
-     * Called before @p solver begins stage @p stage, with the state of the end
-     * of the one before. Collective.
+     * Called before @p solver begins stage @p stage, with the state at the end
+     * of the previous one. Collective.
      */
-    void begin_stage(unsigned int stage, Solver &solver, State<2> &state);
+    void begin_stage(unsigned int stage, Solver<2> &solver, State<2> &state);
 
     /** Called instead when @p state is one within stage @p stage. */
     void resume_stage(unsigned int stage, const State<2> &state);
 
-    /** Of each physical surface, whether the last stage leaves it absent. */
+    /** Whether each physical surface is absent after the last stage. */
     std::vector<bool> absent_in_the_end() const;
 
-    /** Makes the model as it is where the run begins. */
+    /** Restores the model of the start of the run. */
     void restart();
 
   private:
-    /** What a stage does, by physical surface. */
+    /** Changes by a stage; flags are per physical surface. */
     struct Step
     {
       std::string where; /**< for messages */
@@ -63,8 +63,8 @@ namespace quoin
       bool takes = false, places = false;
       ModelProperties properties; /**< from here on */
       double release = 1.;
-      bool changes   = false; /**< the properties */
-      /** Physical surfaces that are there before and after it. */
+      bool changes   = false; /**< whether the properties change */
+      /** Physical surfaces present before and after the stage. */
       std::vector<bool> bears_load;
     };
 
@@ -77,14 +77,14 @@ namespace quoin
     void change_joints(const std::string &set, const std::string &other,
                        Step &step) const;
     bool is_in(unsigned int block, const std::vector<bool> &groups) const;
-    std::vector<unsigned int> own_blocks(const std::vector<bool> &groups) const;
+    std::vector<unsigned int> blocks_in(const std::vector<bool> &groups) const;
     double stored_energy(const State<2> &state) const; /**< of this rank [J] */
-    void take_away(const Step &step, Solver &solver, State<2> &state) const;
+    void take_away(const Step &step, Solver<2> &solver, State<2> &state) const;
     void place(const Step &step, State<2> &state) const;
-    /** Makes the model that which @p n stages left. */
+    /** Restores the model after @p n stages. */
     void restore(unsigned int n, const ConstructionState &state);
 
-    Model &model;
+    Model<2> &model;
     const ModelProperties at_start;
     std::vector<Step> steps;
     unsigned int n_begun = 0; /**< stages whose properties the model has */

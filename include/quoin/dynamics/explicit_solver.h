@@ -16,77 +16,77 @@
 namespace quoin
 {
   /**
-   * Explicit steps (CentralDifferences) of blocks, joints, contacts and far
-   * fields for one stage after the other.
+   * Explicit time integration (CentralDifferences) of blocks, joints, contacts
+   * and far fields, stage by stage.
    *
-   * Because the kinetic energy 1/2 v(t-dt/2) m v(t+dt/2) changes by exactly
-   * the trapezoidal work of the forces, every account is kept with that rule
-   * and the balance of an elastic model closes to rounding.
+   * Because the kinetic energy 1/2 v(t-dt/2) m v(t+dt/2) changes by exactly the
+   * trapezoidal work of the forces, every account uses that rule and the energy
+   * balance of an elastic model closes to rounding. In three dimensions there
+   * are only deformable blocks and their loads.
    */
-  class ExplicitSolver : public Solver
+  template <int dim>
+  class ExplicitSolver : public Solver<dim>
   {
   public:
     /**
-     * Keeps references to @p model. @p loads: all loads of the run;
-     * @p stages: all stages, as State::stage counts them, so that no block is
-     * removed that a later one moves; @p far_field and @p static_far_field: of
-     * the load that is of the type 'boundary elements', or null; the second
-     * acts in static stages. Throws an InputError about a block outside the
-     * box.
+     * Keeps references to @p model. @p loads: all loads of the run; @p stages:
+     * all stages, as State::stage counts them, so that no block is removed that
+     * a later one moves; @p far_field and @p static_far_field: of the load of
+     * type 'boundary elements', or null; the second acts in static stages.
+     * Throws an InputError about a block outside the box.
      */
-    ExplicitSolver(Model &model, const std::vector<LoadParameters> &loads,
+    ExplicitSolver(Model<dim> &model, const std::vector<LoadParameters> &loads,
                    const std::vector<StageParameters> &stages       = {},
                    std::unique_ptr<FarField> far_field              = nullptr,
                    std::unique_ptr<StaticFarField> static_far_field = nullptr);
 
-    void prepare(State<2> &state) const override;
+    void prepare(State<dim> &state) const override;
 
     /**
-     * Books the energy of @p state, which is not at rest where the run begins,
-     * as brought in from outside. Throws an InputError if rigid blocks move;
-     * collective.
+     * Books the energy of @p state, which is in motion at the start of the run,
+     * as external work. Throws an InputError if rigid blocks move; collective.
      */
-    void account_for_initial_motion(State<2> &state) const;
+    void account_for_initial_motion(State<dim> &state) const;
 
-    /** Steps between looks at unbalanced force, at NaN, and at the rate of
-        loads. */
+    /** Steps between checks of the unbalanced force, of NaN, and of the loading
+        rate. */
     static constexpr std::uint64_t balance_interval = 100;
 
     /**
-     * Masses become those of @p previous, the stage at whose end @p state was
-     * saved: the energy of what moves is counted with them.
+     * Sets the masses of @p previous, the stage at whose end @p state was
+     * saved: kinetic energy is counted with them.
      */
-    void restore_masses(const StageParameters &previous, State<2> state)
+    void restore_masses(const StageParameters &previous, State<dim> state)
     {
       scale_masses(previous, state);
     }
 
-    /** What is due at the time of a step; see step(). */
+    /** What to compute in a step; see step(). */
     struct Requests
     {
       bool energies = false;
-      /** Unbalanced ratio and a look for NaN, spoilt cells and blocks that
-          have left the box. */
+      /** Unbalanced ratio, and checks for NaN, inverted cells and blocks
+          outside the box. */
       bool balance = false;
     };
 
     /**
      * Switches to the loads and the damping of @p stage. @p previous is the
-     * stage before or null. Throws an InputError about unknown loads, or
-     * bodies that a static stage would let drift.
+     * previous stage or null. Throws an InputError about unknown loads, or
+     * bodies without support in a static stage.
      */
     void begin_stage(const StageParameters &stage,
-                     const StageParameters *previous, State<2> &state);
+                     const StageParameters *previous, State<dim> &state);
 
-    /** The same for a state read from a checkpoint in mid-stage. */
-    void resume_stage(const StageParameters &stage, State<2> &state);
+    /** As begin_stage(), for a state read from a checkpoint in mid-stage. */
+    void resume_stage(const StageParameters &stage, State<dim> &state);
 
     /** Critical time step of the stage [s], the same on all ranks. */
     double critical_time_step() const
     {
       return critical_step;
     }
-    /** Mass added by mass scaling, as a share of the model's. */
+    /** Mass added by mass scaling, by the mass of the model [-]. */
     double added_mass_share() const
     {
       return added_mass;
@@ -102,16 +102,16 @@ namespace quoin
     }
 
     /**
-     * Advances @p state from t to t + dt. Joint histories are then those of
-     * t; energies(), reactions and the unbalanced ratio are those of t too.
-     * Throws a RunError if the state is no longer sound.
+     * Advances @p state from t to t + dt. Internal variables of joints,
+     * energies(), reactions and the unbalanced ratio are then those of t.
+     * Throws a RunError if the state is no longer valid.
      */
-    void step(State<2> &state, const Requests &requests);
+    void step(State<dim> &state, const Requests &requests);
 
-    void update_histories(State<2> &state) override;
+    void update_histories(State<dim> &state) override;
 
     double stop_blocks(const std::vector<unsigned int> &blocks,
-                       State<2> &state) override;
+                       State<dim> &state) override;
 
     /** Blocks found outside the box since the last call. */
     std::vector<BlockOutside> take_blocks_outside()
@@ -119,7 +119,7 @@ namespace quoin
       return std::exchange(blocks_outside, {});
     }
 
-    /** Laws of all joint sets for contacts that come and go, if any do. */
+    /** Sets the laws of all joint sets for general contacts, if any. */
     void set_contact_laws(const std::vector<JointSetParameters> &sets)
     {
       if (block_contacts)
@@ -132,59 +132,84 @@ namespace quoin
     }
 
   private:
-    void scale_masses(const StageParameters &stage, State<2> &state);
-    /** What acts in the stage; @p previous: the stage before, or null. */
+    using Solver<dim>::model;
+    using Solver<dim>::communicator;
+    using Solver<dim>::all_constraints;
+    using Solver<dim>::all_loads;
+    using Solver<dim>::constraints_on;
+    using Solver<dim>::stage;
+    using Solver<dim>::release;
+    using Solver<dim>::time_shares;
+    using Solver<dim>::acts_in;
+    using Solver<dim>::sum;
+
+    void scale_masses(const StageParameters &stage, State<dim> &state);
+    /** Collects what acts in the stage; @p previous: stage before, or null. */
     void collect_operators(const StageParameters *previous);
-    void collect_constrained_nodes(const State<2> &state);
-    /** How long forces of excavated blocks are let go in this stage [s]. */
-    double release_duration(const State<2> &state) const;
+    void collect_constrained_nodes(const State<dim> &state);
+    /** Duration of the release of held forces in this stage [s]. */
+    double release_duration(const State<dim> &state) const;
     /** Blocks of this rank that loads of this or a later stage move. */
-    void find_moved_blocks(const State<2> &state);
-    /** Makes removed blocks stay where they are. */
-    void hold_removed_blocks(const State<2> &state);
-    void look_at_box(State<2> &state);
+    void find_moved_blocks(const State<dim> &state);
+    /** Fixes the nodes of removed blocks. */
+    void hold_removed_blocks(const State<dim> &state);
+    void look_at_box(State<dim> &state);
     /**
-     * Leaves blocks at rest and without strain, and books what energy they
-     * had as done from outside.
+     * Leaves blocks at rest and without strain, and books the energy that they
+     * had as external work.
      */
-    void remove_blocks(const std::vector<BlockOutside> &found, State<2> &state);
-    /** Energies of a step's start, of this rank [J]. */
+    void remove_blocks(const std::vector<BlockOutside> &found,
+                       State<dim> &state);
+    /** Energies at the start of a step, of this rank [J]. */
     struct StoredEnergies
     {
       double strain = 0., joint = 0.;
     };
-    StoredEnergies stored_energies(const State<2> &state);
-    void advance_rigid_blocks(State<2> &state, const StepContext &context,
+    StoredEnergies stored_energies(const State<dim> &state);
+    void advance_rigid_blocks(State<dim> &state, const StepContext &context,
                               StepSums &sums);
-    void book_energies(State<2> &state, const StepContext &context,
+    void book_energies(State<dim> &state, const StepContext &context,
                        const Requests &requests, const StoredEnergies &stored,
                        const StepSums &sums);
-    void account_for_new_step(State<2> &state,
+    void account_for_new_step(State<dim> &state,
                               const StepContext &context) const;
-    /** Time, steps and the loads' clock of the next step. */
-    void advance_time(State<2> &state, const StepContext &context,
+    /** Advances time, step counts and the loads' clock to the next step. */
+    void advance_time(State<dim> &state, const StepContext &context,
                       const Requests &requests) const;
 
     std::unique_ptr<BlockContacts> block_contacts;
 
-    CentralDifferences<2> stepper;
+    CentralDifferences<dim> stepper;
     double critical_step = 0.;
     double added_mass    = 0.;
     double time_step     = 0.;
 
     RigidBlockStage rigid_stage;
 
-    const ModelBox box;
+    std::unique_ptr<const ModelBox> box; /**< null: no box */
     std::vector<StageParameters> all_stages;
-    std::vector<bool> moved_blocks; /**< of this rank, by loads */
+    std::vector<bool> moved_blocks; /**< of this rank, moved by loads */
     std::vector<BlockOutside> blocks_outside;
 
     std::vector<RigidBlockState> rigid_before;
-    PlasticHistory plastic_now; /**< when energies are due */
+    PlasticHistory plastic_now; /**< when energies are requested */
 
     const unsigned int energy_phase = time_shares.phase("energies"),
                        rigid_phase  = time_shares.phase("rigid blocks");
   };
+
+  // Members that exist in two dimensions only.
+  template <>
+  void ExplicitSolver<2>::look_at_box(State<2> &state);
+  template <>
+  void ExplicitSolver<2>::remove_blocks(const std::vector<BlockOutside> &found,
+                                        State<2> &state);
+  template <>
+  void ExplicitSolver<2>::advance_rigid_blocks(State<2> &state,
+                                               const StepContext &context,
+                                               StepSums &sums);
+  template <>
+  void ExplicitSolver<2>::account_for_initial_motion(State<2> &state) const;
 } // namespace quoin
 
 #endif

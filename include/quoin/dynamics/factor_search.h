@@ -13,14 +13,14 @@ namespace quoin
 {
   class ParameterEntries;
 
-  /** How a stage looks for a factor of safety. */
+  /** Parameters of the search for a factor of safety. */
   struct SafetyParameters
   {
     double first     = 1.;   /**< factor to try first [-] */
     double lowest    = 0.1;  /**< [-] */
     double highest   = 10.;  /**< [-] */
     double tolerance = 0.01; /**< of the bracket [-] */
-    /** Beyond it a trial may be failing [m]; 0: automatic. */
+    /** Displacement beyond which a trial may be unstable [m]; 0: automatic. */
     double failure_displacement = 0.;
     bool reduces_blocks         = true;
     bool reduces_joints         = true;
@@ -29,12 +29,12 @@ namespace quoin
     void enter(ParameterEntries &entries);
   };
 
-  /** What became of a model whose strength was divided by a factor. */
+  /** Outcome of a trial, with the strength divided by a factor. */
   struct SafetyTrial
   {
     double factor           = 0.;    /**< [-] */
-    bool is_stable          = false; /**< it came to rest */
-    bool is_decided         = true;  /**< or neither that nor failing */
+    bool is_stable          = false; /**< the model came to rest */
+    bool is_decided         = true;  /**< false: neither at rest nor unstable */
     std::uint64_t n_steps   = 0;
     double unbalanced_ratio = 0.; /**< at its end [-] */
     double displacement     = 0.; /**< largest since its start [m] */
@@ -48,8 +48,8 @@ namespace quoin
   };
 
   /**
-   * The search for the factor at which a model fails: in steps of a quarter
-   * until one factor is stable and a larger one is not, then by halves.
+   * Search for the factor at which a model fails: factors grow or fall by 1.25
+   * until one is stable and a larger one is not, then bisection.
    */
   class FactorSearch
   {
@@ -58,12 +58,12 @@ namespace quoin
     void add(const SafetyTrial &trial);
     bool is_over(const SafetyParameters &parameters) const;
 
-    /** 0 if there is none. */
+    /** Highest stable factor; 0: none. */
     double highest_stable() const
     {
       return stable;
     }
-    /** Infinite if there is none. */
+    /** Lowest unstable factor; infinite: none. */
     double lowest_failing() const
     {
       return failing;
@@ -88,10 +88,10 @@ namespace quoin
   };
 
   /**
-   * Whether a model is failing: its largest displacement is beyond a limit and
-   * has grown by half or more since half of the time that has passed. What
-   * slides grows by a factor of two at constant velocity and of four at
-   * constant acceleration, what comes to rest by less and less.
+   * Whether a trial is unstable: its largest displacement exceeds a limit and
+   * is at least 1.5 times that at half of the time passed. At constant velocity
+   * this ratio is two, at constant acceleration four; it tends to one as the
+   * model comes to rest.
    */
   class FailureWatch
   {
@@ -100,7 +100,7 @@ namespace quoin
     {
     }
 
-    /** @p displacement [m] after another one of equal spans of time. */
+    /** Takes the @p displacement [m] after the next of equal intervals. */
     bool has_failed(const double displacement)
     {
       displacements.push_back(displacement);

@@ -14,38 +14,44 @@
 namespace quoin
 {
   /**
-   * Throws an InputError naming the first body, blocks that joints tie
-   * together, which the prescribed freedoms of @p constraints leave free to
-   * translate or rotate: it could never come to rest. Blocks that are absent in
-   * @p state do not count. @p stage is for the message. Collective.
+   * Throws an InputError naming the first body (blocks that joints tie
+   * together) with a rigid body mode that the prescribed degrees of freedom of
+   * @p constraints leave free: it could never come to rest. Blocks that are
+   * absent in @p state do not count. @p stage is for the message. Collective.
    */
+  template <int dim>
   void
-  check_no_free_bodies(const Model &model,
-                       const std::vector<MotionConstraint<2> *> &constraints,
-                       const std::string &stage, const State<2> &state);
+  check_no_free_bodies(const Model<dim> &model,
+                       const std::vector<MotionConstraint<dim> *> &constraints,
+                       const std::string &stage, const State<dim> &state);
 
-  /** A body that loads push where nothing holds it. */
+  /** A body that loads push along an unrestrained rigid body mode. */
+  template <int dim>
   struct PushedBody
   {
-    unsigned int block;      /**< the first of it */
-    unsigned int n_blocks;   /**< that joints tie to it, itself included */
-    dealii::Point<2> centre; /**< of the first block [m] */
-    bool is_loose;           /**< nothing holds any of its three motions */
+    unsigned int block;        /**< its first block */
+    unsigned int n_blocks;     /**< number of its blocks */
+    dealii::Point<dim> centre; /**< of the first block [m] */
+    bool is_loose;             /**< all of its rigid body modes are free */
   };
 
   /**
    * The bodies of check_no_free_bodies() to which @p loads give a force or
-   * moment, at one of @p times, along a rigid motion that nothing holds. Here
-   * boundaries of dashpots, free fields and boundary elements hold too.
-   * Collective.
+   * moment, at one of @p times, along an unrestrained rigid body mode. Here
+   * viscous boundaries, free fields and boundary elements count as restraints
+   * too. Collective.
    */
-  std::vector<PushedBody> find_pushed_bodies(
-      const Model &model, const std::vector<MotionConstraint<2> *> &constraints,
-      const std::vector<const NodalLoad<2> *> &loads,
-      const std::vector<TimePoint> &times, const State<2> &state);
+  template <int dim>
+  std::vector<PushedBody<dim>>
+  find_pushed_bodies(const Model<dim> &model,
+                     const std::vector<MotionConstraint<dim> *> &constraints,
+                     const std::vector<const NodalLoad<dim> *> &loads,
+                     const std::vector<TimePoint> &times,
+                     const State<dim> &state);
 
-  /** That @p bodies, of which there is one at least, will move away. */
-  std::string pushed_body_text(const std::vector<PushedBody> &bodies);
+  /** Warning that @p bodies, at least one, will move away. */
+  template <int dim>
+  std::string pushed_body_text(const std::vector<PushedBody<dim>> &bodies);
 } // namespace quoin
 
 #endif

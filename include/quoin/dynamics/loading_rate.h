@@ -9,22 +9,21 @@
 
 namespace quoin
 {
-  /** The rate of the loads' clock [-], which kinetic energy slows down. */
+  /** Automatic loading rate [-], reduced if kinetic energy is high. */
   namespace loading_rate
   {
     constexpr double slowest = 1e-4;
-    constexpr double start   = 1e-2; /**< of a stage */
+    constexpr double start   = 1e-2; /**< rate at the start of a stage */
 
     /**
-     * The factor of the rate over the next @p n_steps steps. @p share is
-     * the kinetic energy by its limit.
+     * The factor by which the rate changes in each of the next @p n_steps
+     * steps. @p share is the kinetic energy by its limit.
      *
-     * Steady loading has a kinetic energy that goes with the square of its
-     * rate, so the rate aims at half of the limit. It falls quickly, because a
-     * joint that fails lets energy go at any rate and the loads had better
-     * wait for it, and rises slowly, because waves take their time to tell
-     * what a rate does. It changes by a little every step, because a jump in
-     * velocity is a blow.
+     * Under steady loading kinetic energy is proportional to the square of the
+     * rate; the aim is half of the limit. The rate falls quickly, because a
+     * failing joint releases energy at any rate, and rises slowly, because
+     * waves need time to respond. It changes a little in every step, because a
+     * jump in velocity is an impact.
      */
     inline double growth(const double share, const double n_steps)
     {

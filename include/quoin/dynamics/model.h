@@ -8,9 +8,9 @@
 #include <quoin/operators/state.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/matched_joints.h>
-#include <quoin/blocks/block_forces.h>
-#include <quoin/dynamics/rigid_blocks.h>
+#include <quoin/blocks/block_cells.h>
 #include <quoin/blocks/stable_time_step.h>
+#include <quoin/blocks/rigid_blocks.h>
 #include <quoin/joints/joint_parameters.h>
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/load_parameters.h>
@@ -24,7 +24,7 @@
 
 namespace quoin
 {
-  /** What a model is made of, beside its mesh. */
+  /** Parameters of a model besides its mesh. */
   struct ModelParameters
   {
     PlaneAssumption plane = PlaneAssumption::plane_strain;
@@ -32,18 +32,18 @@ namespace quoin
     std::vector<MaterialParameters> materials;
     std::vector<JointSetParameters> joints;
     std::vector<LoadParameters> initial_stresses;
-    /** Physical surfaces that are not there before a stage places them. */
+    /** Physical surfaces that are absent until a stage fills them. */
     std::vector<std::string> absent_groups;
 
     /**
-     * Blocks may meet anywhere: the critical step then allows for contacts on
-     * all boundary edges instead of for the joints alone.
+     * Whether blocks may meet anywhere: the critical step then allows for
+     * contacts on all boundary edges instead of for joints alone.
      */
     bool large_displacements = false;
     ContactParameters contact;
   };
 
-  /** What stages may change of a model; see Model::set_properties(). */
+  /** Properties that stages may change; see Model::set_properties(). */
   struct ModelProperties
   {
     std::vector<MaterialParameters> materials;
@@ -52,10 +52,15 @@ namespace quoin
   };
 
   /**
-   * The blocks and joints of this rank, packed for the solvers and constant
-   * from then on, but for what set_properties() changes. Nodes and cells have
-   * the local numbers of a NodeMap.
+   * The blocks and joints of this rank, packed for the solvers; constant but
+   * for what set_properties() changes. Nodes and cells have the local numbers
+   * of a NodeMap.
+   *
+   * In three dimensions blocks are deformable and linear elastic and have no
+   * joints: joints(), rigid_blocks() and what deals with contacts, stages of
+   * construction and initial stress belong to two dimensions.
    */
+  template <int dim>
   class Model
   {
   public:
@@ -63,50 +68,52 @@ namespace quoin
      * Keeps a reference to @p nodes. Throws an InputError about groups without
      * material and joints without set. Collective.
      */
-    Model(const NodeMap<2> &nodes, const ModelParameters &parameters);
+    Model(const NodeMap<dim> &nodes, const ModelParameters &parameters);
 
-    /** What BlockContacts needs, for large displacements. */
+    /** Data of BlockContacts, for large displacements. */
     ContactModel contact_model() const;
     const ContactParameters &contact_parameters() const
     {
       return parameters.contact;
     }
 
-    /** Positions at rest, initial joint tractions, what is absent. */
-    State<2> initial_state() const;
+    /** State at rest, with initial joint tractions and absent blocks. */
+    State<dim> initial_state() const;
 
     const ModelProperties &properties() const
     {
       return now;
     }
     /**
-     * Cells and joints follow @p properties from now on, with as many
-     * materials and sets as before, each of its kind; what cells bear without
-     * strain is that of @p construction. Collective. Stresses jump where
-     * stiffnesses change, unless change_properties() keeps them.
+     * Sets the @p properties of cells and joints, with as many materials and
+     * sets as before, each of the same kind, and the stress at zero strain of
+     * @p construction. Collective. Stresses jump where stiffnesses change; see
+     * change_properties().
      */
     void set_properties(const ModelProperties &properties,
                         const ConstructionState &construction);
-    /** The same; stresses and joint tractions of @p state stay. */
-    void change_properties(const ModelProperties &properties, State<2> &state);
-    /** Cells of @p groups bear nothing without strain from now on. */
+    /** As set_properties(), with stresses and tractions of @p state kept. */
+    void change_properties(const ModelProperties &properties,
+                           State<dim> &state);
+    /** Sets the stress at zero strain of the cells of @p groups to zero. */
     void forget_initial_stress(const std::vector<bool> &groups,
                                ConstructionState &construction);
 
-    /** Of each physical surface, whether @p names has it; throws an
-        InputError that begins with @p where. */
+    /** Whether @p names has each physical surface; throws an InputError that
+        begins with @p where. */
     std::vector<bool> find_groups(const std::vector<std::string> &names,
                                   const std::string &where) const;
     /** Whether a block beside joint segment @p segment is absent. */
-    bool is_at_absent_block(unsigned int segment, const State<2> &state) const;
-    /** Of each local node, whether its block is absent in @p state. */
-    std::vector<bool> absent_nodes(const State<2> &state) const;
+    bool is_at_absent_block(unsigned int segment,
+                            const State<dim> &state) const;
+    /** Whether the block of each local node is absent in @p state. */
+    std::vector<bool> absent_nodes(const State<dim> &state) const;
 
-    const NodeMap<2> &nodes() const
+    const NodeMap<dim> &nodes() const
     {
       return node_map;
     }
-    const BlockTable<2> &table() const
+    const BlockTable<dim> &table() const
     {
       return node_map.table();
     }
@@ -115,7 +122,7 @@ namespace quoin
       return node_map.exchange();
     }
     /** The deformable blocks: their nodes, cells and numbers come first. */
-    const BlockForces<2> &blocks() const
+    const BlockForces<dim> &blocks() const
     {
       return block_forces;
     }
@@ -123,12 +130,12 @@ namespace quoin
     {
       return rigid;
     }
-    /** Owned nodes from this one on are those of rigid blocks. */
+    /** First owned node of rigid blocks. */
     unsigned int n_deformable_nodes() const
     {
       return node_map.n_deformable_nodes();
     }
-    /** Owned cells from this one on are those of rigid blocks. */
+    /** First owned cell of rigid blocks. */
     unsigned int n_deformable_cells() const
     {
       return node_map.n_deformable_cells();
@@ -145,8 +152,8 @@ namespace quoin
     {
       return matched_joints;
     }
-    /** Not of quadratic meshes: corners without mass have no stable step. */
-    const StableTimeStep<2> &stability() const
+    /** Bound of the step; none for quadratic meshes (corners without mass). */
+    const StableTimeStep<dim> &stability() const
     {
       return *stable_step;
     }
@@ -158,27 +165,29 @@ namespace quoin
     {
       return node_mass;
     }
-    /** Of each cell group. */
+    /** Impedances of each cell group [Pa s/m]. */
     const std::vector<Impedance> &impedance() const
     {
       return group_impedance;
     }
     /**
-     * The same of what lies beyond a viscous boundary: that of the material
-     * which @p load names for it, or of the cells there. Throws an InputError.
+     * Impedances beyond a viscous boundary: those of the material that @p load
+     * names, or of the cells there. Throws an InputError.
      */
     std::vector<Impedance> impedance_beyond(const LoadParameters &load) const;
-    /** Velocity in the slowest material of deformable blocks [m/s]; infinite:
-        there are none. */
+    /** Lowest S wave velocity of deformable blocks [m/s]; infinite: there are
+        none. */
     double slowest_shear_wave() const;
-    /** What columns beside the blocks are made of. */
+    /** Materials of the columns of free-field boundaries. */
     FreeFieldGround free_field_ground() const;
-    /** Entry of rigid_blocks() of @p block of the whole mesh, of this rank. */
+    /** Index into rigid_blocks() of this rank of @p block of the mesh. */
     unsigned int rigid_number(const unsigned int block) const
     {
       return node_map.find_part(block) - node_map.n_deformable_block_parts();
     }
-    /** Local nodes of @p block of the whole mesh; none of another rank's. */
+    /** Nodes of @p block of the whole mesh that this rank owns. */
+    std::vector<unsigned int> owned_nodes(unsigned int block) const;
+    /** Local nodes of @p block without those that other ranks share. */
     NodeRange block_nodes(const unsigned int block) const
     {
       const unsigned int part = node_map.find_part(block);
@@ -187,16 +196,20 @@ namespace quoin
       const auto &[begin, end] = node_map.block_parts()[part].nodes;
       return { begin, end };
     }
-    /** Of each physical surface, whether it is there where the run begins. */
+    /** Whether each physical surface is present at the start of the run. */
     std::vector<bool> groups_present_at_start() const;
 
-    // Of blocks that this rank owns.
+    // In these functions @p blocks are numbers in the whole mesh.
 
-    /** Leaves @p block where it is, without strain and motion. */
-    void bring_to_rest(unsigned int block, State<2> &state) const;
-    /** Puts @p block where the mesh has it, without strain and motion. */
-    void place(unsigned int block, State<2> &state) const;
-    /** Makes cells of @p block, which this rank owns, as at the start. */
+    /** Leaves @p blocks where they are, without strain and motion. Collective.
+     */
+    void bring_to_rest(const std::vector<unsigned int> &blocks,
+                       State<dim> &state) const;
+    /** Puts @p blocks in their reference position, without strain and motion.
+        Collective. */
+    void place(const std::vector<unsigned int> &blocks,
+               State<dim> &state) const;
+    /** Resets the internal variables of the cells of @p block on this rank. */
     void forget_yielding(unsigned int block, PlasticHistory &history) const;
     /** Index into the materials of an owned cell. */
     unsigned int material_of_cell(const unsigned int cell) const
@@ -209,21 +222,20 @@ namespace quoin
     }
 
   private:
+    CellStiffness<dim> stiffness_of(const MaterialParameters &material) const;
     void find_materials();
     void find_masses();
     void find_initial_stress();
-    std::array<double, 4> initial_stress(const LoadParameters &load,
-                                         const dealii::Point<2> &point,
-                                         unsigned int group) const;
     AlignedArray<double> packed_initial_stress() const;
     void pack_blocks(const ConstructionState &construction);
     void find_stable_step();
     /** Adds springs of the joints to the bound of the local nodes. */
-    void add_joint_bound(std::vector<std::array<double, 3>> &bound) const;
-    /** The same with springs wherever blocks may touch. */
-    void add_contact_bound(std::vector<std::array<double, 3>> &bound) const;
+    void add_joint_bound(const State<dim> &state,
+                         std::vector<NodeStiffness<dim>> &bound) const;
+    /** Adds springs wherever blocks may touch. */
+    void add_contact_bound(std::vector<NodeStiffness<dim>> &bound) const;
 
-    const NodeMap<2> &node_map;
+    const NodeMap<dim> &node_map;
     const ModelParameters parameters;
 
     ModelProperties now;
@@ -232,11 +244,43 @@ namespace quoin
     std::vector<double> node_mass;
     std::vector<std::array<double, 4>> cell_stress;     /**< or empty */
     std::vector<MatchedJoints::FaceStress> face_stress; /**< or empty */
-    BlockForces<2> block_forces;
+    BlockForces<dim> block_forces;
     RigidBlocks rigid;
     MatchedJoints matched_joints;
-    std::unique_ptr<StableTimeStep<2>> stable_step;
+    std::unique_ptr<StableTimeStep<dim>> stable_step;
   };
+
+  // Members that exist in two dimensions only.
+  template <>
+  void Model<2>::add_joint_bound(const State<2> &state,
+                                 std::vector<NodeStiffness<2>> &bound) const;
+  template <>
+  void Model<2>::add_contact_bound(std::vector<NodeStiffness<2>> &bound) const;
+  template <>
+  void Model<2>::find_initial_stress();
+  template <>
+  AlignedArray<double> Model<2>::packed_initial_stress() const;
+  template <>
+  void Model<2>::set_properties(const ModelProperties &properties,
+                                const ConstructionState &construction);
+  template <>
+  void Model<2>::change_properties(const ModelProperties &properties,
+                                   State<2> &state);
+  template <>
+  void Model<2>::forget_initial_stress(const std::vector<bool> &groups,
+                                       ConstructionState &construction);
+  template <>
+  bool Model<2>::is_at_absent_block(unsigned int segment,
+                                    const State<2> &state) const;
+  template <>
+  void Model<2>::bring_to_rest(const std::vector<unsigned int> &blocks,
+                               State<2> &state) const;
+  template <>
+  void Model<2>::place(const std::vector<unsigned int> &blocks,
+                       State<2> &state) const;
+  template <>
+  void Model<2>::forget_yielding(unsigned int block,
+                                 PlasticHistory &history) const;
 } // namespace quoin
 
 #endif

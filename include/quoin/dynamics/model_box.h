@@ -22,43 +22,37 @@ namespace quoin
 
   /**
    * The box of 'Contact/Box', which blocks should not leave. A block has left
-   * it when all of its nodes are outside. It is to be removed if no load of
-   * this or a later stage moves it, and so for all blocks that matched joints
-   * tie to it: those that have not come apart leave together or not at all.
+   * it when all of its nodes are outside. It is removed if no load of this or a
+   * later stage moves it, and if the same holds for all blocks that intact
+   * matched joints tie to it.
    */
   class ModelBox
   {
   public:
     /**
-     * Keeps a reference to @p model. Throws an InputError if a block is
-     * outside from the start.
+     * Keeps a reference to @p model, which has a box. Throws an InputError if a
+     * block is outside from the start.
      */
-    explicit ModelBox(const Model &model);
-
-    bool is_given() const
-    {
-      return parameters.has_box;
-    }
+    explicit ModelBox(const Model<2> &model);
 
     /**
-     * Looks for blocks that have left since the last look and marks them in
-     * State::block_marks, which all ranks know of all blocks. Returns them
-     * in ascending order, the same on all ranks; the caller removes those that
-     * are marked so. Collective. @p moved: whether loads move the block, for
-     * each block of this rank. Throws a RunError if no block may leave.
+     * Finds blocks that have left since the last call and marks them in
+     * State::block_marks, which has all blocks on all ranks. Returns them in
+     * ascending order, the same on all ranks; the caller removes those marked
+     * for removal. Collective. @p moved: whether loads move the block, for each
+     * block of this rank. Throws a RunError if no block may leave.
      */
     std::vector<BlockOutside> look(State<2> &state,
                                    const std::vector<bool> &moved) const;
 
   private:
-    bool is_outside(unsigned int block, const State<2> &state) const;
-    /** A block that is tied to one that stays, stays. */
+    /** Marks the blocks tied to one that stays as staying. */
     void spread_along_joints(std::vector<std::uint8_t> &stays,
                              const State<2> &state) const;
     void find_positions(std::vector<BlockOutside> &found,
                         const State<2> &state) const;
 
-    const Model &model;
+    const Model<2> &model;
     const ContactParameters &parameters;
   };
 } // namespace quoin

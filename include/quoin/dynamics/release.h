@@ -4,7 +4,8 @@
 #ifndef quoin_dynamics_release_h
 #define quoin_dynamics_release_h
 
-#include <quoin/dynamics/model.h>
+#include <quoin/dynamics/construction_state.h>
+#include <quoin/operators/force_operator.h>
 #include <quoin/dynamics/stage_parameters.h>
 
 #include <vector>
@@ -12,18 +13,19 @@
 namespace quoin
 {
   /**
-   * The forces in a stage that excavated blocks exerted on those that stay:
-   * from H_0, what earlier stages left of them, to H_1 by a ramp s(t) of the
-   * loads' clock, H = H_0 + s (H_1 - H_0) (@cite PanetGuenot1982). They act
-   * and work as loads do.
+   * Stress relaxation after excavation: the forces that excavated blocks
+   * exerted on those that stay go in a stage from H_0, the rest after earlier
+   * stages, to H_1 by a ramp s(t) of the loads' clock, H = H_0 + s (H_1 - H_0)
+   * (@cite PanetGuenot1982). They act and work as loads.
    */
-  class Release : public ForceOperator<2>
+  template <int dim>
+  class Release : public ForceOperator<dim>
   {
   public:
     Release() = default;
 
     /** @p duration: of the ramp [s]; 0: at once. */
-    Release(const State<2> &state, const StageParameters &stage,
+    Release(const State<dim> &state, const StageParameters &stage,
             double duration);
 
     /** Whether the forces change in the stage. */
@@ -32,27 +34,27 @@ namespace quoin
       return is_changing;
     }
 
-    /** s [-] */
+    /** The ramp s(@p load_time) [-]. */
     double share(double load_time) const;
 
     const char *kind() const override
     {
       return "loads";
     }
-    void add_forces(double load_time, NodeVector<2> *force) const;
-    void add_forces(const StepContext &step, State<2> &,
-                    const NodeForces<2> &forces) override
+    void add_forces(double load_time, NodeVector<dim> *force) const;
+    void add_forces(const StepContext &step, State<dim> &,
+                    const NodeForces<dim> &forces) override
     {
       add_forces(step.begin.stage, forces.force);
     }
     double external_power(const TimePoint &time,
-                          const NodeVector<2> *velocity) const override;
+                          const NodeVector<dim> *velocity) const override;
 
   private:
     struct NodalForce
     {
       unsigned int node;
-      double start[2], change[2]; /**< H_0, H_1 - H_0 [N] */
+      double start[dim], change[dim]; /**< H_0, H_1 - H_0 [N] */
     };
     std::vector<NodalForce> forces; /**< of this rank */
     bool is_changing     = false;

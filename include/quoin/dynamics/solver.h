@@ -28,39 +28,41 @@ namespace quoin
     double kinetic   = 0.;
     double strain    = 0.; /**< of the blocks, since the start */
     double joint     = 0.; /**< recoverable, since the start */
-    double far_field = 0.; /**< of static boundary elements, since then */
+    double far_field = 0.; /**< of static boundary elements, since the start */
     EnergyAccounts accounts;
 
-    /** What the balance leaves over; zero but for rounding and kinks. */
+    /** Error of the energy balance [J]; zero but for rounding and kinks. */
     double residual() const
     {
       return stored() + accounts.sum(EnergyKind::dissipated)
              - accounts.sum(EnergyKind::given);
     }
 
-    /** What the model could give back. */
+    /** Recoverable and kinetic energy [J]. */
     double stored() const
     {
       return kinetic + strain + joint + far_field;
     }
 
-    /** All energy that went through the model, to judge the residual by. */
+    /** Energy throughput, the scale of the residual [J]. */
     double throughput() const;
   };
 
   /**
-   * What all solvers share: the loads of a run, which of them act in the
-   * stage, the energies, and looks at whether the state is sound.
+   * Base of all solvers: the loads of a run and those that act in the stage,
+   * the energies, checks of the state. Platens, free fields, boundary elements
+   * and rigid blocks belong to two dimensions.
    */
+  template <int dim>
   class Solver
   {
   public:
     /**
      * Keeps a reference to @p model. @p loads: all loads of the run;
-     * @p far_field and @p static_far_field: of the load that is of the type
-     * 'boundary elements', or null; the second acts in static stages.
+     * @p far_field and @p static_far_field: of the load of type 'boundary
+     * elements', or null; the second acts in static stages.
      */
-    Solver(Model &model, const std::vector<LoadParameters> &loads,
+    Solver(Model<dim> &model, const std::vector<LoadParameters> &loads,
            std::unique_ptr<FarField> far_field,
            std::unique_ptr<StaticFarField> static_far_field);
 
@@ -68,60 +70,59 @@ namespace quoin
 
     /** Adds the slices of its operators and constraints to @p state, of
         Model::initial_state(), before it is read from a checkpoint. */
-    virtual void prepare(State<2> &state) const;
+    virtual void prepare(State<dim> &state) const;
 
     /**
-     * Brings the histories of cells, joints and contacts of @p state, a copy,
-     * to its positions. Collective.
+     * Updates the internal variables of cells, joints and contacts of @p state,
+     * a copy, for its configuration. Collective.
      */
-    virtual void update_histories(State<2> &state) = 0;
+    virtual void update_histories(State<dim> &state) = 0;
 
     /**
-     * Takes the motion off @p blocks of this rank and returns the energy that
-     * they had by it [J].
+     * Stops @p blocks of the whole mesh and returns the kinetic energy that
+     * those of this rank had [J]. Collective.
      */
     virtual double stop_blocks(const std::vector<unsigned int> & /*blocks*/,
-                               State<2> & /*state*/)
+                               State<dim> & /*state*/)
     {
       return 0.;
     }
 
     /** Throws a RunError if the state is no longer finite; collective. */
-    void check_finite(const State<2> &state) const;
-    /** The same, and names the load, if one that acts is not finite at
+    void check_finite(const State<dim> &state) const;
+    /** As check_finite(); names the load if an active one is not finite at
         @p load_time [s] of the stage. */
-    void check_loads(const State<2> &state, double load_time) const;
+    void check_loads(const State<dim> &state, double load_time) const;
     /**
      * The largest slip of a matched joint that bears pressure, by the length of
-     * its face: beyond a half or so its blocks no longer face each other, and
-     * small displacements do not hold. Collective.
+     * its face: beyond about one half its blocks no longer face each other, and
+     * small displacements are no longer valid. Collective.
      */
-    double largest_slip_share(const State<2> &state) const;
+    double largest_slip_share(const State<dim> &state) const;
 
-    /** The same if a cell has turned inside out; collective. */
-    void check_cells(const State<2> &state) const;
+    /** Throws a RunError if a cell is inverted; collective. */
+    void check_cells(const State<dim> &state) const;
 
-    /** As last computed. */
+    /** Energies as last computed. */
     const Energies &energies() const
     {
       return last_energies;
     }
     /**
      * Whether loads have changed in the last @p duration of the stage [s], or
-     * will: a static stage is not over before they rest. The future is looked
-     * at where each time is a tenth later than the one before: a shorter pulse
-     * may be missed.
+     * will: a static stage does not end before they are constant. Future times
+     * are sampled with a ratio of 1.1: a shorter pulse may be missed.
      */
-    bool loads_change(const State<2> &state, double duration) const;
+    bool loads_change(const State<dim> &state, double duration) const;
 
     /** Throws an InputError about loads that would begin with a jump. */
-    void check_start(const State<2> &state) const;
+    void check_start(const State<dim> &state) const;
 
     /**
-     * Bodies that the loads of the stage that has begun with @p state push
-     * where nothing holds them; see find_pushed_bodies().
+     * Unsupported bodies that the loads of the stage begun with @p state push;
+     * see find_pushed_bodies().
      */
-    std::vector<PushedBody> pushed_bodies(const State<2> &state) const;
+    std::vector<PushedBody<dim>> pushed_bodies(const State<dim> &state) const;
 
     /** Force x, y [N] and moment [N m] of a load; collective. */
     virtual std::array<double, 3> resultant(const std::string &load) const;
@@ -131,7 +132,7 @@ namespace quoin
     {
       return far;
     }
-    /** Whether it acts in the stage that has begun. */
+    /** Whether the far field acts in the stage that has begun. */
     bool far_field_acts() const;
 
     /** Null if there is none. */
@@ -139,13 +140,13 @@ namespace quoin
     {
       return static_far;
     }
-    /** Whether that acts in the stage that has begun. */
+    /** Whether the static far field acts in the stage that has begun. */
     bool static_far_field_acts() const;
 
     /** Called before a checkpoint: completes @p state. */
-    virtual void save(State<2> &state) const;
-    /** Called after it: drops what only checkpoints need. */
-    virtual void discard_saved(State<2> &state) const;
+    virtual void save(State<dim> &state) const;
+    /** Called after a checkpoint: drops what only checkpoints need. */
+    virtual void discard_saved(State<dim> &state) const;
 
     /** Null if displacements are small. */
     virtual const BlockContacts *contacts() const
@@ -153,14 +154,15 @@ namespace quoin
       return nullptr;
     }
 
-    /** How the steps of this process share their time. */
+    /** Wall time of this process by phase of a step. */
     PhaseClock &time_spent()
     {
       return time_shares;
     }
 
-    /** Of all loads, acting in this stage or not. */
-    const std::vector<std::unique_ptr<MotionConstraint<2>>> &constraints() const
+    /** Constraints of all loads, active in this stage or not. */
+    const std::vector<std::unique_ptr<MotionConstraint<dim>>> &
+    constraints() const
     {
       return all_constraints;
     }
@@ -168,14 +170,15 @@ namespace quoin
   protected:
     /**
      * Switches to the loads of @p stage. Throws an InputError about unknown
-     * loads, bodies that a static stage would let drift, or loads on blocks
-     * that are absent in @p state.
+     * loads, bodies without support in a static stage, or loads on blocks that
+     * are absent in @p state.
      */
-    void activate(const StageParameters &stage, const State<2> &state);
-    /** Of the loads in constraints_on, all but prescribed motions. */
-    void refuse_absent_nodes(const State<2> &state) const;
-    /** Whether @p stage names it and, of far fields, is of its kind. */
-    bool acts_in(const MotionConstraint<2> &constraint,
+    void activate(const StageParameters &stage, const State<dim> &state);
+    /** Refuses loads on absent blocks, except prescribed motions. */
+    void refuse_absent_nodes(const State<dim> &state) const;
+    /** Whether @p stage names @p constraint and, of far fields, is of its kind.
+     */
+    bool acts_in(const MotionConstraint<dim> &constraint,
                  const StageParameters &stage) const;
     /**
      * The rigid blocks that platens of the stage move. Throws an InputError
@@ -184,36 +187,50 @@ namespace quoin
     std::vector<bool> find_held_blocks() const;
     /** Throws an InputError if two platens of the stage share a node. */
     void refuse_shared_platens() const;
-    /** Sums the energies of all ranks; those given are this rank's [J]. */
-    void find_energies(const State<2> &state, double strain, double joint,
+    /** Sums the energies of all ranks; the arguments are this rank's [J]. */
+    void find_energies(const State<dim> &state, double strain, double joint,
                        double kinetic);
     double sum(double value) const;
-    /** Of all loads of the stage, at a time of its own clock [s]. */
+    /** Values of all loads of the stage at a time of the loads' clock [s]. */
     std::vector<std::array<double, 4>> load_values(double stage_start,
                                                    double load_time) const;
 
-    Model &model;
+    Model<dim> &model;
     MPI_Comm communicator;
 
-    std::vector<std::unique_ptr<MotionConstraint<2>>> all_constraints;
+    std::vector<std::unique_ptr<MotionConstraint<dim>>> all_constraints;
     FarField *far              = nullptr; /**< one of them */
     StaticFarField *static_far = nullptr; /**< one of them */
-    std::vector<NodalLoad<2>> all_loads;
+    std::vector<NodalLoad<dim>> all_loads;
     std::vector<std::string> known_loads;
 
-    std::vector<MotionConstraint<2> *>
+    std::vector<MotionConstraint<dim> *>
         constraints_on; /**< in order of action */
-    std::vector<const NodalLoad<2> *> loads_on;
+    std::vector<const NodalLoad<dim> *> loads_on;
     StageParameters stage;
-    Release release; /**< of what was excavated */
+    Release<dim> release; /**< of the forces of excavated blocks */
     PhaseClock time_shares;
 
   private:
     void make_free_fields(const std::vector<LoadParameters> &loads);
+    void add_far_fields(std::unique_ptr<FarField> far_field,
+                        std::unique_ptr<StaticFarField> static_field);
 
     double strain_at_start = 0., joint_at_start = 0.;
     Energies last_energies;
   };
+
+  // Members that exist in two dimensions only.
+  template <>
+  void Solver<2>::make_free_fields(const std::vector<LoadParameters> &loads);
+  template <>
+  void
+  Solver<2>::add_far_fields(std::unique_ptr<FarField> far_field,
+                            std::unique_ptr<StaticFarField> static_far_field);
+  template <>
+  std::vector<bool> Solver<2>::find_held_blocks() const;
+  template <>
+  double Solver<2>::largest_slip_share(const State<2> &state) const;
 
   /** Whether @p stage names the load @p name. */
   bool names_load(const StageParameters &stage, const std::string &name);

@@ -19,8 +19,8 @@ namespace quoin
   enum class DampingType
   {
     none,
-    local,    /**< Cundall's: opposes the unbalanced force, per freedom */
-    adaptive, /**< mass-proportional, its coefficient led by the power */
+    local,    /**< Cundall's, of each degree of freedom */
+    adaptive, /**< mass-proportional, its coefficient adapted to the power */
     rayleigh
   };
 
@@ -49,23 +49,23 @@ namespace quoin
 
     double scaled_time_step = 0.; /**< of mass scaling [s]; 0: none */
 
-    /** Above this share of the energy that went through, kinetic energy slows
-        the loads down [-]; 0: they follow the time. */
+    /** Ratio of kinetic energy to energy throughput above which the loading
+        rate is reduced [-]; 0: loads follow the time. */
     double kinetic_limit = 0.;
 
     std::vector<std::string> excavate; /**< physical surfaces */
     std::vector<std::string> fill;     /**< physical surfaces */
-    /** Share of what excavated blocks exerted that is gone in the end [-]. */
+    /** Released share of the forces of excavated blocks at the end [-]. */
     double release = 1.;
     double release_duration
-        = -1.; /**< of the loads' clock [s]; -1: automatic */
+        = -1.; /**< by the loads' clock [s]; -1: automatic */
     bool releases_linearly = false;
-    /** Physical surfaces and the materials they are made of from now on. */
+    /** Physical surfaces and their new materials. */
     std::vector<std::pair<std::string, std::string>> materials;
-    /** Joint sets and those whose laws they follow from now on. */
+    /** Joint sets and the sets whose laws they take over. */
     std::vector<std::pair<std::string, std::string>> joint_properties;
 
-    /** The stage settles with ever lower strength, and changes nothing. */
+    /** Strength reduction by trials, which leave the state unchanged. */
     std::optional<SafetyParameters> safety;
 
     bool changes_properties() const
@@ -78,7 +78,7 @@ namespace quoin
       return kinetic_limit > 0.;
     }
 
-    /** Whether waves, not equilibria, are what the stage computes. */
+    /** Whether the stage computes waves, not equilibria. */
     bool is_dynamic() const
     {
       return end == StageEnd::time && !slows_loads() && scaled_time_step == 0.
@@ -86,7 +86,7 @@ namespace quoin
                  || damping == DampingType::rayleigh);
     }
 
-    /** "stage S: loads, end, damping and what is built", for --check. */
+    /** "stage S: loads, end, damping and construction", for --check. */
     std::string text(bool is_implicit) const;
 
     static void declare(dealii::ParameterHandler &prm);
@@ -94,20 +94,20 @@ namespace quoin
                                 const std::string &name);
   };
 
-  /** The last one before stage @p index that leaves the model changed, or
-      null. */
+  /** The last stage before @p index that leaves the state changed (no safety
+      stage), or null. */
   const StageParameters *
   previous_stage(const std::vector<StageParameters> &stages,
                  unsigned int index);
 
-  /** Section 'Stages'. Throws an InputError also where stages do not go
-      together, or with the @p loads that they name. */
+  /** Reads section 'Stages'. Throws an InputError also where stages contradict
+      each other or the @p loads that they name. */
   std::vector<StageParameters>
   read_stages(const ParameterSection &top,
               const std::vector<LoadParameters> &loads, bool is_implicit);
 
-  /** The time when stage @p index begins [s], without what stages that settle
-      take, or all of them together. */
+  /** Start time of stage @p index, or the end of the last one [s], without the
+      unknown durations of static stages. */
   double start_of_stage(const std::vector<StageParameters> &stages,
                         unsigned int index);
 } // namespace quoin

@@ -38,7 +38,7 @@ namespace quoin
    */
   BoundaryGeometry
   make_boundary_geometry(const BoundaryElementParameters &parameters,
-                         const MeshData &mesh = MeshData());
+                         const MeshData<2> &mesh = MeshData<2>());
 
   /** A point of the boundary next to a given one. */
   struct NearestElement

@@ -87,15 +87,23 @@ namespace quoin
     double mismatch    = 0.; /**< [-] */
     /** Of all boundary elements in the last step, scattered. */
     std::vector<double> displacement, velocity, traction;
-    std::vector<double> history; /**< in checkpoints */
+    SavedHistory history; /**< in checkpoints */
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.same(active, n_steps, substep);
+      visitor.own(held, 2);
+      visitor.same(last_motion, origin, frozen, velocity_sum, traction_sum,
+                   duration, square_sum, radiated, substep_sum, incident, given,
+                   mismatch, displacement, velocity, traction);
+      history.visit(visitor);
+    }
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &active &n_steps &substep &held &last_motion &origin &frozen
-          &velocity_sum &traction_sum &duration &square_sum &radiated
-              &substep_sum &incident &given &mismatch &displacement &velocity
-                  &traction &history;
+      archive_members(archive, *this);
     }
   };
 

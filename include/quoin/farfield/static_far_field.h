@@ -25,10 +25,18 @@ namespace quoin
     double stored        = 0.;  /**< elastic energy of the domain [J] */
     double stored_before = 0.;  /**< when it began [J] */
 
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.same(active);
+      visitor.own(held, 2);
+      visitor.same(origin, stored, stored_before);
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &active &held &origin &stored &stored_before;
+      archive_members(archive, *this);
     }
   };
 

@@ -20,14 +20,14 @@
 
 namespace quoin
 {
-  /** A place where equilibrium is sought; what State has beside histories. */
+  /** A configuration of the model: State without internal variables. */
   struct Configuration
   {
     AlignedArray<NodeRecord<2>> nodes;
     /** x, y [m] and rotation [rad] of each of DofMap::bodies(). */
     std::vector<std::array<double, 3>> bodies;
     double load_time = 0.; /**< in the stage [s] */
-    double released  = 1.; /**< share of the held forces that is gone [-] */
+    double released  = 1.; /**< released share of the held forces [-] */
   };
 
   /**
@@ -38,10 +38,10 @@ namespace quoin
    * after those of the nodes: displacement x and y of its centre, rotation,
    * and one that is always zero, so that all come in pairs.
    *
-   * Nodes that a load moves and nodes of absent blocks are constrained to what
-   * is given; nodes of a body follow its degrees of freedom rigidly through
-   * any rotation, u = d + (R - I) r, in constraints() by their present arms:
-   * du = dd + dtheta x (R r).
+   * Nodes that a load moves and nodes of absent blocks are constrained to
+   * prescribed values; nodes of a body follow its degrees of freedom rigidly
+   * through any rotation, u = d + (R - I) r, in constraints() by their present
+   * arms: du = dd + dtheta x (R r).
    */
   class DofMap
   {
@@ -54,16 +54,16 @@ namespace quoin
     {
       const MotionConstraint<2> *platen; /**< null: a rigid block */
       unsigned int rigid_block;
-      double centre[2];                /**< where displacements are zero [m] */
-      std::array<bool, 3> given;       /**< by functions of time */
+      double centre[2];                /**< centre at zero displacement [m] */
+      std::array<bool, 3> given;       /**< prescribed by functions of time */
       Index first;                     /**< of its degrees of freedom */
       std::vector<unsigned int> nodes; /**< owned ones */
       std::vector<std::array<double, 2>> arms;         /**< unrotated [m] */
       std::vector<std::array<double, 2>> present_arms; /**< rotated [m] */
-      bool counts; /**< here: this rank books its work and equations */
+      bool counts; /**< whether this rank books its work and equations */
     };
 
-    /** A component of a node that is given by itself. */
+    /** A component of a node prescribed by a PrescribedMotion. */
     struct Prescribed
     {
       unsigned int node; /**< owned */
@@ -72,10 +72,10 @@ namespace quoin
     };
 
     /**
-     * @p constraints: those that act in the stage, in their order;
-     * @p held: of each rigid block, whether a platen moves it. Collective.
+     * @p constraints: those that act in the stage, in their order; @p held:
+     * whether a platen moves each rigid block. Collective.
      */
-    DofMap(const Model &model,
+    DofMap(const Model<2> &model,
            const std::vector<MotionConstraint<2> *> &constraints,
            const std::vector<bool> &held, const State<2> &state);
 
@@ -91,7 +91,7 @@ namespace quoin
     {
       return owned_dofs;
     }
-    /** Owned ones, those of local nodes and of the bodies that move these. */
+    /** Owned degrees of freedom, those of local nodes and of their bodies. */
     const dealii::IndexSet &relevant() const
     {
       return relevant_dofs;
@@ -100,12 +100,12 @@ namespace quoin
     {
       return owned_dofs.size();
     }
-    /** Component @p d of a local node. */
+    /** Degree of freedom of component @p d of a local node. */
     Index dof(const unsigned int node, const unsigned int d) const
     {
       return node_dofs[2 * node + d];
     }
-    /** Writes those of @p n local nodes to @p dofs, 2 n long. */
+    /** Writes degrees of freedom of @p n local nodes to @p dofs, 2 n long. */
     void get_dofs(const unsigned int *nodes, const unsigned int n,
                   std::vector<Index> &dofs) const
     {
@@ -113,13 +113,12 @@ namespace quoin
         dofs[i] = node_dofs[2 * nodes[i / 2] + i % 2];
     }
 
-    /** Of increments, as update_constraints() left them. */
+    /** Constraints of increments, as of the last update_constraints(). */
     const Constraints &constraints() const
     {
       return affine;
     }
-    /** Whether component @p d of a local node is a degree of freedom of its
-        own. */
+    /** Whether component @p d of a local node is unconstrained. */
     bool is_free(const unsigned int node, const unsigned int d) const
     {
       return !affine.is_constrained(dof(node, d));
@@ -136,34 +135,44 @@ namespace quoin
     }
 
     Configuration configuration(const State<2> &state) const;
-    /** Writes nodes, platens and rigid blocks; times are the caller's. */
+    /** Writes the motion of nodes, platens and rigid blocks, but no times. */
     void write(const Configuration &configuration, State<2> &state) const;
 
-    /** Present arms of bodies' nodes become those of @p configuration. */
+    /** Updates the present arms of bodies' nodes for @p configuration. */
     void update_arms(const Configuration &configuration);
 
     /**
-     * The same, and constraints() are those of the increments from
-     * @p configuration by which the load time goes to @p load_time: their
-     * inhomogeneities are how far given motions go on the way. Collective.
+     * As update_arms(), and sets constraints() of the increments from
+     * @p configuration to the load time @p load_time: their inhomogeneities are
+     * the increments of prescribed motions. Collective.
      */
     void update_constraints(const Configuration &configuration,
                             double load_time);
 
     /**
      * Moves @p configuration by @p share of the @p increment of the degrees of
-     * freedom and its load time to @p load_time, with all that is given;
+     * freedom and its load time to @p load_time, with all prescribed motions;
      * collective.
      */
     void move(const Vector &increment, double share, double load_time,
               Configuration &configuration) const;
 
-    /** Adds @p force on owned nodes to the degrees of freedom that move these,
-        by constraints(); compress() is the caller's. */
+    /** Adds @p force on owned nodes to their degrees of freedom, by
+        constraints(); the caller calls compress(). */
     void add_forces(const AlignedArray<NodeVector<2>> &force,
                     Vector &right_hand_side) const;
 
-    /** Adds what acts on bodies besides, on each rank that counts them. */
+    /** Component @p d of the force that @p state, which has held forces, holds
+        on body @p b [N, N m]. */
+    double held_force(const ImplicitState &state, const unsigned int b,
+                      const unsigned int d) const
+    {
+      const Body &body = body_list[b];
+      return body.platen ? state.held_platens[3 * b + d]
+                         : state.held_blocks[3 * body.rigid_block + d];
+    }
+
+    /** Adds forces and moments on bodies, on each rank that counts them. */
     void add_body_forces(const std::vector<std::array<double, 3>> &force,
                          Vector &right_hand_side) const;
 
@@ -171,16 +180,16 @@ namespace quoin
     std::vector<std::array<double, 3>>
     body_forces(const AlignedArray<NodeVector<2>> &force) const;
 
-    /** Loads of the degrees of freedom of bodies; zero for those given. */
+    /** Loads on bodies [N, N m]; zero for prescribed components. */
     std::vector<std::array<double, 3>> drives(double load_time) const;
 
   private:
-    /** What a local node's constraints are made of, told by its owner. */
+    /** Constraint of a local node, received from its owner. */
     struct Tie
     {
-      Index body;                   /**< its first one, or invalid */
-      std::array<double, 2> motion; /**< present arm or what is given [m] */
-      std::array<bool, 2> given;    /**< if there is no body */
+      Index body; /**< first degree of freedom of its body, or invalid */
+      std::array<double, 2> motion; /**< present arm or displacement [m] */
+      std::array<bool, 2> given; /**< whether prescribed, if there is no body */
     };
 
     void add_platens(const std::vector<MotionConstraint<2> *> &constraints,
@@ -188,11 +197,11 @@ namespace quoin
     void add_rigid_blocks(const std::vector<bool> &held);
     void number();
     void place(Configuration &configuration) const;
-    /** How far component @p d of a driven body goes [m or rad]. */
+    /** Increment of component @p d of a driven body [m or rad]. */
     double given_motion(const Body &body, unsigned int d, double from,
                         double to) const;
 
-    const Model &model;
+    const Model<2> &model;
     MPI_Comm communicator;
     const double stage_start;
     std::vector<Body> body_list; /**< platens first, on all ranks */
@@ -207,8 +216,8 @@ namespace quoin
   };
 
   /**
-   * How far a driven component goes between two times of the stage [m or
-   * degrees]: a displacement by its values, a velocity by its integral.
+   * Increment of a driven component between two times of the stage [m or
+   * degrees]: of a displacement the difference, of a velocity the integral.
    */
   double given_change(const LoadComponent &component, double from, double to,
                       double stage_start);

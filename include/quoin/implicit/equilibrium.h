@@ -17,28 +17,28 @@
 
 namespace quoin
 {
-  /** What acts at a configuration, and what brought it there. */
+  /** Forces at a configuration, and the state updated for it. */
   struct Balance
   {
-    AlignedArray<NodeVector<2>> force; /**< out of balance, owned nodes [N] */
+    AlignedArray<NodeVector<2>> force;    /**< unbalanced, owned nodes [N] */
     AlignedArray<NodeVector<2>> external; /**< of loads, part of it [N] */
-    /** Of bodies, besides what acts on their nodes [N, N m]. */
+    /** Drives of bodies and held forces, besides those on nodes [N, N m]. */
     std::vector<std::array<double, 3>> drives, held;
     AlignedArray<NodeVector<2>>
         drag;               /**< against the motion, not in force [N] */
-    double unbalanced = 0.; /**< with it, summed over degrees of freedom [N] */
+    double unbalanced = 0.; /**< with drag, sum over all components [N] */
     double dragged    = 0.; /**< the sum of the drag [N] */
     double applied    = 0.; /**< by joints, loads and reactions [N] */
 
-    JointHistory joints; /**< brought to the configuration */
-    PlasticHistory plastic;
+    /** Internal variables of operators, updated for the configuration, and the
+        energy dissipated by this, of this rank [J]. */
+    State<2> state;
     double far_field_energy = 0.; /**< of all ranks [J] */
-    /** By it on the nodes that are free there, x, y [N] and their moment about
-     * the origin [N m], of this rank. */
+    /** Force x, y [N] of the far field on free nodes and its moment about the
+        origin [N m], of this rank. */
     std::array<double, 3> far_field_force{ { 0., 0., 0. } };
-    EnergyAccounts lost; /**< by joints and cells on the way, this rank [J] */
 
-    /** Inelastic opening and slip on the way, mean over the joints that
+    /** Increment of inelastic opening and slip, mean over the joints that
         measure the path [m]. */
     double path = 0.;
 
@@ -48,7 +48,7 @@ namespace quoin
     }
   };
 
-  /** Where a step goes from a configuration. */
+  /** Target of a step from a configuration. */
   struct Advance
   {
     double load_time = 0.; /**< there [s] */
@@ -58,11 +58,11 @@ namespace quoin
   /** Derivatives at a configuration, besides the stiffness matrix. */
   struct Slopes
   {
-    /** Change of the residual as loads and given motions go all of an Advance
-     * [N]. */
+    /** Change of the residual by the loads and prescribed motions of a whole
+        Advance [N]. */
     DofMap::Vector by_advance;
-    /** Changes of Balance::path: by degree of freedom [-], and as given motions
-     * go all of an Advance [m]. */
+    /** Derivatives of Balance::path: by degree of freedom [-], and by the
+        prescribed motions of a whole Advance [m]. */
     DofMap::Vector path_by_dof;
     double path_by_advance = 0.;
   };
@@ -75,24 +75,23 @@ namespace quoin
   {
   public:
     /**
-     * Keeps references. @p path_sets: of each joint set, whether its inelastic
-     * motion measures the path; @p far_field: what is beyond the blocks, or
-     * null.
+     * Keeps references. @p path_sets: whether the inelastic motion of each
+     * joint set measures the path; @p far_field: boundary elements, or null.
      */
-    Equilibrium(const Model &model, DofMap &dof_map,
+    Equilibrium(const Model<2> &model, DofMap &dof_map,
                 const std::vector<const NodalLoad<2> *> &loads,
                 const std::vector<bool> &path_sets, double stage_start,
                 const StaticFarField *far_field);
 
-    /** Forces of what was excavated act too, from now on; kept by reference. */
-    void set_release(const Release &forces)
+    /** Adds the forces of excavated blocks; keeps a reference. */
+    void set_release(const Release<2> &forces)
     {
       release = &forces;
     }
 
     /**
-     * From now on nodes drag: by @p drag times a typical stiffness, shared out
-     * by mass, times what they moved since the last equilibrium; 0: not.
+     * Sets the drag on nodes: @p drag times a typical stiffness, distributed by
+     * mass, times their displacement since the last equilibrium; 0: none.
      */
     void set_drag(const double new_drag)
     {
@@ -100,16 +99,17 @@ namespace quoin
     }
 
     /**
-     * Forces at @p configuration, to which the histories of @p committed are
-     * brought. @p broken: see MatchedJoints::linearise(). Collective.
+     * Finds forces at @p configuration and updates the internal variables of
+     * @p committed for it. @p broken: see MatchedJoints::linearise().
+     * Collective.
      */
     void find_forces(const State<2> &committed,
                      const Configuration &configuration,
                      const std::vector<std::uint8_t> &broken, Balance &balance);
 
     /**
-     * The same and derivatives: stiffness() and @p slopes, for increments that
-     * DofMap::constraints() then describe. Collective.
+     * As find_forces(), with derivatives: stiffness() and @p slopes, for
+     * increments with DofMap::constraints(). Collective.
      */
     void linearise(const State<2> &committed,
                    const Configuration &configuration,
@@ -130,7 +130,7 @@ namespace quoin
   private:
     void make_pattern();
     void find_far_stiffness();
-    /** For models without deformable blocks: the stiffest point [N/m]. */
+    /** Stiffest joint point, for models without deformable blocks [N/m]. */
     double joint_stiffness() const;
     void add_forces(const State<2> &committed,
                     const Configuration &configuration,
@@ -140,35 +140,36 @@ namespace quoin
                    const Configuration &configuration, Balance &balance);
     void add_drag(const State<2> &committed, const Configuration &configuration,
                   Balance &balance, Slopes *slopes);
-    /** Of loads, on nodes that are there. */
+    /** Adds forces of loads on nodes that are present. */
     void add_external(double load_time,
                       AlignedArray<NodeVector<2>> &force) const;
     void find_ratio(const AlignedArray<NodeVector<2>> &applied,
                     Balance &balance);
-    /** Adds @p share of an element with @p n nodes, its degrees of freedom
-        those of dof_map, and what its given motion takes from by_advance. */
-    template <std::size_t size>
-    void
-    add_stiffness(const unsigned int *nodes, unsigned int n,
-                  const std::array<std::array<double, size>, size> &element,
-                  double share, DofMap::Vector &by_advance);
+    /** Adds an element to matrix and, by prescribed motion, @p by_advance. */
+    void add_stiffness(const ElementLinearisation<2> &element,
+                       DofMap::Vector &by_advance);
+    /** Adds the forces of an element to @p force and its derivatives to those
+        of @p slopes, unless that is null. */
+    void add_element(const ElementLinearisation<2> &element,
+                     AlignedArray<NodeVector<2>> &force, double &path,
+                     Slopes *slopes);
     void add_far_field(const State<2> &committed,
                        const Configuration &configuration, Balance &balance,
                        const Slopes *slopes);
     void fill_unused_rows();
     void add_turning(const AlignedArray<NodeVector<2>> &force);
 
-    const Model &model;
+    const Model<2> &model;
     DofMap &dof_map;
     const std::vector<const NodalLoad<2> *> loads;
     const std::vector<bool> path_sets;
     const double stage_start;
-    const Release *release = nullptr;
+    const Release<2> *release = nullptr;
     MPI_Comm communicator;
     double path_area     = 0.; /**< of the joints that measure the path [m^2] */
-    double least_applied = 0.; /**< Balance::applied is not less [N] */
+    double least_applied = 0.; /**< lower bound of Balance::applied [N] */
     double drag          = 0.; /**< [-] */
-    std::vector<double> drag_stiffness; /**< of local nodes, for 1 [N/m] */
+    std::vector<double> drag_stiffness; /**< of local nodes, for drag 1 [N/m] */
 
     const StaticFarField *far_field;
     /** Minus the derivative of its forces on free degrees of freedom. */

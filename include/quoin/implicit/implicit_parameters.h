@@ -21,8 +21,8 @@ namespace quoin
   enum class PathFollowing
   {
     never,
-    automatic, /**< where steps of the loads do not converge */
-    always     /**< as soon as joints of the sets flow */
+    automatic, /**< if load steps do not converge */
+    always     /**< as soon as joints of the sets yield */
   };
 
   /** Section 'Implicit': the equilibrium iterations. */

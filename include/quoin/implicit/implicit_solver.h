@@ -23,49 +23,47 @@ namespace quoin
   struct IterationReport
   {
     std::uint64_t step;
-    unsigned int attempt;    /**< 0, and one more for each cut */
+    unsigned int attempt;    /**< 0, increased by one with each cut */
     unsigned int iteration;  /**< 0: before the first correction */
     double load_time;        /**< [s] */
     double unbalanced_ratio; /**< [-] */
-    double line_search;      /**< share of the correction that came here [-] */
+    double line_search;      /**< applied share of the correction [-] */
     double linear_iterations;
   };
 
-  /** A way from one equilibrium to another at constant loads. */
+  /** A jump from one equilibrium to another at constant loads. */
   struct JumpReport
   {
     double load_time; /**< [s] */
     unsigned int n_steps;
-    double loss; /**< energy that the drag took [J] */
+    double loss; /**< energy dissipated by drag [J] */
   };
 
   /**
-   * Equilibrium instead of motion: the same blocks, joints and loads without
-   * inertia, by Newton's method with consistent tangents and line search
-   * (@cite Crisfield1991), one stage after the other.
+   * Static equilibrium: the same blocks, joints and loads without inertia, by
+   * Newton's method with consistent tangents and line search
+   * (@cite Crisfield1991), stage by stage.
    *
-   * A stage begins with what is out of balance, by loads that begin or end
-   * there or by supports that go, which is let go step by step while time
-   * stands still; then the load time runs to the stage's end. Steps are cut
-   * where iterations do not converge and grow where they do. Where steps of
-   * the loads meet a snap-back, the load time becomes an unknown, and steps
-   * are those of the mean inelastic opening and slip of joints, which grows on
-   * any path (@cite Lourenco1996; as the dissipation of
-   * @cite VerhooselRemmersGutierrez2009). Or the model jumps, as a test does:
-   * at constant loads it moves on against a drag, implicitly in a time of its
-   * own (pseudo-transient continuation, @cite KelleyKeyes1998), until it is
-   * in equilibrium without it.
+   * At the start of a stage the unbalanced forces, of loads that begin or end
+   * or of removed supports, are released step by step at constant time; then
+   * the load time runs to the end of the stage. Steps are cut if iterations do
+   * not converge and grow if they do. If load steps meet a snap-back, the load
+   * time becomes an unknown, and steps are controlled by the mean inelastic
+   * opening and slip of joints, which grows on any path (@cite Lourenco1996; as
+   * the dissipation of @cite VerhooselRemmersGutierrez2009). Or the model
+   * jumps, as a test does: at constant loads it moves against a drag,
+   * implicitly in a pseudo-time (pseudo-transient continuation,
+   * @cite KelleyKeyes1998), until it is in equilibrium without drag.
    */
-  class ImplicitSolver : public Solver
+  class ImplicitSolver : public Solver<2>
   {
   public:
     /**
-     * Keeps a reference to @p model. @p joint_sets: their names, for
-     * 'Path joints'; @p far_field: of the load of the type 'boundary elements',
-     * or null, in all stages. Throws an InputError about loads that need
-     * inertia.
+     * Keeps a reference to @p model. @p joint_sets: their names, for 'Path
+     * joints'; @p far_field: of the load of type 'boundary elements', or null,
+     * in all stages. Throws an InputError about loads that need inertia.
      */
-    ImplicitSolver(Model &model, const std::vector<LoadParameters> &loads,
+    ImplicitSolver(Model<2> &model, const std::vector<LoadParameters> &loads,
                    const ImplicitParameters &parameters,
                    const std::vector<std::string> &joint_sets,
                    std::unique_ptr<StaticFarField> far_field = nullptr);
@@ -76,10 +74,10 @@ namespace quoin
       state.get<ImplicitState>().before_jump.clear();
     }
 
-    /** As ExplicitSolver::begin_stage(). */
+    /** Begins a stage as ExplicitSolver::begin_stage(). */
     void begin_stage(const StageParameters &stage,
                      const StageParameters *previous, State<2> &state);
-    /** With a state that save() has completed. */
+    /** Resumes a stage with a state completed by save(). */
     void resume_stage(const StageParameters &stage, State<2> &state);
 
     /** Load time at which the stage ends [s]. */
@@ -87,7 +85,7 @@ namespace quoin
     {
       return stage_duration;
     }
-    /** A jump has loads of its end from its first step on. */
+    /** Whether the stage has ended; a jump has its last load_time at once. */
     bool is_over(const State<2> &state) const
     {
       return state.get<ImplicitState>().released == 1.
@@ -96,24 +94,24 @@ namespace quoin
     }
 
     /**
-     * Takes @p state to the next equilibrium. Throws a RunError, which names
-     * where forces are out of balance most, if there is none within the
+     * Advances @p state to the next equilibrium. Throws a RunError, which names
+     * the place of the largest unbalanced force, if there is none within the
      * smallest step; the state is then the last equilibrium.
      */
     void step(State<2> &state);
 
     /**
-     * Makes the matrix, its factors and the first correction of the step to
-     * come, for whoever wants to know what that costs, and forgets them.
+     * Computes the matrix, its factors and the first correction of the next
+     * step, to measure their cost, and discards them.
      */
     void try_iteration(const State<2> &state);
-    /** Steps that the stage takes at least, if none is cut. */
+    /** Least number of steps of the stage, if none is cut. */
     double least_steps() const
     {
       return rests ? 1. : std::ceil(1. / parameters.largest_step * (1. - 1e-9));
     }
 
-    /** Histories of an equilibrium are those of its positions. */
+    /** Does nothing: in equilibrium internal variables are up to date. */
     void update_histories(State<2> &) override
     {
     }
@@ -151,12 +149,12 @@ namespace quoin
     }
 
   private:
-    /** Where a step is to go. */
+    /** Target of a step. */
     struct Target
     {
       double load_time;
       double released;
-      double path; /**< increment of Balance::path [m]; 0: as the loads say */
+      double path; /**< increment of Balance::path [m]; 0: load control */
     };
     enum class Outcome
     {
@@ -165,12 +163,12 @@ namespace quoin
     };
 
     void prepare_stage(const State<2> &state);
-    /** Rigid blocks that are absent are no bodies. */
+    /** Excludes absent rigid blocks from the bodies. */
     void hold_absent_blocks(const State<2> &state);
     double rest_time() const;
     void hold_what_is_out_of_balance(const StageParameters *previous,
                                      State<2> &state);
-    /** Loads that rest take one step. */
+    /** First load step; constant loads take one step. */
     double first_load_step() const
     {
       return rests ? 1. : parameters.first_step;
@@ -180,7 +178,7 @@ namespace quoin
                     Configuration &configuration);
     Outcome solve(const State<2> &state, const Target &target,
                   Configuration &configuration);
-    /** Share of the advance that goes with a correction; false: none. */
+    /** Finds a correction and its share of the advance; false: none. */
     bool find_correction(const Target &target,
                          const Configuration &configuration, bool is_first,
                          double &share);
@@ -194,7 +192,7 @@ namespace quoin
     void book_work(const State<2> &state, const Configuration &configuration,
                    EnergyAccounts &energy) const;
     void adapt_step(const State<2> &before, State<2> &state) const;
-    /** Makes the next attempt a smaller one; false: there is none. */
+    /** Reduces the next step; false: it is the smallest one. */
     bool cut_step(State<2> &state) const;
     /** Whether a jump has become a collapse; collective. */
     bool has_gone_far(const State<2> &state) const;
@@ -202,7 +200,7 @@ namespace quoin
     [[noreturn]] void give_up(State<2> &state);
     [[noreturn]] void fail(const State<2> &state, double tried,
                            bool jumped) const;
-    /** Where forces are out of balance most; collective. */
+    /** Place of the largest unbalanced force; collective. */
     std::string worst_place() const;
     std::string describe_node(unsigned int node) const;
 
@@ -211,13 +209,13 @@ namespace quoin
     std::vector<std::string> set_names;
 
     double stage_start = 0., stage_duration = 0.;
-    bool rests = false; /**< its loads do not change */
+    bool rests = false; /**< whether its loads are constant */
     std::vector<bool> held_blocks;
     std::unique_ptr<DofMap> dof_map;
     std::unique_ptr<Equilibrium> equilibrium;
     std::unique_ptr<LinearSolver> linear_solver;
 
-    State<2> last_equilibrium; /**< before the step or jump under way */
+    State<2> last_equilibrium; /**< before the current step or jump */
     Balance start;             /**< at the last equilibrium */
     Balance balance;           /**< at the configuration */
     Balance trial;             /**< in a line search */

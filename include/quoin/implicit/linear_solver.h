@@ -19,8 +19,8 @@ namespace quoin
 {
   /**
    * Solves with the stiffness matrix, by LU factors or by GMRES that is
-   * preconditioned by smoothed aggregation multigrid. The latter is given the
-   * three rigid motions, which it must represent on all levels to be fast.
+   * preconditioned by smoothed aggregation multigrid. Multigrid gets the three
+   * rigid body modes as near null space.
    */
   class LinearSolver
   {
@@ -28,20 +28,20 @@ namespace quoin
     using Matrix = dealii::TrilinosWrappers::SparseMatrix;
     using Vector = DofMap::Vector;
 
-    LinearSolver(LinearSolverType type, const Model &model,
+    LinearSolver(LinearSolverType type, const Model<2> &model,
                  const DofMap &dof_map);
 
-    /** Factorises, or sets the preconditioner up; returns whether it could. */
+    /** Factorises or sets up the preconditioner; returns success. */
     bool prepare(const Matrix &matrix, const Configuration &configuration);
 
-    /** Returns whether it could. */
+    /** Solves; returns success. */
     bool solve(const Vector &right_hand_side, Vector &solution);
 
     bool is_direct() const
     {
       return direct;
     }
-    /** Of the last solve; 0 if direct. */
+    /** Iterations of the last solve; 0 if direct. */
     unsigned int n_iterations() const
     {
       return iterations;
@@ -51,7 +51,7 @@ namespace quoin
     void find_rigid_motions(const Matrix &matrix,
                             const Configuration &configuration);
 
-    const Model &model;
+    const Model<2> &model;
     const DofMap &dof_map;
     bool direct;
     const Matrix *matrix = nullptr;

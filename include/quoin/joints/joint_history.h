@@ -4,6 +4,7 @@
 #ifndef quoin_joints_joint_history_h
 #define quoin_joints_joint_history_h
 
+#include <quoin/base/archive_members.h>
 #include <quoin/base/node_vector.h>
 
 #include <cstddef>
@@ -53,11 +54,24 @@ namespace quoin
       handed_over.resize(n / 2, 0);
     }
 
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      // Of each segment, two points.
+      visitor.own(normal_traction, 2);
+      visitor.own(shear_traction, 2);
+      visitor.own(plastic_slip, 2);
+      visitor.own(plastic_opening, 2);
+      visitor.same(n_internal);
+      visitor.own(internal, 2 * n_internal);
+      visitor.own(state, 2);
+      visitor.own(handed_over);
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &normal_traction &shear_traction &plastic_slip &plastic_opening
-          &internal &n_internal &state &handed_over;
+      archive_members(archive, *this);
     }
   };
 } // namespace quoin

@@ -16,12 +16,12 @@
 
 namespace quoin
 {
-  /** What the columns of a FreeFieldBoundary are made of. */
+  /** Materials of the columns of a FreeFieldBoundary. */
   struct FreeFieldGround
   {
     std::vector<LinearElastic> materials; /**< of each cell group */
     std::vector<bool> is_rigid;           /**< of each cell group */
-    std::vector<bool> yields; /**< of each group, whether by a law */
+    std::vector<bool> yields;             /**< of each cell group */
     PlaneAssumption plane = PlaneAssumption::plane_strain;
     double thickness      = 1.; /**< [m] */
   };
@@ -38,40 +38,47 @@ namespace quoin
   {
     bool active = false;              /**< whether it has begun */
     std::vector<double> displacement; /**< x, y of its nodes [m] */
-    std::vector<double> velocity;     /**< the same at time - dt/2 [m/s] */
-    std::vector<double> held;         /**< forces on nodes of blocks [N] */
+    std::vector<double> velocity; /**< x, y of its nodes at time - dt/2 [m/s] */
+    std::vector<double> held;     /**< forces on nodes of blocks [N] */
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.same(active, displacement, velocity);
+      visitor.own(held, 2);
+    }
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &active &displacement &velocity &held;
+      archive_members(archive, *this);
     }
   };
 
   /**
-   * An upright side of a model whose surroundings go on as they are (@cite
-   * ZienkiewiczBicanicShen1989): beside it stands a column of the ground along
-   * the side, with a node at the height of each node of the side, in which P
-   * and S waves run up and down. Its top is free, its foot is driven as the
-   * base of the model is. The traction on the side, whose outward normal n is
-   * horizontal, is
+   * A free-field boundary at a vertical side of a model whose surroundings are
+   * laterally homogeneous (@cite ZienkiewiczBicanicShen1989): beside it stands
+   * a column of the ground along the side, with a node at the height of each
+   * node of the side, in which P and S waves travel up and down. Its top is
+   * free, its foot is driven as the base of the model. The traction on the
+   * side, whose outward normal n is horizontal, is
    * @f[ t = \sigma_f n + \rho c_1 (v_f - v)_x + \rho c_2 (v_f - v)_y, @f]
-   * f the column: nothing of what the ground does by itself is reflected, and
-   * what the model adds leaves through dashpots. The column does not feel the
-   * model. Joints that meet the side are closed in the column.
+   * f the column: the free-field motion is not reflected, and waves from the
+   * model leave through dashpots. The model does not act on the column. Joints
+   * that meet the side are closed in the column.
    *
-   * When it first acts the column is at rest and without stress of its own;
-   * what forces are unbalanced on the side then are held from there on, so
-   * that stresses of a stage before need no other load. Each rank computes the
-   * whole column. The dashpots are those of ViscousBoundary, also where the
-   * side meets a viscous base, whose part at that node is taken along.
+   * When it first acts the column is at rest and without stress; the unbalanced
+   * forces on the side are held from then on, so that stresses of an earlier
+   * stage need no other load. Each rank computes the whole column. The dashpots
+   * are those of ViscousBoundary, also where the side meets a viscous base,
+   * whose share at that node is included.
    */
   class FreeFieldBoundary : public MotionConstraint<2>
   {
   public:
     /**
-     * Throws an InputError about a side that is not upright or in one piece,
-     * or a base that cannot drive a column.
+     * Throws an InputError about a side that is not vertical or not in one
+     * piece, or a base that cannot drive a column.
      */
     FreeFieldBoundary(const LoadParameters &parameters,
                       const NodeMap<2> &node_map, const FreeFieldGround &ground,
@@ -114,7 +121,7 @@ namespace quoin
       PlaneStiffness stiffness;
     };
 
-    /** What half an edge of the side gives to a node. */
+    /** Share of half an edge of the side in a node. */
     struct Share
     {
       unsigned int node; /**< into nodes() */
@@ -129,7 +136,7 @@ namespace quoin
     void make_shares(const NodeMap<2> &node_map,
                      const std::vector<BoundaryFace<2>> &faces,
                      double thickness);
-    /** Returns the base's faces. */
+    /** Sets up the foot and returns the base's faces. */
     std::vector<BoundaryFace<2>> make_foot(const NodeMap<2> &node_map,
                                            const FreeFieldBase &given);
     unsigned int node_at(double height) const;
@@ -137,22 +144,22 @@ namespace quoin
                FreeFieldState &column);
     void move_foot(const StepContext &step, const double *force,
                    FreeFieldState &column) const;
-    /** Takes the column from t to t + dt and finds the pull at t. */
+    /** Advances the column from t to t + dt and finds the pull at t. */
     void advance(const StepContext &step, FreeFieldState &column);
 
     double x       = 0.; /**< of the side [m] */
     double outward = 0.; /**< n_x: 1 or -1 */
     std::vector<double> node_height;
-    std::vector<double> node_mass; /**< by area of the column [kg/m^2] */
+    std::vector<double> node_mass; /**< mass by area of the column [kg/m^2] */
     std::vector<Layer> layers;
 
-    /** What is at the foot. */
+    /** Load at the foot of the column. */
     struct Foot
     {
       std::string name; /**< of the load */
       bool is_prescribed = false;
       std::array<LoadComponent, 3> components;
-      std::array<double, 2> impedance{}; /**< of x, y [Pa s/m] */
+      std::array<double, 2> impedance{}; /**< for x, y [Pa s/m] */
     } base;
 
     std::vector<unsigned int> column_node; /**< of each of nodes() */

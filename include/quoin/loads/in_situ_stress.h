@@ -12,21 +12,21 @@ namespace quoin
   class ParameterEntries;
 
   /**
-   * Stress in the ground by its weight (@cite JaegerCookZimmerman2007, chapter
-   * 13): with the depth counted vertically below the surface h(x),
+   * In-situ stress by the weight of the ground (@cite JaegerCookZimmerman2007,
+   * chapter 13): with the depth counted vertically below the surface h(x),
    * @f[ \sigma_{yy} = -\left(p + \int_y^{h(x)} \gamma \, dy\right), \quad
    *     \sigma_{xx} = K_0 \sigma_{yy} + \sigma_h, \quad \sigma_{xy} = 0 , @f]
-   * tension positive, and out of the plane the same with a ratio of its own.
-   * Below a level surface it balances gravity; below a slope it does not.
-   * Zero above the surface.
+   * tension positive, and out of the plane the same with a ratio of its own. It
+   * balances gravity below a horizontal surface, not below a slope. It is zero
+   * above the surface.
    */
   struct InSituStress
   {
-    /** Ground of one unit weight, down to a level. */
+    /** A layer of one unit weight, down to a height. */
     struct Layer
     {
       double unit_weight; /**< gamma [N/m^3] */
-      double foot;        /**< y of its foot [m]; of the last one not read */
+      double foot;        /**< y of its base [m]; not used for the last layer */
     };
 
     std::vector<std::array<double, 2>> surface; /**< x (ascending), y [m] */
@@ -34,15 +34,15 @@ namespace quoin
     double pressure           = 0.;             /**< p on the surface [Pa] */
     double horizontal_ratio   = 1.;             /**< K_0 [-] */
     double horizontal_stress  = 0.;             /**< sigma_h [Pa] */
-    double out_of_plane_ratio = 1.;    /**< of sigma_zz by sigma_yy [-] */
-    bool has_out_of_plane     = false; /**< whether that was given */
+    double out_of_plane_ratio = 1.;             /**< sigma_zz by sigma_yy [-] */
+    bool has_out_of_plane     = false;          /**< whether that was given */
     /** Added to sigma_zz [Pa]. */
     double out_of_plane_stress = 0.;
 
-    /** y of the ground at @p x; level beyond the ends of the line [m]. */
+    /** y of the surface at @p x; constant beyond the ends of the line [m]. */
     double surface_height(double x) const;
 
-    /** xx, yy, xy, zz [Pa] at (@p x, @p y). */
+    /** Stress xx, yy, xy, zz [Pa] at (@p x, @p y). */
     std::array<double, 4> stress(double x, double y) const;
 
     /** Declares or reads the entries in the subsection of a load. */

@@ -13,8 +13,8 @@
 namespace quoin
 {
   /**
-   * Displacement [m] and velocity [m/s] of all nodes where the run begins, as
-   * functions of x and y: section 'Initial motion'. Both are those of t = 0;
+   * Displacement [m] and velocity [m/s] of all nodes at the start of the run,
+   * as functions of x and y: section 'Initial motion'. Both are those of t = 0;
    * the first half step to the velocities of dt/2 follows from the forces.
    */
   struct InitialMotion
@@ -26,7 +26,7 @@ namespace quoin
     static void declare(dealii::ParameterHandler &prm);
     static InitialMotion read(const ParameterSection &section);
 
-    /** Puts it on the nodes of @p state, ghosts too. */
+    /** Sets the motion of the nodes of @p state, ghosts included. */
     void apply(State<2> &state) const;
   };
 } // namespace quoin

@@ -23,8 +23,8 @@ namespace quoin
     free_field,
     platen,
     gravity,
-    initial_stress,   /**< also one by depth: LoadParameters::in_situ */
-    boundary_elements /**< as section 'Boundary elements' says */
+    initial_stress,   /**< also by depth: LoadParameters::in_situ */
+    boundary_elements /**< with section 'Boundary elements' */
   };
 
   /** What a time function of a load stands for. */
@@ -42,7 +42,7 @@ namespace quoin
     TimeFunction value;
   };
 
-  /** The functions' values; zero for those that are free. */
+  /** Values of the functions; zero for free components. */
   std::array<double, 3>
   component_values(const std::array<LoadComponent, 3> &components,
                    const TimePoint &time);
@@ -51,6 +51,7 @@ namespace quoin
    * Throws an InputError naming @p load if a displacement is not zero at
    * @p time, the start of a stage.
    */
+  template <int dim>
   void check_no_jump(const std::array<LoadComponent, 3> &components,
                      const TimePoint &time, const std::string &load);
 
@@ -63,30 +64,36 @@ namespace quoin
     std::vector<std::string> groups;     /**< physical surfaces */
 
     /**
-     * Along x, y and, in three dimensions, z or, for platens, the rotation; for
-     * a viscous boundary the incident normal and shear velocity.
+     * Components x, y and, for platens, the rotation; for a viscous boundary
+     * the incident normal and shear velocity. along_axes() has components x, y,
+     * z.
      */
     std::array<LoadComponent, 3> components;
+    LoadComponent lateral;  /**< component y in three dimensions, where the
+                               vertical one is z */
     LoadComponent pressure; /**< of tractions */
 
-    /** All functions of time of a load in the plane: the components, of
-        tractions with the pressure in the third place. */
-    std::array<LoadComponent, 3> functions() const
+    /** All functions of time: the components, lateral and pressure. */
+    std::array<LoadComponent, 5> functions() const
     {
-      return { components[0], components[1],
-               type == LoadType::traction ? pressure : components[2] };
+      return { components[0], components[1], components[2], lateral, pressure };
     }
 
-    /** Viscous boundary: of what is beyond; empty: as the cells along it. */
+    /** This load with its components along the axes in @p dim dimensions.
+        Throws an InputError about a component that does not exist there. */
+    template <int dim>
+    LoadParameters along_axes() const;
+
+    /** Viscous boundary: material beyond; empty: that of the cells there. */
     std::string far_material;
     std::string
         base; /**< free field: load that drives the foot of the column */
 
     std::array<double, 3> stress{};          /**< xx, yy, xy at y = 0 [Pa] */
     std::array<double, 3> stress_gradient{}; /**< per metre of y [Pa/m] */
-    /** zz at y = 0 [Pa] and per metre of y [Pa/m]; none: nu (xx + yy). */
+    /** zz at y = 0 [Pa] and its gradient [Pa/m]; none: nu (xx + yy). */
     std::optional<std::array<double, 2>> stress_zz;
-    /** Instead of all of these: stress that follows from the depth. */
+    /** Stress by depth, instead of all of these. */
     std::optional<InSituStress> in_situ;
 
     /** Initial stress xx, yy, xy, zz [Pa] at (@p x, @p y) of a material with
@@ -94,17 +101,17 @@ namespace quoin
     std::array<double, 4> initial_stress(double x, double y,
                                          double poisson) const;
 
-    /** The word for its type in a parameter file. */
+    /** The name of its type in parameter files. */
     std::string type_text() const;
 
-    /** A component that the type has. */
+    /** A component that the load type has. */
     struct NamedComponent
     {
       std::string name; /**< "horizontal", as in a parameter file */
       std::string unit;
       const LoadComponent &component;
     };
-    /** Those that are not free. */
+    /** The components that are not free. */
     std::vector<NamedComponent> given_components() const;
 
     static void declare(dealii::ParameterHandler &prm);

@@ -18,9 +18,8 @@ namespace quoin
   class MotionConstraint;
 
   /**
-   * A node whose motion is not its own: what it had at the start of the step,
-   * that is the force at t before local and mass damping, the velocity at
-   * t - dt/2 and the displacement at t.
+   * A constrained node at the start of the step: the force at t before local
+   * and mass damping, the velocity at t - dt/2 and the displacement at t.
    */
   template <int dim>
   struct CapturedNode
@@ -33,11 +32,11 @@ namespace quoin
     NodeVector<dim>
         viscous; /**< stiffness-proportional part of the force [N] */
     /**
-     * Part of the force at the first step of a stage: of tractions and gravity
-     * that did not act in the stage before, if there was one [N].
+     * Part of the force at the first step of a stage: that of tractions and
+     * gravity that did not act in the previous stage, if there was one [N].
      */
     NodeVector<dim> begun;
-    /** What moves each component: the last to act on it; null: nothing. */
+    /** The last constraint to act on each component; null: none. */
     const MotionConstraint<dim> *owner[dim];
   };
 
@@ -51,21 +50,21 @@ namespace quoin
   }
 
   /**
-   * How a constraint moves its nodes. Constraints act in this order: what is
-   * prescribed prevails over dashpots, a rigid body over both, because it moves
-   * all of its nodes.
+   * How a constraint moves its nodes. Constraints act in this order: prescribed
+   * motion prevails over dashpots, a rigid body over both, because it moves all
+   * of its nodes.
    */
   enum class MotionKind
   {
-    absorbing,  /**< dashpots, columns and rock beyond a boundary */
+    absorbing,  /**< viscous and free-field boundaries, boundary elements */
     prescribed, /**< some components of each node, as functions of time */
-    rigid_body  /**< all nodes together; its figures are those of all ranks */
+    rigid_body  /**< all nodes together; its results are those of all ranks */
   };
 
   /**
-   * Moves nodes in another way than by their own force. The solver advances
-   * all nodes as if free; then correct() overwrites velocity and displacement
-   * of the constrained ones, and account() books the work that this took.
+   * Prescribes or modifies the motion of nodes. The solver advances all nodes
+   * as if free; then correct() overwrites velocity and displacement of the
+   * constrained ones, and account() books the work done.
    */
   template <int dim>
   class MotionConstraint
@@ -75,7 +74,7 @@ namespace quoin
 
     virtual MotionKind kind() const = 0;
 
-    /** Under this name its share of the time is reported. */
+    /** Name under which its wall time is reported. */
     virtual const char *phase() const
     {
       return "loads";
@@ -87,7 +86,7 @@ namespace quoin
       return node_list;
     }
 
-    /** The load that it is; also the name of its slice of the state. */
+    /** Name of the load and of its slice of the state. */
     const std::string &name() const
     {
       return load_name;
@@ -104,24 +103,24 @@ namespace quoin
       captured_positions = std::move(positions);
     }
 
-    /** Its functions of time: what they are now, to see whether they rest. */
+    /** Values of its functions of time, to find whether they are constant. */
     virtual std::array<double, 3> values(const TimePoint &time) const = 0;
 
-    /** The functions of time by which it drives or loads what it moves; null:
-        there are none. */
+    /** The functions of time by which it drives or loads its nodes; null: none.
+     */
     virtual const std::array<LoadComponent, 3> *parts() const
     {
       return nullptr;
     }
 
     /**
-     * Throws an InputError if a displacement is not zero where the stage
-     * begins: it would be a jump.
+     * Throws an InputError if a displacement is not zero at the start of the
+     * stage, which would be a jump.
      */
     virtual void check_start(const TimePoint &time) const
     {
       if (parts())
-        check_no_jump(*parts(), time, load_name);
+        check_no_jump<dim>(*parts(), time, load_name);
     }
 
     /** The load without which it cannot act in a stage; empty: none. */
@@ -130,17 +129,17 @@ namespace quoin
       return {};
     }
 
-    /** Largest squared frequency of what it moves besides nodes [1/s^2]. */
+    /** Largest omega^2 of its own degrees of freedom [1/s^2]. */
     virtual double largest_eigenvalue() const
     {
       return 0.;
     }
 
     /**
-     * Masses of the local nodes, as they act in the stage to come [kg]. Rigid
-     * blocks are no masses at nodes: @p extra_inertia [kg m^2] is what their
-     * moments of inertia have beyond those of the masses of their nodes,
-     * @p extra_spin [kg m^2/s] the angular momentum that goes with it.
+     * Sets the masses of the local nodes in the coming stage, with mass scaling
+     * [kg]. @p extra_inertia [kg m^2] is the moment of inertia of rigid blocks
+     * less that of the lumped masses of their nodes, @p extra_spin [kg m^2/s]
+     * the angular momentum that belongs to it.
      */
     virtual void set_mass(const std::vector<double> & /*mass*/,
                           double /*extra_inertia*/ = 0.,
@@ -164,7 +163,7 @@ namespace quoin
     {
     }
 
-    /** Called before a checkpoint: what is not in the state goes there. */
+    /** Called before a checkpoint: completes the state. */
     virtual void save(State<dim> &) const
     {
     }
@@ -189,8 +188,8 @@ namespace quoin
       return last_resultant;
     }
 
-    /** Displacement x, y [m] and rotation [rad] of a rigid body since it took
-        hold; null: it is none. */
+    /** Displacement x, y [m] and rotation [rad] of a rigid body since it first
+        acted; null: not a rigid body. */
     virtual const double *rigid_displacement(const State<dim> &) const
     {
       return nullptr;
@@ -219,7 +218,7 @@ namespace quoin
       return {};
     }
 
-    /** Whether a stiffness resists motion of its nodes, given or not. */
+    /** Whether a stiffness resists motion of its nodes, prescribed or not. */
     virtual bool supports() const
     {
       return false;

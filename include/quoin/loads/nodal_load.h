@@ -28,7 +28,7 @@ namespace quoin
     NodalLoad(const LoadParameters &parameters, const NodeMap<dim> &node_map,
               const std::vector<double> &mass, double thickness);
 
-    /** Weights of gravity where masses have changed; see the constructor. */
+    /** Updates the weights of gravity; @p mass as in the constructor. */
     void set_mass(const std::vector<double> &mass);
 
     const char *kind() const override
@@ -63,18 +63,17 @@ namespace quoin
         inward; /**< n_i [m^2]; empty without pressure */
   };
 
-  /** Normal of a face of its area, out of the block: [m] in two dimensions,
-      [m^2] in three. */
+  /** Normal of a face out of the block, times its length [m] in two dimensions,
+      its area [m^2] in three. */
   dealii::Tensor<1, 2>
   outward_area(const std::array<dealii::Point<2>, 2> &points);
   dealii::Tensor<1, 3>
   outward_area(const std::array<dealii::Point<3>, 3> &points);
 
   /**
-   * Boundary faces of the curves or, in three dimensions, surfaces @p names,
-   * those of all ranks on all ranks.
-   * Collective. Throws an InputError naming @p load if one does not exist or
-   * has no outer face.
+   * Boundary faces of the curves or, in three dimensions, surfaces @p names, on
+   * all ranks those of all ranks. Collective. Throws an InputError naming
+   * @p load if one does not exist or has no outer face.
    */
   template <int dim>
   std::vector<BoundaryFace<dim>>

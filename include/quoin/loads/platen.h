@@ -14,23 +14,30 @@ namespace quoin
   struct PlatenState
   {
     bool active = false;
-    double centre[2]{};       /**< where it was when it took hold [m] */
-    double displacement[3]{}; /**< since then */
-    double stage_start[3]{};  /**< displacement at that time */
-    double velocity[3]{};     /**< at time - dt/2 */
-    std::vector<double> arms; /**< x, y of each node, from centre, then [m] */
+    double centre[2]{};       /**< position when it first acted [m] */
+    double displacement[3]{}; /**< since then [m, m, rad] */
+    double stage_start[3]{};  /**< at the start of the stage */
+    double velocity[3]{};     /**< at time - dt/2 [m/s, m/s, rad/s] */
+    std::vector<double> arms; /**< x, y of nodes from centre, then [m] */
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.same(active, centre, displacement, stage_start, velocity);
+      visitor.own(arms, 2);
+    }
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &active &centre &displacement &stage_start &velocity &arms;
+      archive_members(archive, *this);
     }
   };
 
   /**
-   * A rigid platen: the nodes of a boundary, or all nodes of a group of
-   * blocks, move as one rigid body about their centre of mass. Each of its
-   * three freedoms is driven (velocity or displacement) or loaded (force or
+   * A rigid platen: the nodes of a boundary, or all nodes of a group of blocks,
+   * move as one rigid body about their centre of mass. Each of its three
+   * degrees of freedom is driven (velocity or displacement), loaded (force or
    * moment) or free. Its mass is that of its nodes.
    */
   class Platen : public MotionConstraint<2>
@@ -80,11 +87,11 @@ namespace quoin
              || components[freedom].quantity == LoadQuantity::displacement;
     }
 
-    /** Force and moment [N, N m] of the nodes, of all ranks. */
+    /** Force and moment [N, N m] of the nodes, summed over all ranks. */
     std::array<double, 3>
     resultant(const std::vector<CapturedNode<2>> &captured,
               const PlatenState &platen) const;
-    /** One component of the platen's motion, of force, drive and damping. */
+    /** Advances component @p d: motion, force, drive and damping. */
     void advance_freedom(unsigned int d, const StepContext &step,
                          PlatenState &platen);
 
@@ -94,8 +101,8 @@ namespace quoin
     double rigid_inertia = 0., rigid_spin = 0.;
     std::array<double, 3> inertia{}; /**< mass, mass, moment */
 
-    /** Of the last step: force on the platen from its nodes and its drive,
-        damping force, velocity before. */
+    /** Force on the platen in the last step from its nodes, its drive and
+        damping, and the velocity before it. */
     std::array<double, 3> nodal_force{}, drive{}, damping{}, velocity_before{};
     double last_unbalanced = 0.;
   };

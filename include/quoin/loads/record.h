@@ -12,8 +12,8 @@
 namespace quoin
 {
   /**
-   * Corrections of a record for what its integrals drift away by. The record a
-   * has the integrals v and u, and the length T.
+   * Baseline corrections. The record a has the integrals v and u, and the
+   * duration T.
    */
   enum class Baseline
   {
@@ -23,9 +23,9 @@ namespace quoin
   };
 
   /**
-   * A recorded motion of the ground: samples of, mostly, acceleration, linear
-   * in between and zero before the first and after the last one. Its integrals
-   * are then those of the trapezoidal rule and of linear acceleration, exactly.
+   * A recorded ground motion: samples, mostly of acceleration, linear in
+   * between and zero before the first and after the last one. Its integrals are
+   * then those of the trapezoidal rule and of linear acceleration, exactly.
    */
   class Record
   {
@@ -49,10 +49,10 @@ namespace quoin
       return table;
     }
 
-    /** Fades both ends, over @p share of the duration each, by a cosine. */
+    /** Tapers both ends by a cosine, over @p share of the duration each. */
     void taper(double share);
 
-    /** Last step before the record is used, since it wants the ends. */
+    /** Corrects the baseline. Call it last, as it depends on the ends. */
     void correct(Baseline baseline);
 
     void scale(double factor);

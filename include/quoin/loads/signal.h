@@ -14,7 +14,7 @@ namespace quoin
   struct Signal
   {
     std::function<double(double)> value;
-    /** From when the signal begins; may be empty. */
+    /** Integral from the start of the signal; may be empty. */
     std::function<double(double)> integral;
     /** Integral of the integral; may be empty. */
     std::function<double(double)> second_integral;
@@ -47,7 +47,7 @@ namespace quoin
   /** sin(pi t / duration) for 0 < t < duration [s]. */
   Signal half_sine_pulse(double duration);
 
-  /** From 0 linearly to 1 in @p rise, and back to 0 in @p decay [s]. */
+  /** Linear from 0 to 1 in @p rise [s], and back to 0 in @p decay [s]. */
   Signal triangular_pulse(double rise, double decay);
 
   /**
@@ -59,26 +59,26 @@ namespace quoin
   Signal exponential_pulse(double rise, double decay);
 
   /**
-   * The overpressure of an explosion in air @cite Friedlander1946,
-   * (1 - t/T) exp(-b t/T) for t > 0: from 0 to 1 at once, zero at the
-   * @p duration T [s], then negative for ever less.
+   * The overpressure of an explosion in air @cite Friedlander1946, (1 - t/T)
+   * exp(-b t/T) for t > 0: from 0 to 1 at once, zero at the @p duration T [s],
+   * then negative and decaying.
    *
-   * @param coefficient b [-], the decay
+   * @param coefficient b [-], decay coefficient
    */
   Signal friedlander_pulse(double duration, double coefficient);
 
   /**
-   * Whole cycles, one after the other, each a sine with one of the
-   * @p amplitudes and the largest slope @p rate [1/s], with which all begin and
-   * end: the k-th takes 2 pi amplitude_k / rate. Zero before and after.
+   * Consecutive whole sine cycles with the @p amplitudes and the same largest
+   * slope @p rate [1/s], at which all begin and end: the k-th takes 2 pi
+   * amplitude_k / rate. Zero before and after.
    */
   Signal sine_cycles(double rate, const std::vector<double> &amplitudes);
 
   /**
-   * The @p n times integrated @p signal, n = 0, 1 or 2, in closed form if it
-   * has one. Otherwise the integral is that from @p begin on, before which it
-   * is zero: by Gauss's rule over steps, cubic in between, with the fourth
-   * order of the @p step [s]; after @p end the signal counts as zero.
+   * The @p n-fold integral of @p signal, n = 0, 1 or 2, in closed form if it
+   * has one. Otherwise it is integrated from @p begin, before which it is zero,
+   * by Gauss's rule over steps, cubic in between, of fourth order in the
+   * @p step [s]; after @p end the signal is taken as zero.
    */
   std::function<double(double)> integrated(const Signal &signal, unsigned int n,
                                            double begin, double end,

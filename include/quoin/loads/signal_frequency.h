@@ -12,10 +12,10 @@ namespace quoin
 {
   using FunctionOfTime = std::function<double(double)>;
 
-  /** Share of a signal's energy that counts as all of it. */
+  /** Share of a signal's energy below its highest frequency [-]. */
   constexpr double energy_share = 0.99;
 
-  /** @p function at @p n times from 0 to @p duration, both included. */
+  /** @p function at @p n times from 0 to @p duration, ends included. */
   std::vector<double> sampled(const FunctionOfTime &function, double duration,
                               unsigned int n);
 
@@ -23,24 +23,23 @@ namespace quoin
   std::vector<double> derivative(const std::vector<double> &samples,
                                  double interval);
 
-  /** The integral from the first of them on, by the trapezoidal rule. */
+  /** Integral of @p samples from the first one, by the trapezoidal rule. */
   std::vector<double> integral(const std::vector<double> &samples,
                                double interval);
 
   /**
    * The frequency [Hz] below which energy_share of the energy of @p samples,
-   * @p interval [s] apart, lies, by their discrete Fourier transform. The line
-   * from the first to the last sample is taken off before, and the last quarter
-   * fades by a cosine: what is cut off at the end has no jump there, and a
-   * constant or a ramp has no frequency, 0. The mean that is left does not
+   * @p interval [s] apart, lies, by their discrete Fourier transform. First the
+   * line from the first to the last sample is subtracted and the last quarter
+   * is tapered by a cosine: a signal cut off at the end has no jump there, and
+   * the frequency of a constant or a ramp is 0. The remaining mean does not
    * count.
    */
   double highest_frequency(std::vector<double> samples, double interval);
 
   /**
-   * The largest jump of @p function within @p duration, from its value at the
-   * start on: what is left of the steepest change as the interval around it
-   * shrinks.
+   * The largest jump of @p function within @p duration: the limit of the
+   * steepest change as the interval around it shrinks.
    */
   struct Jump
   {
@@ -49,32 +48,33 @@ namespace quoin
   };
   Jump largest_jump(const FunctionOfTime &function, double duration);
 
-  /** What a function of time gives of the motion of particles. */
+  /** Meaning of a function of time for particle motion. */
   enum class SignalKind
   {
-    velocity,     /**< or a stress, which goes with it in a wave */
+    velocity,     /**< or a stress, proportional to it in a wave */
     displacement, /**< or the moment of a source */
     acceleration
   };
 
   /** highest_frequency() of the velocity that belongs to @p function within
-      @p duration [s]; 0 if a value is not finite, which the run will name. */
+      @p duration [s]; 0 if a value is not finite, an error of the run. */
   double velocity_frequency(const FunctionOfTime &function, SignalKind kind,
                             double duration);
 
-  /** A signal that shakes, and up to which frequency [Hz]; 0: it does not. */
+  /** A dynamic signal and its highest frequency [Hz]; 0: none. */
   struct Shaking
   {
     std::string name; /**< "the load 'push'" */
     double frequency = 0.;
 
-    /** Becomes the signal @p other_name if that is faster. */
+    /** Becomes the signal @p other_name if its frequency is higher. */
     void take_faster(const std::string &other_name, double other_frequency);
   };
 
   /**
-   * Edges of an S wave below which we warn: eight to ten are right, and with
-   * five it runs seven per cent too slowly; theory.md, "Critical time step".
+   * Edges per S wave length below which a warning is given: eight to ten are
+   * right, with five it is seven per cent too slow; theory.md, "Critical time
+   * step".
    */
   constexpr double fewest_edges = 5.;
 } // namespace quoin

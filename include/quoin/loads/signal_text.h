@@ -19,7 +19,7 @@ namespace quoin
   /**
    * A signal from its description in a parameter file. Times and delays are in
    * seconds, frequencies in Hz, and all but records have the peak 1 unless
-   * said otherwise; what is in brackets may be left out.
+   * stated; entries in brackets are optional.
    *
    *   wavelet Ricker FREQUENCY [DELAY]         delay 1.5 / FREQUENCY
    *   wavelet Gabor FREQUENCY WIDTH PHASE DELAY         phase in degrees
@@ -37,8 +37,8 @@ namespace quoin
    * duration, step, seed, peak or Arias, envelope Saragoni-Hart or trapezoidal
    * (see SyntheticRecordParameters), integrated, delay.
    *
-   * Files are sought in @p folder. Throws an InputError that says what is
-   * wrong, without naming section or parameter.
+   * File names are relative to @p folder. Throws an InputError that says what
+   * is wrong, without naming section or parameter.
    */
   Signal read_signal(const std::string &text, const std::string &folder);
 } // namespace quoin

@@ -25,8 +25,8 @@ namespace quoin
     SpaceTimeFunction() = default;
 
     /**
-     * Reads @p text. Files are sought in @p folder. Throws an InputError that
-     * says what is wrong, without naming section or parameter.
+     * Reads @p text. File names are relative to @p folder. Throws an InputError
+     * that says what is wrong, without naming section or parameter.
      */
     SpaceTimeFunction(const std::string &text, const std::string &folder);
 
@@ -35,7 +35,7 @@ namespace quoin
       return evaluate(x, t);
     }
 
-    /** Whether the value may differ between places; if not, one will do. */
+    /** Whether the value may differ between points. */
     bool depends_on_place() const
     {
       return on_place;

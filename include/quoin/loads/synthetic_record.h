@@ -10,7 +10,7 @@
 
 namespace quoin
 {
-  /** How strong shaking grows and dies away, by time over duration. */
+  /** Envelope of the shaking as a function of s, time by duration. */
   enum class Envelope
   {
     /**
@@ -24,9 +24,9 @@ namespace quoin
   struct SyntheticRecordParameters
   {
     double frequency     = 2.5; /**< of the ground [Hz] */
-    double damping       = 0.6; /**< of the ground, by critical damping [-] */
+    double damping       = 0.6; /**< of the ground, damping ratio [-] */
     double low_frequency = 0.;  /**< of the high-pass; 0: frequency / 10 [Hz] */
-    double low_damping   = 0.6; /**< of the high-pass [-] */
+    double low_damping   = 0.6; /**< of the high-pass, damping ratio [-] */
     double duration      = 20.; /**< [s] */
     double step          = 0.01; /**< between samples [s] */
     double peak          = 1.;   /**< acceleration; 0: see arias [m/s^2] */
@@ -39,8 +39,8 @@ namespace quoin
    * An artificial accelerogram [m/s^2]: Gaussian white noise through a layer of
    * ground, an oscillator whose base is shaken, as the absolute acceleration
    * @cite Kanai1957 @cite Tajimi1960, and through a second oscillator, as the
-   * relative one, which takes low frequencies out @cite CloughPenzien1975; then
-   * times the envelope, faded at both ends over 5 % of the duration, corrected
+   * relative one, which removes low frequencies @cite CloughPenzien1975; then
+   * times the envelope, tapered over 5 % of the duration at each end, corrected
    * so that velocity and displacement end at zero (Baseline::quadratic), and
    * scaled. The spectral density of the stationary motion is
    *

@@ -12,7 +12,7 @@
 
 namespace quoin
 {
-  /** So late in a stage that its loads rest if they ever do [s]. */
+  /** Time in a stage after which loads are taken as constant [s]. */
   constexpr double late_time = 1e9;
 
   /**
@@ -29,8 +29,8 @@ namespace quoin
     TimeFunction() = default;
 
     /**
-     * Reads @p text. Files are sought in @p folder. Throws an InputError that
-     * says what is wrong, without naming section or parameter.
+     * Reads @p text. File names are relative to @p folder. Throws an InputError
+     * that says what is wrong, without naming section or parameter.
      */
     TimeFunction(const std::string &text, const std::string &folder);
 
@@ -42,13 +42,13 @@ namespace quoin
       return evaluate(time);
     }
 
-    /** As a function of the time since the run began, which has one stage. */
+    /** The function of the time since the start of a run with one stage. */
     Signal signal() const;
 
   private:
     std::function<double(const TimePoint &)> evaluate
         = [](const TimePoint &) { return 0.; };
-    Signal known; /**< has no value if it is not a signal alone */
+    Signal known; /**< without value unless it is a signal alone */
   };
 } // namespace quoin
 

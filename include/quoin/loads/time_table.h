@@ -10,7 +10,7 @@
 
 namespace quoin
 {
-  /** Times [s], growing, and values. */
+  /** Times [s], ascending, and values. */
   using TimeTable = std::vector<std::pair<double, double>>;
 
   /**
@@ -19,7 +19,7 @@ namespace quoin
    */
   TimeTable read_time_table(const std::string &file);
 
-  /** Linear in between, constant beyond the ends. */
+  /** Value at @p time, linear in between and constant beyond the ends. */
   double interpolate(const TimeTable &table, double time);
 } // namespace quoin
 

@@ -25,7 +25,7 @@ namespace quoin
   Impedance impedance_of(const LinearElastic &material,
                          PlaneAssumption assumption);
 
-  /** Of one node on a viscous boundary. */
+  /** Dashpot of a node on a viscous boundary. */
   template <int dim>
   struct Dashpot
   {
@@ -37,7 +37,7 @@ namespace quoin
     std::array<double, dim> normal{}; /**< force per incident normal ... */
     std::array<double, dim> shear{};  /**< ... and shear velocity [N s/m] */
 
-    /** Force of a wave that comes in with these velocities [N]. */
+    /** Force of a wave with normal and shear velocity @p vn, @p vs [N]. */
     std::array<double, dim> pull(const double vn, const double vs) const
     {
       std::array<double, dim> force;
@@ -63,9 +63,9 @@ namespace quoin
                     std::vector<Dashpot<dim>> &dashpots);
 
   /**
-   * Moves a node by the force @p pull [N] beside its own and the drag
-   * @p damping [N s/m] on the mean velocity of the step:
-   * (m + h c) v+ = (m - h c) v- + 2 h f, h half the step.
+   * Moves a node by its force, the force @p pull [N] and the drag @p damping [N
+   * s/m] on the mean velocity of the step: (m + h c) v+ = (m - h c) v- + 2 h f,
+   * h half the step.
    */
   template <int dim>
   void move_with_dashpot(const StepContext &step,
@@ -75,9 +75,9 @@ namespace quoin
                          State<dim> &state);
 
   /**
-   * Books the work of what move_with_dashpot() did, for the components that
-   * @p owner moved, and adds its forces [N] and their moment about the
-   * origin [N m] to @p resultant.
+   * Books the work of move_with_dashpot() for the components that @p owner
+   * moved, and adds its forces [N] and their moment about the origin [N m] to
+   * @p resultant.
    */
   template <int dim>
   void account_for_dashpot(const StepContext &step,
@@ -87,37 +87,45 @@ namespace quoin
                            const MotionConstraint<dim> *owner,
                            std::array<double, 3> &resultant, State<dim> &state);
 
-  /** A viscous boundary that came after other stages. */
+  /** State of a viscous boundary that began after the first stage. */
+  template <int dim>
   struct ViscousBoundaryState
   {
     bool active = false;      /**< whether it has begun */
     std::vector<double> held; /**< forces on its nodes [N]; empty: none */
 
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.same(active);
+      visitor.own(held, dim);
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &active &held;
+      archive_members(archive, *this);
     }
   };
 
   /**
-   * The standard viscous boundary (@cite LysmerKuhlemeyer1969) with waves
-   * coming in: traction = rho c (2 v_incident - v), normal and tangential.
-   * The dashpot is centred in time and solved node by node, so that it does
-   * not reduce the stable step. Local damping does not act on its nodes.
+   * The standard viscous boundary (@cite LysmerKuhlemeyer1969) with incident
+   * waves: traction = rho c (2 v_incident - v), normal and tangential. The
+   * dashpot is centred in time and solved node by node, so that it does not
+   * reduce the stable step. Local damping does not act on its nodes.
    *
-   * If it comes after a stage in which it did not act, the forces that are
-   * unbalanced on its nodes at its first step, but for those of loads that
-   * begin with it, are held from there on: reactions of what it replaces. A
-   * run that begins with it has nothing to hold.
+   * If it follows a stage in which it did not act, the unbalanced forces on its
+   * nodes at its first step, without those of loads that begin with it, are
+   * held from then on: they are the reactions of the support that it replaces.
+   * In the first stage of a run nothing is held.
    */
   template <int dim>
   class ViscousBoundary : public MotionConstraint<dim>
   {
   public:
     /**
-     * @p impedance: of what lies beyond each cell group of @p node_map. Throws
-     * an InputError about an incident shear velocity in three dimensions.
+     * @p impedance: beyond each cell group of @p node_map. Throws an InputError
+     * about an incident shear velocity in three dimensions.
      */
     ViscousBoundary(const LoadParameters &parameters,
                     const NodeMap<dim> &node_map,
@@ -142,10 +150,10 @@ namespace quoin
 
   private:
     void hold(const std::vector<CapturedNode<dim>> &captured,
-              ViscousBoundaryState &own) const;
-    /** On the i-th node, of the wave that comes in and what is held [N]. */
+              ViscousBoundaryState<dim> &own) const;
+    /** Force of the incident wave and held force on the i-th node [N]. */
     std::array<double, dim> pull(unsigned int i, double vn, double vs,
-                                 const ViscousBoundaryState &own) const;
+                                 const ViscousBoundaryState<dim> &own) const;
 
     std::array<LoadComponent, 3> components;
     std::vector<Dashpot<dim>> dashpots;

@@ -4,6 +4,7 @@
 #ifndef quoin_materials_plastic_history_h
 #define quoin_materials_plastic_history_h
 
+#include <quoin/base/archive_members.h>
 #include <quoin/base/node_vector.h>
 
 #include <cstddef>
@@ -40,10 +41,18 @@ namespace quoin
       yielding.resize(n, 0);
     }
 
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.cells(cells);
+      visitor.cells(shear);
+      visitor.cells(yielding);
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &cells &shear &yielding;
+      archive_members(archive, *this);
     }
   };
 } // namespace quoin

@@ -15,33 +15,37 @@
 namespace quoin
 {
   /**
-   * An edge of a cell that lies on the boundary of its block. Seen from its
-   * cell, which is on the left, the edge runs from vertices[0] to vertices[1]
-   * (counter-clockwise around the block).
+   * A face of a cell that lies on the boundary of its block. In two dimensions
+   * it runs from vertices[0] to vertices[1] with the cell on the left
+   * (counter-clockwise around the block); in three, vertices run anticlockwise
+   * for who looks from outside.
    */
   template <int dim>
   struct BlockFace
   {
     std::array<unsigned int, dim> vertices;
     unsigned int cell;
-    unsigned int name; /**< into BlockMesh::line_names */
+    unsigned int name; /**< into BlockMesh::face_names */
   };
 
   /**
-   * Two coincident edges of two blocks (or of the two lips of a crack inside
-   * one block). The lower side runs from lower[0] to lower[1] with its cell on
-   * the left; upper[k] is the vertex that coincides with lower[k]. The joint
-   * normal points from lower to upper: n = (t_y, -t_x) for the edge
-   * direction t.
+   * Two coincident faces of two blocks (or of the two lips of a crack inside
+   * one block). The vertices of the lower side run as those of a BlockFace;
+   * upper[k] is the vertex that coincides with lower[k]. The joint normal
+   * points from lower to upper: n = (t_y, -t_x) for the direction t from
+   * lower[0] to lower[1], and in three dimensions the normal by the right hand
+   * of lower[0], lower[1], lower[2].
    *
-   * Lower is the side whose normal points up (n_y > 0), and for vertical edges
-   * (|n_y| <= 1e-6) the one whose normal points right (n_x > 0). So lower is
-   * the block below a bed joint, with t pointing left (t_x < 0), and the block
-   * left of a head joint, with t pointing up (t_y > 0). The sides of a curved
-   * joint change places where its tangent is vertical.
+   * Lower is the side whose normal points up: the last component of n is
+   * positive, or where that is none (at most 1e-6 of |n|) the one before. In
+   * two dimensions lower is the block below a bed joint, with t pointing left
+   * (t_x < 0), and the block left of a head joint, with t pointing up
+   * (t_y > 0). In three it is the block below (n_z > 0), else the one with
+   * the lesser y (n_y > 0), else the one with the lesser x (n_x > 0). The
+   * sides of a curved joint change places where its tangent is vertical.
    *
-   * Where a joint ends inside a block the vertex there is not split:
-   * lower[k] == upper[k] at such a tip.
+   * Where a joint ends inside a block the vertices there are not split:
+   * lower[k] == upper[k] at such a tip or front.
    */
   template <int dim>
   struct JointFace
@@ -49,7 +53,7 @@ namespace quoin
     std::array<unsigned int, dim> lower;
     std::array<unsigned int, dim> upper;
     std::array<unsigned int, 2> cells;  /**< of lower, of upper */
-    unsigned int name;                  /**< into line_names; may be unnamed */
+    unsigned int name;                  /**< into face_names; may be unnamed */
     std::array<unsigned int, 2> groups; /**< cell groups of lower, upper */
   };
 
@@ -70,8 +74,9 @@ namespace quoin
     std::vector<unsigned int> block_first_cell;   /**< n_blocks() + 1 entries */
     std::vector<unsigned int> block_first_vertex; /**< n_blocks() + 1 entries */
 
-    std::vector<std::string> group_names; /**< of physical surfaces */
-    std::vector<std::string> line_names;  /**< of physical curves; [0] is "" */
+    std::vector<std::string> group_names; /**< of surfaces or volumes */
+    std::vector<std::string>
+        face_names; /**< of curves or surfaces; [0] is "" */
 
     /** Cells are to have nodes in the middle of their edges; see NodeMap. */
     bool quadratic = false;
@@ -79,7 +84,7 @@ namespace quoin
     std::vector<BlockFace<dim>> boundary_faces; /**< outer, not joints */
     std::vector<JointFace<dim>> joint_faces;
 
-    /** Cells that the mesh file listed clockwise and that were turned. */
+    /** Cells of negative volume in the file, which were turned over. */
     unsigned int n_reoriented_cells = 0;
 
     unsigned int n_blocks() const

@@ -13,13 +13,15 @@ namespace quoin
   /**
    * Give a mesh whose cells and vertices come in any order the numbering that
    * BlockMesh describes and fill block_first_cell and block_first_vertex.
-   * Within a block cells follow a Hilbert curve; vertices follow the block's
-   * boundary first, then the cells: a random order costs the block kernel a
+   * Within a block cells follow a Hilbert curve; vertices on the boundary come
+   * first, in two dimensions along it, in three along the cells, then the
+   * others along the cells: a random order costs the block kernel a
    * factor of two to three.
    *
    * @p block_of_cell has one entry per cell, from 0 to @p n_blocks - 1.
    */
-  void number_blocks(BlockMesh<2> &mesh,
+  template <int dim>
+  void number_blocks(BlockMesh<dim> &mesh,
                      const std::vector<unsigned int> &block_of_cell,
                      const unsigned int n_blocks);
 
@@ -27,7 +29,8 @@ namespace quoin
    * Permute the blocks: new block i is old block new_order[i]. The order within
    * blocks stays.
    */
-  void renumber_blocks(BlockMesh<2> &mesh,
+  template <int dim>
+  void renumber_blocks(BlockMesh<dim> &mesh,
                        const std::vector<unsigned int> &new_order);
 
   /**

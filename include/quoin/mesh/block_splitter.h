@@ -16,13 +16,14 @@ namespace quoin
   /** Where the joints are. */
   struct SplitOptions
   {
-    /** Physical curves whose edges are joints. */
+    /** Physical curves (surfaces) whose edges (faces) are joints. */
     std::vector<std::string> joints_along;
 
-    /** Pairs of physical surfaces whose common edges are joints. */
+    /** Pairs of physical surfaces (volumes) whose common edges (faces) are
+        joints. */
     std::vector<std::pair<std::string, std::string>> joints_between;
 
-    /** Common edges of any two different physical surfaces are joints. */
+    /** Common edges (faces) of any two different groups are joints. */
     bool between_all = false;
 
     /** What to do with a joint that ends inside a block. */
@@ -34,7 +35,7 @@ namespace quoin
     JointEnds joint_ends = keep;
 
     /**
-     * Edges of blocks that are apart in the mesh coincide if their ends do
+     * Faces of blocks that are apart in the mesh coincide if their vertices do
      * within this share of the shortest edge of the mesh.
      */
     double coincidence_tolerance = 1e-3;
@@ -43,33 +44,37 @@ namespace quoin
   /**
    * Cut a mesh into blocks along its joints.
    *
-   * 1. Edges are joints if they lie on one of the given curves or between two
-   *    of the given surfaces.
-   * 2. The corners of the cells are united across every edge that is not a
+   * Curves and surfaces are those of two dimensions here; in three they are
+   * surfaces and volumes.
+   *
+   * 1. Faces of cells are joints if they lie on one of the given curves or
+   *    between two of the given surfaces.
+   * 2. The corners of the cells are united across every face that is not a
    *    joint; the classes are the new vertices, and cells connected by such
-   *    edges are a block. Crossings of any number of joints need no case of
+   *    faces are a block. Crossings of any number of joints need no case of
    *    their own.
-   * 3. Outer edges of opposite direction that coincide are joint faces too:
+   * 3. Outer faces of opposite direction that coincide are joint faces too:
    *    blocks that are apart in the mesh already.
    * 4. Blocks, cells and vertices are numbered as BlockMesh describes; within
    *    a block, cells follow a space-filling curve and boundary vertices the
-   *    boundary. Joint and boundary faces are in the order of their first
-   *    vertex.
+   *    boundary or, in three dimensions, the cells. Joint and boundary faces
+   *    are in the order of their vertices.
    *
-   * Blocks are numbered by their first triangle in the mesh, then permuted
+   * Blocks are numbered by their first cell in the mesh, then permuted
    * with @p block_order if that is given: new block i is old block
    * (*block_order)[i].
    *
    * A joint face is named after the curve on it. Where two different curves lie
-   * on the two edges of blocks that were apart, one that is in joints_along
+   * on the two faces of blocks that were apart, one that is in joints_along
    * comes first, then the one on the lower side.
    *
-   * Throws InputError: unknown names; joints along curves that are not edges of
-   * the mesh or that lie on its outer boundary; two curves on one edge;
-   * triangles or blocks that overlap; refused joint ends.
+   * Throws InputError: unknown names; joints along curves that are not faces of
+   * the mesh or that lie on its outer boundary; two curves on one face; cells
+   * or blocks that overlap; refused joint ends.
    */
-  void split_into_blocks(const MeshData &data, const SplitOptions &options,
-                         BlockMesh<2> &mesh,
+  template <int dim>
+  void split_into_blocks(const MeshData<dim> &data, const SplitOptions &options,
+                         BlockMesh<dim> &mesh,
                          const std::vector<unsigned int> *block_order
                          = nullptr);
 } // namespace quoin

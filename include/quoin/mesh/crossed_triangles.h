@@ -26,7 +26,7 @@ namespace quoin
    * locking (@cite NagtegaalParksRice1974). A quadrangle that is not convex
    * becomes the two triangles of its inner diagonal.
    */
-  void add_crossed_triangles(const Quadrangles &quadrangles, MeshData &mesh);
+  void add_crossed_triangles(const Quadrangles &quadrangles, MeshData<2> &mesh);
 } // namespace quoin
 
 #endif

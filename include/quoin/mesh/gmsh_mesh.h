@@ -23,16 +23,25 @@ namespace quoin
     std::string gmsh_errors; /**< in gmsh's words; empty: none */
     std::string refusal;     /**< what is wrong with the mesh; empty: nothing */
 
-    std::vector<std::array<double, 2>> vertices; /**< [m] */
-    std::vector<std::array<unsigned int, 3>> triangles;
-    std::vector<unsigned int> triangle_group; /**< into group_names */
-    std::vector<std::array<unsigned int, 4>> quadrangles;
-    std::vector<unsigned int> quadrangle_group;     /**< into group_names */
-    std::vector<std::array<unsigned int, 2>> lines; /**< of named curves */
-    std::vector<unsigned int> line_name;            /**< into line_names */
+    /**
+     * In two dimensions cells are triangles and quadrangles, faces lines; in
+     * three, cells are tetrahedra, faces triangles. Faces are those of named
+     * curves or surfaces.
+     */
+    unsigned int dimension = 2;
 
-    std::vector<std::string> group_names;      /**< of physical surfaces */
-    std::vector<std::string> line_names{ "" }; /**< [0] is "", unnamed */
+    std::vector<std::array<double, 3>> vertices; /**< [m] */
+    std::vector<std::array<unsigned int, 4>> tetrahedra;
+    std::vector<std::array<unsigned int, 3>> triangles;
+    std::vector<std::array<unsigned int, 4>> quadrangles;
+    std::vector<std::array<unsigned int, 2>> lines;
+
+    std::vector<unsigned int> cell_group;       /**< into group_names */
+    std::vector<unsigned int> quadrangle_group; /**< into group_names */
+    std::vector<unsigned int> face_name;        /**< into face_names */
+
+    std::vector<std::string> group_names;
+    std::vector<std::string> face_names{ "" }; /**< [0] is "", unnamed */
 
     /** Hand each member to @p channel, in the order of the stream. */
     template <typename Channel>
@@ -40,15 +49,17 @@ namespace quoin
     {
       channel(gmsh_errors);
       channel(refusal);
+      channel(dimension);
       channel(vertices);
+      channel(tetrahedra);
       channel(triangles);
-      channel(triangle_group);
       channel(quadrangles);
-      channel(quadrangle_group);
       channel(lines);
-      channel(line_name);
+      channel(cell_group);
+      channel(quadrangle_group);
+      channel(face_name);
       channel(group_names);
-      channel(line_names);
+      channel(face_names);
     }
   };
 
@@ -68,6 +79,11 @@ namespace quoin
     GmshChannel(std::FILE *stream, const Direction direction)
       : stream(stream), direction(direction)
     {
+    }
+
+    void operator()(unsigned int &number)
+    {
+      bytes(&number, sizeof(number));
     }
 
     /** A string or a vector of what can be copied byte by byte. */

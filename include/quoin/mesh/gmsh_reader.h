@@ -9,6 +9,7 @@
 #include <mpi.h>
 
 #include <string>
+#include <variant>
 
 namespace quoin
 {
@@ -20,10 +21,22 @@ namespace quoin
     quadratic /**< triangles with nodes in the middle of their edges */
   };
 
+  /** The dimension that a mesh is to have. */
+  enum class MeshDimension
+  {
+    from_mesh = 0, /**< three if it has tetrahedra, two if not */
+    two       = 2,
+    three     = 3
+  };
+
+  /** A mesh whose dimension the file says. */
+  using AnyMeshData = std::variant<MeshData<2>, MeshData<3>>;
+
   /**
    * Read a gmsh mesh (.msh 2.2 or 4.1, ascii or binary) or mesh a gmsh geometry
-   * (.geo) in the x-y plane. Every triangle must belong to exactly one named
-   * physical surface; line elements of named physical curves are kept, others
+   * (.geo): triangles in the x-y plane or tetrahedra. Every cell must belong to
+   * exactly one named physical surface or volume; elements of named physical
+   * curves or, in three dimensions, surfaces are kept as named faces, others
    * dropped. Nodes are kept as they are: coincident ones are not merged, so
    * blocks that are apart in the file stay apart.
    *
@@ -38,29 +51,44 @@ namespace quoin
    * TriangleKind::plain; NodeMap gives them their midside nodes.
    *
    * Throws InputError with the file, the entity and the cure: no such file, an
-   * error of gmsh, no triangles, quadrangles (unless they are to be crossed,
-   * and then if there are none), curved elements, a surface in
-   * no, several or unnamed physical groups, a curve in several, nodes off the
-   * plane z = 0, triangles without area.
+   * error of gmsh, no cells of dimension @p dim, quadrangles (unless they are
+   * to be crossed, and then if there are none), hexahedra, prisms and pyramids,
+   * curved elements, a surface (volume) in no, several or unnamed physical
+   * groups, a curve (surface) in several, nodes of a plane mesh off the plane
+   * z = 0, cells without volume, another @p kind than plain in three
+   * dimensions.
    */
-  MeshData read_gmsh(const std::string &filename,
-                     TriangleKind kind = TriangleKind::plain);
+  template <int dim = 2>
+  MeshData<dim> read_gmsh(const std::string &filename,
+                          TriangleKind kind = TriangleKind::plain);
 
   /**
    * The same by the first rank; the others have an empty mesh. An InputError is
    * thrown on all of them. Collective.
    */
-  MeshData read_gmsh(const std::string &filename, const MPI_Comm &communicator,
-                     TriangleKind kind = TriangleKind::plain);
+  template <int dim = 2>
+  MeshData<dim> read_gmsh(const std::string &filename,
+                          const MPI_Comm &communicator,
+                          TriangleKind kind = TriangleKind::plain);
 
   /**
-   * The same with the text @p geometry of a .geo file. @p maker: what made it,
-   * for messages.
+   * The same for a mesh of @p dimension, which all ranks know afterwards. A
+   * .msh file has three if it has tetrahedra, a .geo file if it has volumes.
+   * Collective.
    */
-  MeshData mesh_gmsh_geometry(const std::string &geometry,
-                              const std::string &maker,
-                              const MPI_Comm &communicator,
-                              TriangleKind kind = TriangleKind::plain);
+  AnyMeshData read_any_gmsh(const std::string &filename,
+                            const MPI_Comm &communicator,
+                            MeshDimension dimension = MeshDimension::from_mesh,
+                            TriangleKind kind       = TriangleKind::plain);
+
+  /**
+   * read_gmsh() with the text @p geometry of a .geo file. @p maker: what made
+   * it, for messages.
+   */
+  MeshData<2> mesh_gmsh_geometry(const std::string &geometry,
+                                 const std::string &maker,
+                                 const MPI_Comm &communicator,
+                                 TriangleKind kind = TriangleKind::plain);
 
   /**
    * Mesh the geometry @p geo_file and write the mesh to @p msh_file (.msh), for

@@ -17,46 +17,53 @@
 namespace quoin
 {
   /**
-   * A triangle mesh as a mesh file gives it: nothing is split yet.
-   * Serializable, so that one rank reads and the others receive.
+   * A mesh of triangles or, in three dimensions, of tetrahedra as a mesh file
+   * gives it: nothing is split yet. Groups are physical surfaces or volumes,
+   * named faces the elements of physical curves or surfaces. Serializable, so
+   * that one rank reads and the others receive.
    */
+  template <int dim>
   struct MeshData
   {
-    std::vector<dealii::Point<2>> vertices; /**< [m] */
+    std::vector<dealii::Point<dim>> vertices; /**< [m] */
 
-    std::vector<std::array<unsigned int, 3>>
-        triangles;                            /**< counter-clockwise */
-    std::vector<unsigned int> triangle_group; /**< into group_names */
+    std::vector<std::array<unsigned int, dim + 1>> cells; /**< positive volume,
+                                                see orient_cells() */
+    std::vector<unsigned int> cell_group; /**< into group_names */
 
-    std::vector<std::array<unsigned int, 2>> lines; /**< of named curves */
-    std::vector<unsigned int> line_name;            /**< into line_names */
+    std::vector<std::array<unsigned int, dim>> faces; /**< with a name */
+    std::vector<unsigned int> face_name;              /**< into face_names */
 
-    std::vector<std::string> group_names;         /**< of physical surfaces */
-    std::vector<std::string> line_names = { "" }; /**< [0] is "", unnamed */
+    std::vector<std::string> group_names;
+    std::vector<std::string> face_names = { "" }; /**< [0] is "", unnamed */
 
     /** Whether triangles are to have nodes in the middle of their edges. */
     bool quadratic = false;
 
-    unsigned int n_reoriented = 0;      /**< triangles that were clockwise */
+    unsigned int n_reoriented = 0;      /**< cells that were the other way */
     std::string source        = "mesh"; /**< the file, for messages */
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &vertices &triangles &triangle_group &lines &line_name
-          &group_names &line_names &quadratic &n_reoriented &source;
+      archive &vertices &cells &cell_group &faces &face_name &group_names
+          &face_names &quadratic &n_reoriented &source;
     }
   };
 
   /**
-   * Turn clockwise triangles over, and count them in MeshData::n_reoriented.
-   * Throws InputError, with the position, for a triangle without area (less
-   * than 1e-12 of its longest edge squared).
+   * Turn cells of negative volume over, and count them in
+   * MeshData::n_reoriented. Afterwards triangles are counter-clockwise, and of
+   * a tetrahedron the last vertex lies on the side of the first three from
+   * which they are counter-clockwise. Throws InputError, with the position,
+   * for a cell without volume (less than 1e-12 of its longest edge to the
+   * power of dim).
    */
-  void orient_triangles(MeshData &mesh);
+  template <int dim>
+  void orient_cells(MeshData<dim> &mesh);
 
   /** The named curves of @p mesh with the vertices on them, and its names. */
-  MeshData curves_of(const MeshData &mesh);
+  MeshData<2> curves_of(const MeshData<2> &mesh);
 } // namespace quoin
 
 #endif

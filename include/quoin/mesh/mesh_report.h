@@ -6,61 +6,69 @@
 
 #include <quoin/mesh/block_mesh.h>
 
+#include <boost/serialization/array.hpp>
 #include <boost/serialization/map.hpp>
 
+#include <array>
 #include <map>
 #include <string>
+#include <vector>
 
 namespace quoin
 {
-  /** Sizes and quality of a mesh of blocks. */
+  /**
+   * Sizes and quality of a mesh of blocks. Sizes of faces are lengths [m] in
+   * two dimensions and areas [m^2] in three; positions of plane meshes have
+   * z = 0.
+   */
   struct MeshReport
   {
+    unsigned int dimension     = 2;
     unsigned int n_blocks      = 0;
     unsigned int n_cells       = 0;
     unsigned int n_nodes       = 0;
     unsigned int n_joint_faces = 0;
     bool quadratic             = false; /**< nodes on the middle of edges */
 
-    /** Length of joints by curve name; "" stands for joints without one [m]. */
-    std::map<std::string, double> joint_length;
-    double total_joint_length = 0.; /**< [m] */
+    /** Of joints, by the name of their curve or surface; "" stands for joints
+        without one. */
+    std::map<std::string, double> joint_size;
+    double total_joint_size = 0.;
 
-    double shortest_edge  = 0.; /**< of a triangle, linear or quadratic [m] */
-    double longest_edge   = 0.; /**< [m] */
-    double smallest_angle = 0.; /**< of any cell [degree] */
+    double shortest_edge = 0.; /**< of a cell, linear or quadratic [m] */
+    double longest_edge  = 0.; /**< [m] */
+    /** Between edges of a triangle or faces of a tetrahedron [degree]. */
+    double smallest_angle = 0.;
 
-    unsigned int n_joint_ends = 0; /**< ends inside a block */
-    /** Joint faces with both ends unsplit: they can never open or slip. */
+    unsigned int n_joint_ends = 0; /**< unsplit vertices inside a block */
+    /** Joint faces with all vertices unsplit: they can never open or slip. */
     unsigned int n_tied_joint_faces = 0;
-    unsigned int n_reoriented_cells = 0; /**< clockwise in the file */
+    unsigned int n_reoriented_cells = 0; /**< the other way in the file */
 
     /**
-     * Length along which outer edges lie on each other without coinciding:
-     * non-matching meshes on the two sides of a contact, which no joint face
-     * joins [m].
+     * Where outer faces lie on each other without coinciding: non-matching
+     * meshes on the two sides of a contact, which no joint face joins.
      */
-    double unmatched_length = 0.;
-    dealii::Point<2> unmatched_position; /**< where the first of them is [m] */
+    double unmatched_size = 0.;
+    dealii::Point<3> unmatched_position; /**< where the first of them is [m] */
 
     /**
-     * Whether blocks overlap: outer edges cross, by more than those of two
-     * meshes along one curve do, or a block lies within another.
+     * Whether blocks overlap: outer faces cross, by more than those of two
+     * meshes along one curve or surface do, or a block lies within another.
      */
     bool overlaps = false;
-    dealii::Point<2> overlap_position; /**< where, first [m] */
+    dealii::Point<3> overlap_position; /**< where, first [m] */
 
-    dealii::Point<2> lower_left;  /**< of the bounding box [m] */
-    dealii::Point<2> upper_right; /**< of the bounding box [m] */
+    std::array<dealii::Point<3>, 2> box{}; /**< lower and upper corner [m] */
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &n_blocks &n_cells &n_nodes &n_joint_faces &quadratic
-          &joint_length &total_joint_length &shortest_edge &longest_edge
+      archive &dimension &n_blocks &n_cells &n_nodes &n_joint_faces &quadratic
+          &joint_size &total_joint_size &shortest_edge &longest_edge
               &smallest_angle &n_joint_ends &n_tied_joint_faces
-                  &n_reoriented_cells &unmatched_length &unmatched_position
-                      &overlaps &overlap_position &lower_left &upper_right;
+                  &n_reoriented_cells &unmatched_size &unmatched_position
+                      &overlaps &overlap_position &box;
     }
 
     /** Lines of text without a final newline. */
@@ -69,7 +77,8 @@ namespace quoin
     std::vector<std::string> warnings() const;
   };
 
-  MeshReport make_mesh_report(const BlockMesh<2> &mesh);
+  template <int dim>
+  MeshReport make_mesh_report(const BlockMesh<dim> &mesh);
 } // namespace quoin
 
 #endif

@@ -9,6 +9,7 @@
 
 #include <deal.II/dofs/dof_handler.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ namespace quoin
   {
     unsigned int number; /**< of the block in the whole mesh */
     std::array<unsigned int, 2> cells;
+    /** Cells from this one on have no nodes that other ranks share. */
+    unsigned int first_inner_cell;
     /** Without those that other ranks share. */
     std::array<unsigned int, 2> nodes;
   };
@@ -79,8 +82,11 @@ namespace quoin
    * Owned nodes come first, block by block as BlockTable has them: those of
    * deformable blocks that no other rank shares, those that one does, then
    * those of rigid blocks, which are never distributed over ranks; after them
-   * the ghosts of NodeExchange. Nodes have a global number, too, which is the
-   * index of their degree of freedom in dof_handler().
+   * the ghosts of NodeExchange. Of each block, cells that have nodes which
+   * other ranks share come before the others, so that their forces can be on
+   * their way while those of the others are computed. Nodes have a global
+   * number, too, which is the index of their degree of freedom in
+   * dof_handler().
    *
    * With degree 2 each cell of the triangulation is four consecutive linear
    * ones here: those at its three vertices and the one in its middle, whose
@@ -152,6 +158,15 @@ namespace quoin
     {
       return node_block[node];
     }
+    /** A number of local node @p node in the whole mesh that does not depend
+        on the number of ranks: that of its vertex or, in the middle of an edge,
+        both of the edge's. */
+    std::uint64_t number_of_node(const unsigned int node) const
+    {
+      return node_numbers[node];
+    }
+    /** Numbers of the owned cells, likewise. */
+    std::vector<std::uint64_t> cell_numbers() const;
     bool is_midside(const unsigned int node) const
     {
       return !midside.empty() && midside[node];
@@ -264,6 +279,7 @@ namespace quoin
   private:
     void number_nodes();
     void find_ghosts();
+    void order_cells();
     void pack_cells();
     void pack_faces();
     /** Orders the nodes of a face of @p cell, in three dimensions, so that its
@@ -281,9 +297,12 @@ namespace quoin
 
     std::vector<dealii::Point<dim>> points;
     std::vector<unsigned int> node_block;
+    std::vector<std::uint64_t> node_numbers;
     std::vector<bool> midside;
     std::vector<std::array<unsigned int, dim + 1>> cells;
     std::vector<unsigned int> cell_group;
+    /** Place of each owned cell of the triangulation among those. */
+    std::vector<unsigned int> cell_place;
     std::vector<BlockPart> parts;
     std::vector<OuterFace<dim>> outer;
     std::vector<JointNodes<dim>> joints;

@@ -13,14 +13,14 @@ namespace quoin
   /**
    * The rank that owns each cell of @p mesh, so that costs of cells and joints
    * are shared evenly among @p n_ranks and little lies between ranks. Whole
-   * blocks go to ranks where that balances or @p may_divide_blocks is false;
-   * otherwise METIS divides the graph of blocks, in which large deformable ones
-   * are many pieces. Rigid blocks (@p is_rigid, by block) stay whole.
+   * blocks go to ranks where that balances; otherwise METIS divides the graph
+   * of blocks, in which large deformable ones are many pieces. Rigid blocks
+   * (@p is_rigid, by block) stay whole.
    */
   template <int dim>
-  std::vector<unsigned int>
-  partition_cells(const BlockMesh<dim> &mesh, const std::vector<bool> &is_rigid,
-                  unsigned int n_ranks, bool may_divide_blocks = true);
+  std::vector<unsigned int> partition_cells(const BlockMesh<dim> &mesh,
+                                            const std::vector<bool> &is_rigid,
+                                            unsigned int n_ranks);
 } // namespace quoin
 
 #endif

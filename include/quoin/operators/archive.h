@@ -5,6 +5,7 @@
 #define quoin_operators_archive_h
 
 #include <quoin/base/node_vector.h>
+#include <quoin/operators/redistribution.h>
 #include <quoin/operators/state_slices.h>
 
 #include <boost/archive/binary_iarchive.hpp>
@@ -18,9 +19,9 @@
 #include <algorithm>
 #include <type_traits>
 
-// What Boost.Serialization needs to know about the arrays of a State: they go
-// into an archive as one block of bytes. Element by element they would take
-// some hundred times as long, and their padding keeps them bitwise equal.
+// Serialisation of the arrays of a State by Boost as one block of bytes.
+// Element by element it would take some hundred times as long; with the padding
+// they stay bitwise equal.
 namespace boost
 {
   namespace serialization
@@ -77,7 +78,13 @@ namespace quoin
           [](boost::archive::binary_oarchive &archive, const void *slice)
           { archive << *static_cast<const Slice *>(slice); },
           [](boost::archive::binary_iarchive &archive, void *slice)
-          { archive >> *static_cast<Slice *>(slice); } });
+          { archive >> *static_cast<Slice *>(slice); },
+          [](Redistribution &moves, const std::string &name, void *slice,
+             void *part)
+          {
+            moves.take(name, *static_cast<Slice *>(slice),
+                       *static_cast<Slice *>(part));
+          } });
     return *data;
   }
 } // namespace quoin

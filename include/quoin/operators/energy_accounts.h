@@ -10,7 +10,7 @@ namespace quoin
   enum class EnergyKind
   {
     given,     /**< work done on the model */
-    dissipated /**< energy that has left it for good */
+    dissipated /**< energy dissipated or radiated */
   };
 
   struct EnergyAccounts;
@@ -28,9 +28,9 @@ namespace quoin
    * the exact trapezoidal one of the central difference scheme, so that with
    * elastic forces the balance closes to rounding.
    *
-   * A new account is one member and its line in energy_accounts: from that
-   * line follow sums over MPI processes, checkpoints, the balance and the
-   * column of energies.csv.
+   * A new account needs a member and a line in energy_accounts: from that line
+   * follow sums over MPI processes, checkpoints, the balance and the column of
+   * energies.csv.
    */
   struct EnergyAccounts
   {
@@ -39,10 +39,10 @@ namespace quoin
     double fracture = 0.; /**< lost when joints break */
     double crushing = 0.; /**< dissipated by crushed joints */
     double plastic  = 0.; /**< dissipated by blocks that yield */
-    double damping  = 0.; /**< taken by local, adaptive, Rayleigh damping */
-    double viscous  = 0.; /**< left through viscous boundaries */
-    double contact  = 0.; /**< lost as contacts changed their length */
-    double radiated = 0.; /**< given to boundary elements */
+    double damping = 0.; /**< dissipated by local, adaptive, Rayleigh damping */
+    double viscous = 0.; /**< left through viscous boundaries */
+    double contact = 0.; /**< lost as contacts changed their length */
+    double radiated = 0.; /**< radiated into boundary elements */
 
     EnergyAccounts &operator+=(const EnergyAccounts &other);
 

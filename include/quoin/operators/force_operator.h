@@ -7,6 +7,10 @@
 #include <quoin/operators/state.h>
 #include <quoin/operators/step_context.h>
 
+#include <array>
+#include <functional>
+#include <vector>
+
 namespace quoin
 {
   /** Forces on the local nodes of a rank, to which operators add theirs. */
@@ -19,11 +23,47 @@ namespace quoin
   };
 
   /**
+   * Forces of an element on its nodes and their derivatives by the nodes'
+   * displacements. Entry dim i + d of its arrays is node i, component d.
+   */
+  template <int dim>
+  struct ElementLinearisation
+  {
+    const unsigned int *nodes; /**< local */
+    unsigned int n_nodes;
+    const double *force; /**< [N] */
+    /** Minus the derivative of the forces [N/m], in rows of row_length; only if
+        requested. */
+    const double *stiffness;
+    unsigned int row_length;
+    double share = 1.; /**< share of the derivatives that this rank adds */
+
+    // Of joints, for following a path.
+
+    /** Area times the increment of inelastic opening and slip, negative on
+        reversal [m^3], and its derivative [m^2], only if requested. */
+    double inelastic                 = 0.;
+    const double *inelastic_gradient = nullptr;
+    unsigned int set                 = 0; /**< of joints */
+  };
+
+  /** Takes the elements of ForceOperator::linearise(). */
+  template <int dim>
+  using TakeElement = std::function<void(const ElementLinearisation<dim> &)>;
+
+  /** Weight of node a by that of node b; see add_stiffness_bound(). */
+  using NodeRatio = std::function<double(unsigned int, unsigned int)>;
+
+  /** Symmetric matrix of a node [N/m]: xx, yy, xy or xx, yy, zz, xy, xz, yz. */
+  template <int dim>
+  using NodeStiffness = std::array<double, dim *(dim + 1) / 2>;
+
+  /**
    * A force on nodes that follows from their positions and velocities and from
    * time: blocks, joints, contacts, loads. Operators are called once a step,
    * never once a point.
    *
-   * Motion that is not a node's own is a MotionConstraint.
+   * Prescribed or otherwise constrained motion is a MotionConstraint.
    */
   template <int dim>
   class ForceOperator
@@ -31,7 +71,7 @@ namespace quoin
   public:
     virtual ~ForceOperator() = default;
 
-    /** Under this name its share of the time is reported. */
+    /** Name under which its wall time is reported. */
     virtual const char *kind() const = 0;
 
     /** Adds its own slices to @p state, unless they are there. */
@@ -40,8 +80,8 @@ namespace quoin
     }
 
     /**
-     * Takes the positions at the start of the step: searches neighbours, where
-     * there is something to search. Collective.
+     * Called with the positions at the start of the step: searches contacts, if
+     * there is anything to search. Collective.
      */
     virtual void update(const StepContext &, State<dim> &)
     {
@@ -49,12 +89,35 @@ namespace quoin
 
     /**
      * Updates its internal variables for the positions at the start of the
-     * step, books what that dissipates in State::energy, and adds its forces.
+     * step, books the dissipation in State::energy, and adds its forces.
      * Collective.
      */
     virtual void add_forces(const StepContext &step, State<dim> &state,
                             const NodeForces<dim> &forces)
         = 0;
+
+    /**
+     * Passes its elements at the positions of @p state to @p take, for implicit
+     * solvers, updates its internal variables there, and books the dissipation
+     * in State::energy. Does nothing if it has no derivatives.
+     */
+    virtual void linearise(State<dim> & /*state*/, bool /*with_stiffness*/,
+                           const TakeElement<dim> & /*take*/) const
+    {
+    }
+
+    /**
+     * Adds its share of StableTimeStep's bound to @p stiffness of the local
+     * nodes. A spring k between nodes a and b adds (1 + r) k to that of a and
+     * (1 + 1/r) k to that of b, with r = @p ratio (a, b) and 1/r = @p ratio
+     * (b, a): the bound holds with any r > 0 and is closest where r is that of
+     * the masses, m_a / m_b.
+     */
+    virtual void
+    add_stiffness_bound(const State<dim> &, const NodeRatio & /*ratio*/,
+                        std::vector<NodeStiffness<dim>> & /*stiffness*/) const
+    {
+    }
 
     /** Recoverable energy of this rank's share [J], after add_forces(). */
     virtual double stored_energy(const State<dim> &) const
@@ -62,8 +125,7 @@ namespace quoin
       return 0.;
     }
 
-    /** Rate [W] at which it does work from outside on nodes that move with
-        @p velocity. */
+    /** Power [W] of external work on nodes that move with @p velocity. */
     virtual double external_power(const TimePoint &,
                                   const NodeVector<dim> * /*velocity*/) const
     {

@@ -4,6 +4,7 @@
 #ifndef quoin_operators_state_h
 #define quoin_operators_state_h
 
+#include <quoin/base/archive_members.h>
 #include <quoin/base/node_vector.h>
 #include <quoin/operators/energy_accounts.h>
 #include <quoin/operators/state_slices.h>
@@ -18,17 +19,17 @@ namespace quoin
     constexpr std::uint8_t present  = 0;
     constexpr std::uint8_t left_box = 1; /**< present, outside the box */
     constexpr std::uint8_t removed  = 2; /**< deleted outside the box */
-    constexpr std::uint8_t absent   = 3; /**< excavated, or not placed yet */
+    constexpr std::uint8_t absent   = 3; /**< excavated, or not filled yet */
   }                                      // namespace block_mark
 
   /**
    * All that changes in time. Everything else is constant once prepared, so a
    * checkpoint is this and the parameters.
    *
-   * What is here every solver knows: time, the motion of the nodes, which
-   * blocks are there, and the energy accounts. What operators keep besides,
-   * such as the internal variables of joints, are slices that the operators
-   * add and that only they understand: see StateSlices.
+   * Members are what every solver needs: time, the motion of the nodes, which
+   * blocks are present, and the energy accounts. Other data of operators, such
+   * as the internal variables of joints, are slices that the operators add: see
+   * StateSlices.
    *
    * Nodes have the local numbers of a NodeMap.
    */
@@ -42,32 +43,51 @@ namespace quoin
     std::uint64_t stage_step = 0;  /**< steps done in this stage */
     double load_time         = 0.; /**< in the stage, by the loads' clock [s] */
     double load_rate         = 1.; /**< of that clock [-] */
-    double load_rate_growth  = 1.; /**< a step [-] */
+    double load_rate_growth  = 1.; /**< factor by step [-] */
 
     AlignedArray<NodeRecord<dim>> nodes;
     AlignedArray<NodeVector<dim>> velocity; /**< at time - dt/2 */
-    /** Of all blocks of the mesh, block_mark; empty: all are present. */
+    /** block_mark of each block of the mesh; empty: all are present. */
     AlignedArray<std::uint8_t> block_marks;
     double adaptive_damping   = 0.; /**< [1/s] */
     double previous_time_step = 0.; /**< [s] */
     double unbalanced_ratio   = 1.; /**< as last measured [-] */
 
-    /** Complete at time, and what the step under way adds for time + dt/2. */
+    /** Complete at time, and the part of the step up to time + dt/2. */
     EnergyAccounts energy, pending;
 
-    /** Whether @p block of the mesh was taken away or is not placed yet. */
+    /** Whether @p block of the mesh is excavated or not filled yet. */
     bool is_absent(const unsigned int block) const
     {
       return !block_marks.empty() && block_marks[block] >= block_mark::removed;
     }
 
+    /** Lists all but the slices; see Redistribution. */
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.same(time, step, stage, stage_start, stage_step, load_time,
+                   load_rate, load_rate_growth);
+      visitor.nodes(nodes);
+      visitor.nodes(velocity);
+      visitor.same(block_marks, adaptive_damping, previous_time_step,
+                   unbalanced_ratio);
+      visitor.sums(energy, pending);
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &time &step &stage &stage_start &stage_step &load_time &load_rate
-          &load_rate_growth &nodes &velocity &block_marks &adaptive_damping
-              &previous_time_step &unbalanced_ratio &energy &pending;
+      archive_members(archive, *this);
       archive_slices(archive);
+    }
+
+    /** Copies entries of this rank from @p part, with the same slices. */
+    template <typename Moves>
+    void take(State &part, Moves &moves)
+    {
+      moves.take("", *this, part);
+      take_slices(part, moves);
     }
   };
 } // namespace quoin

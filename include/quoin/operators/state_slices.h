@@ -23,14 +23,18 @@ namespace boost
 
 namespace quoin
 {
+  class Redistribution;
+
   /**
-   * Plain structs that operators keep in a State, each under a name. A slice
-   * is declared in the room that understands it and is copied and archived
-   * with the State, which knows nothing of it.
+   * Plain structs that operators keep in a State, each under a name. A slice is
+   * declared in the module that uses it; it is copied and archived with the
+   * State.
    *
    * A struct of which a State has one carries its name as
    * @c Slice::slice_name; loads, of which there may be several, give their
-   * own. add() needs archive.h; the other members do not.
+   * own. A slice lists its members in a function visit(), which says what their
+   * entries belong to: see Redistribution. add() needs archive.h; the other
+   * members do not.
    */
   class StateSlices
   {
@@ -41,7 +45,7 @@ namespace quoin
     StateSlices &operator=(const StateSlices &other);
     StateSlices &operator=(StateSlices &&) = default;
 
-    /** The slice @p name, made anew unless it is there; see archive.h. */
+    /** The slice @p name, added unless it exists; see archive.h. */
     template <typename Slice>
     Slice &add(const std::string &name);
     template <typename Slice>
@@ -83,11 +87,17 @@ namespace quoin
       return get<Slice>(Slice::slice_name);
     }
 
+    /** Copies the slices of @p other that this one has, too. */
+    void copy_slices(const StateSlices &other);
+
   protected:
     /** Throw a boost::archive::archive_exception if the archive has other
         slices than those that were added. */
     void archive_slices(boost::archive::binary_oarchive &archive);
     void archive_slices(boost::archive::binary_iarchive &archive);
+
+    /** Copies what belongs to this rank from the same slices of @p part. */
+    void take_slices(StateSlices &part, Redistribution &moves);
 
   private:
     /** A slice of any type. */
@@ -99,6 +109,7 @@ namespace quoin
       std::shared_ptr<void> (*copy)(const void *);
       void (*save)(boost::archive::binary_oarchive &, const void *);
       void (*load)(boost::archive::binary_iarchive &, void *);
+      void (*take)(Redistribution &, const std::string &, void *, void *);
     };
 
     const void *find_data(const std::string_view name,

@@ -13,13 +13,13 @@ namespace quoin
     double total;
   };
 
-  /** The step under way, from t to t + dt. */
+  /** The current step, from t to t + dt. */
   struct StepContext
   {
     TimePoint begin, middle, end; /**< by the loads' clock */
     double load_rate;             /**< of that clock [-] */
     double dt;                    /**< from t to t + dt [s] */
-    double dt_before;             /**< of the step before; 0 at the first [s] */
+    double dt_before;             /**< previous step; 0 at the first [s] */
     double dt_velocity;           /**< from middle to middle [s] */
     double local_damping;         /**< Cundall's factor; 0: none */
     double mass_damping;          /**< alpha [1/s] */

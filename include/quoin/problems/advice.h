@@ -16,16 +16,16 @@
 
 namespace quoin
 {
-  // What is allowed but most likely a mistake: each a sentence with its cure,
-  // to be shown as a warning. All ranks get the same; functions are collective.
+  // Warnings of input that is allowed but most likely a mistake: each is a
+  // sentence with a remedy. All ranks get the same; functions are collective.
 
   using Advice = std::vector<std::string>;
 
-  /** Checks about one thing. */
+  /** Checks of one subject. */
   class Checks
   {
   public:
-    /** @p about: the begin of all sentences, such as "stage pull: ". */
+    /** @p about: the beginning of all sentences, such as "stage pull: ". */
     Checks(Advice &advice, std::string about)
       : advice(advice), about(std::move(about))
     {
@@ -44,19 +44,21 @@ namespace quoin
     const std::string about;
   };
 
-  /** About the file, the mesh and the initial @p state, whatever the stages. */
+  /** Warnings about the file, the mesh and the initial @p state. */
+  template <int dim>
   Advice model_advice(const Parameters &parameters, const MeshReport &report,
-                      const Model &model, const State<2> &state);
+                      const Model<dim> &model, const State<dim> &state);
 
   /**
-   * About stage @p index of the explicit solver, which has begun with
+   * Warnings about stage @p index of the explicit solver, which has begun with
    * @p state and takes steps of @p time_step [s].
    */
+  template <int dim>
   Advice stage_advice(const Parameters &parameters, unsigned int index,
-                      const Model &model, const State<2> &state,
+                      const Model<dim> &model, const State<dim> &state,
                       double time_step);
 
-  /** The fastest of the loads that act on blocks in stage @p index. */
+  /** The load on blocks with the highest frequency in stage @p index. */
   Shaking fastest_load(const Parameters &parameters, unsigned int index);
 } // namespace quoin
 

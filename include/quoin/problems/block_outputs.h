@@ -13,13 +13,14 @@
 namespace quoin
 {
   /** Tables and fields of a problem of blocks; members are collective. */
+  template <int dim>
   class BlockOutputs
   {
   public:
     /** @p system must outlive this object. */
-    BlockOutputs(BlockSystem &system, const RunContext &run);
+    BlockOutputs(BlockSystem<dim> &system, const RunContext &run);
 
-    /** Begins the files, or goes on with those of a checkpoint. */
+    /** Begins the files, or continues those of a checkpoint. */
     void open();
 
     /** Whether a row or fields are due at @p time [s], with steps of @p dt [s].
@@ -39,22 +40,22 @@ namespace quoin
     }
 
     /** Called before the step whose row is due. */
-    void before_row(const State<2> &state)
+    void before_row(const State<dim> &state)
     {
       histories.before_step(state);
     }
     /**
-     * Rows of histories, energies and far field for the time before the last
-     * step. Throws a RunError if the boundary elements have created energy.
+     * Writes rows of histories, energies and far field for the time before the
+     * last step. Throws a RunError if boundary elements have created energy.
      */
-    void write_row(const State<2> &state);
-    /** Rows of convergence.csv for the iterations since the last call. */
+    void write_row(const State<dim> &state);
+    /** Writes rows of convergence.csv for iterations since the last call. */
     void write_iterations();
 
-    /** Fields of the time of @p state, once. */
-    void write_fields(const State<2> &state);
-    /** The failing @p state with displacements since @p base: mechanism/. */
-    void write_mechanism(const State<2> &state, const State<2> &base,
+    /** Writes the fields of @p state, once for each time. */
+    void write_fields(const State<dim> &state);
+    /** Writes the unstable @p state, displaced since @p base: mechanism/. */
+    void write_mechanism(const State<dim> &state, const State<dim> &base,
                          double factor);
 
     /** Stops all ranks if the first one could not write a table. */
@@ -77,32 +78,40 @@ namespace quoin
     }
 
   private:
-    /** Does @p task and books its time as output. */
+    /** Runs @p task and books its time as output. */
     template <typename Task>
     void measured(const Task &task)
     {
       PhaseClock &clock = system.solver->time_spent();
       clock.measure(clock.phase("output"), task);
     }
-    void add_rows(const State<2> &state);
+    void add_rows(const State<dim> &state);
     void write_generated_geometry() const;
     void write_energies(double time);
-    void write_far_field_row(const State<2> &state);
-    void write_boundary(const State<2> &state);
+    void write_far_field_row(const State<dim> &state);
+    void write_boundary(const State<dim> &state);
 
-    BlockSystem &system;
+    BlockSystem<dim> &system;
     const RunContext &run;
-    Histories histories;
+    Histories<dim> histories;
     const TimeControl row_times, field_times;
     RootTable &history_table, &energy_table;
     RootTable *far_field_table = nullptr, *convergence_table = nullptr;
-    ModelOutput fields;
+    ModelOutput<dim> fields;
     BoundaryOutput boundary;
 
     double most_residual      = 0.;
     double largest_throughput = 0.;  /**< boundary elements' too [J] */
     double fields_time        = -1.; /**< of the last VTU files [s] */
   };
+
+  // Members that exist in two dimensions only.
+  template <>
+  void BlockOutputs<2>::write_iterations();
+  template <>
+  void BlockOutputs<2>::write_far_field_row(const State<2> &state);
+  template <>
+  void BlockOutputs<2>::write_boundary(const State<2> &state);
 } // namespace quoin
 
 #endif

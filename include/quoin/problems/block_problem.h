@@ -5,14 +5,19 @@
 #define quoin_problems_block_problem_h
 
 #include <quoin/problems/block_stage.h>
+#include <quoin/problems/state_gathering.h>
 
 namespace quoin
 {
-  /** Blocks on joints, in motion or in equilibrium. */
+  /** Jointed blocks, by the explicit or implicit solver; in three dimensions
+      blocks by the explicit one. */
+  template <int dim>
   class BlockProblem : public Problem
   {
   public:
-    BlockProblem(const Parameters &parameters, const RunContext &run);
+    /** @p mesh is on the first rank. */
+    BlockProblem(const Parameters &parameters, MeshData<dim> mesh,
+                 const RunContext &run);
 
     const std::string &fingerprint() const override;
     unsigned int n_stages() const override;
@@ -23,31 +28,39 @@ namespace quoin
     LastWords last_words(const nlohmann::json &summary) const override;
     void complete_state() override;
     void save(boost::archive::binary_oarchive &archive) override;
-    void load(boost::archive::binary_iarchive &archive) override;
+    void load(boost::archive::binary_iarchive &archive,
+              const ArchiveOrigin &origin) override;
 
   private:
     void report_model() override;
     void report_costs() override;
-    /** The time step of each stage, or its unknowns, and warnings; finds what
-        is wrong with stages. */
+    /** Reports the time step of each stage, or its number of degrees of
+        freedom, and warnings; throws an InputError about wrong stages. */
     void report_stages();
-    /** Warns of what is likely a mistake, once stage @p index has begun with
-        the state @p begun. */
-    void advise_about_stage(unsigned int index, const State<2> &begun) const;
+    /** Warns of likely mistakes, once stage @p index has begun with the state
+        @p begun. */
+    void advise_about_stage(unsigned int index, const State<dim> &begun) const;
     void summarise_searches(nlohmann::json &summary) const;
-    /** Of each phase its share of the time. Collective. */
+    /** Adds the share of each phase in the time. Collective. */
     void summarise_time(nlohmann::json &summary, double seconds) const;
     void summarise_contacts(nlohmann::json &summary, double seconds) const;
     void summarise_bandwidth(nlohmann::json &summary, double seconds) const;
 
-    /** Archives all that a resumed run needs. */
+    /** Archives what a resumed run needs, @p archived in place of state. */
     template <typename Archive>
-    void archive_all(Archive &archive);
+    void archive_all(Archive &archive, State<dim> &archived);
 
-    BlockContext context;
-    BlockSystem &system;
-    State<2> &state;
+    BlockContext<dim> context;
+    BlockSystem<dim> &system;
+    State<dim> &state;
+    /** Used while archives of another number of ranks are read. */
+    std::unique_ptr<StateGathering<dim>> gathering;
   };
+
+  // Members that exist in two dimensions only.
+  template <>
+  void BlockProblem<2>::summarise_contacts(nlohmann::json &summary,
+                                           double seconds) const;
 } // namespace quoin
 
 #endif

@@ -13,16 +13,19 @@
 
 namespace quoin
 {
-  /** What the stages of a problem of blocks work on. */
+  /** Data of the stages of a problem of blocks. */
+  template <int dim>
   struct BlockContext
   {
-    BlockContext(const Parameters &parameters, const RunContext &run);
+    /** @p mesh is on the first rank. */
+    BlockContext(const Parameters &parameters, MeshData<dim> mesh,
+                 const RunContext &run);
 
     const RunContext &run;
-    BlockSystem system;
-    StageSteps steps;
-    BlockOutputs outputs;
-    State<2> state;
+    BlockSystem<dim> system;
+    StageSteps<dim> steps;
+    BlockOutputs<dim> outputs;
+    State<dim> state;
     std::vector<FactorSearch> searches; /**< of each stage, most unused */
     std::uint64_t n_done     = 0;       /**< steps of this process */
     std::uint64_t iterations = 0;       /**< of the implicit solver */
@@ -32,57 +35,59 @@ namespace quoin
     double energy_residual() const;
   };
 
-  /** What all stages of a problem of blocks have in common. */
+  /** Base of all stages of a problem of blocks. */
+  template <int dim>
   class BlockStage : public Stage
   {
   public:
     /** Stage @p index of the parameters. */
-    BlockStage(BlockContext &context, unsigned int index);
+    BlockStage(BlockContext<dim> &context, unsigned int index);
 
     void end() override;
 
   protected:
-    /** What a kind of stage has to do at its end. */
+    /** Tasks of a kind of stage at its end. */
     virtual void finish()
     {
     }
-    /** For the progress; @p fraction of the stage that is done, or -1. */
+    /** Progress, with the completed @p fraction of the stage, or -1. */
     ProgressFigures figures_at(double fraction) const;
-    /** Share of the loads of an implicit stage that is reached [-]. */
+    /** Share of the loads of an implicit stage that has been reached [-]. */
     double load_share() const;
     /**
-     * Whether a static stage is over: the unbalanced ratio, which was found in
-     * this step, is small and its loads rest.
+     * Whether a static stage has ended: the unbalanced ratio, computed in this
+     * step, is small and its loads are constant.
      */
     bool has_settled() const;
 
-    BlockContext &context;
-    BlockSystem &system;
-    BlockOutputs &outputs;
+    BlockContext<dim> &context;
+    BlockSystem<dim> &system;
+    BlockOutputs<dim> &outputs;
     Log &log;
     const unsigned int index;
     const StageParameters &stage;
-    State<2> &state;
+    State<dim> &state;
 
   private:
     void warn_of_slip() const;
   };
 
-  /** A stage of the explicit solver that ends by time or has settled. */
-  std::unique_ptr<Stage> make_explicit_stage(BlockContext &context,
+  /** A stage of the explicit solver that ends by time or at rest. */
+  template <int dim>
+  std::unique_ptr<Stage> make_explicit_stage(BlockContext<dim> &context,
                                              unsigned int index);
 
   /** A stage of the implicit solver, from equilibrium to equilibrium. Throws a
       FailedStep if there is none. */
-  std::unique_ptr<Stage> make_implicit_stage(BlockContext &context,
+  std::unique_ptr<Stage> make_implicit_stage(BlockContext<2> &context,
                                              unsigned int index);
 
   /**
    * A stage that finds the factor of safety: a step is the trial of a factor,
-   * by which strengths are divided. Every trial begins with the state that the
-   * stage found, and so does the stage after it.
+   * by which strengths are divided. Every trial begins with the state at the
+   * start of the stage, and so does the next stage.
    */
-  std::unique_ptr<Stage> make_safety_stage(BlockContext &context,
+  std::unique_ptr<Stage> make_safety_stage(BlockContext<2> &context,
                                            unsigned int index);
 } // namespace quoin
 

@@ -19,37 +19,36 @@
 
 namespace quoin
 {
-  /**
-   * Mesh, model, stages of construction and solver of a problem of blocks, as
-   * the parameters say.
-   */
+  /** Mesh, model, staged construction and solver of a problem of blocks. */
+  template <int dim>
   class BlockSystem
   {
   public:
     /**
-     * @p parameters must outlive this object. Collective. Throws an InputError
-     * that begins with the file.
+     * @p parameters must outlive this object; @p as_read is the mesh on the
+     * first rank. Collective. Throws an InputError that begins with the file.
      */
-    BlockSystem(const Parameters &parameters, MPI_Comm communicator);
+    BlockSystem(const Parameters &parameters, MeshData<dim> as_read,
+                MPI_Comm communicator);
 
-    /** At the begin of the run, with the initial motion; collective. */
-    State<2> initial_state() const;
+    /** State at the start of the run, with initial motion; collective. */
+    State<dim> initial_state() const;
 
     /**
-     * Model and solver begin stage @p index with @p state; loads are not to
-     * begin with a jump, as far as its time is known, @p time_is_known.
-     * Throws an InputError, or a RunError once steps have been taken.
+     * Model and solver begin stage @p index with @p state. If @p time_is_known,
+     * its start time, loads must not begin with a jump. Throws an InputError,
+     * or a RunError once steps have been taken.
      */
-    void begin_stage(unsigned int index, State<2> &state,
+    void begin_stage(unsigned int index, State<dim> &state,
                      bool time_is_known = true);
-    /** Model and solver go on within stage @p index. */
-    void resume_stage(unsigned int index, State<2> &state);
-    /** Model and solver are left as after stage @p index - 1. */
-    void restore(unsigned int index, const State<2> &state);
+    /** Model and solver continue within stage @p index. */
+    void resume_stage(unsigned int index, State<dim> &state);
+    /** Restores model and solver as after stage @p index - 1. */
+    void restore(unsigned int index, const State<dim> &state);
 
     /** Properties of blocks, joints and general contacts. */
     void set_properties(const ModelProperties &properties,
-                        const State<2> &state);
+                        const State<dim> &state);
 
     /** Number of rigid blocks in the whole model. */
     unsigned int n_rigid_blocks() const;
@@ -58,30 +57,41 @@ namespace quoin
     const MPI_Comm communicator;
     std::string fingerprint; /**< see run_fingerprint() */
     MeshReport mesh_report;
-    std::unique_ptr<BlockTriangulation<2>> blocks;
-    std::unique_ptr<NodeMap<2>> nodes;
+    std::unique_ptr<BlockTriangulation<dim>> blocks;
+    std::unique_ptr<NodeMap<dim>> nodes;
     BoundaryGeometry boundary_geometry;
-    std::unique_ptr<Model> model;
-    std::unique_ptr<Construction> construction;
-    std::unique_ptr<Solver> solver;
-    ExplicitSolver *explicit_solver = nullptr; /**< the solver, or null */
-    ImplicitSolver *implicit_solver = nullptr; /**< the solver, or null */
+    std::unique_ptr<Model<dim>> model;
+    std::unique_ptr<Construction> construction; /**< in two dimensions */
+    std::unique_ptr<Solver<dim>> solver;
+    ExplicitSolver<dim> *explicit_solver = nullptr; /**< the solver, or null */
+    ImplicitSolver *implicit_solver      = nullptr; /**< the solver, or null */
 
   private:
     /** Splits and distributes the mesh of the first rank. */
-    void make_mesh(MeshData as_read);
-    void make_solver(const MeshData &curves);
+    void make_mesh(MeshData<dim> as_read);
+    void make_solver(const MeshData<2> &curves);
     /**
      * The boundary elements beyond the blocks, along @p curves of the mesh as
      * read; fills the geometry. Null if no load is of that type. Throws an
      * InputError that begins with the section.
      */
-    std::unique_ptr<FarField> make_far_field(const MeshData &curves);
-    /** The same at rest, of the domain of @p far; null if that is null or no
-        static stage names its load. */
+    std::unique_ptr<FarField> make_far_field(const MeshData<2> &curves);
+    /** The static boundary elements of the domain of @p far; null if that is
+        null or no static stage names its load. */
     std::unique_ptr<StaticFarField>
     make_static_far_field(const FarField *far) const;
   };
+
+  // Members that exist in two dimensions only.
+  template <>
+  void BlockSystem<2>::set_properties(const ModelProperties &properties,
+                                      const State<2> &state);
+  template <>
+  std::unique_ptr<FarField>
+  BlockSystem<2>::make_far_field(const MeshData<2> &curves);
+  template <>
+  std::unique_ptr<StaticFarField>
+  BlockSystem<2>::make_static_far_field(const FarField *far) const;
 } // namespace quoin
 
 #endif

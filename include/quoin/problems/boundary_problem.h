@@ -9,8 +9,8 @@
 namespace quoin
 {
   /**
-   * Boundary elements alone. The first stage marches in time, or writes the
-   * static solution. What happens in the domain is computed in a second one.
+   * Boundary elements alone. The first stage is the time marching, or writes
+   * the static solution. Results in the domain are computed in a second one.
    */
   class BoundaryProblem : public Problem
   {
@@ -25,7 +25,8 @@ namespace quoin
     LastWords last_words(const nlohmann::json &summary) const override;
     void complete_state() override;
     void save(boost::archive::binary_oarchive &archive) override;
-    void load(boost::archive::binary_iarchive &archive) override;
+    void load(boost::archive::binary_iarchive &archive,
+              const ArchiveOrigin &origin) override;
 
   private:
     void report_model() override;
@@ -36,7 +37,7 @@ namespace quoin
     const BoundaryElementParameters &settings;
     BoundaryContext context;
     BoundarySystem &system;
-    double solution_seconds = 0.; /**< that the static solution took */
+    double solution_seconds = 0.; /**< time of the static solution [s] */
   };
 } // namespace quoin
 

@@ -22,12 +22,12 @@ namespace quoin
     std::function<bool(std::uint64_t)> row_is_due, fields_are_due;
   };
 
-  /** What the stages of a problem of boundary elements alone work on. */
+  /** Data of the stages of a problem of boundary elements alone. */
   struct BoundaryContext
   {
     BoundaryContext(const Parameters &parameters, const RunContext &run);
 
-    /** Fields at @p time [s], on the boundary. */
+    /** Writes the fields on the boundary at @p time [s]. */
     void write_boundary(double time, const BoundaryState &fields);
 
     const RunContext &run;
@@ -37,16 +37,17 @@ namespace quoin
     RootTable &history_table;
     BoundaryOutput boundary_output;
 
-    /** What a checkpoint holds. */
+    /** State in a checkpoint. */
     struct State
     {
-      std::uint64_t step = 0;      /**< steps taken */
-      std::vector<double> history; /**< what BoundaryHistory::save() gives */
-      std::vector<double> u, p;    /**< scattered, of the last step */
-      std::vector<double> all_u;   /**< of all steps, one unknown after the */
-      std::vector<double> all_p;   /**< other, if the domain is asked for */
-      std::vector<double> rows;    /**< of histories.csv that still lack */
-                                   /**< what happens in the domain */
+      std::uint64_t step = 0;    /**< steps taken */
+      SavedHistory history;      /**< result of BoundaryHistory::save() */
+      std::vector<double> u, p;  /**< scattered, of the last step */
+      std::vector<double> all_u; /**< of all steps, one unknown after the */
+      std::vector<double>
+          all_p; /**< other, if results in the domain are needed */
+      std::vector<double> rows; /**< of histories.csv that still lack */
+                                /**< what happens in the domain */
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
@@ -55,7 +56,7 @@ namespace quoin
       }
     } state;
 
-    std::unique_ptr<TimeMarching> march;    /**< while it is under way */
+    std::unique_ptr<TimeMarching> march;    /**< during the time marching */
     std::optional<StaticSolution> solution; /**< of statics */
     std::uint64_t n_done = 0;               /**< steps of this process */
     double march_seconds = 0.;              /**< of these steps */
@@ -63,7 +64,7 @@ namespace quoin
 
   // Members of the stages are collective.
 
-  /** Marches in time. All ranks march alike and share the history. */
+  /** Time marching, the same on all ranks, which share the history. */
   std::unique_ptr<Stage> make_marching_stage(BoundaryContext &context);
 
   /** Writes the static solution. */
@@ -71,8 +72,8 @@ namespace quoin
 
   /**
    * Computes histories and the sampled field in the domain, which follow from
-   * the record of all steps on the boundary, some points at a time. Ranks
-   * share the points.
+   * the record of all steps on the boundary, some points at a time. Points are
+   * distributed over ranks.
    */
   std::unique_ptr<Stage> make_domain_stage(BoundaryContext &context);
 

@@ -25,9 +25,9 @@
 namespace quoin
 {
   /**
-   * Boundary, medium, what is given and the operators of a problem of boundary
+   * Boundary, medium, boundary values and operators of a problem of boundary
    * elements alone. The equations are solved for the scattered field, that is,
-   * the total one without the incident waves; given values and results are
+   * the total one without the incident waves; boundary values and results are
    * those of the total field.
    */
   class BoundarySystem
@@ -39,21 +39,21 @@ namespace quoin
      */
     BoundarySystem(const Parameters &parameters, MPI_Comm communicator);
 
-    /** Influence matrices and history of the time marching; collective. */
+    /** Makes influence matrices and history of time marching; collective. */
     void make_operators(Log &log);
 
-    /** What is given in a step, without what incident waves have of it. */
+    /** Boundary values of a step less those of the incident waves. */
     Eigen::VectorXd scattered_values(double begin, double end,
                                      const Eigen::VectorXd &u_incident,
                                      const Eigen::VectorXd &p_incident);
     StaticSolution solve_static();
 
-    /** Of histories and the sampled field. */
+    /** Points of histories and of the sampled field in the domain [m]. */
     std::vector<Eigen::Vector2d> points_in_domain() const;
     /** Whether results in the domain need the record of the boundary. */
     bool needs_record() const;
-    /** Of points in the domain at the ends of some steps, total field [m];
-        collective. */
+    /** Total displacements of points in the domain at the ends of some steps
+        [m]; collective. */
     Eigen::MatrixXd
     domain_displacements(const BoundaryRecord &all,
                          const std::vector<Eigen::Vector2d> &points,

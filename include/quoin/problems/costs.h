@@ -13,17 +13,19 @@
 
 namespace quoin
 {
-  // What a run takes, by measurements of about half a second, for --check;
+  // Cost of a run, by measurements of about half a second, for --check;
   // collective.
 
-  /** Says what time, memory and disk a run of blocks takes. */
-  void report_block_costs(BlockContext &context);
+  /** Reports time, memory and disk space of a run of blocks. */
+  template <int dim>
+  void report_block_costs(BlockContext<dim> &context);
 
-  /** The same of boundary elements alone; spoils the history of @p system. */
+  /** Reports those of boundary elements alone; spoils the history of @p system.
+   */
   void report_boundary_costs(BoundarySystem &system, const StepControl &control,
                              const RunContext &run);
 
-  /** What a run writes, as far as its stages end by time. */
+  /** Output of a run, as far as its stages end by time. */
   struct PlannedOutput
   {
     std::uint64_t fields = 0;     /**< output times of fields */
@@ -36,9 +38,9 @@ namespace quoin
                                const std::vector<double> &time_steps);
 
   /**
-   * Says the memory that all ranks have taken, with @p more to come, and the
-   * disk that @p planned takes, with @p bytes_of_fields for each output time
-   * [B] and @p n_columns numbers in the rows of all tables.
+   * Reports the memory of all ranks, followed by @p more, and the disk space of
+   * @p planned, with @p bytes_of_fields for each output time [B] and
+   * @p n_columns numbers in the rows of all tables.
    */
   void report_memory_and_disk(const RunContext &run, const std::string &more,
                               const PlannedOutput &planned,

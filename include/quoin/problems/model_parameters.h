@@ -14,19 +14,19 @@ namespace quoin
   /** Declares section 'Mesh'. */
   void declare_mesh(dealii::ParameterHandler &prm);
 
-  /** Sections 'Mesh', 'Wall' and 'Rock': a file, or the geometry of a wall or
-      of rock, and where the joints are. */
+  /** Reads sections 'Mesh', 'Wall' and 'Rock': a file, or the geometry of a
+      wall or of rock, and the places of joints. */
   void read_mesh(const ParameterSection &top, Parameters &parameters);
 
   /**
-   * The sections of a model of blocks, which @p parameters takes up beside
-   * mesh, materials and histories that it has already: joints, contact,
-   * loads, far field, initial motion, stages, implicit solver. Checks also
-   * whether values of several sections go together.
+   * Reads the sections of a model of blocks into @p parameters, which has mesh,
+   * materials and histories already: joints, contact, loads, far field, initial
+   * motion, stages, implicit solver. Also checks values of several sections
+   * against each other.
    */
   void read_block_model(const ParameterSection &top, Parameters &parameters);
 
-  /** The same of a domain with boundary elements alone. */
+  /** Reads the sections of a domain of boundary elements alone. */
   void read_boundary_model(const ParameterSection &top, Parameters &parameters);
 } // namespace quoin
 

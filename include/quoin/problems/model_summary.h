@@ -14,22 +14,24 @@
 namespace quoin
 {
   // Materials, joints and loads of a model of blocks, a line each, for
-  // --check. All ranks get the same lines; what asks for nodes is collective.
+  // --check. All ranks get the same lines; those about nodes are collective.
 
   /**
    * @p material_of_group: index into the materials of the parameters, as
    * ModelProperties has it.
    */
+  template <int dim>
   std::vector<std::string>
-  material_lines(const Parameters &parameters, const NodeMap<2> &nodes,
+  material_lines(const Parameters &parameters, const NodeMap<dim> &nodes,
                  const std::vector<unsigned int> &material_of_group);
 
   /** Names of the curves in @p report are those of the mesh. */
   std::vector<std::string> joint_lines(const Parameters &parameters,
                                        const MeshReport &report);
 
+  template <int dim>
   std::vector<std::string> load_lines(const Parameters &parameters,
-                                      const NodeMap<2> &nodes);
+                                      const NodeMap<dim> &nodes);
 } // namespace quoin
 
 #endif

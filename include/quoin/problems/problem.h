@@ -6,6 +6,7 @@
 
 #include <quoin/mesh/mesh_data.h>
 #include <quoin/problems/parameters.h>
+#include <quoin/results/checkpoint.h>
 #include <quoin/results/log.h>
 #include <quoin/results/progress.h>
 #include <quoin/results/table_set.h>
@@ -20,7 +21,7 @@
 
 namespace quoin
 {
-  /** What the command line adds to the parameter file. */
+  /** Options of the command line. */
   struct RunOptions
   {
     bool resume = false;
@@ -28,7 +29,7 @@ namespace quoin
     bool quiet  = false;
   };
 
-  /** What a run lends to its problem. */
+  /** Resources of a run for its problem. */
   struct RunContext
   {
     const RunOptions options;
@@ -53,8 +54,8 @@ namespace quoin
   };
 
   /**
-   * A step has failed and the state is that before it, which is worth a
-   * checkpoint: Stage::take_step() has written what there is to see.
+   * A step has failed and the state is that before it, fit for a checkpoint;
+   * Stage::take_step() has written its outputs.
    */
   class FailedStep : public RunError
   {
@@ -62,7 +63,7 @@ namespace quoin
     using RunError::RunError;
   };
 
-  /** A stage of a problem, in steps. Members are collective. */
+  /** A stage of a problem, which consists of steps. Members are collective. */
   class Stage
   {
   public:
@@ -70,7 +71,7 @@ namespace quoin
 
     /** Begins the stage. */
     virtual void begin() = 0;
-    /** Goes on within the stage with the state that was loaded. */
+    /** Continues within the stage with the state that was loaded. */
     virtual void resume()        = 0;
     virtual bool is_over() const = 0;
 
@@ -78,21 +79,21 @@ namespace quoin
     enum class Checkpoint
     {
       no,
-      possible, /**< if its time has come */
+      possible, /**< if it is due */
       wanted
     };
-    /** The next step, with the rows and fields that are due. */
+    /** Takes the next step and writes the rows and fields that are due. */
     virtual Checkpoint take_step() = 0;
 
-    /** Time, steps and how far the stage is. */
+    /** Time, steps and completed share of the stage. */
     virtual ProgressFigures figures() const = 0;
-    /** Called once the stage is over. */
+    /** Called when the stage has ended. */
     virtual void end() = 0;
   };
 
   /**
-   * What is computed, in stages of steps: all that a run knows of it. Problems
-   * are constructed from parameters and a RunContext, to whose tables they add
+   * A problem, solved in stages of steps: the interface to Run. Problems are
+   * constructed from parameters and a RunContext, to whose tables they add
    * theirs, and throw InputErrors that name the parameter file. Members are
    * collective.
    */
@@ -107,26 +108,25 @@ namespace quoin
     virtual ~Problem() = default;
 
     /**
-     * Says what the model is and warns of what is likely a mistake; with
-     * RunOptions::check also what the run costs.
+     * Reports the model and warns of likely mistakes; with RunOptions::check
+     * also reports the cost of the run.
      */
     void report();
 
     virtual unsigned int n_stages() const                         = 0;
     virtual std::unique_ptr<Stage> make_stage(unsigned int index) = 0;
-    /** Model and solver become those before stage @p index, after load(). */
+    /** After load(), restores model and solver as before stage @p index. */
     virtual void restore(unsigned int /*index*/)
     {
     }
 
-    /** Begins the files beside the tables, or goes on with them after load().
-     */
+    /** Begins the files beside the tables, or continues them after load(). */
     virtual void open_outputs() = 0;
     /** Adds figures to summary.json; @p seconds that this process has computed.
      */
     virtual void summarise(nlohmann::json &summary, double seconds) const = 0;
-    /** The last words of a run with this summary: "3 steps", and what follows
-        the time that it took. */
+    /** Last line of the log from this summary: "3 steps", and the text after
+        the run time. */
     struct LastWords
     {
       std::string what, figures;
@@ -136,16 +136,19 @@ namespace quoin
     /** Called before save(): checks and completes the state. */
     virtual void complete_state()                        = 0;
     virtual void save(boost::archive::binary_oarchive &) = 0;
-    virtual void load(boost::archive::binary_iarchive &) = 0;
+    /** Called for the archive of this rank or, if the run had another number of
+        ranks, for those of all, see load_checkpoint_archives(). */
+    virtual void load(boost::archive::binary_iarchive &, const ArchiveOrigin &)
+        = 0;
 
-    /** Fingerprint of what a resumed run must have in common with the one
-        before; see run_fingerprint(). */
+    /** Fingerprint of the input that a resumed run must share with the
+        interrupted one; see run_fingerprint(). */
     virtual const std::string &fingerprint() const = 0;
 
   protected:
     virtual void report_model() = 0;
-    /** Says what time, memory and disk the run takes; measures for half a
-        second and spoils the model. */
+    /** Reports time, memory and disk space of the run; measures for half a
+        second and leaves the model changed. */
     virtual void report_costs() = 0;
 
     const Parameters &parameters;
@@ -156,8 +159,8 @@ namespace quoin
   std::unique_ptr<Problem> make_problem(const Parameters &parameters,
                                         const RunContext &run);
 
-  /** Gives what @p task gives and puts the name of the parameter file before
-      its InputErrors. */
+  /** Returns the result of @p task and puts the name of the parameter file
+      before its InputErrors. */
   template <typename Task>
   auto naming(const std::string &file, const Task &task)
   {
@@ -175,8 +178,9 @@ namespace quoin
    * fingerprint() of all parameters, of the mesh as it was read or generated,
    * and of the files of tables and records.
    */
+  template <int dim>
   std::string run_fingerprint(const Parameters &parameters,
-                              const MeshData &mesh);
+                              const MeshData<dim> &mesh);
 } // namespace quoin
 
 #endif

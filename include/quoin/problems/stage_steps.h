@@ -15,18 +15,18 @@ namespace quoin
 {
   /**
    * Chooses the time step of a stage of the explicit solver, that of the
-   * boundary elements beyond the blocks with it, and how many steps the stage
-   * takes.
+   * boundary elements beyond the blocks, and the number of steps.
    */
+  template <int dim>
   class StageSteps
   {
   public:
-    StageSteps(BlockSystem &system, Log &log);
+    StageSteps(BlockSystem<dim> &system, Log &log);
 
     /**
-     * Of a stage that has begun. Boundary elements prepare their operators at
-     * the first one in which they act; collective. Throws an InputError about
-     * steps that are too long or too many.
+     * Chooses for a @p stage that has begun. Boundary elements prepare their
+     * operators in the first one in which they act; collective. Throws an
+     * InputError about steps that are too long or too many.
      */
     void choose(const StageParameters &stage);
 
@@ -39,18 +39,27 @@ namespace quoin
   private:
     /**
      * Makes a step of the boundary elements a whole number of block steps not
-     * longer than @p dt; returns these.
+     * longer than @p dt; returns the block step [s].
      */
     double choose_far_field_step(const StageParameters &stage, double dt);
     void make_waves(double step);
     void report_far_field();
 
-    BlockSystem &system;
+    BlockSystem<dim> &system;
     const Parameters &parameters;
     Log &log;
     std::unique_ptr<IncidentWaves> waves;
     std::uint64_t steps_of_stage = 0;
   };
+
+  // Members that exist in two dimensions only.
+  template <>
+  double StageSteps<2>::choose_far_field_step(const StageParameters &stage,
+                                              double dt);
+  template <>
+  void StageSteps<2>::make_waves(double step);
+  template <>
+  void StageSteps<2>::report_far_field();
 } // namespace quoin
 
 #endif

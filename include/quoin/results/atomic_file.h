@@ -22,13 +22,13 @@ namespace quoin
   /** Makes a directory and its parents. @throws RunError */
   void make_directory(const std::string &path);
 
-  /** Asks the system to have a directory's entries on the disk. */
+  /** Synchronises a directory's entries with the disk. */
   void sync_directory(const std::string &path);
 
   /**
    * A stream buffer over a file descriptor. Unlike std::filebuf it keeps the
-   * system's reason for a failure, can bring the data to the disk, and counts
-   * and checks (CRC-32) what passes.
+   * system's reason for a failure, can synchronise with the disk, and counts
+   * and checks (CRC-32) the bytes.
    */
   class FileBuffer : public std::streambuf
   {
@@ -39,7 +39,7 @@ namespace quoin
     FileBuffer(const FileBuffer &)            = delete;
     FileBuffer &operator=(const FileBuffer &) = delete;
 
-    /** errno of the first failure, 0 if all went well. */
+    /** errno of the first failure, 0: none. */
     int error() const
     {
       return first_error;
@@ -53,7 +53,7 @@ namespace quoin
     {
       return crc;
     }
-    /** Flushes, brings the data to the disk if asked, and closes. */
+    /** Flushes, synchronises with the disk if @p to_disk, and closes. */
     bool close(const bool to_disk);
     /** Flushes and waits until the data are on the disk. */
     bool sync_to_disk();
@@ -96,8 +96,8 @@ namespace quoin
     }
 
     /**
-     * Puts the file in its place, on request only when its data are on the
-     * disk. @throws RunError if anything of it could not be written
+     * Renames the file to its name, if @p to_disk only when its data are on the
+     * disk. @throws RunError if any of it could not be written
      */
     void commit(const bool to_disk = false);
 

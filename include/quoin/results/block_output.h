@@ -13,18 +13,23 @@
 namespace quoin
 {
   /**
-   * The blocks of this rank at one moment, numbered locally: one entry for
-   * each vertex or for each cell. Stress and strain are those in the fixed
-   * axes x and y; tension is positive.
+   * The blocks of this rank at an output time, numbered locally: one entry for
+   * each vertex or for each cell. Stress and strain are in the fixed axes;
+   * tension is positive.
    */
+  template <int dim>
   struct BlockFields
   {
-    std::vector<std::array<double, 2>> position;     /**< reference [m] */
-    std::vector<std::array<double, 2>> displacement; /**< [m] */
-    std::vector<std::array<double, 2>> velocity;     /**< [m/s] */
-    std::vector<std::array<std::int32_t, 3>> cells;  /**< vertices */
-    std::vector<std::array<double, 4>> stress;       /**< xx, yy, xy, zz [Pa] */
-    std::vector<std::array<double, 3>> strain; /**< xx, yy, xy (tensor) [-] */
+    using Vector = std::array<double, dim>;
+
+    std::vector<Vector> position;                         /**< reference [m] */
+    std::vector<Vector> displacement;                     /**< [m] */
+    std::vector<Vector> velocity;                         /**< [m/s] */
+    std::vector<std::array<std::int32_t, dim + 1>> cells; /**< vertices */
+    /** xx, yy, xy, zz or xx, yy, zz, xy, xz, yz [Pa] */
+    std::vector<std::array<double, dim == 2 ? 4 : 6>> stress;
+    /** xx, yy, xy or xx, yy, zz, xy, xz, yz (tensor) [-] */
+    std::vector<std::array<double, dim == 2 ? 3 : 6>> strain;
     /** Bits: 1 shear now, 2 tension now, 4 shear past, 8 tension past. */
     std::vector<std::int32_t> yielding; /**< empty if no cell can yield */
     std::vector<double> plastic_shear;  /**< accumulated [-]; or empty */
@@ -32,17 +37,20 @@ namespace quoin
     std::vector<std::int32_t> material;
   };
 
-  /** Principal stresses in the plane and the unit direction of each. */
+  /** Principal stresses and the unit direction of each. */
+  template <int dim>
   struct PrincipalStress
   {
-    double s1; /**< the larger (more tensile) one [Pa] */
-    double s2; /**< the smaller one [Pa] */
-    std::array<double, 2> direction1;
-    std::array<double, 2> direction2; /**< direction1 turned left by 90 deg */
+    std::array<double, dim> value; /**< descending: tension first [Pa] */
+    /** In the plane the second is the first rotated by 90 degrees,
+        anticlockwise. */
+    std::array<std::array<double, dim>, dim> direction;
   };
 
-  PrincipalStress principal_stress(const double xx, const double yy,
-                                   const double xy);
+  /** Principal stresses in the plane, of the stress xx, yy, xy, zz. */
+  PrincipalStress<2> principal_stress(const std::array<double, 4> &stress);
+  /** Principal stresses of the stress xx, yy, zz, xy, xz, yz. */
+  PrincipalStress<3> principal_stress(const std::array<double, 6> &stress);
 
   /**
    * The series blocks.pvd: the blocks in their reference position with the
@@ -56,7 +64,8 @@ namespace quoin
                 const MPI_Comm communicator);
 
     /** Collective. Writes the fields of the time @p time [s]. */
-    void write(const double time, const BlockFields &fields);
+    template <int dim>
+    void write(const double time, const BlockFields<dim> &fields);
   };
 } // namespace quoin
 

@@ -13,7 +13,7 @@
 
 namespace quoin
 {
-  /** The total field on a boundary at one moment, two entries per element. */
+  /** The total field on a boundary at one time, two entries per element. */
   struct BoundaryState
   {
     Eigen::VectorXd displacement; /**< [m] */
@@ -29,8 +29,8 @@ namespace quoin
     /**
      * Throws an InputError that begins with the section if a point of the
      * domain is not in it, or nearer to the boundary than a quarter of an
-     * element, or if a point of the boundary is far from it.
-     * @p thickness: that forces are for [m].
+     * element, or if a point of the boundary is far from it. @p thickness: of
+     * the slice that forces refer to [m].
      */
     BoundaryHistories(const std::vector<HistoryParameters> &parameters,
                       const BoundaryGeometry &geometry,
@@ -40,16 +40,16 @@ namespace quoin
     /** "time [s]" and "name [unit]" of each column. */
     std::vector<std::string> column_names() const;
 
-    /** The points in the domain, of which set_interior() has to know. */
+    /** The points in the domain, for set_interior(). */
     const std::vector<Eigen::Vector2d> &interior_points() const
     {
       return points;
     }
 
-    /** A row; quantities in the domain are left zero. */
+    /** A row of the table; quantities in the domain are left zero. */
     std::vector<double> row(double time, const BoundaryState &state) const;
 
-    /** Sets them: displacements and velocities, two entries a point. */
+    /** Sets quantities in the domain; vectors have two entries per point. */
     void set_interior(std::vector<double> &row,
                       const Eigen::VectorXd &displacement,
                       const Eigen::VectorXd &velocity) const;

@@ -12,7 +12,7 @@
 
 namespace quoin
 {
-  /** Boundary elements at one moment, an entry each. */
+  /** Boundary elements at an output time, one entry each. */
   struct BoundaryFields
   {
     std::vector<std::array<double, 2>> a, b;         /**< ends [m] */
@@ -20,7 +20,7 @@ namespace quoin
     std::vector<std::array<double, 2>> velocity;     /**< [m/s] */
     std::vector<std::array<double, 2>> traction;     /**< [Pa] */
     std::vector<double> hoop_stress;                 /**< [Pa] */
-    std::vector<std::int32_t> boundary;              /**< number */
+    std::vector<std::int32_t> boundary; /**< number of the boundary */
   };
 
   /** The series boundary.pvd: a line for each boundary element. */
@@ -34,7 +34,7 @@ namespace quoin
     void write(const double time, const BoundaryFields &fields);
   };
 
-  /** Points in the domain at one moment, with triangles between them. */
+  /** Points in the domain at an output time, with triangles between them. */
   struct SampledFields
   {
     std::vector<std::array<double, 2>> position; /**< [m] */

@@ -12,12 +12,12 @@
 
 namespace quoin
 {
-  /** Says when the next checkpoint is due. */
+  /** Tells when the next checkpoint is due. */
   class CheckpointClock
   {
   public:
-    /** Of short steps, those between looks at the clock: these are collective,
-        and the more ranks the more they cost. */
+    /** Short steps between readings of the clock, which are collective and cost
+        more with more ranks. */
     static constexpr std::uint64_t steps_between_looks = 16;
 
     /** @p interval: from one checkpoint to the next [s]; 0: none is due. */
@@ -26,7 +26,7 @@ namespace quoin
     {
     }
 
-    /** The interval begins now. */
+    /** Begins a new interval. */
     void restart()
     {
       last = WallClock::now();

@@ -15,21 +15,21 @@ namespace quoin
 {
   /**
    * Collective: the message of the lowest rank that has one, on all ranks;
-   * empty if none has. A failure of one rank must be everybody's, or the
-   * others wait for it forever.
+   * empty if none has. A failure on one rank must be thrown on all, or the
+   * others wait forever.
    */
   std::string first_message(const MPI_Comm communicator,
                             const std::string &message);
 
   /**
-   * Collective: runs @p task on every rank and throws on all of them what the
-   * lowest one of those that failed threw: an InputError, a RunError or a
+   * Collective: runs @p task on every rank and throws on all of them the
+   * exception of the lowest rank that failed: an InputError, a RunError or a
    * std::bad_alloc as such, anything else as an @p Error.
    */
   template <typename Error, typename Task>
   void all_or_none(const MPI_Comm communicator, const Task &task)
   {
-    std::string message; // its first letter says what it is
+    std::string message; // its first letter is the type
     try
     {
       task();

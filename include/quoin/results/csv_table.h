@@ -22,24 +22,24 @@ namespace quoin
    * that size, so that rows written after the checkpoint do not appear twice.
    *
    * Members throw RunError, which names the file, if it cannot be written;
-   * but not add_row(), because only one rank has the table and the others would
-   * wait for it: check(), and flush() and sync(), do so later.
+   * except add_row(), because only one rank has the table and the others would
+   * wait for it: check(), flush() and sync() report its failures.
    */
   class CsvTable
   {
   public:
-    /** Remembers only; the file is made by start() or opened by resume(). */
+    /** Stores its arguments; start() creates the file or resume() opens it. */
     CsvTable(const std::string &path,
              const std::vector<std::string> &column_names);
     ~CsvTable();
 
-    /** A new file with its header row; an older one is replaced. */
+    /** Creates the file with its header row; an older one is replaced. */
     void start();
 
     /**
-     * Goes on with the file of an interrupted run, cut to @p n_bytes.
-     * @throws InputError if the file is shorter than that, is missing, or has
-     * other columns
+     * Continues the file of an interrupted run, cut to @p n_bytes. @throws
+     * InputError if the file is shorter than that, is missing, or has other
+     * columns
      */
     void resume(const std::uint64_t n_bytes);
 
@@ -52,7 +52,7 @@ namespace quoin
     /** Hands the rows to the system, so that other programs see them. */
     void flush();
 
-    /** As flush(), and waits for the disk: to be called before a checkpoint. */
+    /** As flush(), and waits for the disk; called before a checkpoint. */
     void sync();
 
     /** Bytes of the table so far, buffered ones included. */

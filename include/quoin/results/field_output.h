@@ -15,29 +15,32 @@
 
 namespace quoin
 {
-  /** Blocks of this rank as they go to ParaView. */
-  BlockFields block_fields(const Model &model, const State<2> &state);
+  /** Fields of the blocks of this rank for blocks.pvd. */
+  template <int dim>
+  BlockFields<dim> block_fields(const Model<dim> &model,
+                                const State<dim> &state);
 
   /**
-   * Matched joints of this rank. @p state: after
+   * Fields of the matched joints of this rank. @p state: after
    * Solver::update_histories().
    */
-  JointFields joint_fields(const Model &model, const State<2> &state);
+  JointFields joint_fields(const Model<2> &model, const State<2> &state);
 
-  /** General contacts of this rank, for the same state. */
+  /** Fields of the general contacts of this rank, for the same state. */
   JointFields contact_fields(const BlockContacts &contacts,
                              const State<2> &state);
 
   /** The total field on the boundary after the far field's last step. */
   BoundaryState boundary_state(const FarField &far, const State<2> &state);
 
-  /** Boundary elements as they go to ParaView. */
+  /** Fields of boundary elements for boundary.pvd. */
   BoundaryFields boundary_fields(const BoundaryGeometry &geometry,
                                  const BoundaryState &state);
 
-  /** What blocks.pvd and joints.pvd take for one time, of all ranks [B];
+  /** Size of blocks.pvd and joints.pvd for one output time, of all ranks [B];
       collective. */
-  double bytes_of_fields(const Model &model);
+  template <int dim>
+  double bytes_of_fields(const Model<dim> &model);
 } // namespace quoin
 
 #endif

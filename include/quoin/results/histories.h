@@ -19,22 +19,23 @@ namespace quoin
 {
   /**
    * Samples the quantities of histories.csv at the time of a step: before it
-   * what the step overwrites, after it what it computes. Point quantities are
-   * those of the nearest node, cell or joint point. Those of boundary elements
-   * are of their last step that is over, their displacements continued from its
-   * end with its velocities. At a block that is absent they are zero.
+   * those that the step overwrites, after it those that it computes. Point
+   * quantities are those of the nearest node, cell or joint point, zero at
+   * absent blocks. Those of boundary elements are of their last completed step,
+   * with displacements extrapolated by its velocities.
    */
+  template <int dim>
   class Histories
   {
   public:
     /**
-     * @p geometry: of the boundary elements that @p boundaries describe.
-     * @p absent_in_the_end: of physical surfaces, whose nodes come after
-     * others at the same place.
-     * Throws an InputError about loads and curves that do not exist.
+     * @p geometry: of the boundary elements of @p boundaries.
+     * @p absent_in_the_end: whether each physical surface is absent in the end;
+     * its nodes are chosen last among those at the same position. Throws an
+     * InputError about loads and curves that do not exist.
      */
     Histories(const std::vector<HistoryParameters> &parameters,
-              const Model &model, const Solver &solver,
+              const Model<dim> &model, const Solver<dim> &solver,
               const BoundaryGeometry &geometry,
               const BoundaryElementParameters &boundaries,
               const std::vector<bool> &absent_in_the_end);
@@ -45,43 +46,58 @@ namespace quoin
     /** Whether a row needs the unbalanced ratio of its own step. */
     bool need_balance() const;
 
-    void before_step(const State<2> &state);
+    void before_step(const State<dim> &state);
 
-    /** The row of the time before the step; collective. */
-    std::vector<double> after_step(const State<2> &state);
+    /** The row for the time before the step; collective. */
+    std::vector<double> after_step(const State<dim> &state);
 
   private:
     struct Probe
     {
       HistoryParameters parameters;
-      unsigned int entity               = 0; /**< node, cell or joint point */
-      bool here                         = false;
-      const MotionConstraint<2> *platen = nullptr;
+      unsigned int entity                 = 0; /**< node, cell or joint point */
+      bool here                           = false;
+      const MotionConstraint<dim> *platen = nullptr;
     };
 
     void locate(Probe &probe) const;
-    /** The load whose reaction or motion @p probe looks at. */
+    /** Finds the load whose reaction or motion @p probe records. */
     void find_load(Probe &probe) const;
-    /** The rank of the nearest point; @p key: that of this rank. */
-    void find_owner(Probe &probe, const std::array<double, 4> &key) const;
-    double point_value(const Probe &probe, const State<2> &state) const;
-    /** Whether the block that @p probe looks at is absent. */
-    bool is_absent(const Probe &probe, const State<2> &state) const;
-    /** Puts in the columns of boundary elements. */
-    void add_boundary_values(const State<2> &state,
+    /** Finds the rank of the nearest point; @p key: that of this rank. */
+    void find_owner(Probe &probe, const std::array<double, dim + 2> &key) const;
+    double point_value(const Probe &probe, const State<dim> &state) const;
+    /** Whether the block of @p probe is absent. */
+    bool is_absent(const Probe &probe, const State<dim> &state) const;
+    double joint_value(const Probe &probe, const State<2> &state) const;
+    double yield_value(const Probe &probe, const State<2> &state) const;
+    /** Adds the columns of boundary elements. */
+    void add_boundary_values(const State<dim> &state,
                              std::vector<double> &result) const;
-    /** Of a local cell [rad]. */
-    double rotation(unsigned int cell, const State<2> &state) const;
+    /** Rotation of a local cell [rad]. */
+    double rotation(unsigned int cell, const State<dim> &state) const;
 
     std::vector<Probe> probes;
-    const Model &model;
-    const Solver &solver;
+    const Model<dim> &model;
+    const Solver<dim> &solver;
     std::unique_ptr<BoundaryHistories> of_boundary; /**< or null */
     MPI_Comm communicator;
     const std::vector<bool> absent_in_the_end; /**< of physical surfaces */
-    std::array<double, 2> load_clock{};        /**< its time [s] and rate */
+    std::array<double, 2> load_clock{};        /**< time [s] and rate [-] */
     std::vector<double> row;
   };
+
+  // Members that exist in two dimensions only.
+  template <>
+  double Histories<2>::joint_value(const Probe &probe,
+                                   const State<2> &state) const;
+  template <>
+  double Histories<2>::yield_value(const Probe &probe,
+                                   const State<2> &state) const;
+  template <>
+  double Histories<2>::rotation(unsigned int cell, const State<2> &state) const;
+  template <>
+  void Histories<2>::add_boundary_values(const State<2> &state,
+                                         std::vector<double> &result) const;
 } // namespace quoin
 
 #endif

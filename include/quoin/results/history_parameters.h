@@ -16,6 +16,7 @@ namespace quoin
     displacement,
     velocity,
     stress,
+    principal_stress,
     yielding,
     rotation,
     joint,
@@ -39,23 +40,31 @@ namespace quoin
   {
     std::string name;
     HistoryQuantity quantity = HistoryQuantity::displacement;
-    unsigned int component   = 0;
+    unsigned int component   = 0; /**< of x, y, z; or by table */
+    std::string word;           /**< name of the quantity in parameter files */
+    unsigned int dimension = 0; /**< of models that have it; 0: any */
     std::string unit;
-    std::array<double, 2> point{}; /**< [m] */
+    std::array<double, 3> point{}; /**< [m]; z in three dimensions */
+    bool point_has_z = false;      /**< z was given */
     std::string load;
     std::string curve;
 
-    /** On boundary elements, alone or beyond blocks. */
+    /** Whether it is on boundary elements, alone or beyond blocks. */
     bool is_of_boundary() const
     {
       return quantity >= HistoryQuantity::boundary_displacement;
     }
-    /** Of blocks, or in the domain of boundary elements. */
+    /** Whether it is in blocks or in the domain of boundary elements. */
     bool is_of_interior() const
     {
       return quantity == HistoryQuantity::displacement
              || quantity == HistoryQuantity::velocity;
     }
+
+    /** Throws an InputError if a model of blocks in @p dim dimensions has no
+        such quantity or point. */
+    template <int dim>
+    void check_dimension() const;
 
     static void declare(dealii::ParameterHandler &prm);
     static HistoryParameters read(const ParameterSection &section,

@@ -15,10 +15,10 @@
 namespace quoin
 {
   /**
-   * The joint faces of this rank at one moment. Face f has the points 2 f and
-   * 2 f + 1; all but the last array have one entry for each point. Opening
-   * and tension are positive; slip is positive when the upper side
-   * moves to the right on a horizontal joint (matched_joints.h).
+   * The joint faces of this rank at an output time. Face f has the points 2 f
+   * and 2 f + 1; all but the last array have one entry for each point. Opening
+   * and tension are positive; slip is positive when the upper side moves to the
+   * right on a horizontal joint (matched_joints.h).
    */
   struct JointFields
   {
@@ -36,15 +36,15 @@ namespace quoin
   };
 
   /**
-   * The state that is to be shown for a face whose points are in the states
-   * @p a and @p b: open before slipping before slipped before intact.
+   * The state shown for a face whose points are in the states @p a and @p b:
+   * open before slipping before slipped before intact.
    */
   JointState worst(const JointState a, const JointState b);
 
   /**
    * The series joints.pvd: a line for each joint face, in the middle of the
    * current positions of its two sides. The displacement of that middle is
-   * point data, so that the reference position is known too.
+   * point data and gives the reference position.
    */
   class JointOutput : public VtuSeries
   {

@@ -13,12 +13,12 @@
 namespace quoin
 {
   /**
-   * What a run has to say: each message goes to the log file and, unless
-   * quiet, to the screen. The last line of a terminal may be a status that
-   * changes in place; messages then scroll above it.
+   * The log of a run: each message goes to the log file and, unless quiet, to
+   * the screen. The last line of a terminal may be a status that changes in
+   * place; messages then scroll above it.
    *
-   * Only rank 0 has a file and a screen; on the others everything is silent.
-   * Messages never throw, so that failures can be reported with them.
+   * Only rank 0 has a file and a screen; other ranks write nothing. Messages
+   * never throw, so that failures can be reported with them.
    */
   class Log
   {
@@ -28,18 +28,18 @@ namespace quoin
     ~Log();
 
     /**
-     * Opens the log file; a resumed run appends to it. What was said before
-     * goes into the file, too. @throws RunError
+     * Opens the log file; a resumed run appends to it. Earlier messages are
+     * written to the file, too. @throws RunError
      */
     void open(const std::string &path, const bool append);
 
     /** A line (or several) for the screen and the file. */
     void message(const std::string &text);
 
-    /** The same with "Warning: " before it; shown even if quiet. */
+    /** A message after "Warning: "; shown even if quiet. */
     void warning(const std::string &text);
 
-    /** The same of a text_of() @p parts. */
+    /** A message of text_of() @p parts. */
     template <typename... Parts>
     void message(const Parts &...parts)
     {
@@ -90,7 +90,7 @@ namespace quoin
     bool file_failed = false;
     std::string path;
     std::string shown_status;
-    std::string earlier; /**< said before the file was open */
+    std::string earlier; /**< messages before the file was open */
     std::ofstream file;
   };
 } // namespace quoin

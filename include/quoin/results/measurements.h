@@ -11,22 +11,22 @@
 
 namespace quoin
 {
-  // Time, memory and their texts. What has a communicator is collective.
+  // Time, memory and their texts. Functions with a communicator are collective.
 
   /**
-   * Seconds that a call of @p task takes in the mean, which is called in ever
-   * longer rows for up to @p budget seconds, but at least twice. Without a
-   * period the first call, which may have to allocate, does not count; else it
-   * is one that costs more, as every @p period calls, of which as many are
-   * taken if four budgets are enough. The first rank's clock counts.
+   * Mean time of a call of @p task [s], which is called in ever longer series
+   * for up to @p budget [s], but at least twice. Without a period the first
+   * call, which may allocate, does not count; with one, every @p period-th call
+   * costs more, beginning with the first, and a whole period is measured if
+   * four budgets are enough. The first rank's clock counts.
    */
   double seconds_per_call(const std::function<void()> &task, double budget,
                           MPI_Comm communicator, unsigned int period = 1);
 
-  /** Memory that all ranks have now [B]. */
+  /** Present memory of all ranks [B]. */
   double resident_memory(MPI_Comm communicator);
 
-  /** Largest memory that a rank has had so far [B]. */
+  /** Largest memory of a rank so far [B]. */
   double peak_memory(MPI_Comm communicator);
 
   /** "12 MB" */
@@ -38,8 +38,8 @@ namespace quoin
   /**
    * Bandwidth [B/s] that this rank gets where it streams @p bytes, by the
    * update a = a + s b, which reads both arrays and writes one; best of half a
-   * second. So many bytes come from where those of a step do, memory or a
-   * cache.
+   * second. Choose the bytes of a step, so that they come from the same level,
+   * memory or a cache.
    */
   double memory_bandwidth(double bytes);
 

@@ -12,23 +12,25 @@
 
 namespace quoin
 {
-  /** The series blocks.pvd, joints.pvd and, of general contacts, contacts.pvd.
-      Members are collective. */
+  /** The series blocks.pvd, in two dimensions, joints.pvd and, of
+      general contacts, contacts.pvd. Members are collective. */
+  template <int dim>
   class ModelOutput
   {
   public:
     /** @p model and @p solver must outlive this object. */
-    ModelOutput(const std::string &folder, const Model &model, Solver &solver);
+    ModelOutput(const std::string &folder, const Model<dim> &model,
+                Solver<dim> &solver);
 
-    /** Begins the series, or goes on with those of a checkpoint. */
+    /** Begins the series, or continues those of a checkpoint. */
     void start();
 
     /**
      * Writes the fields of @p state at @p time [s]; if @p base is given, as
      * displacements since that state, whose positions are the reference.
      */
-    void write(double time, const State<2> &state,
-               const State<2> *base = nullptr);
+    void write(double time, const State<dim> &state,
+               const State<dim> *base = nullptr);
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
@@ -37,8 +39,8 @@ namespace quoin
     }
 
   private:
-    const Model &model;
-    Solver &solver;
+    const Model<dim> &model;
+    Solver<dim> &solver;
     BlockOutput blocks;
     JointOutput joints, contacts;
   };

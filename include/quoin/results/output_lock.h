@@ -10,7 +10,7 @@ namespace quoin
 {
   /**
    * Keeps other runs out of an output directory: the empty file 'lock' in it,
-   * held with flock(). The system lets go of it with the process, however that
+   * held with flock(). The system releases it with the process, however that
    * ends, so that a killed run can be resumed at once; the file stays.
    *
    * One rank holds it for all. On file systems without such locks, or where

@@ -13,18 +13,18 @@ namespace quoin
 {
   class Log;
 
-  /** How far a run is and how well it does. */
+  /** Progress of a run and indicators of its quality. */
   struct ProgressFigures
   {
     std::string stage;
     double time        = 0.; /**< [s] */
     std::uint64_t step = 0;
-    /** Done of the stage, 0 to 1; negative if its end cannot be foreseen. */
+    /** Completed share of the stage, 0 to 1; negative if its end is unknown. */
     double fraction = -1.;
-    /** Time step divided by the critical one; NaN leaves each of these out. */
+    /** Safety factor on the time step; NaN leaves each of these out. */
     double share_of_critical = std::numeric_limits<double>::quiet_NaN();
     double unbalanced_ratio  = std::numeric_limits<double>::quiet_NaN();
-    /** Divided by the largest energy so far. */
+    /** Energy residual divided by the largest energy so far. */
     double energy_residual = std::numeric_limits<double>::quiet_NaN();
   };
 
@@ -39,19 +39,19 @@ namespace quoin
     /** @param interval between lines [s] */
     explicit Progress(Log &log, const double interval = 5.);
 
-    /** A stage begins; rates and the time to go are counted from here. */
+    /** Begins a stage, from which rates and the remaining time are counted. */
     void start(const ProgressFigures &figures);
 
     /**
-     * Whether update() would show anything; false on all ranks but 0. Cheap
-     * (20 ns), so that it can be asked after each step and figures that cost
-     * something be computed only when they are shown.
+     * Whether update() would show anything; false on all ranks but 0. It is
+     * cheap (20 ns) and can be called after each step, so that costly figures
+     * are computed only when they are shown.
      */
     bool due() const;
 
     void update(const ProgressFigures &figures);
 
-    /** A stage ends: the bar goes, a last line stays if anything went on. */
+    /** Ends a stage: removes the bar; writes a line if steps were taken. */
     void finish(const ProgressFigures &figures);
 
   private:

@@ -14,8 +14,8 @@ namespace quoin
 {
   /**
    * The series that ParaView opens: a list of VTU files with their times, one
-   * entry for each part (rank). The list belongs into a checkpoint, so that a
-   * resumed run goes on with it.
+   * entry for each part (rank). The list is part of a checkpoint, so that a
+   * resumed run continues it.
    */
   class PvdWriter
   {
@@ -29,10 +29,7 @@ namespace quoin
     void add(const double time, const std::string &file,
              const unsigned int part);
 
-    /**
-     * Writes the list anew; the file is complete at every moment.
-     * @throws RunError
-     */
+    /** Rewrites the list; the file is complete at any time. @throws RunError */
     void write() const;
 
     template <typename Archive>

@@ -14,9 +14,9 @@
 namespace quoin
 {
   /**
-   * A CsvTable of the first rank. Ranks on which it was not made have none, and
-   * there its members do nothing: all ranks run the same code. Whatever throws
-   * does so on the first rank alone, see all_or_none().
+   * A CsvTable of the first rank. On other ranks its members do nothing: all
+   * ranks run the same code. Exceptions are thrown on the first rank alone, see
+   * all_or_none().
    */
   class RootTable
   {
@@ -34,7 +34,7 @@ namespace quoin
         table->start();
     }
 
-    /** Goes on with the file as it was at the last sync(). */
+    /** Continues the file from the last sync(). */
     void resume()
     {
       if (table)
@@ -59,7 +59,7 @@ namespace quoin
         table->flush();
     }
 
-    /** Before a checkpoint, which holds n_bytes. */
+    /** Called before a checkpoint, which has n_bytes. */
     void sync()
     {
       if (!table)
@@ -68,7 +68,7 @@ namespace quoin
       n_bytes = table->size();
     }
 
-    /** Of the file at the last sync(). */
+    /** Size of the file at the last sync() [bytes]. */
     std::uint64_t n_bytes = 0;
 
   private:

@@ -14,8 +14,8 @@
 namespace quoin
 {
   /**
-   * All tables of a run, which begin, go on and reach the disk together. What
-   * is collective throws a RunError on all ranks.
+   * All tables of a run, which are created, continued and synchronised
+   * together. Collective members throw a RunError on all ranks.
    */
   class TableSet
   {
@@ -37,7 +37,7 @@ namespace quoin
       return tables.back();
     }
 
-    /** Makes the files, or goes on with them; collective. */
+    /** Creates or continues the files; collective. */
     void open(const bool resume)
     {
       for_all([=](RootTable &table)
@@ -56,13 +56,13 @@ namespace quoin
       for_all([](RootTable &table) { table.flush(); });
     }
 
-    /** Before a checkpoint; collective. */
+    /** Called before a checkpoint; collective. */
     void sync()
     {
       for_all([](RootTable &table) { table.sync(); });
     }
 
-    /** How far the files are; the tables must have been added before. */
+    /** Archives the sizes of the files; tables must have been added before. */
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {

@@ -17,7 +17,7 @@ namespace quoin
 {
   /**
    * A series of VTU files fields/<name>_<nnnn>_<rank>.vtu and its list
-   * <name>.pvd in the output directory. Its number and list belong into a
+   * <name>.pvd in the output directory. Its number and list are part of a
    * checkpoint.
    */
   class VtuSeries
@@ -28,8 +28,8 @@ namespace quoin
 
     /**
      * Collective. Makes the directory and writes the list: an empty one, or
-     * after loading a checkpoint that of then; files written later than it
-     * are overwritten in turn. @throws RunError
+     * after loading a checkpoint the list of the checkpoint; pieces written
+     * later are removed. @throws RunError
      */
     void start();
 
@@ -61,9 +61,9 @@ namespace quoin
   };
 
   /**
-   * Removes what series of an earlier run have left in @p output_directory:
-   * their lists, and their pieces in fields/, however many there were. Files
-   * of other names stay. What cannot be removed stays, too.
+   * Removes the series of an earlier run from @p output_directory: their lists
+   * and all their pieces in fields/. Files of other names and files that cannot
+   * be removed stay.
    */
   void remove_series(const std::string &output_directory);
 

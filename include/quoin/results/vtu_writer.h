@@ -4,7 +4,6 @@
 #ifndef quoin_results_vtu_writer_h
 #define quoin_results_vtu_writer_h
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -15,14 +14,15 @@ namespace quoin
   /** The cell types that are used, with VTK's numbers. */
   enum class VtuCellType : std::uint8_t
   {
-    line     = 3,
-    triangle = 5
+    line        = 3,
+    triangle    = 5,
+    tetrahedron = 10
   };
 
   /**
-   * A named array of a grid, @p n_components values for each point or cell,
-   * one after the other. Two components are a vector in the plane and are
-   * written with a third one, z = 0, because viewers know no other vectors.
+   * A named array of a grid, @p n_components values for each point or cell, one
+   * after the other. Two components are a vector in the plane and are written
+   * with a third one, z = 0, as viewers require.
    */
   struct VtuField
   {
@@ -34,19 +34,30 @@ namespace quoin
     std::vector<std::string> component_names = {};
   };
 
-  /** An unstructured grid in the plane. */
+  /** Number of points of a cell. */
+  constexpr unsigned int n_points(const VtuCellType type)
+  {
+    return type == VtuCellType::line       ? 2
+           : type == VtuCellType::triangle ? 3
+                                           : 4;
+  }
+
+  /** An unstructured grid in the plane or in space. */
   struct VtuGrid
   {
     double time = 0.; /**< [s] */
     VtuCellType cell_type;
-    std::vector<std::array<double, 2>> points; /**< [m]; z = 0 is added */
-    std::vector<std::int32_t> cells;           /**< 2 or 3 points each */
+    /** Coordinates, one point after the other [m]; z = 0 is added in the
+        plane. */
+    std::vector<double> points;
+    std::vector<std::int32_t> cells; /**< n_points() each */
     std::vector<VtuField> point_data = {};
     std::vector<VtuField> cell_data  = {};
+    unsigned int dimension           = 2; /**< coordinates of a point */
 
     std::size_t n_cells() const
     {
-      return cells.size() / (cell_type == VtuCellType::line ? 2 : 3);
+      return cells.size() / n_points(cell_type);
     }
   };
 

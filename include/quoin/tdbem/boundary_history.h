@@ -4,12 +4,43 @@
 #ifndef quoin_tdbem_boundary_history_h
 #define quoin_tdbem_boundary_history_h
 
+#include <quoin/base/archive_members.h>
 #include <quoin/base/eigen_core.h>
 
 #include <vector>
 
 namespace quoin
 {
+  /** What BoundaryHistory::save() gives. */
+  struct SavedHistory
+  {
+    std::vector<double> common; /**< the same on all ranks */
+    /** Of equations that ranks share, group by group: from @p first_group on
+        those of one rank, or all of them. */
+    std::vector<std::vector<double>> groups;
+    unsigned int first_group = 0;
+
+    bool empty() const
+    {
+      return common.empty();
+    }
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.same(common);
+      visitor.joined(groups);
+      // With the first rank's groups all begin.
+      visitor.same(first_group);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive_members(archive, *this);
+    }
+  };
+
   /**
    * What has happened on a boundary so far, and what it still does:
    * the convolution in the equation of InfluenceKernel without its newest term.
@@ -42,8 +73,8 @@ namespace quoin
      * All that push() has changed, for a checkpoint. After restore(), which
      * takes it, this object goes on bitwise as the saved one.
      */
-    virtual std::vector<double> save() const               = 0;
-    virtual void restore(const std::vector<double> &saved) = 0;
+    virtual SavedHistory save() const               = 0;
+    virtual void restore(const SavedHistory &saved) = 0;
   };
 } // namespace quoin
 

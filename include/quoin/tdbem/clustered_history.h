@@ -78,8 +78,8 @@ namespace quoin
       return step;
     }
 
-    std::vector<double> save() const override;
-    void restore(const std::vector<double> &saved) override;
+    SavedHistory save() const override;
+    void restore(const SavedHistory &saved) override;
 
     /** Bytes of the matrices on this rank. */
     std::size_t memory() const;

@@ -27,8 +27,8 @@ namespace quoin
       return us.size();
     }
 
-    std::vector<double> save() const override;
-    void restore(const std::vector<double> &saved) override;
+    SavedHistory save() const override;
+    void restore(const SavedHistory &saved) override;
 
   private:
     const InfluenceKernel &kernel;

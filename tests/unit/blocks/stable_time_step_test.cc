@@ -11,7 +11,8 @@ using namespace quoin::test;
 namespace
 {
   /** Internal and joint forces at the displacements @p u. */
-  std::vector<double> forces(const Model &model, const std::vector<double> &u)
+  std::vector<double> forces(const Model<2> &model,
+                             const std::vector<double> &u)
   {
     State<2> state = model.initial_state();
     for (unsigned int i = 0; i < u.size(); ++i)
@@ -34,7 +35,7 @@ namespace
    * The largest omega^2 of the assembled operator: power iteration with the
    * stiffness by central differences of the forces.
    */
-  double exact_eigenvalue(const Model &model)
+  double exact_eigenvalue(const Model<2> &model)
   {
     const unsigned int n = 2 * model.mass().size();
     std::vector<std::vector<double>> K(n, std::vector<double>(n));
@@ -144,7 +145,7 @@ TEST(StableTimeStep, BoundsTheLargestFrequencyClosely)
   for (const auto &[kn, ks] : joint_stiffnesses)
   {
     const TestNodes nodes(mesh);
-    const Model model(nodes, two_blocks(kn, ks));
+    const Model<2> model(nodes, two_blocks(kn, ks));
     const double exact = exact_eigenvalue(model);
     const double bound = model.stability().largest_eigenvalue(model.mass());
     EXPECT_GE(bound, exact * (1. - 1e-6)) << kn;
@@ -163,7 +164,7 @@ TEST(StableTimeStep, BoundsTheLargestFrequencyOfUnequalBlocks)
     parameters.materials       = { material("lower", 8000., 1e9, 0.4),
                                    material("upper", 1000., 5e10, 0.) };
     const TestNodes nodes(mesh);
-    const Model model(nodes, parameters);
+    const Model<2> model(nodes, parameters);
     EXPECT_GE(model.stability().largest_eigenvalue(model.mass()),
               exact_eigenvalue(model) * (1. - 1e-6))
         << kn;
@@ -172,7 +173,7 @@ TEST(StableTimeStep, BoundsTheLargestFrequencyOfUnequalBlocks)
 
 TEST(StableTimeStep, BoundsTheFrequencyWhereFourBlocksMeet)
 {
-  MeshData data;
+  MeshData<2> data;
   for (const double x : { 0., 1. })
     for (const double y : { 0., 1. })
       add_grid(data, 1, 1, "rock", x, y);
@@ -185,7 +186,7 @@ TEST(StableTimeStep, BoundsTheFrequencyWhereFourBlocksMeet)
     parameters.materials = { material("rock") };
     parameters.joints    = { elastic_joint(kn, ks, "unnamed") };
     const TestNodes nodes(mesh);
-    const Model model(nodes, parameters);
+    const Model<2> model(nodes, parameters);
     const double exact = exact_eigenvalue(model);
     const double bound = model.stability().largest_eigenvalue(model.mass());
     EXPECT_GE(bound, exact * (1. - 1e-6)) << kn;

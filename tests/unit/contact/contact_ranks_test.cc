@@ -39,6 +39,23 @@ namespace
     return result;
   }
 
+  /** Upright stripes [m], from rank to rank, so that blocks are divided;
+      those of odd blocks begin farther to the right. */
+  Ranks in_upright_stripes(const BlockMesh<2> &mesh, const double width)
+  {
+    Ranks result;
+    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
+    {
+      double x = 0.;
+      for (const unsigned int v : mesh.cells[c])
+        x += mesh.vertices[v][0] / 3.;
+      const double offset = mesh.block_of_cell(c) % 2 == 1 ? 0.4 * width : 0.;
+      result.push_back(static_cast<unsigned int>((x + offset) / width)
+                       % n_ranks());
+    }
+    return result;
+  }
+
   /** Cells in stripes, so that blocks lie on several ranks. */
   Ranks in_stripes(const BlockMesh<2> &mesh)
   {
@@ -160,17 +177,50 @@ namespace
                 whole.state.get<ContactState>().n_searches);
     }
 
-    /** The pairs of whole blocks are those of one rank, in the same order. */
+    /** The pairs are those of one rank, in the same order, with the same
+        histories. */
     void compare_pairs() const
     {
       const ContactEdges &edges = part.contacts.contact_edges();
-      std::vector<std::array<unsigned int, 2>> here, all;
-      for (const ContactPair &pair : part.state.get<ContactState>().pairs)
-        here.push_back({ pair.lower, pair.upper });
+      AlignedArray<ContactPair> all;
       for (const ContactPair &pair : whole.state.get<ContactState>().pairs)
         if (edges.is_own(pair.lower) || edges.is_own(pair.upper))
-          all.push_back({ pair.lower, pair.upper });
-      EXPECT_EQ(here, all);
+          all.push_back(pair);
+      const AlignedArray<ContactPair> &here
+          = part.state.get<ContactState>().pairs;
+      ASSERT_EQ(here.size(), all.size());
+      for (unsigned int i = 0; i < all.size(); ++i)
+      {
+        ASSERT_EQ(here[i].lower, all[i].lower);
+        ASSERT_EQ(here[i].upper, all[i].upper);
+        EXPECT_EQ(here[i].active, all[i].active);
+        EXPECT_EQ(here[i].set, all[i].set);
+        EXPECT_EQ(here[i].shift, all[i].shift);
+        for (unsigned int k = 0; k < 2; ++k)
+        {
+          const ContactPoint &point = here[i].points[k],
+                             &same  = all[i].points[k];
+          EXPECT_EQ(point.normal_traction, same.normal_traction);
+          EXPECT_EQ(point.shear_traction, same.shear_traction);
+          EXPECT_EQ(point.plastic_slip, same.plastic_slip);
+          EXPECT_EQ(point.slip_offset, same.slip_offset);
+          EXPECT_EQ(point.area, same.area);
+          EXPECT_EQ(point.state, same.state);
+        }
+      }
+    }
+
+    /** Each rank shares a block with another one. */
+    void expect_divided() const
+    {
+      unsigned int n_divided = 0;
+      for (const BlockPart &block : part.nodes.block_parts())
+        n_divided += block.cells[1] - block.cells[0]
+                     < part.nodes.table().first_cell[block.number + 1]
+                           - part.nodes.table().first_cell[block.number];
+      EXPECT_EQ(n_divided > 0, n_ranks() > 1);
+      EXPECT_EQ(part.contacts.contact_edges().ranks_beside().empty(),
+                n_ranks() == 1);
     }
 
     /** Of other ranks there are the edges of pairs and their neighbours. */
@@ -187,6 +237,8 @@ namespace
         ASSERT_TRUE(edges.is_known(e));
         n_foreign += !edges.is_own(e);
         const ContactEdge &same = whole.contacts.contact_edges()[e];
+        EXPECT_EQ(edges[e].previous, same.previous);
+        EXPECT_EQ(edges[e].next, same.next);
         EXPECT_EQ(edges[e].points, same.points);
         EXPECT_EQ(edges[e].corner, same.corner);
       }
@@ -308,23 +360,61 @@ TEST(ContactsOfRanks, GoOnFromJointsThatAreHandedOver)
   coulomb_law(joint).residual = { 0., 0.5, 0. };
   BlockMesh<2> mesh;
   make_stack(mesh, 6, 2);
-  Twins twins(mesh,
-              whole_blocks(mesh, [&](const unsigned int block)
-                           { return (block + n_ranks() - 1) % n_ranks(); }),
-              { joint, touching() });
-  for (unsigned int i = 0; i < 100; ++i)
+  const Ranks whole
+      = whole_blocks(mesh, [&](const unsigned int block)
+                     { return (block + n_ranks() - 1) % n_ranks(); });
+  for (const Ranks &ranks : { whole, in_upright_stripes(mesh, 2.) })
   {
-    twins.find_forces(
-        [&](const unsigned int block, const double *)
-        {
-          return block == 0 ? std::array<double, 2>{ 0., 0. }
-                            : std::array<double, 2>{ 1e-3 * i, -1e-4 };
-        });
-    twins.compare(0.);
-    twins.compare_pairs();
+    Twins twins(mesh, ranks, { joint, touching() });
+    if (ranks != whole)
+      twins.expect_divided();
+    for (unsigned int i = 0; i < 100; ++i)
+    {
+      twins.find_forces(
+          [&](const unsigned int block, const double *)
+          {
+            return block == 0 ? std::array<double, 2>{ 0., 0. }
+                              : std::array<double, 2>{ 1e-3 * i, -1e-4 };
+          });
+      twins.compare(ranks == whole ? 0. : 1e-13);
+      twins.compare_pairs();
+    }
+    EXPECT_EQ(twins.part.state.get<ContactState>().handed_over[0], 1);
+    twins.compare_resumed();
   }
-  EXPECT_EQ(twins.part.state.get<ContactState>().handed_over[0], 1);
-  twins.compare_resumed();
+}
+
+TEST(ContactsOfRanks, GoOnWhereABlockIsDivided)
+{
+  // A block slides over another one, there and back, and both are divided, so
+  // that contacts pass from rank to rank on either side. Each new pair begins
+  // beside one that has slipped.
+  BlockMesh<2> mesh;
+  make_blocks(mesh, { { 0., 0., 6., 1., 13, 2 }, { 0.2, 1., 3., 1., 7, 3 } });
+  JointSetParameters softening    = touching();
+  coulomb_law(softening).peak     = { 1e4, 0.8, 0. };
+  coulomb_law(softening).residual = { 0., 0.4, 0. };
+  for (const double width : { 0.9, 0.45 })
+  {
+    Twins twins(mesh, in_upright_stripes(mesh, width), { softening });
+    twins.expect_divided();
+    for (unsigned int i = 0; i < 60; ++i)
+    {
+      const double way = 0.04 * (i < 40 ? i : 80 - i);
+      twins.find_forces(
+          [&](const unsigned int block, const double *X)
+          {
+            return block == 0 ? std::array<double, 2>{ 0., 0. }
+                              : std::array<double, 2>{
+                                  way, -1e-4 - 2e-5 * std::sin(X[0] + 0.2 * i)
+                                };
+          });
+      twins.compare(1e-13);
+      twins.compare_pairs();
+      twins.compare_edges();
+    }
+    twins.compare_resumed();
+  }
 }
 
 TEST(ContactsOfRanks, EdgesFollowEachOtherFromRankToRank)
@@ -332,12 +422,6 @@ TEST(ContactsOfRanks, EdgesFollowEachOtherFromRankToRank)
   const BlockMesh<2> mesh = columns();
   const TestNodes nodes_of_one(mesh);
   const ContactEdges whole(nodes_of_one);
-  std::map<std::array<double, 4>, unsigned int> place;
-  for (const ContactEdge &edge : whole.own())
-    place[{ edge.points[0][0], edge.points[0][1], edge.points[1][0],
-            edge.points[1][1] }]
-        = edge.number;
-
   BlockMesh<2> divided = mesh;
   const BlockTriangulation<2> blocks(divided, in_stripes(mesh),
                                      std::vector<bool>(mesh.n_blocks(), false),
@@ -361,9 +445,10 @@ TEST(ContactsOfRanks, EdgesFollowEachOtherFromRankToRank)
     EXPECT_EQ(edges[edge.next].nodes[0], edge.nodes[1]);
     EXPECT_EQ(edges[edge.previous].nodes[1], edge.nodes[0]);
     EXPECT_EQ(edges[edge.next].block, edge.block);
-    const ContactEdge &same
-        = whole[place.at({ edge.points[0][0], edge.points[0][1],
-                           edge.points[1][0], edge.points[1][1] })];
+    const ContactEdge &same = whole[edge.number];
+    EXPECT_EQ(edge.points, same.points);
+    EXPECT_EQ(edge.previous, same.previous);
+    EXPECT_EQ(edge.next, same.next);
     EXPECT_EQ(edge.corner, same.corner);
     EXPECT_EQ(edge.height, same.height);
   }

@@ -177,8 +177,7 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   std::vector<std::array<double, 3>> stiffness(stack.nodes->n_local(),
                                                { { 0., 0., 0. } });
   stack.joints.add_stiffness_bound(
-      stack.state.nodes.data(), [](unsigned int, unsigned int) { return 0.; },
-      stiffness);
+      stack.state, [](unsigned int, unsigned int) { return 0.; }, stiffness);
   for (unsigned int v = 0; v < stack.end_node(0); ++v)
   {
     for (unsigned int d = 0; d < 2; ++d)
@@ -422,7 +421,11 @@ TEST(MatchedJoints, BoundIsExactForTwoMassesAndASpring)
   for (unsigned int v = 0; v < stack.nodes->n_local(); ++v)
     mass.push_back(1. + 0.37 * v * v);
   std::vector<std::array<double, 3>> bound(mass.size(), { { 0., 0., 0. } });
-  stack.joints.add_stiffness_bound(stack.state.nodes.data(), mass, bound);
+  stack.joints.add_stiffness_bound(
+      stack.state,
+      [&](const unsigned int a, const unsigned int b)
+      { return mass[a] / mass[b]; },
+      bound);
 
   const double n[2]  = { -std::sin(angle), std::cos(angle) };
   const double t[2]  = { n[1], -n[0] };
@@ -508,7 +511,7 @@ TEST(MatchedJoints, BooksFrictionPerArea)
 
 TEST(MatchedJoints, CrackTipsAreHarmless)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 2, "rock");
   add_curve(data, "crack", 0, 1, 1, 1);
   SplitOptions options;
@@ -549,8 +552,8 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
               0.5 * thickness * (3e5 + kn * 1e-4), 1e2);
 
   std::vector<std::array<double, 3>> bound(n, { { 0., 0., 0. } });
-  joints.add_stiffness_bound(state.nodes.data(), std::vector<double>(n, 1.),
-                             bound);
+  joints.add_stiffness_bound(
+      state, [](unsigned int, unsigned int) { return 1.; }, bound);
   EXPECT_EQ(bound[segment.lower[tip]][0], 0.);
   EXPECT_EQ(bound[segment.lower[tip]][1], 0.);
   EXPECT_GT(bound[segment.lower[1 - tip]][1], 0.);
@@ -559,7 +562,7 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
 TEST(MatchedJoints, SetsActOnTheirOwnCurves)
 {
   // Three blocks side by side; the set of the second joint comes first.
-  MeshData data;
+  MeshData<2> data;
   for (unsigned int i = 0; i < 3; ++i)
   {
     add_grid(data, 1, 1, "rock", i, 0.);
@@ -617,7 +620,7 @@ TEST(MatchedJoints, RefusesCurvesItCannotPlace)
 
 TEST(MatchedJoints, UnnamedJointsHaveAWordOfTheirOwn)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 1, 1, "lower");
   add_grid(data, 1, 1, "upper", 0., 1.);
   BlockMesh<2> mesh;

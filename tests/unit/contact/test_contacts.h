@@ -25,7 +25,7 @@ namespace quoin::test
   inline void make_blocks(BlockMesh<2> &mesh,
                           const std::vector<Rectangle> &rectangles)
   {
-    MeshData data;
+    MeshData<2> data;
     data.group_names = { "stone" };
     for (const Rectangle &r : rectangles)
     {
@@ -42,10 +42,10 @@ namespace quoin::test
         {
           const unsigned int a = first + j * (r.nx + 1) + i;
           const unsigned int b = a + 1, d = a + r.nx + 1, e = d + 1;
-          data.triangles.push_back({ { a, b, e } });
-          data.triangles.push_back({ { a, e, d } });
-          data.triangle_group.push_back(0);
-          data.triangle_group.push_back(0);
+          data.cells.push_back({ { a, b, e } });
+          data.cells.push_back({ { a, e, d } });
+          data.cell_group.push_back(0);
+          data.cell_group.push_back(0);
         }
     }
     split_into_blocks(data, {}, mesh);

@@ -43,7 +43,7 @@ namespace
   }
 
   /** What acts on each node at the positions of the state, without motion. */
-  AlignedArray<NodeVector<2>> forces(const Model &model, State<2> state)
+  AlignedArray<NodeVector<2>> forces(const Model<2> &model, State<2> state)
   {
     AlignedArray<NodeVector<2>> result(state.nodes.size(),
                                        NodeVector<2>{ { 0., 0. } });
@@ -126,7 +126,7 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
       {
         AlignedArray<NodeVector<2>> held(before.size(),
                                          NodeVector<2>{ { 0., 0. } });
-        const Release release(run.state, stage, 4.);
+        const Release<2> release(run.state, stage, 4.);
         release.add_forces(time, held.data());
         const double left = 1. - 0.25 * share;
         for (std::size_t i = lower.begin; i < lower.end; ++i)

@@ -75,7 +75,7 @@ TEST(ExplicitSolver, KineticEnergySlowsTheLoadsDown)
   {
     ASSERT_LT(run.state.stage_step, 1000000U);
     const bool due
-        = run.state.stage_step % ExplicitSolver::balance_interval == 0;
+        = run.state.stage_step % ExplicitSolver<2>::balance_interval == 0;
     run.solver.step(run.state, { false, due });
     const Energies &energies = run.solver.energies();
     if (!due)
@@ -718,7 +718,7 @@ TEST(ExplicitSolver, RefusesFreeBodiesInAStaticStage)
 
 TEST(ExplicitSolver, NamesTheBlockThatNothingHolds)
 {
-  MeshData data;
+  MeshData<2> data;
   for (const double x : { 0., 5. })
   {
     add_grid(data, 1, 1, "rock", x, 0.);
@@ -802,7 +802,7 @@ TEST(ExplicitSolver, MassScalingRaisesTheCriticalStep)
 {
   // All four corners of a square of two triangles have the same bound, so all
   // masses grow with the square of the step.
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 1, 1, "rock");
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);

@@ -24,9 +24,9 @@ namespace quoin
   namespace
   {
     /** A square of 2 n^2 triangles with shifted inner nodes. */
-    MeshData square(const unsigned int n)
+    MeshData<2> square(const unsigned int n)
     {
-      MeshData data;
+      MeshData<2> data;
       data.source = "square";
       for (unsigned int j = 0; j <= n; ++j)
         for (unsigned int i = 0; i <= n; ++i)
@@ -42,9 +42,9 @@ namespace quoin
         {
           const unsigned int a = j * (n + 1) + i, b = a + 1, c = a + n + 2,
                              d = a + n + 1;
-          data.triangles.push_back({ a, b, c });
-          data.triangles.push_back({ a, c, d });
-          data.triangle_group.insert(data.triangle_group.end(), 2, 0);
+          data.cells.push_back({ a, b, c });
+          data.cells.push_back({ a, c, d });
+          data.cell_group.insert(data.cell_group.end(), 2, 0);
         }
       return data;
     }

@@ -13,7 +13,7 @@ namespace
   /** make_stack() and, apart from it, a block "loose" from (5, 0) to (6, 1). */
   void make_stack_and_block(BlockMesh<2> &mesh)
   {
-    MeshData data;
+    MeshData<2> data;
     for (const unsigned int i : { 0U, 1U })
     {
       add_grid(data, 2, 1, i == 0 ? "lower" : "upper", 0., i);
@@ -32,8 +32,8 @@ namespace
     return parameters;
   }
 
-  std::vector<PushedBody> pushed(const std::vector<LoadParameters> &loads,
-                                 const std::vector<std::string> &names)
+  std::vector<PushedBody<2>> pushed(const std::vector<LoadParameters> &loads,
+                                    const std::vector<std::string> &names)
   {
     BlockMesh<2> mesh;
     make_stack_and_block(mesh);

@@ -21,7 +21,7 @@ namespace
   void make_sides(BlockMesh<2> &mesh, const unsigned int nx,
                   const unsigned int ny)
   {
-    MeshData data;
+    MeshData<2> data;
     for (const unsigned int i : { 0U, 1U })
     {
       const double y0 = i * ny, y1 = y0 + ny;
@@ -186,7 +186,7 @@ TEST(FreeField, RefusesWhatIsNoSide)
                  { "'Boundary'", "rigid", "(0, 4)" }, parameters);
 
   BlockMesh<2> mesh;
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 3, "lower");
   add_curve(data, "bottom", 0., 0., 2., 0.);
   add_curve(data, "left", 0., 0., 0., 1.);

@@ -18,7 +18,7 @@ namespace
   void make_parted_stack(BlockMesh<2> &mesh, const double gap,
                          const double right = 0.)
   {
-    MeshData data;
+    MeshData<2> data;
     add_grid(data, 2, 1, "lower", 0., 0.);
     const unsigned int n = data.vertices.size();
     add_grid(data, 2, 2, "upper", 0., 1.);
@@ -265,7 +265,7 @@ TEST(ModelBox, BlocksThatLoadsMoveStay)
   // Free only until the next stage.
   const std::vector<StageParameters> stages
       = { stage_with({}), stage_with({ "held" }) };
-  ExplicitSolver solver(run.model, loads, stages);
+  ExplicitSolver<2> solver(run.model, loads, stages);
   State<2> state = run.model.initial_state();
   solver.begin_stage(stages[0], nullptr, state);
   solver.set_time_step(0.5 * solver.critical_time_step());
@@ -326,7 +326,7 @@ TEST(ModelBox, DeletedBlocksAreNotWritten)
   shift(run, -0.6);
   run.state.nodes.back().u[0] = 1e-3;
   ASSERT_EQ(look(run).size(), 1U);
-  const BlockFields fields = block_fields(run.model, run.state);
+  const BlockFields<2> fields = block_fields(run.model, run.state);
   EXPECT_EQ(fields.position.size(), run.model.block_nodes(1).size());
   EXPECT_EQ(fields.displacement.size(), fields.position.size());
   EXPECT_EQ(fields.velocity.size(), fields.position.size());

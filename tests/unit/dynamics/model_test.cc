@@ -24,7 +24,7 @@ namespace
   void make_model(const BlockMesh<2> &mesh, const ModelParameters &parameters)
   {
     const TestNodes nodes(mesh, parameters.materials);
-    Model(nodes, parameters);
+    Model<2>(nodes, parameters);
   }
 } // namespace
 
@@ -35,7 +35,7 @@ TEST(Model, LumpsAThirdOfEachCell)
   ModelParameters parameters = two_blocks();
   parameters.materials = { material("upper", 3000.), material("lower", 1200.) };
   const TestNodes nodes(mesh);
-  const Model model(nodes, parameters);
+  const Model<2> model(nodes, parameters);
   ASSERT_EQ(model.mass().size(), 8U);
   double mass[2]{};
   for (unsigned int v = 0; v < 8; ++v)
@@ -66,7 +66,7 @@ TEST(Model, ImpedanceOfWaves)
     parameters.plane           = strain ? PlaneAssumption::plane_strain
                                         : PlaneAssumption::plane_stress;
     const TestNodes nodes(mesh);
-    const Model model(nodes, parameters);
+    const Model<2> model(nodes, parameters);
     const double modulus = strain ? E * (1. - nu) / ((1. + nu) * (1. - 2. * nu))
                                   : E / (1. - nu * nu);
     ASSERT_EQ(model.impedance().size(), 2U);
@@ -81,7 +81,7 @@ TEST(Model, StartsAtRestInPlace)
   BlockMesh<2> mesh;
   make_stack(mesh, 2, 1);
   const TestNodes nodes(mesh);
-  const Model model(nodes, two_blocks());
+  const Model<2> model(nodes, two_blocks());
   const State<2> state = model.initial_state();
   ASSERT_EQ(state.nodes.size(), mesh.n_vertices());
   ASSERT_EQ(state.get<JointHistory>().state.size(), 4U);
@@ -135,7 +135,7 @@ TEST(Model, InitialStressOfAGroupAndWithDepth)
       = { initial_stress({ { 0., -1e6, 0. } }, { { 0., 3e5, 0. } }),
           initial_stress({ { -5e5, 0., 1e5 } }, {}, { "upper" }) };
   const TestNodes nodes(mesh);
-  const Model model(nodes, parameters);
+  const Model<2> model(nodes, parameters);
   const State<2> state = model.initial_state();
   for (unsigned int c = 0; c < mesh.n_cells(); ++c)
   {
@@ -169,7 +169,7 @@ TEST(Model, InitialStressOutOfThePlane)
   for (auto &material : parameters.materials)
     material.strength = MohrCoulombStrength{ 1e9, 0., 0. };
   const TestNodes nodes(mesh);
-  const Model model(nodes, parameters);
+  const Model<2> model(nodes, parameters);
   const State<2> state = model.initial_state();
   for (unsigned int c = 0; c < mesh.n_cells(); ++c)
   {

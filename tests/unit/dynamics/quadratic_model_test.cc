@@ -17,14 +17,14 @@ namespace
   struct Stack
   {
     TestNodes nodes;
-    std::unique_ptr<Model> model;
+    std::unique_ptr<Model<2>> model;
 
     explicit Stack(const bool quadratic, const bool upper_is_rigid = false)
       : nodes(mesh(quadratic), { false, upper_is_rigid })
     {
       ModelParameters parameters    = two_blocks();
       parameters.materials[1].rigid = upper_is_rigid;
-      model = std::make_unique<Model>(nodes, parameters);
+      model = std::make_unique<Model<2>>(nodes, parameters);
     }
 
     static BlockMesh<2> mesh(const bool quadratic)

@@ -5,7 +5,7 @@
 #include "test_models.h"
 
 #include <quoin/base/exceptions.h>
-#include <quoin/dynamics/rigid_blocks.h>
+#include <quoin/blocks/rigid_blocks.h>
 #include <quoin/mesh/block_numbering.h>
 
 #include <cstring>
@@ -38,7 +38,7 @@ namespace
   void make_rectangle(BlockMesh<2> &mesh, const unsigned int nx,
                       const unsigned int ny, const double x = 0.)
   {
-    MeshData data;
+    MeshData<2> data;
     add_grid(data, nx, ny, "block", x, 0.);
     split_into_blocks(data, {}, mesh);
   }
@@ -54,7 +54,7 @@ namespace
   /** Three blocks of nx x 1, "lower", "middle", "upper", with a bed "joint". */
   void make_three(BlockMesh<2> &mesh, const unsigned int nx)
   {
-    MeshData data;
+    MeshData<2> data;
     const char *names[] = { "lower", "middle", "upper" };
     for (const unsigned int i : { 0U, 1U, 2U })
     {
@@ -119,7 +119,8 @@ namespace
   }
 
   /** Force and moment on each rigid block at displacements of all of them. */
-  std::vector<double> forces(const Model &model, const std::vector<double> &q)
+  std::vector<double> forces(const Model<2> &model,
+                             const std::vector<double> &q)
   {
     State<2> state           = model.initial_state();
     const RigidBlocks &rigid = model.rigid_blocks();
@@ -151,7 +152,7 @@ namespace
   }
 
   /** Largest omega^2 of a model of rigid blocks, by power iteration. */
-  double exact_eigenvalue(const Model &model)
+  double exact_eigenvalue(const Model<2> &model)
   {
     const RigidBlocks &rigid = model.rigid_blocks();
     const unsigned int n     = 3 * rigid.n_blocks();
@@ -201,12 +202,12 @@ TEST(RigidBlocks, MassAndInertiaOfARectangle)
   // Far from the origin, whatever the mesh.
   for (const unsigned int n : { 1U, 3U })
   {
-    MeshData data;
+    MeshData<2> data;
     add_grid(data, 2 * n, n, "block", 1e5, -1e5, 1.5 / n);
     BlockMesh<2> mesh;
     split_into_blocks(data, {}, mesh);
     const TestNodes nodes(mesh, one_rigid_block().materials);
-    const Model model(nodes, one_rigid_block());
+    const Model<2> model(nodes, one_rigid_block());
     ASSERT_EQ(model.rigid_blocks().n_blocks(), 1U);
     const RigidBlocks::Block &block = model.rigid_blocks().block(0);
     const double mass               = 2000. * 0.5 * 3. * 1.5;
@@ -224,15 +225,15 @@ TEST(RigidBlocks, MassAndInertiaOfARectangle)
 TEST(RigidBlocks, MassAndInertiaOfAnAngle)
 {
   // A square of 2 m without the upper right square of 1 m.
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 2, "block");
-  data.triangles.resize(6);
-  data.triangle_group.resize(6);
+  data.cells.resize(6);
+  data.cell_group.resize(6);
   data.vertices.pop_back();
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
   const TestNodes nodes(mesh, one_rigid_block().materials);
-  const Model model(nodes, one_rigid_block());
+  const Model<2> model(nodes, one_rigid_block());
   const RigidBlocks::Block &block = model.rigid_blocks().block(0);
   const double square             = 2000. * 0.5;
   EXPECT_DOUBLE_EQ(block.mass, 3. * square);
@@ -412,7 +413,7 @@ TEST(RigidBlocks, ResidualOfALargeRotationIsSmall)
   {
     TestRun run(mesh, three_blocks(1e8, 1e8), {});
     run.begin(stage_with({}), 0.2 / (1 + k));
-    const Model &model = run.model;
+    const Model<2> &model = run.model;
     for (const char *group : { "lower", "middle", "upper" })
     {
       const unsigned int b   = rigid_block(run, group);
@@ -551,7 +552,7 @@ TEST(RigidBlocks, BoundOfTheFrequency)
       ModelParameters parameters = two_blocks(kn, ks);
       parameters.materials = { rigid("lower", base_density), rigid("upper") };
       const TestNodes nodes(mesh, parameters.materials);
-      const Model model(nodes, parameters);
+      const Model<2> model(nodes, parameters);
       const double exact = exact_eigenvalue(model);
       const double bound = model.stability().largest_eigenvalue(model.mass());
       EXPECT_GE(bound, exact * (1. - 1e-6));
@@ -562,7 +563,7 @@ TEST(RigidBlocks, BoundOfTheFrequency)
 TEST(RigidBlocks, BoundOfManyBlocksOnOne)
 {
   // Twenty blocks on a heavy one: its many springs must not cost a small step.
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 20, 1, "base", 0., -1.);
   for (unsigned int i = 0; i < 20; ++i)
   {
@@ -578,7 +579,7 @@ TEST(RigidBlocks, BoundOfManyBlocksOnOne)
   parameters.joints
       = { elastic_joint(1e10, 5e9), elastic_joint(1e2, 1e2, "head") };
   const TestNodes nodes(mesh, parameters.materials);
-  const Model model(nodes, parameters);
+  const Model<2> model(nodes, parameters);
   const double exact = exact_eigenvalue(model);
   const double bound = model.stability().largest_eigenvalue(model.mass());
   EXPECT_GE(bound, exact * (1. - 1e-6));
@@ -615,7 +616,7 @@ TEST(RigidBlocks, BoundOfContactsAnywhere)
   parameters.materials           = { rigid("lower"), rigid("upper") };
   parameters.large_displacements = true;
   const TestNodes nodes(mesh, parameters.materials);
-  const Model model(nodes, parameters);
+  const Model<2> model(nodes, parameters);
   // Around a rectangle of 2 m by 1 m every node but those in the middle of
   // the long sides is a corner with two edges of 1 m: all have 1 m.
   const double k = 2. * 3e10 * 1. * 0.5, mass = 2500. * 0.5 * 2.;
@@ -709,10 +710,10 @@ TEST(RigidBlocks, RefusesWhatWouldDeformThem)
 
 TEST(RigidBlocks, RefusesABlockThatIsRigidInPart)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 1, "stone");
   data.group_names.push_back("mortar");
-  data.triangle_group[3] = 1;
+  data.cell_group[3] = 1;
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
   ModelParameters parameters;

@@ -34,7 +34,7 @@ namespace
   {
     BlockMesh<3> mesh;
     mesh.group_names        = { "rock" };
-    mesh.line_names         = side_names;
+    mesh.face_names         = side_names;
     mesh.block_first_cell   = { 0 };
     mesh.block_first_vertex = { 0 };
     const auto vertex       = [&](const Count &at)
@@ -129,8 +129,8 @@ namespace
       state.velocity.assign(nodes.n_local(), NodeVector<3>{});
       stepper.set_mass(lumped_masses(nodes, { stone.density }));
 
-      auto bound
-          = cell_bounds(nodes, { space_stiffness(stone) }, { stone.density });
+      std::vector<NodeStiffness<3>> bound(nodes.n_local(), NodeStiffness<3>{});
+      forces.add_stiffness_bound(state, {}, bound);
       nodes.exchange().add_to_owners(bound.data());
       bound.resize(nodes.n_owned());
       dt = 0.8
@@ -147,7 +147,7 @@ namespace
       BlockMesh<3> mesh       = box_mesh(n, h);
       const auto rank_of_cell = partition_cells(
           mesh, { false },
-          dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD), true);
+          dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
       return { mesh, rank_of_cell, { false }, MPI_COMM_WORLD };
     }
 

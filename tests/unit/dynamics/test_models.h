@@ -24,7 +24,7 @@ namespace quoin::test
   inline void make_stack(BlockMesh<2> &mesh, const unsigned int nx,
                          const unsigned int ny, const bool quadratic = false)
   {
-    MeshData data;
+    MeshData<2> data;
     for (const unsigned int i : { 0U, 1U })
     {
       const double y0 = i * ny, y1 = y0 + ny;
@@ -167,8 +167,8 @@ namespace quoin::test
   {
     const BlockMesh<2> &mesh;
     TestNodes nodes;
-    Model model;
-    ExplicitSolver solver;
+    Model<2> model;
+    ExplicitSolver<2> solver;
     State<2> state;
 
     TestRun(const BlockMesh<2> &mesh, const ModelParameters &parameters,

@@ -43,7 +43,8 @@ namespace
   }
 
   Boundary make(const std::vector<BoundaryCurveParameters> &curves,
-                const double length = 0., const MeshData &mesh = MeshData())
+                const double length     = 0.,
+                const MeshData<2> &mesh = MeshData<2>())
   {
     BoundaryElementParameters parameters;
     parameters.boundaries     = curves;
@@ -52,8 +53,8 @@ namespace
   }
 
   std::string complaint(const std::vector<BoundaryCurveParameters> &curves,
-                        const double length  = 0.,
-                        const MeshData &mesh = MeshData())
+                        const double length     = 0.,
+                        const MeshData<2> &mesh = MeshData<2>())
   {
     return message_of<InputError>([&] { make(curves, length, mesh); });
   }
@@ -68,17 +69,17 @@ namespace
   }
 
   /** A square with the side 2 and edges of 1 m, and a line across. */
-  MeshData square_mesh()
+  MeshData<2> square_mesh()
   {
-    MeshData mesh;
+    MeshData<2> mesh;
     mesh.vertices   = { { 0., 0. }, { 1., 0. }, { 2., 0. }, { 2., 1. },
                         { 2., 2. }, { 1., 2. }, { 0., 2. }, { 0., 1. } };
-    mesh.line_names = { "", "lower", "upper", "across" };
+    mesh.face_names = { "", "lower", "upper", "across" };
     const auto add =
         [&](const unsigned int a, const unsigned int b, const unsigned int name)
     {
-      mesh.lines.push_back({ { a, b } });
-      mesh.line_name.push_back(name);
+      mesh.faces.push_back({ { a, b } });
+      mesh.face_name.push_back(name);
     };
     // Not in order, nor all in one direction.
     add(1, 2, 1);
@@ -208,7 +209,7 @@ TEST(BoundaryGeometry, NearestElement)
 
 TEST(BoundaryGeometry, CurvesOfAMesh)
 {
-  const MeshData mesh = square_mesh();
+  const MeshData<2> mesh = square_mesh();
   Boundary b
       = make({ curves({ "lower", "upper" }, DomainSide::inside) }, 0., mesh);
   EXPECT_EQ(b.n_elements(), 8u) << "the edges of the mesh";
@@ -227,10 +228,10 @@ TEST(BoundaryGeometry, BlocksThatTouchMakeOneCurve)
 {
   // Two vertices at the same place but for rounding, one on either side of
   // half a unit of 1e-9 of the size.
-  MeshData mesh    = square_mesh();
+  MeshData<2> mesh = square_mesh();
   mesh.vertices[1] = { 1. + 1e-9 - 4e-16, 0. };
   mesh.vertices.push_back({ 1. + 1e-9 + 4e-16, 0. });
-  mesh.lines[0][0] = 8; // the edge from 1 to 2
+  mesh.faces[0][0] = 8; // the edge from 1 to 2
   EXPECT_EQ(
       make({ curves({ "lower" }, DomainSide::left) }, 0., mesh).n_elements(),
       2u);
@@ -238,8 +239,8 @@ TEST(BoundaryGeometry, BlocksThatTouchMakeOneCurve)
 
 TEST(BoundaryGeometry, Complaints)
 {
-  const MeshData mesh = square_mesh();
-  const auto says     = [](const std::string &message, const std::string &word)
+  const MeshData<2> mesh = square_mesh();
+  const auto says = [](const std::string &message, const std::string &word)
   { EXPECT_NE(message.find(word), std::string::npos) << message; };
   says(complaint({ curves({ "middle" }, DomainSide::left) }, 0., mesh),
        "lower, upper, across");

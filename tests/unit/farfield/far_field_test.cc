@@ -60,7 +60,7 @@ namespace
     {
       BlockMesh<2> result;
       result.group_names        = { "rock" };
-      result.line_names         = { "", "side" };
+      result.face_names         = { "", "side" };
       result.block_first_cell   = { 0, n };
       result.block_first_vertex = { 0, n + 2 };
       for (unsigned int i = 0; i <= n; ++i)

@@ -29,7 +29,7 @@ namespace
     {
       BlockMesh<2> result;
       result.group_names        = { "rock" };
-      result.line_names         = { "", "top" };
+      result.face_names         = { "", "top" };
       result.block_first_cell   = { 0 };
       result.block_first_vertex = { 0 };
       for (const std::vector<double> &x :
@@ -160,7 +160,7 @@ TEST(InterfaceTransfer, chords)
   constexpr unsigned int n = 24;
   BlockMesh<2> mesh;
   mesh.group_names        = { "rock" };
-  mesh.line_names         = { "", "circle" };
+  mesh.face_names         = { "", "circle" };
   mesh.block_first_cell   = { 0, n };
   mesh.block_first_vertex = { 0, n + 1 };
   std::vector<Eigen::Vector2d> points;

@@ -24,7 +24,7 @@ namespace
   {
     BlockMesh<2> mesh;
     std::unique_ptr<TestNodes> nodes;
-    std::unique_ptr<Model> model;
+    std::unique_ptr<Model<2>> model;
     std::unique_ptr<Platen> beam;
     std::unique_ptr<DofMap> dof_map;
     State<2> state;
@@ -36,7 +36,7 @@ namespace
       ModelParameters parameters    = two_blocks();
       parameters.materials[1].rigid = true;
       nodes = std::make_unique<TestNodes>(mesh, parameters.materials);
-      model = std::make_unique<Model>(*nodes, parameters);
+      model = std::make_unique<Model<2>>(*nodes, parameters);
       state = model->initial_state();
       beam  = std::make_unique<Platen>(platen("beam", "lower", x, y, rotation),
                                       *nodes);
@@ -235,7 +235,7 @@ TEST(DofMap, TheLastMotionOfANodePrevails)
   BlockMesh<2> mesh;
   make_stack(mesh, 2, 1);
   const TestNodes nodes(mesh);
-  const Model model(nodes, two_blocks());
+  const Model<2> model(nodes, two_blocks());
   State<2> state = model.initial_state();
   state.add<ImplicitState>();
   PrescribedMotion<2> bottom(motion("bottom", "bottom", "1", "2"), nodes);

@@ -14,7 +14,7 @@ namespace quoin::test
   struct ImplicitRun
   {
     TestNodes nodes;
-    Model model;
+    Model<2> model;
     ImplicitSolver solver;
     State<2> state;
 

@@ -29,17 +29,17 @@ namespace
   };
 
   /** The squares of add_grid() by both of their diagonals. */
-  void cross(MeshData &data)
+  void cross(MeshData<2> &data)
   {
     Quadrangles squares;
-    for (unsigned int i = 0; i < data.triangles.size(); i += 2)
+    for (unsigned int i = 0; i < data.cells.size(); i += 2)
     {
-      const auto &[a, b, c] = data.triangles[i];
-      squares.nodes.push_back({ { a, b, c, data.triangles[i + 1][2] } });
-      squares.group.push_back(data.triangle_group[i]);
+      const auto &[a, b, c] = data.cells[i];
+      squares.nodes.push_back({ { a, b, c, data.cells[i + 1][2] } });
+      squares.group.push_back(data.cell_group[i]);
     }
-    data.triangles.clear();
-    data.triangle_group.clear();
+    data.cells.clear();
+    data.cell_group.clear();
     add_crossed_triangles(squares, data);
   }
 
@@ -51,7 +51,7 @@ namespace
   {
     const std::string groups[] = { "a", "b", "c" };
     const std::string curves[] = { "left", "first", "second" };
-    MeshData data;
+    MeshData<2> data;
     for (unsigned int i = 0; i < 3; ++i)
     {
       const double x = 2. * i;
@@ -213,7 +213,7 @@ TEST(ImplicitSolver, IterationsConvergeQuadratically)
 // The same where a rigid block turns: forces of its nodes turn with it.
 TEST(ImplicitSolver, IterationsOfATurningBlockConvergeQuadratically)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 1, "lower", 0., 0.);
   add_curve(data, "bottom", 0., 0., 2., 0.);
   add_grid(data, 2, 1, "upper", 0., 1.);
@@ -337,7 +337,7 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
   BlockMesh<2> mesh;
   make_stack(mesh, 4, 1);
   const TestNodes nodes(mesh);
-  Model model(nodes, two_blocks());
+  Model<2> model(nodes, two_blocks());
   FarFieldDomain domain;
   domain.boundary.add_curve({ { 4., 0. }, { 2., 0. }, { 0., 0. } }, false);
   domain.medium    = ElasticMedium::from_young(2500., 1e10, 0.2);
@@ -368,7 +368,7 @@ TEST(ImplicitSolver, RigidBlockUnderAnEccentricLoad)
 {
   // A wall of 2 m x 1 m on a bed of springs: weight 25 kN in the middle,
   // 0.5 kN half a metre to the right.
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 1, "lower", 0., 0.);
   add_curve(data, "bottom", 0., 0., 2., 0.);
   add_grid(data, 2, 1, "upper", 0., 1.);

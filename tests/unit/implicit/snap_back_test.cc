@@ -74,7 +74,7 @@ namespace
     {
       const std::string groups[] = { "bar", "middle", "end" };
       const std::string curves[] = { "left", "glue", "joint" };
-      MeshData data;
+      MeshData<2> data;
       for (unsigned int i = 0; i < 3; ++i)
       {
         add_grid(data, 2, 2, groups[i], 2. * i, 0.);

@@ -400,8 +400,8 @@ TEST(RockGeometry, borders_that_a_body_and_a_hole_share)
     // The hole's walls go round it, on whatever they are.
     double length = 0.;
     for (const BlockFace<2> &face : mesh.boundary_faces)
-      if (face.name < mesh.line_names.size()
-          && mesh.line_names[face.name] == "tunnel")
+      if (face.name < mesh.face_names.size()
+          && mesh.face_names[face.name] == "tunnel")
         length += mesh.vertices[face.vertices[0]].distance(
             mesh.vertices[face.vertices[1]]);
     EXPECT_NEAR(length, regions[1].polygon == invert ? 14. : 16., 1e-9);

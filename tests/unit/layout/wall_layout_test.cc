@@ -62,7 +62,7 @@ namespace
           mesh_gmsh_geometry(geometry.text, "wall", MPI_COMM_SELF), options,
           mesh);
       for (const JointFace<2> &face : mesh.joint_faces)
-        joint_length[mesh.line_names[face.name]]
+        joint_length[mesh.face_names[face.name]]
             += mesh.vertices[face.lower[0]].distance(
                 mesh.vertices[face.lower[1]]);
       for (const auto &cell : mesh.cells)
@@ -251,7 +251,7 @@ TEST(WallGeometry, HasTheBlocksAndJointsOfTheTests)
     {
       const auto &p = mesh.vertices[v];
       if (std::abs(p[1] / 0.0625 - std::lround(p[1] / 0.0625)) < 1e-6)
-        places[mesh.line_names[face.name]].insert(
+        places[mesh.face_names[face.name]].insert(
             { std::lround(p[0] / 0.11), std::lround(p[1] / 0.0625) });
     }
   EXPECT_EQ(places["head"].size(), 128U);

@@ -51,7 +51,7 @@ namespace quoin::test
       result.block_first_cell   = { 0, 2 };
       result.block_first_vertex = { 0, 4 };
       result.group_names        = { "rock" };
-      result.line_names         = { "", "bottom", "right", "top", "left" };
+      result.face_names         = { "", "bottom", "right", "top", "left" };
       for (const unsigned int k : { 0U, 1U, 2U, 3U })
         result.boundary_faces.push_back(
             { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k + 1 });

@@ -161,3 +161,24 @@ TEST(LoadParameters, RefusesMotionWhereAForceIsMeant)
                  "set Incident normal velocity = force 5\n",
                  "Incident normal velocity = force 5", "viscous boundary");
 }
+
+TEST(LoadParameters, ComponentsAlongTheAxes)
+{
+  const auto force = [](const std::string &value) {
+    return LoadComponent{ LoadQuantity::force, TimeFunction(value, "") };
+  };
+  LoadParameters load;
+  load.name       = "push";
+  load.type       = LoadType::traction;
+  load.components = { force("1"), force("2"), {} };
+  EXPECT_EQ(component_values(load.along_axes<2>().components, {}),
+            (std::array<double, 3>{ { 1., 2., 0. } }));
+  load.lateral = force("3");
+  EXPECT_EQ(component_values(load.along_axes<3>().components, {}),
+            (std::array<double, 3>{ { 1., 3., 2. } }));
+  EXPECT_EQ(load.given_components().size(), 3U);
+  const std::string refusal
+      = message_of<InputError>([&]() { load.along_axes<2>(); });
+  EXPECT_NE(refusal.find("'Lateral'"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("Loads/push"), std::string::npos) << refusal;
+}

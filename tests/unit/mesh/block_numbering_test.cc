@@ -14,9 +14,9 @@ using namespace quoin::test;
 namespace
 {
   /** n x n blocks of 2 x 2 squares, with a named bottom. */
-  MeshData tiles(const unsigned int n)
+  MeshData<2> tiles(const unsigned int n)
   {
-    MeshData data;
+    MeshData<2> data;
     add_grid(data, 2 * n, 2 * n, "rock");
     for (unsigned int i = 1; i < n; ++i)
     {
@@ -27,7 +27,7 @@ namespace
     return data;
   }
 
-  void split(const MeshData &data, BlockMesh<2> &mesh)
+  void split(const MeshData<2> &data, BlockMesh<2> &mesh)
   {
     SplitOptions options;
     options.joints_along = { "joint" };
@@ -104,19 +104,19 @@ TEST(BlockNumbering, RigidBlocksComeBehindTheOthers)
 
 TEST(MeshData, SurvivesSerialization)
 {
-  MeshData data       = tiles(2);
-  data.source         = "wall.geo";
-  data.quadratic      = true;
-  data.n_reoriented   = 3;
-  const MeshData copy = dealii::Utilities::unpack<MeshData>(
+  MeshData<2> data       = tiles(2);
+  data.source            = "wall.geo";
+  data.quadratic         = true;
+  data.n_reoriented      = 3;
+  const MeshData<2> copy = dealii::Utilities::unpack<MeshData<2>>(
       dealii::Utilities::pack(data, false), false);
   EXPECT_EQ(copy.vertices, data.vertices);
-  EXPECT_EQ(copy.triangles, data.triangles);
-  EXPECT_EQ(copy.triangle_group, data.triangle_group);
-  EXPECT_EQ(copy.lines, data.lines);
-  EXPECT_EQ(copy.line_name, data.line_name);
+  EXPECT_EQ(copy.cells, data.cells);
+  EXPECT_EQ(copy.cell_group, data.cell_group);
+  EXPECT_EQ(copy.faces, data.faces);
+  EXPECT_EQ(copy.face_name, data.face_name);
   EXPECT_EQ(copy.group_names, data.group_names);
-  EXPECT_EQ(copy.line_names, data.line_names);
+  EXPECT_EQ(copy.face_names, data.face_names);
   EXPECT_EQ(copy.quadratic, data.quadratic);
   EXPECT_EQ(copy.n_reoriented, data.n_reoriented);
   EXPECT_EQ(copy.source, data.source);
@@ -124,10 +124,10 @@ TEST(MeshData, SurvivesSerialization)
 
 TEST(MeshData, TurnsClockwiseTrianglesAndRefusesFlatOnes)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 1, 1, "rock");
-  std::swap(data.triangles[1][0], data.triangles[1][1]);
-  orient_triangles(data);
+  std::swap(data.cells[1][0], data.cells[1][1]);
+  orient_cells(data);
   EXPECT_EQ(data.n_reoriented, 1U);
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
@@ -135,6 +135,6 @@ TEST(MeshData, TurnsClockwiseTrianglesAndRefusesFlatOnes)
   EXPECT_EQ(mesh.n_reoriented_cells, 1U);
 
   data.vertices[2] = dealii::Point<2>(2., 2.);
-  expect_input_error([&] { orient_triangles(data); },
+  expect_input_error([&] { orient_cells(data); },
                      { "has no area", "(0, 0)", "(2, 2)" });
 }

@@ -23,7 +23,7 @@ namespace
   {
     double length = 0.;
     for (const JointFace<2> &face : mesh.joint_faces)
-      if (mesh.line_names[face.name] == name)
+      if (mesh.face_names[face.name] == name)
         length += mesh.vertices[face.lower[0]].distance(
             mesh.vertices[face.lower[1]]);
     return length;
@@ -32,7 +32,7 @@ namespace
 
 TEST(BlockSplitter, LeavesASquareWhole)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 3, 2, "rock");
   add_curve(data, "base", 0, 0, 3, 0);
   BlockMesh<2> mesh;
@@ -45,7 +45,7 @@ TEST(BlockSplitter, LeavesASquareWhole)
   ASSERT_EQ(mesh.boundary_faces.size(), 10U);
   unsigned int n_base = 0;
   for (const BlockFace<2> &face : mesh.boundary_faces)
-    if (mesh.line_names[face.name] == "base")
+    if (mesh.face_names[face.name] == "base")
     {
       ++n_base;
       EXPECT_EQ(mesh.vertices[face.vertices[0]][1], 0.);
@@ -57,7 +57,7 @@ TEST(BlockSplitter, LeavesASquareWhole)
 
 TEST(BlockSplitter, PutsTheLowerBlockBelowABedJoint)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 3, 2, "brick");
   add_curve(data, "bed", 0, 1, 3, 1);
   BlockMesh<2> mesh;
@@ -77,7 +77,7 @@ TEST(BlockSplitter, PutsTheLowerBlockBelowABedJoint)
 
 TEST(BlockSplitter, PutsTheLowerBlockLeftOfAHeadJoint)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 3, "brick");
   add_curve(data, "head", 1, 0, 1, 3);
   BlockMesh<2> mesh;
@@ -94,7 +94,7 @@ TEST(BlockSplitter, PutsTheLowerBlockLeftOfAHeadJoint)
 
 TEST(BlockSplitter, SplitsAnXCrossingIntoFour)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 4, 4, "rock");
   add_curve(data, "first", 2, 0, 2, 4);
   add_curve(data, "second", 0, 2, 4, 2);
@@ -115,7 +115,7 @@ TEST(BlockSplitter, SplitsAnXCrossingIntoFour)
 
 TEST(BlockSplitter, SplitsATCrossingIntoThree)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 4, 4, "brick");
   add_curve(data, "bed", 0, 2, 4, 2);
   add_curve(data, "head", 2, 2, 2, 4);
@@ -132,13 +132,13 @@ TEST(BlockSplitter, SplitsATCrossingIntoThree)
 
 TEST(BlockSplitter, SplitsSixBlocksAtAVertex)
 {
-  MeshData data;
+  MeshData<2> data;
   data.vertices.emplace_back(0., 0.);
   for (unsigned int i = 0; i < 6; ++i)
   {
     data.vertices.emplace_back(std::cos(i * M_PI / 3), std::sin(i * M_PI / 3));
-    data.triangles.push_back({ { 0, i + 1, (i + 1) % 6 + 1 } });
-    data.triangle_group.push_back(i);
+    data.cells.push_back({ { 0, i + 1, (i + 1) % 6 + 1 } });
+    data.cell_group.push_back(i);
     data.group_names.push_back("sector " + std::to_string(i));
   }
   SplitOptions options;
@@ -156,10 +156,10 @@ TEST(BlockSplitter, SplitsSixBlocksAtAVertex)
 
 TEST(BlockSplitter, SplitsBetweenTheGivenSurfacesOnly)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 3, 1, "a");
-  data.group_names    = { "a", "b", "c" };
-  data.triangle_group = { 0, 0, 1, 1, 2, 2 };
+  data.group_names = { "a", "b", "c" };
+  data.cell_group  = { 0, 0, 1, 1, 2, 2 };
   SplitOptions options;
   options.joints_between = { { "c", "b" } };
   BlockMesh<2> mesh;
@@ -175,7 +175,7 @@ TEST(BlockSplitter, SplitsBetweenTheGivenSurfacesOnly)
 
 TEST(BlockSplitter, KeepsACrackThatEndsInside)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 4, 4, "rock");
   add_curve(data, "crack", 0, 2, 2, 2);
   BlockMesh<2> mesh;
@@ -193,7 +193,7 @@ TEST(BlockSplitter, KeepsACrackThatEndsInside)
 
 TEST(BlockSplitter, KeepsACrackWithTwoTips)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 4, 4, "rock");
   add_curve(data, "crack", 1, 1, 3, 3);
   BlockMesh<2> mesh;
@@ -206,7 +206,7 @@ TEST(BlockSplitter, KeepsACrackWithTwoTips)
 
 TEST(BlockSplitter, RefusesJointEndsIfAsked)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 4, 4, "rock");
   add_curve(data, "crack", 0, 2, 2, 2);
   SplitOptions options = along({ "crack" });
@@ -224,11 +224,11 @@ TEST(BlockSplitter, RefusesJointEndsIfAsked)
 TEST(BlockSplitter, FindsJointsOfBlocksThatAreApart)
 {
   // Within the tolerance, a thousandth of the shortest edge.
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 1, "below");
   add_grid(data, 2, 1, "above", 3e-4, 1. - 3e-4);
-  data.lines     = { { { node_at(data, 0, 1), node_at(data, 1, 1) } } };
-  data.line_name = { index_of("bed", data.line_names) };
+  data.faces     = { { { node_at(data, 0, 1), node_at(data, 1, 1) } } };
+  data.face_name = { index_of("bed", data.face_names) };
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
 
@@ -241,7 +241,7 @@ TEST(BlockSplitter, FindsJointsOfBlocksThatAreApart)
   EXPECT_EQ(mesh.boundary_faces.size(), 8U);
 
   // Named joints may lie on either side; that is no dangling curve.
-  data.lines[0] = { { node_at(data, 3e-4, 1. - 3e-4),
+  data.faces[0] = { { node_at(data, 3e-4, 1. - 3e-4),
                       node_at(data, 1. + 3e-4, 1. - 3e-4) } };
   split_into_blocks(data, along({ "bed" }), mesh);
   EXPECT_NEAR(joint_length(mesh, "bed"), 1., 1e-12);
@@ -254,7 +254,7 @@ TEST(BlockSplitter, FindsJointsOfBlocksThatAreApart)
 
 TEST(BlockSplitter, FindsCoincidentEdgesFarFromTheOrigin)
 {
-  MeshData data;
+  MeshData<2> data;
   for (unsigned int j = 0; j < 5; ++j)
     for (unsigned int i = 0; i < 5; ++i)
       add_grid(data, 2, 2, "brick", 1e4 + .2 * i, -3e3 + .2 * j, .1);
@@ -267,10 +267,10 @@ TEST(BlockSplitter, FindsCoincidentEdgesFarFromTheOrigin)
 
 TEST(BlockSplitter, SeparatesBlocksThatMeetInAPoint)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 2, "rock");
-  data.triangles.erase(data.triangles.begin() + 2, data.triangles.begin() + 6);
-  data.triangle_group.resize(4);
+  data.cells.erase(data.cells.begin() + 2, data.cells.begin() + 6);
+  data.cell_group.resize(4);
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
   expect_consistent(mesh, 2.);
@@ -280,7 +280,7 @@ TEST(BlockSplitter, SeparatesBlocksThatMeetInAPoint)
 
 TEST(BlockSplitter, RefusesNamesThatDoNotExist)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 2, "rock");
   add_curve(data, "fault", 0, 1, 2, 1);
   BlockMesh<2> mesh;
@@ -299,7 +299,7 @@ TEST(BlockSplitter, RefusesNamesThatDoNotExist)
 
 TEST(BlockSplitter, RefusesJointsOnTheOuterBoundary)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 2, "rock");
   add_curve(data, "fault", 0, 1, 2, 1);
   add_curve(data, "fault", 2, 1, 2, 2);
@@ -310,7 +310,7 @@ TEST(BlockSplitter, RefusesJointsOnTheOuterBoundary)
 
 TEST(BlockSplitter, RefusesCurvesThatAreNoEdges)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 2, "rock");
   add_curve(data, "fault", 0, 1, 1, 0); // across the diagonals
   BlockMesh<2> mesh;
@@ -319,15 +319,15 @@ TEST(BlockSplitter, RefusesCurvesThatAreNoEdges)
       { "curve 'fault' is no edge of the mesh at (0.5, 0.5)", "In Surface" });
   EXPECT_NO_THROW(split_into_blocks(data, {}, mesh));
 
-  data.lines.clear();
-  data.line_name.clear();
+  data.faces.clear();
+  data.face_name.clear();
   expect_input_error([&] { split_into_blocks(data, along({ "fault" }), mesh); },
                      { "curve 'fault' has no line elements" });
 }
 
 TEST(BlockSplitter, RefusesCurvesOnEachOther)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 2, "rock");
   add_curve(data, "fault", 0, 1, 2, 1);
   add_curve(data, "seam", 1, 1, 2, 1);
@@ -339,34 +339,34 @@ TEST(BlockSplitter, RefusesCurvesOnEachOther)
 TEST(BlockSplitter, RefusesOverlaps)
 {
   BlockMesh<2> mesh;
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 2, "rock");
-  MeshData twice = data;
-  twice.triangles.push_back(twice.triangles.front());
-  twice.triangle_group.push_back(0);
+  MeshData<2> twice = data;
+  twice.cells.push_back(twice.cells.front());
+  twice.cell_group.push_back(0);
   expect_input_error([&] { split_into_blocks(twice, {}, mesh); },
                      { "triangles overlap" });
 
   add_grid(data, 2, 2, "rock");
   expect_input_error([&] { split_into_blocks(data, {}, mesh); },
                      { "blocks overlap" });
-  expect_input_error([&] { split_into_blocks(MeshData(), {}, mesh); },
+  expect_input_error([&] { split_into_blocks(MeshData<2>(), {}, mesh); },
                      { "no triangles" });
 }
 
 TEST(BlockSplitter, GivesTheSameBlocksForAnyOrderOfTriangles)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 6, 6, "rock");
   add_curve(data, "joint", 0, 2, 6, 2);
   add_curve(data, "joint", 3, 2, 3, 6);
-  MeshData reversed = data;
-  std::reverse(reversed.triangles.begin(), reversed.triangles.end());
-  for (auto &triangle : reversed.triangles)
+  MeshData<2> reversed = data;
+  std::reverse(reversed.cells.begin(), reversed.cells.end());
+  for (auto &triangle : reversed.cells)
     std::rotate(triangle.begin(), triangle.begin() + 1, triangle.end());
 
   std::map<unsigned int, unsigned int> sizes[2];
-  const MeshData *meshes[2] = { &data, &reversed };
+  const MeshData<2> *meshes[2] = { &data, &reversed };
   for (unsigned int i = 0; i < 2; ++i)
   {
     BlockMesh<2> mesh;

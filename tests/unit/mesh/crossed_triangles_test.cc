@@ -11,20 +11,19 @@ using namespace quoin;
 
 namespace
 {
-  MeshData cut(const std::vector<dealii::Point<2>> &corners)
+  MeshData<2> cut(const std::vector<dealii::Point<2>> &corners)
   {
-    MeshData mesh;
+    MeshData<2> mesh;
     mesh.vertices = corners;
     add_crossed_triangles({ { { { 0, 1, 2, 3 } } }, { 7 } }, mesh);
-    EXPECT_EQ(mesh.triangle_group,
-              std::vector<unsigned int>(mesh.triangles.size(), 7));
+    EXPECT_EQ(mesh.cell_group, std::vector<unsigned int>(mesh.cells.size(), 7));
     return mesh;
   }
 
-  std::vector<double> areas(const MeshData &mesh)
+  std::vector<double> areas(const MeshData<2> &mesh)
   {
     std::vector<double> result;
-    for (const auto &t : mesh.triangles)
+    for (const auto &t : mesh.cells)
     {
       const auto a = mesh.vertices[t[0]];
       const auto b = mesh.vertices[t[1]] - a, c = mesh.vertices[t[2]] - a;
@@ -36,8 +35,9 @@ namespace
 
 TEST(CrossedTriangles, MeetWhereTheDiagonalsDo)
 {
-  const MeshData mesh = cut({ { 0., 0. }, { 2., 0. }, { 3., 3. }, { 0., 1. } });
-  ASSERT_EQ(mesh.triangles.size(), 4U);
+  const MeshData<2> mesh
+      = cut({ { 0., 0. }, { 2., 0. }, { 3., 3. }, { 0., 1. } });
+  ASSERT_EQ(mesh.cells.size(), 4U);
   ASSERT_EQ(mesh.vertices.size(), 5U);
   // y = x and y = 1 - x/2
   EXPECT_NEAR(mesh.vertices[4][0], 2. / 3., 1e-15);
@@ -54,13 +54,13 @@ TEST(CrossedTriangles, MeetWhereTheDiagonalsDo)
 TEST(CrossedTriangles, ConditionsOfConstantAreaDepend)
 {
   // Rows: derivatives of the four areas by the five vertices.
-  const MeshData mesh
+  const MeshData<2> mesh
       = cut({ { 0., 0. }, { 2., 0.1 }, { 2.4, 1.7 }, { -0.2, 1. } });
   double rows[4][10]{};
   for (unsigned int t = 0; t < 4; ++t)
     for (unsigned int i = 0; i < 3; ++i)
     {
-      const auto &cell = mesh.triangles[t];
+      const auto &cell = mesh.cells[t];
       const auto edge
           = mesh.vertices[cell[(i + 2) % 3]] - mesh.vertices[cell[(i + 1) % 3]];
       rows[t][2 * cell[i]]     = -edge[1];
@@ -83,8 +83,8 @@ TEST(CrossedTriangles, ConcaveQuadranglesBecomeTwo)
         = { { 0.3, 0.3 }, { 0., -2. }, { 2., 2. }, { -2., 0. } };
     for (unsigned int i = 0; i < 4; ++i)
       corners[(i + inner) % 4] = dart[i];
-    const MeshData mesh = cut(corners);
-    ASSERT_EQ(mesh.triangles.size(), 2U);
+    const MeshData<2> mesh = cut(corners);
+    ASSERT_EQ(mesh.cells.size(), 2U);
     EXPECT_EQ(mesh.vertices.size(), 4U);
     double sum = 0.;
     for (const double area : areas(mesh))

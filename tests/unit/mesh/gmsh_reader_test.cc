@@ -7,6 +7,8 @@
 #include <quoin/mesh/gmsh_reader.h>
 #include <quoin/mesh/mesh_report.h>
 
+#include <deal.II/base/tensor.h>
+
 #include <sys/wait.h>
 
 #include <cerrno>
@@ -56,7 +58,7 @@ namespace
                                "3 2 2 1 1 1 5 4\n4 2 2 2 2 2 3 60\n"
                                "5 2 2 2 2 2 60 5\n";
 
-  void expect_two_squares(const MeshData &data)
+  void expect_two_squares(const MeshData<2> &data)
   {
     EXPECT_EQ(data.group_names, (std::vector<std::string>{ "left", "right" }));
     SplitOptions options;
@@ -65,7 +67,7 @@ namespace
     split_into_blocks(data, options, mesh);
     expect_consistent(mesh, 2.);
     EXPECT_EQ(mesh.n_blocks(), 2U);
-    EXPECT_DOUBLE_EQ(make_mesh_report(mesh).joint_length.at("joint"), 1.);
+    EXPECT_DOUBLE_EQ(make_mesh_report(mesh).joint_size.at("joint"), 1.);
     for (const JointFace<2> &face : mesh.joint_faces)
       EXPECT_EQ(face.groups, (std::array<unsigned int, 2>{ { 0, 1 } }));
   }
@@ -82,8 +84,8 @@ namespace
 TEST(GmshReader, MeshesAGeometry)
 {
   const std::string path = write("two.geo", two_squares + names);
-  const MeshData data    = read_gmsh(path);
-  EXPECT_EQ(data.line_names, (std::vector<std::string>{ "", "base", "joint" }));
+  const MeshData<2> data = read_gmsh(path);
+  EXPECT_EQ(data.face_names, (std::vector<std::string>{ "", "base", "joint" }));
   EXPECT_EQ(data.source, path);
   EXPECT_EQ(data.n_reoriented, 0U);
   expect_two_squares(data);
@@ -92,17 +94,17 @@ TEST(GmshReader, MeshesAGeometry)
 
 TEST(GmshReader, SaysThatTrianglesAreToHaveMidsideNodes)
 {
-  const std::string path = write("quadratic.geo", two_squares + names);
-  const MeshData plain   = read_gmsh(path);
-  const MeshData data    = read_gmsh(path, TriangleKind::quadratic);
-  const MeshData received
+  const std::string path  = write("quadratic.geo", two_squares + names);
+  const MeshData<2> plain = read_gmsh(path);
+  const MeshData<2> data  = read_gmsh(path, TriangleKind::quadratic);
+  const MeshData<2> received
       = read_gmsh(path, MPI_COMM_SELF, TriangleKind::quadratic);
   EXPECT_FALSE(plain.quadratic);
-  for (const MeshData *mesh : { &data, &received })
+  for (const MeshData<2> *mesh : { &data, &received })
   {
     EXPECT_TRUE(mesh->quadratic);
-    EXPECT_EQ(mesh->triangles, plain.triangles);
-    EXPECT_EQ(mesh->lines, plain.lines);
+    EXPECT_EQ(mesh->cells, plain.cells);
+    EXPECT_EQ(mesh->faces, plain.faces);
     expect_two_squares(*mesh);
   }
 }
@@ -110,22 +112,21 @@ TEST(GmshReader, SaysThatTrianglesAreToHaveMidsideNodes)
 TEST(GmshReader, CutsQuadranglesCrosswise)
 {
   const std::string path = write("crossed.geo", two_squares + names);
-  const MeshData data    = read_gmsh(path, TriangleKind::crossed);
+  const MeshData<2> data = read_gmsh(path, TriangleKind::crossed);
   expect_two_squares(data);
   expect_two_squares(read_gmsh(path, MPI_COMM_WORLD, TriangleKind::crossed));
-  EXPECT_EQ(data.triangles.size() % 4, 0U);
+  EXPECT_EQ(data.cells.size() % 4, 0U);
 
   // A quadrangle beside two triangles.
   const std::string mixed = "4\n1 1 2 7 1 2 5\n2 3 2 1 1 1 2 5 4\n"
                             "3 2 2 2 2 2 3 60\n4 2 2 2 2 2 60 5\n";
   const std::string file  = write("mixed.msh", msh2(nodes, mixed));
-  const MeshData some     = read_gmsh(file, TriangleKind::crossed);
-  EXPECT_EQ(some.triangles.size(), 6U);
+  const MeshData<2> some  = read_gmsh(file, TriangleKind::crossed);
+  EXPECT_EQ(some.cells.size(), 6U);
   EXPECT_EQ(some.vertices.size(), 7U);
-  EXPECT_EQ(some.triangle_group,
-            (std::vector<unsigned int>{ 1, 1, 0, 0, 0, 0 }));
+  EXPECT_EQ(some.cell_group, (std::vector<unsigned int>{ 1, 1, 0, 0, 0, 0 }));
   double area = 0.;
-  for (const auto &t : some.triangles)
+  for (const auto &t : some.cells)
     area += 0.5
             * ((some.vertices[t[1]][0] - some.vertices[t[0]][0])
                    * (some.vertices[t[2]][1] - some.vertices[t[0]][1])
@@ -147,17 +148,17 @@ TEST(GmshReader, CutsQuadranglesCrosswise)
 
 TEST(GmshReader, ReadsFormat22)
 {
-  const MeshData data = read_gmsh(write("two22.msh", msh2(nodes, elements)));
+  const MeshData<2> data = read_gmsh(write("two22.msh", msh2(nodes, elements)));
   EXPECT_EQ(data.vertices.size(), 6U);
-  EXPECT_EQ(data.triangles.size(), 4U);
-  EXPECT_EQ(data.lines.size(), 1U);
+  EXPECT_EQ(data.cells.size(), 4U);
+  EXPECT_EQ(data.faces.size(), 1U);
   expect_two_squares(data);
 }
 
 TEST(GmshReader, ReadsAllFormatsThatGmshWrites)
 {
-  const std::string geo   = write("formats.geo", two_squares + names);
-  const MeshData expected = read_gmsh(geo);
+  const std::string geo      = write("formats.geo", two_squares + names);
+  const MeshData<2> expected = read_gmsh(geo);
   for (const char *version : { "2.2", "4.1" })
     for (const char *binary : { "0", "1" })
     {
@@ -166,17 +167,17 @@ TEST(GmshReader, ReadsAllFormatsThatGmshWrites)
                                  + "; Mesh.Binary = " + binary + ";\n";
       const std::string file = ::testing::TempDir() + "/quoin_format.msh";
       write_gmsh_mesh(write("format.geo", format + two_squares + names), file);
-      const MeshData data = read_gmsh(file);
+      const MeshData<2> data = read_gmsh(file);
       expect_two_squares(data);
-      EXPECT_EQ(data.triangles.size(), expected.triangles.size());
+      EXPECT_EQ(data.cells.size(), expected.cells.size());
       EXPECT_EQ(data.vertices.size(), expected.vertices.size());
-      EXPECT_EQ(data.lines.size(), expected.lines.size());
+      EXPECT_EQ(data.faces.size(), expected.faces.size());
     }
 }
 
 TEST(GmshReader, KeepsCoincidentNodesApart)
 {
-  const MeshData data = read_gmsh(
+  const MeshData<2> data = read_gmsh(
       write("apart.msh",
             msh2("8\n1 0 0 0\n2 1 0 0\n3 2 0 0\n4 0 1 0\n5 1 1 0\n6 2 1 0\n"
                  "12 1 0 0\n15 1 1 0\n",
@@ -190,7 +191,7 @@ TEST(GmshReader, TurnsClockwiseSurfaces)
 {
   std::string geometry = two_squares;
   geometry.replace(geometry.find("{1, 2, 3, 4}"), 12, "{-4, -3, -2, -1}");
-  const MeshData data = read_gmsh(write("clockwise.geo", geometry + names));
+  const MeshData<2> data = read_gmsh(write("clockwise.geo", geometry + names));
   EXPECT_GT(data.n_reoriented, 0U);
   expect_two_squares(data);
 }
@@ -234,12 +235,13 @@ TEST(GmshReader, SurvivesTheEndOfGmsh)
 TEST(GmshReader, MeshesATextAsAFile)
 {
   const std::string text = two_squares + names;
-  const MeshData made = mesh_gmsh_geometry(text, "section Wall", MPI_COMM_SELF);
-  const MeshData read = read_gmsh(write("text.geo", text));
+  const MeshData<2> made
+      = mesh_gmsh_geometry(text, "section Wall", MPI_COMM_SELF);
+  const MeshData<2> read = read_gmsh(write("text.geo", text));
   EXPECT_EQ(made.source, "section Wall");
   EXPECT_EQ(made.vertices, read.vertices);
-  EXPECT_EQ(made.triangles, read.triangles);
-  EXPECT_EQ(made.lines, read.lines);
+  EXPECT_EQ(made.cells, read.cells);
+  EXPECT_EQ(made.faces, read.faces);
   expect_input_error(
       [] {
         mesh_gmsh_geometry("Point(1) = {0, 0;", "section Wall", MPI_COMM_SELF);
@@ -312,4 +314,194 @@ TEST(GmshReader, RefusesUndefinedNodes)
   std::string wrong = elements;
   wrong.replace(wrong.find("2 3 60"), 6, "2 3 61");
   expect_refused(write("undefined.msh", msh2(nodes, wrong)), { "61" });
+}
+
+namespace
+{
+  /** A box, by gmsh's own kernel; volume 1, its base surface 1. */
+  const std::string box
+      = "Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0};\n"
+        "Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};\n"
+        "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4};\n"
+        "Line(4) = {4, 1}; Curve Loop(1) = {1, 2, 3, 4};\n"
+        "Plane Surface(1) = {1}; Mesh.MeshSizeMax = 0.5;\n"
+        "b[] = Extrude {0, 0, 2} { Surface{1}; LAYERS };\n";
+  std::string box_with(const std::string &layers, const std::string &more)
+  {
+    std::string text = box;
+    return text.replace(text.find("LAYERS"), 6, layers) + more;
+  }
+  const std::string box_names = "Physical Volume(\"stone\") = {1};\n"
+                                "Physical Surface(\"base\") = {1}; Physical "
+                                "Surface(\"top\") = {b[0]};\n";
+
+  /** Two tetrahedra of format 2.2 on the plane z = 0, with a triangle. */
+  std::string msh_of_tetrahedra(const std::string &nodes)
+  {
+    return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n"
+           "$PhysicalNames\n2\n2 7 \"base\"\n3 1 \"stone\"\n"
+           "$EndPhysicalNames\n$Nodes\n"
+           + nodes
+           + "$EndNodes\n$Elements\n3\n1 2 2 7 1 1 2 3\n"
+             "2 4 2 1 1 1 2 3 4\n3 4 2 1 1 3 2 1 50\n$EndElements\n";
+  }
+
+  double total_volume(const MeshData<3> &mesh)
+  {
+    double result = 0.;
+    for (const auto &cell : mesh.cells)
+    {
+      const auto edge = [&](const unsigned int k)
+      { return mesh.vertices[cell[k]] - mesh.vertices[cell[0]]; };
+      result += dealii::cross_product_3d(edge(1), edge(2)) * edge(3) / 6.;
+    }
+    return result;
+  }
+
+  void expect_box(const MeshData<3> &mesh)
+  {
+    EXPECT_EQ(mesh.group_names, (std::vector<std::string>{ "stone" }));
+    EXPECT_EQ(mesh.face_names, (std::vector<std::string>{ "", "base", "top" }));
+    EXPECT_NEAR(total_volume(mesh), 2., 1e-12);
+    double base = 0., top = 0.;
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+    {
+      const auto &v  = mesh.faces[f];
+      const auto &x  = mesh.vertices[v[0]];
+      const double a = 0.5
+                       * dealii::cross_product_3d(mesh.vertices[v[1]] - x,
+                                                  mesh.vertices[v[2]] - x)
+                             .norm();
+      (mesh.face_name[f] == 1 ? base : top) += a;
+      EXPECT_NEAR(x[2], mesh.face_name[f] == 1 ? 0. : 2., 1e-12);
+    }
+    EXPECT_NEAR(base, 1., 1e-12);
+    EXPECT_NEAR(top, 1., 1e-12);
+  }
+
+  /** The refusal of a mesh of any dimension. */
+  void expect_refused_as(const std::string &path, const MeshDimension dimension,
+                         const TriangleKind kind,
+                         const std::vector<std::string> &parts)
+  {
+    std::vector<std::string> all = { path };
+    all.insert(all.end(), parts.begin(), parts.end());
+    expect_input_error(
+        [&] { read_any_gmsh(path, MPI_COMM_SELF, dimension, kind); }, all);
+  }
+  void expect_space_refused(const std::string &path,
+                            const std::vector<std::string> &parts)
+  {
+    expect_refused_as(path, MeshDimension::from_mesh, TriangleKind::plain,
+                      parts);
+  }
+} // namespace
+
+TEST(GmshReader, MeshesVolumes)
+{
+  const std::string path = write("box.geo", box_with("", box_names));
+  expect_box(std::get<MeshData<3>>(read_any_gmsh(path, MPI_COMM_WORLD)));
+  expect_box(read_gmsh<3>(path));
+  expect_box(read_gmsh<3>(path, MPI_COMM_WORLD));
+  // Layers of tetrahedra.
+  expect_box(read_gmsh<3>(
+      write("layers.geo", box_with("Layers{ {2, 1}, {0.5, 1} };", box_names))));
+
+  const AnyMeshData plane
+      = read_any_gmsh(write("plane.geo", two_squares + names), MPI_COMM_WORLD);
+  expect_two_squares(std::get<MeshData<2>>(plane));
+}
+
+TEST(GmshReader, ReadsTetrahedraOfAllFormats)
+{
+  const MeshData<3> expected
+      = read_gmsh<3>(write("box_formats.geo", box_with("", box_names)));
+  for (const char *version : { "2.2", "4.1" })
+    for (const char *binary : { "0", "1" })
+    {
+      SCOPED_TRACE(std::string(version) + ", binary " + binary);
+      const std::string format = std::string("Mesh.MshFileVersion = ") + version
+                                 + "; Mesh.Binary = " + binary + ";\n";
+      const std::string file = ::testing::TempDir() + "/quoin_box_format.msh";
+      write_gmsh_mesh(write("box_format.geo", format + box_with("", box_names)),
+                      file);
+      const MeshData<3> data
+          = std::get<MeshData<3>>(read_any_gmsh(file, MPI_COMM_SELF));
+      expect_box(data);
+      EXPECT_EQ(data.cells.size(), expected.cells.size());
+      EXPECT_EQ(data.vertices.size(), expected.vertices.size());
+    }
+}
+
+TEST(GmshReader, TurnsTetrahedra)
+{
+  const std::string corners = "5\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n";
+  const MeshData<3> data    = read_gmsh<3>(
+      write("two.msh", msh_of_tetrahedra(corners + "50 0 0 -3\n")));
+  EXPECT_EQ(data.n_reoriented, 0U);
+  EXPECT_DOUBLE_EQ(total_volume(data), 2. / 3.);
+  EXPECT_EQ(data.faces.size(), 1U);
+  // Both on one side of the triangle, the second one inside out.
+  const MeshData<3> turned = read_gmsh<3>(
+      write("turned.msh", msh_of_tetrahedra(corners + "50 0 0 3\n")));
+  EXPECT_EQ(turned.n_reoriented, 1U);
+  EXPECT_DOUBLE_EQ(total_volume(turned), 2. / 3.);
+  expect_space_refused(
+      write("sliver.msh", msh_of_tetrahedra(corners + "50 2 3 0\n")),
+      { "a tetrahedron has no volume", "(2, 3, 0)" });
+}
+
+TEST(GmshReader, WantsTheDimensionAskedFor)
+{
+  const std::string square = write("square.geo", two_squares + names);
+  expect_refused_as(square, MeshDimension::three, TriangleKind::plain,
+                    { "no tetrahedra", "'Dimension = 3' in section 'Mesh'",
+                      "gmsh -3", "'Dimension = from mesh'" });
+  expect_refused_as(write("three.msh", msh2(nodes, elements)),
+                    MeshDimension::three, TriangleKind::plain,
+                    { "no tetrahedra", "gmsh -3" });
+  // The surface of a geometry of volumes that lies in the plane is not alone.
+  expect_refused_as(write("base.geo", box_with("", box_names)),
+                    MeshDimension::two, TriangleKind::plain,
+                    { "no physical group holds the surfaces" });
+  for (const auto &[kind, word] :
+       { std::make_pair(TriangleKind::crossed, "crossed"),
+         std::make_pair(TriangleKind::quadratic, "quadratic") })
+    expect_refused_as(
+        write("kinds.geo", box_with("", box_names)), MeshDimension::from_mesh,
+        kind,
+        { "three-dimensional",
+          "'Triangles = " + std::string(word) + "' in section 'Mesh'",
+          "'Triangles = plain'" });
+}
+
+TEST(GmshReader, WantsTetrahedraInNamedVolumes)
+{
+  expect_space_refused(
+      write("no_volume.geo", box_with("", "")),
+      { "no physical group holds the volume 1", "Physical Volume(\"rock\")" });
+  expect_space_refused(
+      write("unnamed_volume.geo", box_with("", "Physical Volume(3) = {1};\n")),
+      { "physical volume 3 has no name", "Physical Volume(" });
+  expect_space_refused(
+      write("volumes.geo",
+            box_with("", box_names + "Physical Volume(\"rock\") = {1};\n")),
+      { "volume 1 is in several physical volumes" });
+  expect_space_refused(
+      write("surfaces.geo",
+            box_with("", box_names + "Physical Surface(\"x\") = {1};\n")),
+      { "surface 1 is in several physical surfaces" });
+  expect_space_refused(
+      write("prisms.geo", box_with("Layers{2}; Recombine;", box_names)),
+      { "volume 1", "Prism", "four-node tetrahedra", "remove Recombine" });
+  expect_space_refused(
+      write("hexahedra.geo",
+            "Mesh.RecombineAll = 1;\n"
+            "Mesh.SubdivisionAlgorithm = 1;\n"
+                + box_with("Layers{2}; Recombine;", box_names)),
+      { "volume 1", "Hexahedron", "remove Recombine" });
+  expect_space_refused(
+      write("order_3d.geo",
+            "Mesh.ElementOrder = 2;\n" + box_with("", box_names)),
+      { "volume 1", "Tetrahedron 10", "Mesh.ElementOrder = 1" });
 }

@@ -11,7 +11,7 @@ using namespace quoin::test;
 
 TEST(MeshReport, CountsAndMeasures)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 4, 2, "rock", -1.);
   add_curve(data, "bed", -1, 1, 3, 1);
   add_curve(data, "crack", 1, 1, 1, 2);
@@ -25,16 +25,16 @@ TEST(MeshReport, CountsAndMeasures)
   EXPECT_EQ(report.n_cells, 16U);
   EXPECT_EQ(report.n_nodes, 22U);
   EXPECT_EQ(report.n_joint_faces, 5U);
-  EXPECT_DOUBLE_EQ(report.joint_length.at("bed"), 4.);
-  EXPECT_DOUBLE_EQ(report.joint_length.at("crack"), 1.);
-  EXPECT_DOUBLE_EQ(report.total_joint_length, 5.);
+  EXPECT_DOUBLE_EQ(report.joint_size.at("bed"), 4.);
+  EXPECT_DOUBLE_EQ(report.joint_size.at("crack"), 1.);
+  EXPECT_DOUBLE_EQ(report.total_joint_size, 5.);
   EXPECT_DOUBLE_EQ(report.shortest_edge, 1.);
   EXPECT_DOUBLE_EQ(report.longest_edge, std::sqrt(2.));
   EXPECT_NEAR(report.smallest_angle, 45., 1e-9);
-  EXPECT_EQ(report.lower_left, dealii::Point<2>(-1., 0.));
-  EXPECT_EQ(report.upper_right, dealii::Point<2>(3., 2.));
+  EXPECT_EQ(report.box[0], dealii::Point<3>(-1., 0., 0.));
+  EXPECT_EQ(report.box[1], dealii::Point<3>(3., 2., 0.));
   EXPECT_EQ(report.n_joint_ends, 0U);
-  EXPECT_EQ(report.unmatched_length, 0.);
+  EXPECT_EQ(report.unmatched_size, 0.);
 
   const std::string text = report.to_text();
   EXPECT_NE(text.find("3 blocks, 16 triangles"), std::string::npos) << text;
@@ -44,7 +44,7 @@ TEST(MeshReport, CountsAndMeasures)
 
 TEST(MeshReport, SpeaksOfQuadraticTriangles)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 4, 2, "rock");
   add_curve(data, "bed", 0, 1, 4, 1);
   data.quadratic = true;
@@ -59,7 +59,7 @@ TEST(MeshReport, SpeaksOfQuadraticTriangles)
   EXPECT_EQ(report.n_joint_faces, 4U);
   // Of either block: 10 vertices, 17 edges.
   EXPECT_EQ(report.n_nodes, 54U);
-  EXPECT_DOUBLE_EQ(report.total_joint_length, 4.);
+  EXPECT_DOUBLE_EQ(report.total_joint_size, 4.);
   EXPECT_DOUBLE_EQ(report.shortest_edge, 1.);
   EXPECT_DOUBLE_EQ(report.longest_edge, std::sqrt(2.));
   EXPECT_NEAR(report.smallest_angle, 45., 1e-9);
@@ -71,7 +71,7 @@ TEST(MeshReport, SpeaksOfQuadraticTriangles)
 
 TEST(MeshReport, CountsJointEnds)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 4, 4, "rock");
   add_curve(data, "crack", 0, 1, 2, 1);
   add_curve(data, "short", 1, 3, 2, 3);
@@ -88,7 +88,7 @@ TEST(MeshReport, CountsJointEnds)
 TEST(MeshReport, FindsEdgesThatTouchWithoutMatching)
 {
   // A T: two blocks of half the element size hang on the right of another.
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 1, 1, "left");
   add_grid(data, 2, 1, "right", 1., 0., 0.5);
   add_grid(data, 2, 1, "right", 1., 0.5, 0.5);
@@ -97,7 +97,7 @@ TEST(MeshReport, FindsEdgesThatTouchWithoutMatching)
   EXPECT_EQ(mesh.n_blocks(), 3U);
   EXPECT_EQ(mesh.joint_faces.size(), 2U); // between those on the right
   const MeshReport report = make_mesh_report(mesh);
-  EXPECT_NEAR(report.unmatched_length, 1., 1e-12);
+  EXPECT_NEAR(report.unmatched_size, 1., 1e-12);
   EXPECT_NEAR(report.unmatched_position[0], 1., 1e-12);
   ASSERT_EQ(report.warnings().size(), 1U);
   EXPECT_NE(report.warnings()[0].find("over 1 m without matching"),
@@ -107,20 +107,20 @@ TEST(MeshReport, FindsEdgesThatTouchWithoutMatching)
 
 TEST(MeshReport, DoesNotMistakeCornersForContacts)
 {
-  MeshData data;
+  MeshData<2> data;
   add_grid(data, 2, 2, "a");
   add_grid(data, 2, 2, "b", 2., 2.);   // meets it in a point
   add_grid(data, 2, 2, "c", 2., -2.1); // passes it
   BlockMesh<2> mesh;
   split_into_blocks(data, {}, mesh);
-  EXPECT_EQ(make_mesh_report(mesh).unmatched_length, 0.);
+  EXPECT_EQ(make_mesh_report(mesh).unmatched_size, 0.);
 }
 
 TEST(MeshReport, FindsBlocksThatOverlap)
 {
   const auto report = [](const double x, const double y, const double side)
   {
-    MeshData data;
+    MeshData<2> data;
     add_grid(data, 4, 4, "rock");
     add_grid(data, 2, 2, "lining", x, y, side);
     BlockMesh<2> mesh;
@@ -134,8 +134,8 @@ TEST(MeshReport, FindsBlocksThatOverlap)
   EXPECT_TRUE(report(3.3, 1.2, 1.).overlaps);
   const MeshReport within = report(1.1, 1.2, 0.3);
   EXPECT_TRUE(within.overlaps);
-  EXPECT_NEAR(within.overlap_position.distance(dealii::Point<2>(1.4, 1.5)), 0.,
-              0.5);
+  EXPECT_NEAR(within.overlap_position.distance(dealii::Point<3>(1.4, 1.5, 0.)),
+              0., 0.5);
   ASSERT_EQ(within.warnings().size(), 1U);
   EXPECT_NE(within.warnings()[0].find("blocks overlap"), std::string::npos);
 }
@@ -143,7 +143,7 @@ TEST(MeshReport, FindsBlocksThatOverlap)
 TEST(MeshReport, MeshesOfAnArcThatDoNotMatchAreNoOverlap)
 {
   // A ring of 9 chords around a disc of 64.
-  MeshData data;
+  MeshData<2> data;
   const auto add_point = [&](const double radius, const double angle)
   {
     data.vertices.emplace_back(radius * std::cos(angle),
@@ -153,8 +153,8 @@ TEST(MeshReport, MeshesOfAnArcThatDoNotMatchAreNoOverlap)
   const auto add_triangle
       = [&](const unsigned int a, const unsigned int b, const unsigned int c)
   {
-    data.triangles.push_back({ { a, b, c } });
-    data.triangle_group.push_back(0);
+    data.cells.push_back({ { a, b, c } });
+    data.cell_group.push_back(0);
   };
   data.group_names = { "rock" };
   for (unsigned int k = 0; k < 64; ++k)

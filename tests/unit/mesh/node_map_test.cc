@@ -35,7 +35,7 @@ namespace quoin::test
     /** Two blocks of 6 x 4 squares, one on the other; a crack in the upper. */
     BlockMesh<2> two_blocks()
     {
-      MeshData data;
+      MeshData<2> data;
       add_grid(data, 6, 4, "lower");
       add_grid(data, 6, 4, "upper", 0., 4.);
       add_curve(data, "bottom", 0., 0., 6., 0.);
@@ -62,7 +62,7 @@ namespace quoin::test
     {
       BlockMesh<3> mesh;
       mesh.group_names        = { "left", "right" };
-      mesh.line_names         = { "", "joint", "outside" };
+      mesh.face_names         = { "", "joint", "outside" };
       mesh.block_first_cell   = { 0 };
       mesh.block_first_vertex = { 0 };
       // Kuhn's division: a tetrahedron for each order of the axes.
@@ -206,7 +206,7 @@ namespace quoin::test
       }
       EXPECT_EQ(sum(sides), 2 * whole.joint_faces.size());
 
-      const std::vector<bool> all(whole.line_names.size(), true);
+      const std::vector<bool> all(whole.face_names.size(), true);
       const auto faces = nodes.gather_faces(all);
       ASSERT_EQ(faces.size(), whole.boundary_faces.size());
       double area = 0., whole_area = 0.;
@@ -359,7 +359,7 @@ namespace quoin::test
     /** Four blocks of two groups, one of them apart, with two cracks. */
     BlockMesh<2> cracked_blocks()
     {
-      MeshData data;
+      MeshData<2> data;
       add_grid(data, 6, 4, "rock");
       add_curve(data, "bed", 0, 2, 6, 2);
       add_curve(data, "head", 2, 2, 2, 4);
@@ -512,7 +512,7 @@ namespace quoin::test
 
   TEST(Partition, KeepsBlocksWholeWhereThatBalances)
   {
-    MeshData data;
+    MeshData<2> data;
     for (unsigned int b = 0; b < 8; ++b)
       add_grid(data, 4, 4, "block", 5. * b);
     BlockMesh<2> mesh;
@@ -533,7 +533,7 @@ namespace quoin::test
   TEST(Partition, SharesManyBlocksEvenly)
   {
     // 64 blocks of 2 x 2 squares with joints between.
-    MeshData data;
+    MeshData<2> data;
     add_grid(data, 16, 16, "rock");
     for (unsigned int i = 2; i < 16; i += 2)
     {
@@ -559,7 +559,7 @@ namespace quoin::test
 
   TEST(Partition, OfFewBlocks)
   {
-    MeshData data;
+    MeshData<2> data;
     for (unsigned int b = 0; b < 4; ++b)
       add_grid(data, 2, 2, "block", 3. * b);
     BlockMesh<2> mesh;
@@ -578,7 +578,7 @@ namespace quoin::test
     }
 
     // A large block and small ones: no rank may be empty.
-    MeshData uneven;
+    MeshData<2> uneven;
     add_grid(uneven, 10, 10, "block");
     for (unsigned int i = 0; i < 4; ++i)
       add_grid(uneven, 1, 1, "block", 20. + 2 * i);
@@ -601,7 +601,7 @@ namespace quoin::test
 
   TEST(Partition, DividesALargeBlock)
   {
-    MeshData data;
+    MeshData<2> data;
     add_grid(data, 60, 60, "large");
     add_grid(data, 6, 6, "small", 70.);
     BlockMesh<2> mesh;
@@ -627,30 +627,9 @@ namespace quoin::test
     }
   }
 
-  TEST(Partition, DividesNoBlockIfItMayNot)
-  {
-    MeshData data;
-    add_grid(data, 60, 60, "large");
-    add_grid(data, 6, 6, "small", 70.);
-    add_grid(data, 6, 6, "small", 80.);
-    BlockMesh<2> mesh;
-    split_into_blocks(data, {}, mesh);
-    const auto rank = partition_cells(mesh, { false, false, false }, 3, false);
-    ASSERT_EQ(rank.size(), mesh.n_cells());
-    std::set<unsigned int> used;
-    for (unsigned int b = 0; b < 3; ++b)
-      for (unsigned int c = mesh.block_first_cell[b];
-           c < mesh.block_first_cell[b + 1]; ++c)
-      {
-        EXPECT_EQ(rank[c], rank[mesh.block_first_cell[b]]);
-        used.insert(rank[c]);
-      }
-    EXPECT_EQ(used, (std::set<unsigned int>{ 0, 1, 2 }));
-  }
-
   TEST(Partition, KeepsRigidBlocksWhole)
   {
-    MeshData data;
+    MeshData<2> data;
     add_grid(data, 30, 30, "large");
     add_grid(data, 6, 6, "small", 40.);
     BlockMesh<2> mesh;

@@ -32,7 +32,7 @@ namespace quoin::test
    * Add nx x ny squares of side @p side, each cut into two triangles, with
    * nodes of their own.
    */
-  inline void add_grid(MeshData &mesh, const unsigned int nx,
+  inline void add_grid(MeshData<2> &mesh, const unsigned int nx,
                        const unsigned int ny, const std::string &group,
                        const double x = 0., const double y = 0.,
                        const double side = 1.)
@@ -47,14 +47,14 @@ namespace quoin::test
       {
         const unsigned int a = first + i + (nx + 1) * j, b = a + 1;
         const unsigned int d = a + nx + 1, c = d + 1;
-        mesh.triangles.push_back({ { a, b, c } });
-        mesh.triangles.push_back({ { a, c, d } });
-        mesh.triangle_group.resize(mesh.triangles.size(), group_number);
+        mesh.cells.push_back({ { a, b, c } });
+        mesh.cells.push_back({ { a, c, d } });
+        mesh.cell_group.resize(mesh.cells.size(), group_number);
       }
   }
 
   /** The last node of the mesh at this place. */
-  inline unsigned int node_at(const MeshData &mesh, const double x,
+  inline unsigned int node_at(const MeshData<2> &mesh, const double x,
                               const double y)
   {
     for (unsigned int v = mesh.vertices.size(); v > 0; --v)
@@ -65,7 +65,7 @@ namespace quoin::test
   }
 
   /** Lines along the nodes one apart from (x0, y0) to (x1, y1). */
-  inline void add_curve(MeshData &mesh, const std::string &name,
+  inline void add_curve(MeshData<2> &mesh, const std::string &name,
                         const double x0, const double y0, const double x1,
                         const double y1)
   {
@@ -73,10 +73,10 @@ namespace quoin::test
         = std::lround(std::max(std::abs(x1 - x0), std::abs(y1 - y0)));
     const double dx = (x1 - x0) / n, dy = (y1 - y0) / n;
     for (unsigned int i = 0; i < n; ++i)
-      mesh.lines.push_back(
+      mesh.faces.push_back(
           { { node_at(mesh, x0 + i * dx, y0 + i * dy),
               node_at(mesh, x0 + (i + 1) * dx, y0 + (i + 1) * dy) } });
-    mesh.line_name.resize(mesh.lines.size(), index_of(name, mesh.line_names));
+    mesh.face_name.resize(mesh.faces.size(), index_of(name, mesh.face_names));
   }
 
   inline double area(const BlockMesh<2> &mesh, const unsigned int cell)

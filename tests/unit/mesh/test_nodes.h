@@ -4,7 +4,7 @@
 #ifndef quoin_tests_unit_mesh_test_nodes_h
 #define quoin_tests_unit_mesh_test_nodes_h
 
-#include <quoin/dynamics/rigid_blocks.h>
+#include <quoin/blocks/rigid_blocks.h>
 #include <quoin/mesh/node_map.h>
 
 #include <gtest/gtest.h>

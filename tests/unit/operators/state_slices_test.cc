@@ -18,10 +18,16 @@ namespace
 
     std::vector<double> values;
 
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.own(values);
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &values;
+      archive_members(archive, *this);
     }
   };
 

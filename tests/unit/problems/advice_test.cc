@@ -33,7 +33,7 @@ namespace
     BlockMesh<2> mesh;
     make_stack(mesh, 3, 2);
     const TestNodes nodes(mesh);
-    const Model model(nodes, parameters.model);
+    const Model<2> model(nodes, parameters.model);
     std::string text;
     const State<2> state = model.initial_state();
     for (const auto &list :
@@ -218,9 +218,9 @@ TEST(ModelSummary, SaysWhatThereIs)
   BlockMesh<2> mesh;
   make_stack(mesh, 3, 2);
   const TestNodes nodes(mesh);
-  const Model model(nodes, parameters.model);
-  const auto materials
-      = material_lines(parameters, nodes, model.properties().material_of_group);
+  const Model<2> model(nodes, parameters.model);
+  const auto materials = material_lines<2>(
+      parameters, nodes, model.properties().material_of_group);
   ASSERT_EQ(materials.size(), 2U);
   EXPECT_EQ(materials[0],
             "material lower: 1 block, 12 triangles; elastic, E 1e+10 Pa, nu "
@@ -229,7 +229,7 @@ TEST(ModelSummary, SaysWhatThereIs)
   ASSERT_EQ(joints.size(), 1U);
   EXPECT_EQ(joints[0],
             "joints joint: 3 m; elastic, kn 2e+10 Pa/m, ks 1e+10 Pa/m");
-  const auto loads = load_lines(parameters, nodes);
+  const auto loads = load_lines<2>(parameters, nodes);
   ASSERT_EQ(loads.size(), 2U);
   EXPECT_EQ(loads[0], "load base: prescribed motion on 4 nodes of bottom, "
                       "horizontal 0 m/s, vertical 0 m/s");
@@ -270,7 +270,7 @@ TEST(CostEstimate, FieldsAreAsLargeAsTheyAreWritten)
     BlockMesh<2> mesh;
     make_stack(mesh, 60, 40);
     const TestNodes nodes(mesh);
-    const Model model(nodes, parameters);
+    const Model<2> model(nodes, parameters);
     const TemporaryDirectory directory;
     BlockOutput blocks(directory.path(), MPI_COMM_SELF);
     JointOutput joints(directory.path(), MPI_COMM_SELF);

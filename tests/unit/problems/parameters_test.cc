@@ -181,7 +181,7 @@ TEST(Parameters, GoodFile)
   EXPECT_EQ(p.share_of_critical_step, 0.5);
   EXPECT_EQ(p.time_step, 1e-6);
   ASSERT_EQ(p.histories.size(), 2U);
-  EXPECT_EQ(p.histories[0].point, (std::array<double, 2>{ { 0.5, 1. } }));
+  EXPECT_EQ(p.histories[0].point, (std::array<double, 3>{ { 0.5, 1., 0. } }));
   EXPECT_EQ(p.histories[1].quantity, HistoryQuantity::reaction);
   EXPECT_EQ(p.histories[1].component, 1U);
   EXPECT_EQ(p.histories[1].unit, "N");
@@ -296,8 +296,8 @@ TEST(Parameters, WrongWord)
                  { "Loads", "pull", "Type", "tractions" });
   expect_refused(with("set Damping = local", "set Damping = locl"),
                  { "Stages", "shear", "Damping", "locl" });
-  expect_refused(with("set Quantity = reaction y", "set Quantity = reaction z"),
-                 { "Histories", "fy", "Quantity", "reaction z" });
+  expect_refused(with("set Quantity = reaction y", "set Quantity = reaction w"),
+                 { "Histories", "fy", "Quantity", "reaction w" });
   expect_refused(with("set Density = 1900", "set Density = heavy"),
                  { "Materials", "brick", "Density", "heavy" });
 }
@@ -322,9 +322,8 @@ TEST(Parameters, WrongNumbers)
   expect_refused(
       with("set Stress = -1e6, -2e6, 0", "set Stress = -1e6, -2e6"),
       { "section 'Loads/insitu'", "Stress = -1e6, -2e6", "3 numbers" });
-  expect_refused(
-      with("set Point = 0.5, 1", "set Point = 0.5, 1, 2"),
-      { "section 'Histories/ux'", "Point = 0.5, 1, 2", "2 numbers" });
+  expect_refused(with("set Point = 0.5, 1", "set Point = 0.5"),
+                 { "section 'Histories/ux'", "Point = 0.5", "2 numbers" });
   expect_refused(with("set Interval = 1e-3", "set Interval = -1"),
                  { "section 'Histories'", "Interval = -1" });
   expect_refused(with("set Field interval = 0.1", "set Field interval = -1"),

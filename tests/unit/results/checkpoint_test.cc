@@ -179,12 +179,6 @@ TEST(Checkpoint, Refusals)
 
   const std::string latest = directory / "checkpoint/latest";
   std::string manifest     = contents(latest);
-  const std::size_t at     = manifest.find("ranks 1\n");
-  ASSERT_NE(at, std::string::npos);
-  manifest.replace(at, 8, "ranks 2\narchive 5 6\n");
-  std::ofstream(latest) << manifest;
-  expect_mention(refusal(directory), "2 MPI ranks and this run has 1");
-
   std::ofstream(latest) << manifest.substr(0, manifest.size() - 4);
   expect_mention(refusal(directory), "'latest' is damaged");
 }
@@ -211,6 +205,52 @@ TEST(Checkpoint, DamagedArchivesAreRefused)
 
   std::ofstream(path, std::ios::binary) << archive;
   expect_mention(refusal(directory), "nothing was thrown");
+}
+
+TEST(Checkpoint, OfAnotherNumberOfRanks)
+{
+  // Of three ranks, which wrote the same.
+  const TemporaryDirectory directory;
+  save_checkpoint(directory.path(), MPI_COMM_SELF, info_at(7),
+                  example_state(10));
+  const std::string archive = contents(directory / "checkpoint/7/rank_0.bin");
+  for (const char *name : { "1", "2" })
+    std::ofstream(directory
+                      / ("checkpoint/7/rank_" + std::string(name) + ".bin"),
+                  std::ios::binary)
+        << archive;
+  const std::string latest = directory / "checkpoint/latest";
+  std::string manifest     = contents(latest);
+  const std::size_t at     = manifest.find("ranks 1\n");
+  ASSERT_NE(at, std::string::npos);
+  const std::string line
+      = manifest.substr(at + 8, manifest.find("end") - at - 8);
+  manifest.replace(at, 8, "ranks 3\n" + line + line);
+  std::ofstream(latest) << manifest;
+
+  std::vector<unsigned int> writers;
+  const auto load = [&]()
+  {
+    return load_checkpoint_archives(
+        directory.path(), MPI_COMM_SELF, version, parameters,
+        [&](std::streambuf &buffer, const ArchiveOrigin &origin)
+        {
+          State<2> state = example_state(0);
+          boost::archive::binary_iarchive(buffer) >> state;
+          EXPECT_EQ(state.nodes.size(), 10U);
+          EXPECT_EQ(origin.n_ranks, 3U);
+          EXPECT_FALSE(origin.is_own);
+          writers.push_back(origin.rank);
+        });
+  };
+  EXPECT_EQ(load().step, 7U);
+  EXPECT_EQ(writers, (std::vector<unsigned int>{ 2, 1, 0 }));
+
+  // Nothing is read if one of them is damaged.
+  std::filesystem::resize_file(directory / "checkpoint/7/rank_1.bin", 100);
+  expect_mention(message_of<InputError>(load),
+                 "rank_1.bin' is damaged (100 of");
+  EXPECT_EQ(writers.size(), 3U);
 }
 
 TEST(Checkpoint, OfAnotherFormatIsRefused)
@@ -336,8 +376,7 @@ TEST(Checkpoint, ASeriesGoesOn)
 
     void write(const double time)
     {
-      write_grid(
-          { time, VtuCellType::line, { { 0., 0. }, { 1., 0. } }, { 0, 1 } });
+      write_grid({ time, VtuCellType::line, { 0., 0., 1., 0. }, { 0, 1 } });
     }
   };
   const TemporaryDirectory directory;

@@ -21,19 +21,42 @@ TEST(PrincipalStress, RebuildsTheTensor)
           { 4., 4., 0. }, { 0., 0., -1. },   { 1., 1. + 1e-14, 1e-15 } };
   for (const auto &state : states)
   {
-    const PrincipalStress p = principal_stress(state[0], state[1], state[2]);
-    const double scale      = std::abs(p.s1) + std::abs(p.s2);
-    const auto &a           = p.direction1;
-    const auto &b           = p.direction2;
-    EXPECT_GE(p.s1, p.s2);
+    const PrincipalStress<2> p = principal_stress(
+        std::array<double, 4>{ { state[0], state[1], state[2], 0. } });
+    const auto &[s1, s2] = p.value;
+    const auto &[a, b]   = p.direction;
+    const double scale   = std::abs(s1) + std::abs(s2);
+    EXPECT_GE(s1, s2);
     EXPECT_NEAR(std::hypot(a[0], a[1]), 1., 1e-15);
     EXPECT_NEAR(a[0] * b[0] + a[1] * b[1], 0., 1e-15);
-    EXPECT_NEAR(p.s1 * a[0] * a[0] + p.s2 * b[0] * b[0], state[0],
-                1e-14 * scale);
-    EXPECT_NEAR(p.s1 * a[1] * a[1] + p.s2 * b[1] * b[1], state[1],
-                1e-14 * scale);
-    EXPECT_NEAR(p.s1 * a[0] * a[1] + p.s2 * b[0] * b[1], state[2],
-                1e-14 * scale);
+    EXPECT_NEAR(s1 * a[0] * a[0] + s2 * b[0] * b[0], state[0], 1e-14 * scale);
+    EXPECT_NEAR(s1 * a[1] * a[1] + s2 * b[1] * b[1], state[1], 1e-14 * scale);
+    EXPECT_NEAR(s1 * a[0] * a[1] + s2 * b[0] * b[1], state[2], 1e-14 * scale);
+  }
+}
+
+TEST(PrincipalStress, RebuildsTheTensorInSpace)
+{
+  const std::array<double, 6> states[] = { { { 1., 2., 3., 4., 5., 6. } },
+                                           { { -5e6, 2e6, 1e6, 0., 0., 0. } },
+                                           { { 3., 3., 3., 0., 0., 0. } },
+                                           { { 0., 0., 0., -1., 0., 2. } } };
+  constexpr unsigned int index[3][3]
+      = { { 0, 3, 4 }, { 3, 1, 5 }, { 4, 5, 2 } };
+  for (const auto &state : states)
+  {
+    const PrincipalStress<3> p = principal_stress(state);
+    EXPECT_GE(p.value[0], p.value[1]);
+    EXPECT_GE(p.value[1], p.value[2]);
+    const double scale = std::abs(p.value[0]) + std::abs(p.value[2]);
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+      {
+        double entry = 0.;
+        for (unsigned int k = 0; k < 3; ++k)
+          entry += p.value[k] * p.direction[k][i] * p.direction[k][j];
+        EXPECT_NEAR(entry, state[index[i][j]], 1e-14 * scale);
+      }
   }
 }
 
@@ -49,7 +72,7 @@ TEST(JointOutput, WorstState)
 TEST(BlockOutput, SeriesOfFiles)
 {
   const TemporaryDirectory directory;
-  BlockFields fields;
+  BlockFields<2> fields;
   fields.position     = { { { 0., 0. } }, { { 1., 0. } }, { { 0., 1. } } };
   fields.displacement = { { { 0., 0. } }, { { .1, 0. } }, { { 0., 0. } } };
   fields.velocity     = fields.displacement;

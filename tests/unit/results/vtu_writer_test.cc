@@ -66,10 +66,8 @@ namespace
     VtuGrid grid;
     grid.time      = 0.1;
     grid.cell_type = VtuCellType::triangle;
-    grid.points    = {
-         { { 0., 0. } }, { { 1., 0. } }, { { 1., 1. / 3. } }, { { 0., 1. } }
-    };
-    grid.cells = { 0, 1, 2, 0, 2, 3 };
+    grid.points    = { 0., 0., 1., 0., 1., 1. / 3., 0., 1. };
+    grid.cells     = { 0, 1, 2, 0, 2, 3 };
     grid.point_data
         = { { "u", 2, std::vector<double>{ 1, 2, 3, 4, 5, 6, 7, 8 } },
             { "state", 1, std::vector<std::uint8_t>{ 0, 1, 2, 3 } } };
@@ -116,6 +114,31 @@ TEST(VtuWriter, RoundTrip)
 
   const std::string end = "\n</AppendedData>\n</VTKFile>\n";
   EXPECT_EQ(reader.text.substr(reader.text.size() - end.size()), end);
+}
+
+TEST(VtuWriter, ATetrahedron)
+{
+  const TemporaryDirectory directory;
+  VtuGrid grid;
+  grid.dimension = 3;
+  grid.cell_type = VtuCellType::tetrahedron;
+  grid.points    = { 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+  grid.cells     = { 0, 1, 2, 3 };
+  grid.point_data
+      = { { "u", 3,
+            std::vector<double>{ 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 } } };
+  const VtuGrid same = grid;
+  write_vtu(directory / "grid.vtu", std::move(grid));
+  const VtuReader reader(directory / "grid.vtu");
+  EXPECT_NE(reader.text.find("NumberOfPoints=\"4\" NumberOfCells=\"1\""),
+            std::string::npos);
+  EXPECT_EQ(reader.array<double>("Points", "Float64"), same.points);
+  EXPECT_EQ(reader.array<std::int32_t>("connectivity", "Int32"), same.cells);
+  EXPECT_EQ(reader.array<std::int32_t>("offsets", "Int32"),
+            std::vector<std::int32_t>({ 4 }));
+  EXPECT_EQ(reader.array<std::uint8_t>("types", "UInt8"),
+            std::vector<std::uint8_t>({ 10 }));
+  EXPECT_EQ(reader.array<double>("u", "Float64").back(), 12.);
 }
 
 TEST(VtuWriter, AnEmptyGridIsValid)

@@ -130,7 +130,7 @@ TEST(ClusteredHistory, resume_is_bitwise)
       again.push(u, p);
   }
   EXPECT_EQ(again.n_steps(), 150u);
-  EXPECT_THROW(again.restore({ 1., 2. }), InputError);
+  EXPECT_THROW(again.restore({ { 1., 2. }, {} }), InputError);
 }
 
 /** Sums over all lags, of which the plain ones must be cut off late. */

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What a Model is at the start: stresses, positions, histories.
+// Initial stress of a Model<2>.
 
-#include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/model.h>
 #include <quoin/loads/nodal_load.h>
@@ -12,19 +11,23 @@
 
 namespace quoin
 {
-  std::array<double, 4> Model::initial_stress(const LoadParameters &load,
-                                              const dealii::Point<2> &point,
-                                              const unsigned int group) const
+  namespace
   {
-    auto stress = load.initial_stress(
-        point[0], point[1],
-        parameters.materials[now.material_of_group[group]].elastic.poisson);
-    if (parameters.plane == PlaneAssumption::plane_stress)
-      stress[3] = 0.;
-    return stress;
-  }
+    /** Stress xx, yy, xy, zz of @p load in a material [Pa]. */
+    std::array<double, 4> initial_stress(const LoadParameters &load,
+                                         const dealii::Point<2> &point,
+                                         const LinearElastic &material,
+                                         const PlaneAssumption plane)
+    {
+      auto stress = load.initial_stress(point[0], point[1], material.poisson);
+      if (plane == PlaneAssumption::plane_stress)
+        stress[3] = 0.;
+      return stress;
+    }
+  } // namespace
 
-  void Model::find_initial_stress()
+  template <>
+  void Model<2>::find_initial_stress()
   {
     if (parameters.initial_stresses.empty())
       return;
@@ -52,6 +55,13 @@ namespace quoin
                    || std::find(groups.begin(), groups.end(), group)
                           != groups.end());
       };
+      const auto stress_at
+          = [&](const dealii::Point<2> &point, const unsigned int group)
+      {
+        return initial_stress(
+            load, point, now.materials[now.material_of_group[group]].elastic,
+            parameters.plane);
+      };
       for (unsigned int c = 0; c < node_map.n_cells(); ++c)
       {
         const unsigned int group = node_map.group_of_cell(c);
@@ -61,7 +71,7 @@ namespace quoin
         for (const unsigned int node : node_map.cell(c))
           for (unsigned int d = 0; d < 2; ++d)
             centre[d] += node_map.point(node)[d] / 3.;
-        const auto stress = initial_stress(load, centre, group);
+        const auto stress = stress_at(centre, group);
         for (unsigned int k = 0; k < 4; ++k)
           cell_stress[c][k] += stress[k];
       }
@@ -75,14 +85,14 @@ namespace quoin
             for (unsigned int k = 0; k < 2; ++k)
             {
               const auto stress
-                  = initial_stress(load, node_map.point(face.lower[k]), group);
+                  = stress_at(node_map.point(face.lower[k]), group);
               for (unsigned int i = 0; i < 3; ++i)
                 face_stress[f][k][i] += 0.5 * stress[i];
             }
       }
     }
-    // So that the points' forces are those of a traction that is linear along
-    // the face. Simpson's rule of quadratic edges has them already.
+    // The points' forces become those of a traction that is linear along the
+    // face. Simpson's rule on quadratic edges gives them already.
     for (MatchedJoints::FaceStress &face : face_stress)
       for (unsigned int i = 0; i < 3 && !table().is_quadratic; ++i)
       {
@@ -92,8 +102,9 @@ namespace quoin
       }
   }
 
-  void Model::forget_yielding(const unsigned int block,
-                              PlasticHistory &history) const
+  template <>
+  void Model<2>::forget_yielding(const unsigned int block,
+                                 PlasticHistory &history) const
   {
     const unsigned int part = node_map.find_part(block);
     if (part == node_map.block_parts().size())
@@ -101,32 +112,5 @@ namespace quoin
     const auto &[begin, end] = node_map.block_parts()[part].cells;
     for (unsigned int c = begin; c < end; ++c)
       block_forces.forget_history(c, history);
-  }
-
-  State<2> Model::initial_state() const
-  {
-    State<2> state;
-    state.add<RigidBlockStates>().resize(rigid.n_blocks());
-    state.add<ConstructionState>();
-    for (unsigned int i = 0; i < node_map.n_local(); ++i)
-    {
-      const auto &p = node_map.point(i);
-      state.nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
-    }
-    state.velocity.assign(node_map.n_local(), NodeVector<2>{ { 0., 0. } });
-    block_forces.prepare(state);
-    matched_joints.prepare(state);
-    if (!face_stress.empty())
-      matched_joints.initialise(face_stress, state, state.get<JointHistory>());
-    if (std::find(absent_group.begin(), absent_group.end(), true)
-        == absent_group.end())
-      return state;
-    for (const unsigned int group : table().group)
-      state.block_marks.push_back(absent_group[group] ? block_mark::absent
-                                                      : block_mark::present);
-    for (unsigned int i = 0; i < matched_joints.n_segments(); ++i)
-      if (is_at_absent_block(i, state))
-        matched_joints.let_go(i, state.get<JointHistory>());
-    return state;
   }
 } // namespace quoin

@@ -2,7 +2,8 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/dynamics/rigid_blocks.h>
+#include <quoin/base/point_text.h>
+#include <quoin/blocks/rigid_blocks.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/symmetric_tensor.h>
@@ -13,8 +14,9 @@
 
 namespace quoin
 {
+  template <int dim>
   std::vector<bool>
-  find_rigid_blocks(const BlockMesh<2> &mesh,
+  find_rigid_blocks(const BlockMesh<dim> &mesh,
                     const std::vector<MaterialParameters> &materials)
   {
     std::vector<bool> rigid_group;
@@ -42,8 +44,9 @@ namespace quoin
         const auto group = [&](const unsigned int cell)
         { return mesh.group_names[mesh.cell_group[cell]]; };
         std::ostringstream message;
-        message << "section 'Materials': the block at (" << p[0] << ", " << p[1]
-                << ") m is made of the physical surfaces '" << group(first)
+        message << "section 'Materials': the block at " << point_text<dim>(p)
+                << " m is made of the physical "
+                << (dim == 2 ? "surfaces '" : "volumes '") << group(first)
                 << "' and '" << group(c) << "', of which only '"
                 << (rigid.back() ? group(first) : group(c))
                 << "' is of a material with 'Law = rigid'. A block is rigid as "
@@ -54,6 +57,13 @@ namespace quoin
     }
     return rigid;
   }
+
+  template std::vector<bool>
+  find_rigid_blocks(const BlockMesh<2> &,
+                    const std::vector<MaterialParameters> &);
+  template std::vector<bool>
+  find_rigid_blocks(const BlockMesh<3> &,
+                    const std::vector<MaterialParameters> &);
 
   void RigidBlocks::prepare(const NodeMap<2> &nodes,
                             const std::vector<double> &density,
@@ -69,7 +79,7 @@ namespace quoin
       const auto [first_node, last_node] = nodes.block_parts()[b].nodes;
       const unsigned int n_nodes         = last_node - first_node;
 
-      // Positions count from a node, to keep digits far from the origin.
+      // Positions are taken from a node, to keep digits far from the origin.
       const auto origin = nodes.point(first_node);
       std::vector<double> cell_mass, node_mass(n_nodes, 0.);
       dealii::Point<2> centre;
@@ -191,7 +201,7 @@ namespace quoin
       double *u = state.nodes[i].u;
       u[0]      = rigid.displacement[0] - versine * x - after.s * y;
       u[1]      = rigid.displacement[1] + after.s * x - versine * y;
-      // With the mean of the arms before and after.
+      // Velocities follow from the mean of the arms before and after.
       double *v = state.velocity[i].v;
       v[0]      = rigid.velocity[0] - half * (s * x + c * y);
       v[1]      = rigid.velocity[1] + half * (c * x - s * y);
@@ -222,7 +232,7 @@ namespace quoin
       const Direction before(rigid.rotation);
       const auto [f, fv] = take_forces(block, before, force, viscous);
 
-      // As advance_nodes_damped() for a node's two freedoms.
+      // As advance_nodes_damped() for a node's two degrees of freedom.
       const auto mass      = inertia(stage, b);
       DampingWork &damping = work.damping;
       for (unsigned int d = 0; d < 3; ++d)
@@ -264,7 +274,7 @@ namespace quoin
       RigidBlockState &rigid = state.get<RigidBlockStates>()[b];
       const double before    = rigid.rotation;
 
-      // Lumped masses have the centroid of the block.
+      // The centre of the lumped masses is the centroid of the block.
       double d[2]{}, v[2]{};
       const Arm *arm = arms_of(block);
       for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
@@ -274,7 +284,7 @@ namespace quoin
           v[k] += arm->share * state.velocity[i].v[k];
         }
 
-      // (R - 1) r is what nodes move beyond the centroid.
+      // (R - 1) r is the displacement of nodes relative to the centroid.
       double sine = 0., versine = 0., second = 0.;
       arm = arms_of(block);
       for (unsigned int i = block.begin; i < block.end; ++i, ++arm)

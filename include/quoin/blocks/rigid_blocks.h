@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_dynamics_rigid_blocks_h
-#define quoin_dynamics_rigid_blocks_h
+#ifndef quoin_blocks_rigid_blocks_h
+#define quoin_blocks_rigid_blocks_h
 
 #include <quoin/operators/state.h>
 #include <quoin/blocks/node_update.h>
-#include <quoin/loads/motion_constraint.h>
+#include <quoin/operators/step_context.h>
 #include <quoin/materials/material_parameters.h>
 #include <quoin/mesh/node_map.h>
 
@@ -16,19 +16,20 @@
 namespace quoin
 {
   /**
-   * For each block of @p mesh whether all of its cells are of rigid materials.
-   * Throws an InputError about a block that is rigid in part.
+   * Whether all cells of each block of @p mesh are of rigid materials. Throws
+   * an InputError about a block that is rigid in part.
    */
+  template <int dim>
   std::vector<bool>
-  find_rigid_blocks(const BlockMesh<2> &mesh,
+  find_rigid_blocks(const BlockMesh<dim> &mesh,
                     const std::vector<MaterialParameters> &materials);
 
-  /** A rigid block: x [m], y [m], rotation [rad, anticlockwise]. */
+  /** Motion of a rigid block: x [m], y [m], rotation [rad, anticlockwise]. */
   struct RigidBlockState
   {
     double displacement[2]{}; /**< of the centroid, from the reference */
     double rotation = 0.;     /**< counts full turns */
-    double velocity[3]{};     /**< of the centroid and spin, at time - dt/2 */
+    double velocity[3]{};     /**< of the centroid, and spin, at time - dt/2 */
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
@@ -42,21 +43,27 @@ namespace quoin
   {
     static constexpr const char *slice_name = "rigid blocks";
 
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.own(static_cast<std::vector<RigidBlockState> &>(*this));
+    }
+
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &static_cast<std::vector<RigidBlockState> &>(*this);
+      archive_members(archive, *this);
     }
   };
 
   /** How the rigid blocks of a rank move in a stage. */
   struct RigidBlockStage
   {
-    std::vector<double> mass_factor; /**< of mass scaling, for each block */
-    std::vector<bool> held;          /**< a platen moves it */
+    std::vector<double> mass_factor; /**< mass scaling factor of each block */
+    std::vector<bool> held;          /**< whether a platen moves the block */
   };
 
-  /** What a step of the rigid blocks leaves for the solver's sums. */
+  /** Contributions of the rigid blocks to the solver's sums. */
   struct RigidBlockWork
   {
     DampingWork damping;
@@ -64,16 +71,16 @@ namespace quoin
   };
 
   /**
-   * The rigid blocks of a rank: triangulated as all blocks, but moved by
-   * three freedoms each, the displacement of the centroid and the rotation
+   * The rigid blocks of a rank: triangulated as all blocks, but with three
+   * degrees of freedom each, the displacement of the centroid and the rotation
    * (@cite ZhugeHunt2003, Eqs. 1-4),
    * @f[ m \ddot x = \sum f_i, \quad I \ddot\theta = \sum r_i \times f_i , @f]
    * with the mass m, the centroid and the moment of inertia I of the area, not
    * of masses lumped to nodes, and the sums over the forces on its nodes.
    * Rotation is a scalar in the plane, so the scheme is that of the nodes.
    *
-   * Nodes follow exactly: u_i = d + (R - I) r_i with the arms r_i of the
-   * reference, so a block never changes its shape.
+   * Nodes move by u_i = d + (R - I) r_i, r_i the arms in the reference
+   * configuration, so a block keeps its shape exactly.
    */
   class RigidBlocks
   {
@@ -88,8 +95,8 @@ namespace quoin
     };
 
     /**
-     * Takes the rigid blocks of @p nodes. @p density is that of each cell
-     * group.
+     * Sets up the rigid blocks of @p nodes. @p density: of each cell group
+     * [kg/m^3]; @p thickness [m].
      */
     void prepare(const NodeMap<2> &nodes, const std::vector<double> &density,
                  double thickness);
@@ -119,17 +126,16 @@ namespace quoin
                        const std::vector<std::array<double, 3>> &bound) const;
 
     /**
-     * One central difference step with the forces on the nodes, which it
-     * leaves zero; damping as in advance_nodes_damped(). Blocks that are held
-     * stay where they are.
+     * Advances one central difference step with the forces on the nodes, which
+     * it clears; damping as in advance_nodes_damped(). Held blocks do not move.
      */
     RigidBlockWork advance(const StepContext &step,
                            const RigidBlockStage &stage, NodeVector<2> *force,
                            NodeVector<2> *viscous, State<2> &state) const;
 
     /**
-     * Displacement, rotation and velocity of the blocks that are held, from
-     * what a platen gave their nodes.
+     * Sets displacement, rotation and velocity of held blocks from the motion
+     * that a platen gave their nodes.
      */
     void follow_nodes(const RigidBlockStage &stage, State<2> &state) const;
 
@@ -165,10 +171,10 @@ namespace quoin
     {
       double force[3]{}, viscous[3]{};
     };
-    /** Of the forces on a block's nodes, which it leaves zero. */
+    /** Resultants of the forces on a block's nodes, which it clears. */
     Resultants take_forces(const Block &block, const Direction &now,
                            NodeVector<2> *force, NodeVector<2> *viscous) const;
-    /** Moves a block's nodes to where it is now. */
+    /** Sets the positions and velocities of a block's nodes. */
     void place_nodes(const Block &block, const RigidBlockState &rigid,
                      const Direction &before, State<2> &state) const;
 
@@ -177,7 +183,7 @@ namespace quoin
       return &arms[block.begin - node_begin];
     }
 
-    /** Mass, mass and moment of inertia as they act. */
+    /** Mass, mass and moment of inertia, with mass scaling. */
     std::array<double, 3> inertia(const RigidBlockStage &stage,
                                   const unsigned int b) const
     {

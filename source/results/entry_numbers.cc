@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/results/entry_numbers.h>
+
+namespace quoin
+{
+  namespace
+  {
+    using List = EntryNumbers::List;
+
+    template <int dim>
+    List nodes_of(const MotionConstraint<dim> &constraint,
+                  const NodeMap<dim> &nodes)
+    {
+      List result;
+      for (const unsigned int node : constraint.nodes())
+        result.push_back(nodes.number_of_node(node));
+      return result;
+    }
+
+    /** Numbers of entries that exist in two dimensions only. */
+    void number_plane_entries(const Model<2> &model, const Solver<2> &solver,
+                              EntryNumbers &result)
+    {
+      const NodeMap<2> &nodes = model.nodes();
+      if (const FarField *far = solver.far_field())
+        result.own[FarFieldState::slice_name] = nodes_of(*far, nodes);
+      if (const StaticFarField *far = solver.static_far_field())
+        result.own[StaticFarFieldState::slice_name] = nodes_of(*far, nodes);
+
+      if (const BlockContacts *contacts = solver.contacts())
+      {
+        const std::string name = ContactState::slice_name;
+        List &watched          = result.own[name];
+        for (const unsigned int node : contacts->watched_nodes())
+          watched.push_back(nodes.number_of_node(node));
+        List &edges = result.own[EntryNumbers::edges_of(name)];
+        for (const ContactEdge &edge : contacts->contact_edges().own())
+          edges.push_back(edge.number);
+      }
+
+      List &segments = result.own[JointHistory::slice_name];
+      for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+        segments.push_back(
+            nodes.joint_faces()[model.joints().segment(i).face].number);
+    }
+  } // namespace
+
+  template <int dim>
+  EntryNumbers number_entries(const Model<dim> &model,
+                              const Solver<dim> &solver)
+  {
+    const NodeMap<dim> &nodes = model.nodes();
+    EntryNumbers result;
+    for (unsigned int i = 0; i < nodes.n_local(); ++i)
+      result.nodes.push_back(nodes.number_of_node(i));
+    result.n_owned_nodes = nodes.n_owned();
+    result.cells         = nodes.cell_numbers();
+    result.cells.resize(nodes.n_deformable_cells());
+
+    for (const auto &constraint : solver.constraints())
+      result.own[constraint->name()] = nodes_of(*constraint, nodes);
+    List &blocks = result.own[RigidBlockStates::slice_name];
+    for (unsigned int part = nodes.n_deformable_block_parts();
+         part < nodes.block_parts().size(); ++part)
+      blocks.push_back(nodes.block_parts()[part].number);
+    if constexpr (dim == 2)
+      number_plane_entries(model, solver, result);
+    return result;
+  }
+
+  template <int dim>
+  EntryNumbers number_entries_of(const State<dim> &state,
+                                 const Model<dim> &model,
+                                 const Solver<dim> &solver)
+  {
+    EntryNumbers result = number_entries(model, solver);
+    if (state.template get<PlasticHistory>().cells.empty()
+        && state.template get<ConstructionState>().initial_stress.empty())
+      result.cells.clear();
+    return result;
+  }
+
+  template EntryNumbers number_entries(const Model<2> &, const Solver<2> &);
+  template EntryNumbers number_entries_of(const State<2> &, const Model<2> &,
+                                          const Solver<2> &);
+  template EntryNumbers number_entries(const Model<3> &, const Solver<3> &);
+  template EntryNumbers number_entries_of(const State<3> &, const Model<3> &,
+                                          const Solver<3> &);
+} // namespace quoin
