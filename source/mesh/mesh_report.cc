@@ -123,24 +123,26 @@ namespace quoin
       report.n_joint_ends = ends.size();
     }
 
+    /** Two components of a place: those in which lines are looked at. */
+    struct PlanePoint
+    {
+      double x, y;
+    };
+
     /**
      * How the line from @p a to @p b crosses the ray from @p p in the direction
-     * of component @p x: 1 towards greater values of component @p y, -1
-     * towards lower ones, 0 not at all. What it says of the reversed line is
-     * the opposite, without rounding.
+     * of x: 1 towards greater values of y, -1 towards lower ones, 0 not at all.
+     * What it says of the reversed line is the opposite, without rounding.
      */
-    template <int dim>
-    int crossing_of_line(const dealii::Point<dim> &p,
-                         const dealii::Point<dim> &a,
-                         const dealii::Point<dim> &b, const unsigned int x,
-                         const unsigned int y)
+    int crossing_of_line(const PlanePoint &p, const PlanePoint &a,
+                         const PlanePoint &b)
     {
-      if ((a[y] <= p[y]) == (b[y] <= p[y]))
+      if ((a.y <= p.y) == (b.y <= p.y))
         return 0;
-      const bool up  = b[y] > a[y];
+      const bool up  = b.y > a.y;
       const auto &lo = up ? a : b, &hi = up ? b : a;
       const double side
-          = (hi[x] - lo[x]) * (p[y] - lo[y]) - (hi[y] - lo[y]) * (p[x] - lo[x]);
+          = (hi.x - lo.x) * (p.y - lo.y) - (hi.y - lo.y) * (p.x - lo.x);
       if (!(side > 0.)) // p is right of the crossing
         return 0;
       return up ? 1 : -1;
@@ -217,8 +219,14 @@ namespace quoin
           @p f, -1 where it enters one, 0 elsewhere. */
       int crossing(const dealii::Point<dim> &p, const unsigned int f) const
       {
+        // The face as it is seen in the plane of the ray, in three dimensions
+        // against the ray.
+        const auto seen = [](const dealii::Point<dim> &q) {
+          return PlanePoint{ q[dim - 2], q[dim - 1] };
+        };
         if constexpr (dim == 2)
-          return crossing_of_line(p, corner(f, 0), corner(f, 1), 0, 1);
+          return crossing_of_line(seen(p), seen(corner(f, 0)),
+                                  seen(corner(f, 1)));
         else
         {
           const auto normal = dealii::cross_product_3d(
@@ -228,8 +236,8 @@ namespace quoin
           // Whether p is within the face, seen in the direction of x.
           int windings = 0;
           for (unsigned int k = 0; k < 3; ++k)
-            windings += crossing_of_line(p, corner(f, k),
-                                         corner(f, (k + 1) % 3), 1, 2);
+            windings += crossing_of_line(seen(p), seen(corner(f, k)),
+                                         seen(corner(f, (k + 1) % 3)));
           return windings;
         }
       }
