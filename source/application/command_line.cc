@@ -3,7 +3,7 @@
 
 #include <quoin/application/command_line.h>
 #include <quoin/application/run.h>
-#include <quoin/problems/parameters.h>
+#include <quoin/parameters/parameters.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
 #include <quoin/results/collective.h>

@@ -32,7 +32,7 @@ namespace quoin
     if (options.check)
       return;
     open_outputs();
-    if (is_over())
+    if (has_ended())
     {
       log.message("the run had finished: nothing is left to do");
       return;
@@ -45,7 +45,7 @@ namespace quoin
     }
     else if (options.resume)
       problem->restore(stage_index);
-    while (!is_over())
+    while (!has_ended())
       run_stage();
   }
 
@@ -82,7 +82,7 @@ namespace quoin
     problem->open_outputs();
   }
 
-  bool Run::is_over() const
+  bool Run::has_ended() const
   {
     return stage_index == problem->n_stages();
   }
@@ -96,7 +96,7 @@ namespace quoin
     }
     stage_begun = true;
     progress.start(stage->figures());
-    while (!stage->is_over())
+    while (!stage->has_ended())
       take_step();
     progress.finish(stage->figures());
     stage->end();
@@ -142,15 +142,15 @@ namespace quoin
     nlohmann::json summary
         = { { "title", parameters.title },
             { "version", QUOIN_VERSION },
-            { "finished", is_over() },
+            { "finished", has_ended() },
             { "ranks", dealii::Utilities::MPI::n_mpi_processes(communicator) },
             { "wall time [s]", wall_time } };
     problem->summarise(summary, seconds);
     context.on_first_rank([&]()
                           { write_json(output + "/summary.json", summary); });
-    if (!is_over())
+    if (!has_ended())
       return;
-    const Problem::LastWords words = problem->last_words(summary);
+    const Problem::ClosingLines words = problem->closing_lines(summary);
     log.message("finished: ", words.what, " in ",
                 duration_text(summary["wall time [s]"].get<double>()), ", ",
                 words.figures);

@@ -113,7 +113,7 @@ namespace quoin
       }
   }
 
-  void MatchedJoints::let_go(const unsigned int i, JointHistory &history) const
+  void MatchedJoints::detach(const unsigned int i, JointHistory &history) const
   {
     history.handed_over[i] = 1;
     for (const unsigned int p : { 2 * i, 2 * i + 1 })

@@ -129,7 +129,7 @@ namespace quoin
       joints.add_traction_forces(i, state.nodes.data(),
                                  state.get<JointHistory>(),
                                  lower != upper ? held.data() : lost.data());
-      joints.let_go(i, state.get<JointHistory>());
+      joints.detach(i, state.get<JointHistory>());
     }
     for (auto *forces : { &held, &lost })
       model.exchange().add_to_owners(forces->data());
@@ -168,7 +168,7 @@ namespace quoin
     const auto blocks           = blocks_in(step.fill);
     for (const unsigned int block : blocks)
       state.block_marks[block] = block_mark::present;
-    model.forget_initial_stress(step.fill, state.get<ConstructionState>());
+    model.clear_initial_stress(step.fill, state.get<ConstructionState>());
     model.set_properties(model.properties(), state.get<ConstructionState>());
     model.place(blocks, state);
     model.exchange().update_ghosts(state.nodes.data());

@@ -44,7 +44,7 @@ namespace quoin
   template <>
   void ExplicitSolver<2>::look_at_box(State<2> &state)
   {
-    const auto found = box->look(state, moved_blocks);
+    const auto found = box->find_outside(state, moved_blocks);
     if (found.empty())
       return;
     blocks_outside.insert(blocks_outside.end(), found.begin(), found.end());
@@ -70,7 +70,7 @@ namespace quoin
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
       // Blocks still tied to a removed block were removed with it.
       if (model.is_at_absent_block(i, state))
-        model.joints().let_go(i, state.get<JointHistory>());
+        model.joints().detach(i, state.get<JointHistory>());
     std::vector<unsigned int> blocks;
     for (const BlockOutside &block : found)
       if (block.removed)

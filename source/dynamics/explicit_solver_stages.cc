@@ -141,7 +141,7 @@ namespace quoin
       throw InputError("section 'Stages/" + stage.name
                        + "': 'Release duration = automatic' is twice the time "
                          "of a shear wave along the model, but all blocks are "
-                         "rigid. Give a time in which forces may be let go "
+                         "rigid. Give a time in which forces may be released "
                          "without shaking the blocks.");
     // Masses that are added slow waves down.
     return 2. * model.nodes().diagonal() / slowest * std::sqrt(1. + added_mass);

@@ -84,7 +84,7 @@ namespace quoin
       failing = std::min(failing, trial.factor);
   }
 
-  bool FactorSearch::is_over(const SafetyParameters &parameters) const
+  bool FactorSearch::has_ended(const SafetyParameters &parameters) const
   {
     return (stable > 0. && failing - stable <= parameters.tolerance)
            || stable >= parameters.highest || failing <= parameters.lowest;

@@ -4,7 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/point_text.h>
-#include <quoin/dynamics/free_bodies.h>
+#include <quoin/model/free_bodies.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/prescribed_motion.h>

@@ -15,8 +15,8 @@
 namespace quoin
 {
   template <int dim>
-  std::vector<PushedBody<dim>>
-  Solver<dim>::pushed_bodies(const State<dim> &state) const
+  std::vector<UnsupportedBody<dim>>
+  Solver<dim>::unsupported_bodies(const State<dim> &state) const
   {
     constexpr unsigned int n_times = 32;
     const double duration
@@ -27,7 +27,8 @@ namespace quoin
       const double t = duration * i / n_times;
       times.push_back({ t, state.stage_start + t });
     }
-    return find_pushed_bodies(model, constraints_on, loads_on, times, state);
+    return find_unsupported_bodies(model, constraints_on, loads_on, times,
+                                   state);
   }
 
   template <int dim>
@@ -156,7 +157,7 @@ namespace quoin
                "soft that blocks run into each other (raise 'Normal "
                "stiffness'), or a time step too long (lower 'Share of "
                "critical time step')"
-            << (model.large_displacements()
+            << (dim == 3 || model.large_displacements()
                     ? ""
                     : ", or blocks that slide far or turn, which needs "
                       "'Displacements = large' in section 'Contact'")
@@ -164,13 +165,13 @@ namespace quoin
     throw ModelFailure(message.str());
   }
 
-  template std::vector<PushedBody<2>>
-  Solver<2>::pushed_bodies(const State<2> &) const;
+  template std::vector<UnsupportedBody<2>>
+  Solver<2>::unsupported_bodies(const State<2> &) const;
   template void Solver<2>::check_finite(const State<2> &) const;
   template void Solver<2>::check_loads(const State<2> &, double) const;
   template void Solver<2>::check_cells(const State<2> &) const;
-  template std::vector<PushedBody<3>>
-  Solver<3>::pushed_bodies(const State<3> &) const;
+  template std::vector<UnsupportedBody<3>>
+  Solver<3>::unsupported_bodies(const State<3> &) const;
   template void Solver<3>::check_finite(const State<3> &) const;
   template void Solver<3>::check_loads(const State<3> &, double) const;
   template void Solver<3>::check_cells(const State<3> &) const;

@@ -3,7 +3,7 @@
 
 #include <quoin/farfield/boundary_values.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/tdbem/gauss_legendre.h>
+#include <quoin/elastodynamics/gauss_legendre.h>
 
 #include <cmath>
 #include <memory>

@@ -5,9 +5,9 @@
 #include <quoin/farfield/incident_waves.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
-#include <quoin/tdbem/line_source.h>
-#include <quoin/tdbem/plane_wave.h>
-#include <quoin/tdbem/rayleigh_wave.h>
+#include <quoin/elastodynamics/line_source.h>
+#include <quoin/elastodynamics/plane_wave.h>
+#include <quoin/elastodynamics/rayleigh_wave.h>
 
 #include <algorithm>
 #include <cmath>

@@ -107,7 +107,7 @@ namespace quoin
       if (!platen->is_rigid_body())
         continue;
       const PlatenState &now = state.get<PlatenState>(platen->name());
-      Body body;
+      RigidBody body;
       body.platen      = platen;
       body.rigid_block = -1;
       body.nodes       = platen->nodes();
@@ -129,7 +129,7 @@ namespace quoin
       if (held[b])
         continue;
       const RigidBlocks::Block &block = rigid.block(b);
-      Body body;
+      RigidBody body;
       body.platen      = nullptr;
       body.rigid_block = b;
       body.given       = { { false, false, false } };
@@ -165,7 +165,7 @@ namespace quoin
     owned_dofs.add_indices(rigid, first_rigid);
     for (unsigned int b = 0; b < body_list.size(); ++b)
     {
-      Body &body = body_list[b];
+      RigidBody &body = body_list[b];
       body.first
           = b < n_platens
                 ? first_body + 4 * b
@@ -203,7 +203,7 @@ namespace quoin
     result.nodes     = state.nodes;
     result.load_time = state.load_time;
     result.released  = state.get<ImplicitState>().released;
-    for (const Body &body : body_list)
+    for (const RigidBody &body : body_list)
       if (body.platen)
       {
         const double *d = body.platen->rigid_displacement(state);
@@ -245,9 +245,9 @@ namespace quoin
   {
     for (unsigned int b = 0; b < body_list.size(); ++b)
     {
-      Body &body     = body_list[b];
-      const double c = std::cos(configuration.bodies[b][2]),
-                   s = std::sin(configuration.bodies[b][2]);
+      RigidBody &body = body_list[b];
+      const double c  = std::cos(configuration.bodies[b][2]),
+                   s  = std::sin(configuration.bodies[b][2]);
       body.present_arms.resize(body.arms.size());
       for (unsigned int i = 0; i < body.arms.size(); ++i)
       {
@@ -265,7 +265,7 @@ namespace quoin
     for (const Prescribed &p : prescribed_list)
       ties[p.node].motion[p.component]
           = given_change(*p.part, before, load_time, stage_start);
-    for (const Body &body : body_list)
+    for (const RigidBody &body : body_list)
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
         ties[body.nodes[i]].motion = body.present_arms[i];
     model.exchange().update_ghosts(ties.data());
@@ -292,7 +292,7 @@ namespace quoin
           affine.set_inhomogeneity(dof(i, d), tie.motion[d]);
         }
     }
-    for (const Body &body : body_list)
+    for (const RigidBody &body : body_list)
     {
       affine.add_line(body.first + 3);
       for (unsigned int d = 0; d < 3; ++d)
@@ -306,7 +306,7 @@ namespace quoin
     affine.close();
   }
 
-  double DofMap::given_motion(const Body &body, const unsigned int d,
+  double DofMap::given_motion(const RigidBody &body, const unsigned int d,
                               const double from, const double to) const
   {
     return given_change((*body.platen->parts())[d], from, to, stage_start)
@@ -348,8 +348,8 @@ namespace quoin
   {
     for (unsigned int b = 0; b < body_list.size(); ++b)
     {
-      const Body &body = body_list[b];
-      const auto &d    = configuration.bodies[b];
+      const RigidBody &body = body_list[b];
+      const auto &d         = configuration.bodies[b];
       const double c = std::cos(d[2]), s = std::sin(d[2]);
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
       {

@@ -103,7 +103,7 @@ namespace quoin
     unsigned int held[2] = { 0, 0 };
     for (const DofMap::Prescribed &given : dof_map.prescribed())
       held[given.component] = 1;
-    for (const DofMap::Body &body : dof_map.bodies())
+    for (const DofMap::RigidBody &body : dof_map.bodies())
       for (unsigned int d = 0; d < 2; ++d)
         if (body.given[d])
           held[d] = 1;
@@ -257,7 +257,7 @@ namespace quoin
   void Equilibrium::add_turning(const AlignedArray<NodeVector<2>> &force)
   {
     // The arms turn with the body: r x f changes by -r . f per radian.
-    for (const DofMap::Body &body : dof_map.bodies())
+    for (const DofMap::RigidBody &body : dof_map.bodies())
     {
       if (body.given[2])
         continue;
@@ -367,7 +367,7 @@ namespace quoin
     const auto bodies = dof_map.body_forces(total);
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const DofMap::Body &body = dof_map.bodies()[b];
+      const DofMap::RigidBody &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
       double size = 0.;

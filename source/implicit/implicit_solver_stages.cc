@@ -7,7 +7,7 @@
 #include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
-#include <quoin/dynamics/free_bodies.h>
+#include <quoin/model/free_bodies.h>
 #include <quoin/implicit/implicit_solver.h>
 #include <quoin/loads/prescribed_motion.h>
 
@@ -252,7 +252,7 @@ namespace quoin
     for (unsigned int b = 0; b < forces.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
       {
-        const DofMap::Body &body = dof_map->bodies()[b];
+        const DofMap::RigidBody &body = dof_map->bodies()[b];
         const double held
             = body.given[d] ? 0. : -forces[b][d] - balance.drives[b][d];
         if (body.platen)
@@ -336,7 +336,7 @@ namespace quoin
     const auto forces_1        = dof_map->body_forces(balance.force);
     for (unsigned int b = 0; b < before.bodies.size(); ++b)
     {
-      const DofMap::Body &body = dof_map->bodies()[b];
+      const DofMap::RigidBody &body = dof_map->bodies()[b];
       if (!body.counts)
         continue;
       for (unsigned int d = 0; d < 3; ++d)
@@ -401,7 +401,7 @@ namespace quoin
       }
     double largest     = -1.;
     unsigned int worst = 0;
-    const auto look    = [&](const unsigned int node, const double force)
+    const auto compare = [&](const unsigned int node, const double force)
     {
       const double counts = force * (on_joint[node] ? joint_preference : 1.);
       if (counts <= largest)
@@ -416,15 +416,16 @@ namespace quoin
         if (dof_map->is_free(i, d))
           square += balance.force[i].v[d] * balance.force[i].v[d];
       if (!dof_map->is_in_body(i))
-        look(i, std::sqrt(square));
+        compare(i, std::sqrt(square));
     }
     const auto forces = dof_map->body_forces(balance.force);
     for (unsigned int b = 0; b < forces.size(); ++b)
       for (unsigned int d = 0; d < 2; ++d)
-        if (const DofMap::Body &body = dof_map->bodies()[b];
+        if (const DofMap::RigidBody &body = dof_map->bodies()[b];
             !body.given[d] && !body.nodes.empty())
-          look(body.nodes.front(), std::abs(forces[b][d] + balance.drives[b][d]
-                                            + balance.held[b][d]));
+          compare(body.nodes.front(),
+                  std::abs(forces[b][d] + balance.drives[b][d]
+                           + balance.held[b][d]));
 
     const double most  = dealii::Utilities::MPI::max(largest, communicator);
     const bool is_here = largest >= 0. && largest == most;
@@ -448,7 +449,7 @@ namespace quoin
                           + " % of what was out of balance at the start"
                     : "the load time " + number_text(state.load_time) + " of "
                           + number_text(stage_duration) + " s")
-            << (jumped ? ", and the model went on moving when it was let go "
+            << (jumped ? ", and the model went on moving when it was released "
                          "against a drag, after steps were cut to "
                        : ", although steps were cut to ")
             << number_text(tried)

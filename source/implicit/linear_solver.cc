@@ -103,7 +103,7 @@ namespace quoin
     }
     for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
     {
-      const DofMap::Body &body = dof_map.bodies()[b];
+      const DofMap::RigidBody &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
       const auto &d      = configuration.bodies[b];

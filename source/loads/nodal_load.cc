@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/loads/nodal_load.h>
+#include <quoin/mesh/kind_text.h>
 
 #include <algorithm>
 #include <map>
@@ -58,8 +59,7 @@ namespace quoin
                          + "' twice, and the load would act on it twice. Name "
                            "it once.");
       const unsigned int line
-          = position(face_names, name, load, "Boundary",
-                     dim == 2 ? "physical curve" : "physical surface");
+          = position(face_names, name, load, "Boundary", boundary_kind<dim>);
       std::vector<bool> wanted(face_names.size(), false);
       wanted[line]     = true;
       const auto found = node_map.gather_faces(wanted);
@@ -81,9 +81,8 @@ namespace quoin
   {
     std::vector<unsigned int> groups;
     for (const auto &name : names)
-      groups.push_back(
-          position(node_map.table().group_names, name, load, "Group",
-                   dim == 2 ? "physical surface" : "physical volume"));
+      groups.push_back(position(node_map.table().group_names, name, load,
+                                "Group", group_kind<dim>));
     return groups;
   }
 

@@ -166,8 +166,9 @@ namespace quoin
     return sum(force, communicator);
   }
 
-  void Platen::advance_freedom(const unsigned int d, const StepContext &step,
-                               PlatenState &platen)
+  void Platen::integrate_degree_of_freedom(const unsigned int d,
+                                           const StepContext &step,
+                                           PlatenState &platen)
   {
     const double unit   = d == 2 ? constants::degree : 1.;
     const double before = platen.velocity[d];
@@ -214,7 +215,7 @@ namespace quoin
                  s0     = std::sin(platen.displacement[2]);
     last_unbalanced     = 0.;
     for (unsigned int d = 0; d < 3; ++d)
-      advance_freedom(d, step, platen);
+      integrate_degree_of_freedom(d, step, platen);
     last_resultant = drive;
 
     const double *const arms = platen.arms.data();

@@ -3,10 +3,10 @@
 
 #include <quoin/results/entry_numbers.h>
 #include <quoin/farfield/boundary_report.h>
-#include <quoin/problems/advice.h>
+#include <quoin/advice/advice.h>
 #include <quoin/problems/block_problem.h>
 #include <quoin/problems/costs.h>
-#include <quoin/problems/model_summary.h>
+#include <quoin/advice/model_summary.h>
 #include <quoin/operators/archive.h>
 
 #include <boost/serialization/map.hpp>
@@ -141,9 +141,10 @@ namespace quoin
   {
     const StageParameters &stage = parameters.stages[index];
     if (stage.end == StageEnd::time && !system.model->large_displacements())
-      if (const auto bodies = system.solver->pushed_bodies(begun);
+      if (const auto bodies = system.solver->unsupported_bodies(begun);
           !bodies.empty())
-        run.log.warning("stage ", stage.name, ": ", pushed_body_text(bodies));
+        run.log.warning("stage ", stage.name, ": ",
+                        unsupported_body_text(bodies));
     run.log.warnings(stage_advice(parameters, index, *system.model, begun,
                                   system.explicit_solver->get_time_step()));
     if (system.solver->far_field_acts())
@@ -362,8 +363,8 @@ namespace quoin
   }
 
   template <int dim>
-  Problem::LastWords
-  BlockProblem<dim>::last_words(const nlohmann::json &summary) const
+  Problem::ClosingLines
+  BlockProblem<dim>::closing_lines(const nlohmann::json &summary) const
   {
     const auto millions = [&](const char *name)
     { return text_of(summary[name].get<double>() / 1e6, " million "); };
@@ -376,17 +377,17 @@ namespace quoin
           "the energy balance error is ", 100. * residual,
           " % of the energy throughput, more than 0.1 %. Compare with a run "
           "with half the 'Share of critical time step'",
-          system.model->large_displacements()
+          dim == 3 || system.model->large_displacements()
               ? "."
               : "; blocks that turn or slide far need 'Displacements = large' "
                 "in section 'Contact'.");
-    LastWords words{ text_of(state.step, " steps"),
-                     text_of(system.implicit_solver
-                                 ? text_of(context.iterations, " iterations")
-                                 : millions("element updates per second")
-                                       + "element updates a second",
-                             ", energy balance error ", 100. * residual,
-                             " % of the energy throughput") };
+    ClosingLines words{ text_of(state.step, " steps"),
+                        text_of(system.implicit_solver
+                                    ? text_of(context.iterations, " iterations")
+                                    : millions("element updates per second")
+                                          + "element updates a second",
+                                ", energy balance error ", 100. * residual,
+                                " % of the energy throughput") };
     std::string shares;
     for (const auto &[phase, share] : summary["time shares"].items())
       if (share.template get<double>() >= least_share)

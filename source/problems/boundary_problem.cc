@@ -92,11 +92,11 @@ namespace quoin
 
   void BoundaryProblem::complete_state()
   {
-    if (!context.march)
+    if (!context.marching)
       return;
     context.state.history = system.history->save();
-    context.state.u       = to_vector(context.march->u());
-    context.state.p       = to_vector(context.march->p());
+    context.state.u       = to_vector(context.marching->u());
+    context.state.p       = to_vector(context.marching->p());
   }
 
   void BoundaryProblem::save(boost::archive::binary_oarchive &archive)
@@ -154,8 +154,8 @@ namespace quoin
                                { "frequencies", passivity->n_scanned } };
   }
 
-  Problem::LastWords
-  BoundaryProblem::last_words(const nlohmann::json &summary) const
+  Problem::ClosingLines
+  BoundaryProblem::closing_lines(const nlohmann::json &summary) const
   {
     return { settings.is_static ? "static solution"
                                 : text_of(context.state.step, " steps"),

@@ -58,7 +58,7 @@ namespace quoin
 
       void begin() override;
       void resume() override;
-      bool is_over() const override
+      bool has_ended() const override
       {
         return state.step == system.n_steps;
       }
@@ -81,7 +81,7 @@ namespace quoin
 
     void MarchingStage::prepare()
     {
-      context.march = std::make_unique<TimeMarching>(
+      context.marching = std::make_unique<TimeMarching>(
           *system.kernel, *system.history, system.given->traction_is_given());
     }
 
@@ -110,9 +110,9 @@ namespace quoin
         return begin();
       prepare();
       system.history->restore(state.history);
-      context.march->restore(to_eigen(state.u), to_eigen(state.p));
+      context.marching->restore(to_eigen(state.u), to_eigen(state.p));
       last_displacement
-          = context.march->u()
+          = context.marching->u()
             + system.waves->displacements(double(state.step) * system.dt);
     }
 
@@ -130,14 +130,15 @@ namespace quoin
 
     void MarchingStage::march_on()
     {
-      TimeMarching &march       = *context.march;
+      TimeMarching &marching    = *context.marching;
       const std::uint64_t step  = state.step + 1;
       const double begin        = double(state.step) * system.dt,
                    end          = double(step) * system.dt;
       const VectorXd u_incident = system.waves->displacements(end);
       const VectorXd p_incident = system.waves->tractions(begin, end);
-      march.step(system.scattered_values(begin, end, u_incident, p_incident));
-      if (!march.u().allFinite() || !march.p().allFinite())
+      marching.step(
+          system.scattered_values(begin, end, u_incident, p_incident));
+      if (!marching.u().allFinite() || !marching.p().allFinite())
         throw RunError(text_of(
             "boundary elements: the solution is not finite any more at time ",
             end,
@@ -145,10 +146,10 @@ namespace quoin
             "this time step: take 'Formulation = Galerkin' and a larger 'Step "
             "ratio'."));
       if (system.needs_record())
-        for (Eigen::Index k = 0; k < march.u().size(); ++k)
+        for (Eigen::Index k = 0; k < marching.u().size(); ++k)
         {
-          state.all_u[k * system.n_steps + state.step] = march.u()[k];
-          state.all_p[k * system.n_steps + state.step] = march.p()[k];
+          state.all_u[k * system.n_steps + state.step] = marching.u()[k];
+          state.all_p[k * system.n_steps + state.step] = marching.p()[k];
         }
       state.step = step;
       write_step(u_incident, p_incident);
@@ -161,11 +162,11 @@ namespace quoin
       const bool row   = context.control.row_is_due(state.step),
                  all   = context.control.fields_are_due(state.step);
       BoundaryState fields;
-      fields.displacement = context.march->u() + u_incident;
+      fields.displacement = context.marching->u() + u_incident;
       if (row || all)
       {
         fields.velocity = (fields.displacement - last_displacement) / system.dt;
-        fields.traction = context.march->p() + p_incident;
+        fields.traction = context.marching->p() + p_incident;
         // Displacements are those at the end of the step, and so are prescribed
         // tractions.
         const auto &of_traction = system.given->traction_is_given();
@@ -206,7 +207,7 @@ namespace quoin
     void MarchingStage::end()
     {
       // There is nothing to resume.
-      context.march.reset();
+      context.marching.reset();
       state.history = {};
     }
 
@@ -224,7 +225,7 @@ namespace quoin
       void resume() override
       {
       }
-      bool is_over() const override
+      bool has_ended() const override
       {
         return is_written;
       }

@@ -39,7 +39,7 @@ namespace quoin
       void resume() override
       {
       }
-      bool is_over() const override
+      bool has_ended() const override
       {
         return rows.empty() && n_done == system.sampled.points.size();
       }

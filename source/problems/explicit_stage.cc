@@ -27,7 +27,7 @@ namespace quoin
         system.resume_stage(index, state);
         prepare();
       }
-      bool is_over() const override
+      bool has_ended() const override
       {
         return over;
       }

@@ -25,9 +25,9 @@ namespace quoin
       {
         system.resume_stage(index, state);
       }
-      bool is_over() const override
+      bool has_ended() const override
       {
-        return solver.is_over(state);
+        return solver.has_ended(state);
       }
       Checkpoint take_step() override;
       ProgressFigures figures() const override

@@ -32,9 +32,9 @@ namespace quoin
         system.restore(index, state);
         strong = system.model->properties();
       }
-      bool is_over() const override
+      bool has_ended() const override
       {
-        return search.is_over(safety);
+        return search.has_ended(safety);
       }
       Checkpoint take_step() override;
       ProgressFigures figures() const override
@@ -157,7 +157,7 @@ namespace quoin
       ImplicitSolver &solver = *system.implicit_solver;
       try
       {
-        while (!solver.is_over(state))
+        while (!solver.has_ended(state))
         {
           solver.step(state);
           outputs.write_iterations();

@@ -5,7 +5,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/plane_geometry.h>
 #include <quoin/tdbem/clustered_history.h>
-#include <quoin/tdbem/gauss_legendre.h>
+#include <quoin/elastodynamics/gauss_legendre.h>
 
 #include <Eigen/Eigenvalues>
 

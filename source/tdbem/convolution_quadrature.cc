@@ -6,7 +6,7 @@
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/fourier_plan.h>
-#include <quoin/tdbem/cut_kernels.h>
+#include <quoin/elastodynamics/cut_kernels.h>
 
 #include <algorithm>
 #include <cmath>

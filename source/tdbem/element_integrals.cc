@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "wave_fronts.h"
+#include <quoin/elastodynamics/wave_fronts.h>
 
 namespace quoin
 {

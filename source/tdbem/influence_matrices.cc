@@ -3,7 +3,7 @@
 
 #include <quoin/base/constants.h>
 #include <quoin/base/plane_geometry.h>
-#include <quoin/tdbem/cut_kernels.h>
+#include <quoin/elastodynamics/cut_kernels.h>
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/graded_rule.h>
 #include <quoin/tdbem/influence_matrices.h>
@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "wave_fronts.h"
+#include <quoin/elastodynamics/wave_fronts.h>
 
 namespace quoin
 {

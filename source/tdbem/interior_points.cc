@@ -4,7 +4,7 @@
 #include <quoin/base/plane_geometry.h>
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/interior_points.h>
-#include <quoin/tdbem/static_kernels.h>
+#include <quoin/elastodynamics/static_kernels.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <quoin/tdbem/laplace_matrices.h>
 
 #include <quoin/base/exceptions.h>
-#include <quoin/tdbem/gauss_legendre.h>
+#include <quoin/elastodynamics/gauss_legendre.h>
 
 #include <algorithm>
 #include <cmath>

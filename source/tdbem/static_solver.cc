@@ -5,7 +5,7 @@
 #include <quoin/tdbem/static_solver.h>
 
 #include <quoin/base/exceptions.h>
-#include <quoin/tdbem/static_kernels.h>
+#include <quoin/elastodynamics/static_kernels.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>

@@ -9,6 +9,8 @@ what the first one wrote is kept; with "warns" they are right, but --check warns
 of one thing, with these words. The functions below are failures of other kinds.
 """
 import argparse
+import collections
+import concurrent.futures
 import glob
 import json
 import math
@@ -860,25 +862,31 @@ def main():
         print("\n".join(name for name, _ in tests))
         return
 
-    passed = failed = skipped = 0
-    for name, test in tests:
+    def outcome(named):
+        """What became of a test, and what to print about it."""
+        name, test = named
         with tempfile.TemporaryDirectory(prefix="quoin_") as folder:
             try:
                 printed = test(folder)
-                passed += 1
-                if options.show:
-                    print("ok: %s\n%s" % (name, printed or ""))
+                return "passed", ("ok: %s\n%s" % (name, printed or "")
+                                  if options.show else None)
             except Skip as why:
-                skipped += 1
-                print("skipped: %s: %s" % (name, why))
+                return "skipped", "skipped: %s: %s" % (name, why)
             except subprocess.TimeoutExpired:
-                failed += 1
-                print("FAILED: %s: still running after 120 s" % name)
+                return "failed", "FAILED: %s: still running after 120 s" % name
             except Failure as failure:
-                failed += 1
-                print("FAILED: %s: %s" % (name, failure))
-    print("%d passed, %d failed, %d skipped" % (passed, failed, skipped))
-    sys.exit(1 if failed or not passed else 0)
+                return "failed", "FAILED: %s: %s" % (name, failure)
+
+    counts = collections.Counter()
+    # Each starts programs of its own, so threads wait in parallel.
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
+        for result, text in threads.map(outcome, tests):
+            counts[result] += 1
+            if text:
+                print(text, flush=True)
+    print("%d passed, %d failed, %d skipped"
+          % tuple(counts[key] for key in ("passed", "failed", "skipped")))
+    sys.exit(1 if counts["failed"] or not counts["passed"] else 0)
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@
 
 #include "mutations.h"
 
-#include <quoin/problems/parameters.h>
+#include <quoin/parameters/parameters.h>
 #include <quoin/application/run.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>

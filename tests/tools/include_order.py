@@ -3,8 +3,9 @@
 # Copyright (C) 2026 The quoin authors
 """Modules include only from their left:
 
-base < mesh, layout, materials, joints < operators < blocks, contact, loads, tdbem
-     < farfield < dynamics < implicit, results < problems < application
+base < mesh, layout, materials, joints, elastodynamics
+     < operators, tdbem < blocks, contact, loads < farfield < model < dynamics
+     < implicit, results < parameters < advice < problems < application
 
 Modules between the same two signs do not know each other.
 """
@@ -12,13 +13,14 @@ import os
 import re
 import sys
 
-TIERS = [["base"], ["mesh", "layout", "materials", "joints"],
-         ["operators"],
-         ["blocks", "contact", "loads", "tdbem"], ["farfield"], ["dynamics"],
-         ["implicit", "results"], ["problems"], ["application"]]
+TIERS = [["base"],
+         ["mesh", "layout", "materials", "joints", "elastodynamics"],
+         ["operators", "tdbem"], ["blocks", "contact", "loads"], ["farfield"],
+         ["model"], ["dynamics"], ["implicit", "results"], ["parameters"],
+         ["advice"], ["problems"], ["application"]]
 RANK = {name: rank for rank, tier in enumerate(TIERS) for name in tier}
 # boundary elements stand alone: a boundary polyline, nothing of the blocks
-NARROWER = {"tdbem": {"base"}}
+NARROWER = {"elastodynamics": {"base"}, "tdbem": {"base", "elastodynamics"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]quoin/([^/">]+)/([^">]+)[">]')
 LOCAL = re.compile(r'^\s*#\s*include\s*"([^"]+)"')

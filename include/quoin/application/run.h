@@ -32,7 +32,7 @@ namespace quoin
     void take_step();
     void write_summary();
     void save_checkpoint();
-    bool is_over() const;
+    bool has_ended() const;
 
     /** Archives the progress of run, tables and problem. */
     template <typename Archive>

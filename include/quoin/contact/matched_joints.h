@@ -134,7 +134,7 @@ namespace quoin
                              NodeVector<2> *force) const;
 
     /** Segment @p i is no joint from now on: a side of it is not there. */
-    void let_go(unsigned int i, JointHistory &history) const;
+    void detach(unsigned int i, JointHistory &history) const;
 
     /** Segment @p i is an intact joint, free of traction where it is now. */
     void begin_anew(unsigned int i, const NodeRecord<2> *nodes,

@@ -4,7 +4,7 @@
 #ifndef quoin_dynamics_construction_h
 #define quoin_dynamics_construction_h
 
-#include <quoin/dynamics/model.h>
+#include <quoin/model/model.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/dynamics/stage_parameters.h>
 

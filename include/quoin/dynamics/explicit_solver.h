@@ -6,7 +6,7 @@
 
 #include <quoin/dynamics/central_differences.h>
 #include <quoin/operators/state.h>
-#include <quoin/dynamics/model_box.h>
+#include <quoin/model/model_box.h>
 #include <quoin/dynamics/solver.h>
 
 #include <memory>

@@ -56,7 +56,7 @@ namespace quoin
   public:
     double next(const SafetyParameters &parameters) const;
     void add(const SafetyTrial &trial);
-    bool is_over(const SafetyParameters &parameters) const;
+    bool has_ended(const SafetyParameters &parameters) const;
 
     /** Highest stable factor; 0: none. */
     double highest_stable() const

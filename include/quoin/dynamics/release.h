@@ -4,7 +4,7 @@
 #ifndef quoin_dynamics_release_h
 #define quoin_dynamics_release_h
 
-#include <quoin/dynamics/construction_state.h>
+#include <quoin/model/construction_state.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/dynamics/stage_parameters.h>
 

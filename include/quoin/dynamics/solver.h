@@ -8,8 +8,8 @@
 #include <quoin/operators/state.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/farfield/static_far_field.h>
-#include <quoin/dynamics/free_bodies.h>
-#include <quoin/dynamics/model.h>
+#include <quoin/model/free_bodies.h>
+#include <quoin/model/model.h>
 #include <quoin/dynamics/release.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/loads/nodal_load.h>
@@ -120,9 +120,10 @@ namespace quoin
 
     /**
      * Unsupported bodies that the loads of the stage begun with @p state push;
-     * see find_pushed_bodies().
+     * see find_unsupported_bodies().
      */
-    std::vector<PushedBody<dim>> pushed_bodies(const State<dim> &state) const;
+    std::vector<UnsupportedBody<dim>>
+    unsupported_bodies(const State<dim> &state) const;
 
     /** Force x, y [N] and moment [N m] of a load; collective. */
     virtual std::array<double, 3> resultant(const std::string &load) const;

@@ -6,7 +6,7 @@
 
 #include <quoin/farfield/boundary_parameters.h>
 #include <quoin/mesh/mesh_data.h>
-#include <quoin/tdbem/boundary.h>
+#include <quoin/elastodynamics/boundary.h>
 
 #include <vector>
 

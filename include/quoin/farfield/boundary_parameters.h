@@ -9,7 +9,7 @@
 #include <quoin/farfield/far_field.h>
 #include <quoin/loads/time_function.h>
 #include <quoin/materials/material_parameters.h>
-#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/elastodynamics/elastic_medium.h>
 #include <quoin/tdbem/formulation.h>
 
 #include <array>

@@ -5,7 +5,7 @@
 #define quoin_farfield_domain_points_h
 
 #include <quoin/farfield/boundary_parameters.h>
-#include <quoin/tdbem/boundary.h>
+#include <quoin/elastodynamics/boundary.h>
 
 #include <array>
 #include <cstdint>

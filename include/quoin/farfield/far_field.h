@@ -7,10 +7,10 @@
 #include <quoin/base/eigen_core.h>
 #include <quoin/farfield/interface_transfer.h>
 #include <quoin/loads/motion_constraint.h>
-#include <quoin/tdbem/boundary.h>
+#include <quoin/elastodynamics/boundary.h>
 #include <quoin/tdbem/boundary_history.h>
 #include <quoin/tdbem/time_marching.h>
-#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/elastodynamics/elastic_medium.h>
 #include <quoin/tdbem/formulation.h>
 
 #include <Eigen/Dense>

@@ -6,9 +6,9 @@
 
 #include <quoin/base/eigen_core.h>
 #include <quoin/farfield/boundary_parameters.h>
-#include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/incident_field.h>
+#include <quoin/elastodynamics/boundary.h>
+#include <quoin/elastodynamics/elastic_medium.h>
+#include <quoin/elastodynamics/incident_field.h>
 
 #include <functional>
 #include <memory>

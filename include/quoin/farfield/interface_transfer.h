@@ -6,7 +6,7 @@
 
 #include <quoin/base/eigen_core.h>
 #include <quoin/mesh/node_map.h>
-#include <quoin/tdbem/boundary.h>
+#include <quoin/elastodynamics/boundary.h>
 
 #include <array>
 #include <vector>

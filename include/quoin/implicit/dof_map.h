@@ -6,7 +6,7 @@
 
 #include <quoin/implicit/implicit_state.h>
 #include <quoin/operators/state.h>
-#include <quoin/dynamics/model.h>
+#include <quoin/model/model.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/platen.h>
@@ -50,7 +50,7 @@ namespace quoin
     using Vector      = dealii::TrilinosWrappers::MPI::Vector;
     using Constraints = dealii::AffineConstraints<double>;
 
-    struct Body
+    struct RigidBody
     {
       const MotionConstraint<2> *platen; /**< null: a rigid block */
       unsigned int rigid_block;
@@ -79,7 +79,7 @@ namespace quoin
            const std::vector<MotionConstraint<2> *> &constraints,
            const std::vector<bool> &held, const State<2> &state);
 
-    const std::vector<Body> &bodies() const
+    const std::vector<RigidBody> &bodies() const
     {
       return body_list;
     }
@@ -167,7 +167,7 @@ namespace quoin
     double held_force(const ImplicitState &state, const unsigned int b,
                       const unsigned int d) const
     {
-      const Body &body = body_list[b];
+      const RigidBody &body = body_list[b];
       return body.platen ? state.held_platens[3 * b + d]
                          : state.held_blocks[3 * body.rigid_block + d];
     }
@@ -198,13 +198,13 @@ namespace quoin
     void number();
     void place(Configuration &configuration) const;
     /** Increment of component @p d of a driven body [m or rad]. */
-    double given_motion(const Body &body, unsigned int d, double from,
+    double given_motion(const RigidBody &body, unsigned int d, double from,
                         double to) const;
 
     const Model<2> &model;
     MPI_Comm communicator;
     const double stage_start;
-    std::vector<Body> body_list; /**< platens first, on all ranks */
+    std::vector<RigidBody> body_list; /**< platens first, on all ranks */
     unsigned int n_platens = 0;
     std::vector<Prescribed> prescribed_list;
     std::vector<bool> absent; /**< of local nodes */

@@ -86,7 +86,7 @@ namespace quoin
       return stage_duration;
     }
     /** Whether the stage has ended; a jump has its last load_time at once. */
-    bool is_over(const State<2> &state) const
+    bool has_ended(const State<2> &state) const
     {
       return state.get<ImplicitState>().released == 1.
              && !state.get<ImplicitState>().jumps

@@ -92,8 +92,8 @@ namespace quoin
     resultant(const std::vector<CapturedNode<2>> &captured,
               const PlatenState &platen) const;
     /** Advances component @p d: motion, force, drive and damping. */
-    void advance_freedom(unsigned int d, const StepContext &step,
-                         PlatenState &platen);
+    void integrate_degree_of_freedom(unsigned int d, const StepContext &step,
+                                     PlatenState &platen);
 
     std::array<LoadComponent, 3> components;
     MPI_Comm communicator;

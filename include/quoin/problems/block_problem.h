@@ -25,7 +25,7 @@ namespace quoin
     void restore(unsigned int index) override;
     void open_outputs() override;
     void summarise(nlohmann::json &summary, double seconds) const override;
-    LastWords last_words(const nlohmann::json &summary) const override;
+    ClosingLines closing_lines(const nlohmann::json &summary) const override;
     void complete_state() override;
     void save(boost::archive::binary_oarchive &archive) override;
     void load(boost::archive::binary_iarchive &archive,

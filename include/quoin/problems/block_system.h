@@ -7,12 +7,12 @@
 #include <quoin/operators/state.h>
 #include <quoin/dynamics/construction.h>
 #include <quoin/dynamics/explicit_solver.h>
-#include <quoin/dynamics/model.h>
+#include <quoin/model/model.h>
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/implicit/implicit_solver.h>
 #include <quoin/mesh/mesh_report.h>
 #include <quoin/mesh/node_map.h>
-#include <quoin/problems/parameters.h>
+#include <quoin/parameters/parameters.h>
 
 #include <memory>
 #include <string>

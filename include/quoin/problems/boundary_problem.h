@@ -22,7 +22,7 @@ namespace quoin
     std::unique_ptr<Stage> make_stage(unsigned int index) override;
     void open_outputs() override;
     void summarise(nlohmann::json &summary, double seconds) const override;
-    LastWords last_words(const nlohmann::json &summary) const override;
+    ClosingLines closing_lines(const nlohmann::json &summary) const override;
     void complete_state() override;
     void save(boost::archive::binary_oarchive &archive) override;
     void load(boost::archive::binary_iarchive &archive,

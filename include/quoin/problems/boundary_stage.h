@@ -56,7 +56,7 @@ namespace quoin
       }
     } state;
 
-    std::unique_ptr<TimeMarching> march;    /**< during the time marching */
+    std::unique_ptr<TimeMarching> marching; /**< during the time marching */
     std::optional<StaticSolution> solution; /**< of statics */
     std::uint64_t n_done = 0;               /**< steps of this process */
     double march_seconds = 0.;              /**< of these steps */

@@ -8,11 +8,11 @@
 #include <quoin/farfield/boundary_values.h>
 #include <quoin/farfield/domain_points.h>
 #include <quoin/farfield/incident_waves.h>
-#include <quoin/problems/parameters.h>
+#include <quoin/parameters/parameters.h>
 #include <quoin/results/boundary_histories.h>
 #include <quoin/results/log.h>
 #include <quoin/tdbem/boundary_history.h>
-#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/elastodynamics/elastic_medium.h>
 #include <quoin/tdbem/interior_points.h>
 #include <quoin/tdbem/passivity.h>
 #include <quoin/tdbem/static_solver.h>

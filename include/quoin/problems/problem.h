@@ -5,7 +5,7 @@
 #define quoin_problems_problem_h
 
 #include <quoin/mesh/mesh_data.h>
-#include <quoin/problems/parameters.h>
+#include <quoin/parameters/parameters.h>
 #include <quoin/results/checkpoint.h>
 #include <quoin/results/log.h>
 #include <quoin/results/progress.h>
@@ -72,8 +72,8 @@ namespace quoin
     /** Begins the stage. */
     virtual void begin() = 0;
     /** Continues within the stage with the state that was loaded. */
-    virtual void resume()        = 0;
-    virtual bool is_over() const = 0;
+    virtual void resume()          = 0;
+    virtual bool has_ended() const = 0;
 
     /** Whether a checkpoint may follow a step. */
     enum class Checkpoint
@@ -127,11 +127,11 @@ namespace quoin
     virtual void summarise(nlohmann::json &summary, double seconds) const = 0;
     /** Last line of the log from this summary: "3 steps", and the text after
         the run time. */
-    struct LastWords
+    struct ClosingLines
     {
       std::string what, figures;
     };
-    virtual LastWords last_words(const nlohmann::json &summary) const = 0;
+    virtual ClosingLines closing_lines(const nlohmann::json &summary) const = 0;
 
     /** Called before save(): checks and completes the state. */
     virtual void complete_state()                        = 0;

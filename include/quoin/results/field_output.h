@@ -8,7 +8,7 @@
 #include <quoin/results/boundary_histories.h>
 #include <quoin/operators/state.h>
 #include <quoin/farfield/far_field.h>
-#include <quoin/dynamics/model.h>
+#include <quoin/model/model.h>
 #include <quoin/results/block_output.h>
 #include <quoin/results/boundary_output.h>
 #include <quoin/results/joint_output.h>

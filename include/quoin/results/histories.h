@@ -8,7 +8,7 @@
 #include <quoin/results/history_parameters.h>
 #include <quoin/operators/state.h>
 #include <quoin/dynamics/solver.h>
-#include <quoin/dynamics/model.h>
+#include <quoin/model/model.h>
 
 #include <array>
 #include <memory>

@@ -5,10 +5,10 @@
 #define quoin_tdbem_clustered_history_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/tdbem/boundary.h>
+#include <quoin/elastodynamics/boundary.h>
 #include <quoin/tdbem/boundary_history.h>
-#include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/influence_kernel.h>
+#include <quoin/elastodynamics/elastic_medium.h>
+#include <quoin/elastodynamics/influence_kernel.h>
 #include <quoin/tdbem/passivity.h>
 
 #include <mpi.h>

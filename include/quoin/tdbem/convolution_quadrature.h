@@ -5,7 +5,7 @@
 #define quoin_tdbem_convolution_quadrature_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/tdbem/influence_kernel.h>
+#include <quoin/elastodynamics/influence_kernel.h>
 #include <quoin/tdbem/laplace_matrices.h>
 
 #include <complex>

@@ -5,7 +5,7 @@
 #define quoin_tdbem_direct_history_h
 
 #include <quoin/tdbem/boundary_history.h>
-#include <quoin/tdbem/influence_kernel.h>
+#include <quoin/elastodynamics/influence_kernel.h>
 
 namespace quoin
 {

@@ -4,8 +4,8 @@
 #ifndef quoin_tdbem_element_integrals_h
 #define quoin_tdbem_element_integrals_h
 
-#include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/time_kernels.h>
+#include <quoin/elastodynamics/boundary.h>
+#include <quoin/elastodynamics/time_kernels.h>
 
 namespace quoin
 {

@@ -4,11 +4,11 @@
 #ifndef quoin_tdbem_formulation_h
 #define quoin_tdbem_formulation_h
 
-#include <quoin/tdbem/boundary.h>
+#include <quoin/elastodynamics/boundary.h>
 #include <quoin/tdbem/boundary_history.h>
-#include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/influence_kernel.h>
-#include <quoin/tdbem/laplace_kernels.h>
+#include <quoin/elastodynamics/elastic_medium.h>
+#include <quoin/elastodynamics/influence_kernel.h>
+#include <quoin/elastodynamics/laplace_kernels.h>
 #include <quoin/tdbem/passivity.h>
 
 #include <mpi.h>

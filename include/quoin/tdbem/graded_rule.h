@@ -4,7 +4,7 @@
 #ifndef quoin_tdbem_graded_rule_h
 #define quoin_tdbem_graded_rule_h
 
-#include <quoin/tdbem/gauss_legendre.h>
+#include <quoin/elastodynamics/gauss_legendre.h>
 
 namespace quoin
 {

@@ -4,11 +4,11 @@
 #ifndef quoin_tdbem_influence_matrices_h
 #define quoin_tdbem_influence_matrices_h
 
-#include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/influence_kernel.h>
-#include <quoin/tdbem/projection.h>
-#include <quoin/tdbem/time_kernels.h>
+#include <quoin/elastodynamics/boundary.h>
+#include <quoin/elastodynamics/elastic_medium.h>
+#include <quoin/elastodynamics/influence_kernel.h>
+#include <quoin/elastodynamics/projection.h>
+#include <quoin/elastodynamics/time_kernels.h>
 
 #include <array>
 #include <memory>

@@ -5,8 +5,8 @@
 #define quoin_tdbem_interior_points_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/elastodynamics/boundary.h>
+#include <quoin/elastodynamics/elastic_medium.h>
 #include <quoin/tdbem/static_solver.h>
 
 #include <mpi.h>

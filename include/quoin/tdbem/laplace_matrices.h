@@ -5,9 +5,9 @@
 #define quoin_tdbem_laplace_matrices_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/laplace_kernels.h>
-#include <quoin/tdbem/projection.h>
+#include <quoin/elastodynamics/boundary.h>
+#include <quoin/elastodynamics/laplace_kernels.h>
+#include <quoin/elastodynamics/projection.h>
 
 #include <complex>
 

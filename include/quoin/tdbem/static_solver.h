@@ -5,9 +5,9 @@
 #define quoin_tdbem_static_solver_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/projection.h>
+#include <quoin/elastodynamics/boundary.h>
+#include <quoin/elastodynamics/elastic_medium.h>
+#include <quoin/elastodynamics/projection.h>
 
 #include <vector>
 

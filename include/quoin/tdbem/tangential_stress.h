@@ -5,8 +5,8 @@
 #define quoin_tdbem_tangential_stress_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/elastic_medium.h>
+#include <quoin/elastodynamics/boundary.h>
+#include <quoin/elastodynamics/elastic_medium.h>
 
 #include <array>
 #include <vector>

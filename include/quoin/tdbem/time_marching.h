@@ -6,7 +6,7 @@
 
 #include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/boundary_history.h>
-#include <quoin/tdbem/influence_kernel.h>
+#include <quoin/elastodynamics/influence_kernel.h>
 
 #include <Eigen/Dense>
 

@@ -4,7 +4,7 @@
 // Blocks that yield: the kernel, its energy, and whole runs in closed form.
 
 #include "random_blocks.h"
-#include "../dynamics/test_models.h"
+#include "../model/test_models.h"
 
 #include <quoin/blocks/block_forces.h>
 

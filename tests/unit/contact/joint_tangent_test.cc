@@ -4,7 +4,7 @@
 // MatchedJoints::linearise(): against add_forces() and differences, along
 // random paths through all branches of the laws.
 
-#include "../dynamics/test_models.h"
+#include "../model/test_models.h"
 #include "../joints/composite_walk.h"
 #include "../joints/rock_walk.h"
 

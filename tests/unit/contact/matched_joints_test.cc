@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../dynamics/test_models.h"
+#include "../model/test_models.h"
 #include "../joints/rock_walk.h"
 
 #include <quoin/contact/matched_joints.h>

@@ -4,7 +4,7 @@
 #ifndef quoin_tests_unit_contact_test_contacts_h
 #define quoin_tests_unit_contact_test_contacts_h
 
-#include "../dynamics/test_models.h"
+#include "../model/test_models.h"
 
 #include <quoin/contact/block_contacts.h>
 

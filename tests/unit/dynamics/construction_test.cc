@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../joints/rock_walk.h"
-#include "test_models.h"
+#include "../model/test_models.h"
 
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/construction.h>

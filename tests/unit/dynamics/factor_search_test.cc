@@ -15,7 +15,7 @@ namespace
   FactorSearch searched(const SafetyParameters &parameters, const double limit)
   {
     FactorSearch search;
-    while (!search.is_over(parameters) && search.trials().size() < 1000)
+    while (!search.has_ended(parameters) && search.trials().size() < 1000)
     {
       SafetyTrial trial;
       trial.factor    = search.next(parameters);

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../base/message_of.h"
-#include "test_models.h"
+#include "../model/test_models.h"
 
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/rigid_blocks.h>

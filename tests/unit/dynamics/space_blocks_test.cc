@@ -4,7 +4,7 @@
 // Blocks in three dimensions, from the distributed mesh to the steps. These
 // tests also run on two and three ranks, among which the block is divided.
 
-#include "test_models.h"
+#include "../model/test_models.h"
 
 #include <quoin/blocks/block_cells.h>
 #include <quoin/dynamics/central_differences.h>

@@ -5,7 +5,7 @@
 #include "../results/temporary_directory.h"
 
 #include <quoin/farfield/boundary_values.h>
-#include <quoin/problems/parameters.h>
+#include <quoin/parameters/parameters.h>
 #include <quoin/base/exceptions.h>
 
 #include <cmath>

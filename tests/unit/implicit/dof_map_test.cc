@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../dynamics/test_models.h"
+#include "../model/test_models.h"
 
 #include <quoin/operators/archive.h>
 #include <quoin/implicit/dof_map.h>
@@ -194,7 +194,7 @@ TEST(DofMap, PlatensMayBeDrivenInPart)
   // Pushed to the right by 0.1 m/s, turned by 30 degrees a second, loaded.
   Bodies run(driven(velocity, "0.1"), driven(given_force, "-4e3*t"),
              driven(displacement, "30*t"));
-  const DofMap::Body &beam = run.dof_map->bodies()[0];
+  const DofMap::RigidBody &beam = run.dof_map->bodies()[0];
   EXPECT_EQ(beam.given, (std::array<bool, 3>{ { true, false, true } }));
   EXPECT_EQ(run.dof_map->drives(2.)[0],
             (std::array<double, 3>{ { 0., -8e3, 0. } }));

@@ -4,7 +4,7 @@
 #ifndef quoin_tests_unit_implicit_implicit_run_h
 #define quoin_tests_unit_implicit_implicit_run_h
 
-#include "../dynamics/test_models.h"
+#include "../model/test_models.h"
 
 #include <quoin/implicit/implicit_solver.h>
 
@@ -44,7 +44,7 @@ namespace quoin::test
 
     void finish()
     {
-      while (!solver.is_over(state))
+      while (!solver.has_ended(state))
         solver.step(state);
     }
   };

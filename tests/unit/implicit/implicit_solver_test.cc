@@ -205,7 +205,7 @@ TEST(ImplicitSolver, IterationsConvergeQuadratically)
       numbers);
   run.begin({ "left", "push" });
   run.solver.step(run.state);
-  ASSERT_TRUE(run.solver.is_over(run.state));
+  ASSERT_TRUE(run.solver.has_ended(run.state));
   EXPECT_GT(run.state.nodes[nodes_at(run.nodes, 6., 2.)[0]].u[1], 0.5);
   expect_quadratic_convergence(run.solver.take_reports(), 2);
 }
@@ -234,7 +234,7 @@ TEST(ImplicitSolver, IterationsOfATurningBlockConvergeQuadratically)
                   numbers);
   run.begin({ "held", "load" });
   run.solver.step(run.state);
-  ASSERT_TRUE(run.solver.is_over(run.state));
+  ASSERT_TRUE(run.solver.has_ended(run.state));
   EXPECT_LT(run.state.get<RigidBlockStates>()[0].rotation, -0.1);
   expect_quadratic_convergence(run.solver.take_reports(), 1);
 }
@@ -356,7 +356,7 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
           model.thickness()));
   State<2> state = model.initial_state();
   solver.begin_stage(stage_with({ "far", "turn" }), nullptr, state);
-  while (!solver.is_over(state))
+  while (!solver.has_ended(state))
     solver.step(state);
   const auto reaction = solver.resultant("far");
   EXPECT_NEAR(reaction[2], -1e6, 1e-5 * 1e6);

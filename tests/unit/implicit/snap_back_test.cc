@@ -198,7 +198,7 @@ TEST(SnapBack, ARunThatIsResumedIsBitwiseTheSame)
   Bar whole(values, weak);
   whole.begin();
   std::vector<State<2>> states;
-  while (!whole.run->solver.is_over(whole.run->state))
+  while (!whole.run->solver.has_ended(whole.run->state))
   {
     states.push_back(whole.run->state);
     whole.run->solver.save(states.back());

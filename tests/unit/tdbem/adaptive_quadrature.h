@@ -5,7 +5,7 @@
 #define quoin_tests_adaptive_quadrature_h
 
 #include <quoin/tdbem/graded_rule.h>
-#include <quoin/tdbem/time_kernels.h>
+#include <quoin/elastodynamics/time_kernels.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,10 +5,10 @@
 #define quoin_tests_tdbem_cavity_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/tdbem/bessel_k.h>
-#include <quoin/tdbem/boundary.h>
-#include <quoin/tdbem/influence_kernel.h>
-#include <quoin/tdbem/laplace_kernels.h>
+#include <quoin/elastodynamics/bessel_k.h>
+#include <quoin/elastodynamics/boundary.h>
+#include <quoin/elastodynamics/influence_kernel.h>
+#include <quoin/elastodynamics/laplace_kernels.h>
 
 #include <Eigen/LU>
 

@@ -4,7 +4,7 @@
 #include <quoin/base/eigen_core.h>
 #include <quoin/tdbem/element_integrals.h>
 #include <quoin/tdbem/influence_matrices.h>
-#include <quoin/tdbem/static_kernels.h>
+#include <quoin/elastodynamics/static_kernels.h>
 
 #include <Eigen/Geometry>
 

@@ -4,7 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/tdbem/laplace_matrices.h>
 
-#include "quadrature.h"
+#include "../elastodynamics/quadrature.h"
 
 #include <gtest/gtest.h>
 

@@ -5,12 +5,12 @@
 #define quoin_tests_tdbem_regular_polygon_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/tdbem/boundary.h>
+#include <quoin/elastodynamics/boundary.h>
 #include <quoin/tdbem/convolution_quadrature.h>
-#include <quoin/tdbem/elastic_medium.h>
-#include <quoin/tdbem/influence_kernel.h>
+#include <quoin/elastodynamics/elastic_medium.h>
+#include <quoin/elastodynamics/influence_kernel.h>
 #include <quoin/tdbem/laplace_matrices.h>
-#include <quoin/tdbem/projection.h>
+#include <quoin/elastodynamics/projection.h>
 
 #include <Eigen/LU>
 

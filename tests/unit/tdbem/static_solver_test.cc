@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/tdbem/static_kernels.h>
+#include <quoin/elastodynamics/static_kernels.h>
 #include <quoin/tdbem/static_solver.h>
 
 #include "cavity.h"

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_advice_model_summary_h
+#define quoin_advice_model_summary_h
+
+#include <quoin/mesh/mesh_report.h>
+#include <quoin/mesh/node_map.h>
+#include <quoin/parameters/parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  // Materials, joints and loads of a model of blocks, a line each, for
+  // --check. All ranks get the same lines; those about nodes are collective.
+
+  /**
+   * @p material_of_group: index into the materials of the parameters, as
+   * ModelProperties has it.
+   */
+  template <int dim>
+  std::vector<std::string>
+  material_lines(const Parameters &parameters, const NodeMap<dim> &nodes,
+                 const std::vector<unsigned int> &material_of_group);
+
+  /** Names of the curves in @p report are those of the mesh. */
+  std::vector<std::string> joint_lines(const Parameters &parameters,
+                                       const MeshReport &report);
+
+  template <int dim>
+  std::vector<std::string> load_lines(const Parameters &parameters,
+                                      const NodeMap<dim> &nodes);
+} // namespace quoin
+
+#endif

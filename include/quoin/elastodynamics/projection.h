@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_elastodynamics_projection_h
+#define quoin_elastodynamics_projection_h
+
+namespace quoin
+{
+  /** How the boundary integral equation is required on an element. */
+  enum class Projection
+  {
+    collocation, /**< at its middle */
+    galerkin     /**< in the mean over it */
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_mesh_kind_text_h
+#define quoin_mesh_kind_text_h
+
+namespace quoin
+{
+  /** What gmsh calls a group of cells, for messages. */
+  template <int dim>
+  inline constexpr const char *group_kind
+      = dim == 2 ? "physical surface" : "physical volume";
+
+  /** What gmsh calls a named part of the boundary, for messages. */
+  template <int dim>
+  inline constexpr const char *boundary_kind
+      = dim == 2 ? "physical curve" : "physical surface";
+} // namespace quoin
+
+#endif

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_model_construction_state_h
+#define quoin_model_construction_state_h
+
+#include <quoin/base/archive_members.h>
+#include <quoin/base/node_vector.h>
+
+#include <vector>
+
+namespace quoin
+{
+  /** Forces of excavated blocks on those that stay, as they are released. */
+  struct HeldForces
+  {
+    /** x, y at each owned node at the time of excavation [N]. */
+    std::vector<double> force;
+    double left        = 1.; /**< share left at the start of the stage [-] */
+    double left_at_end = 1.; /**< and at the end of the release [-] */
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.owned_nodes(force, 2);
+      visitor.same(left, left_at_end);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive_members(archive, *this);
+    }
+  };
+
+  /** Changes of the model by stages; see Construction. In two dimensions. */
+  struct ConstructionState
+  {
+    static constexpr const char *slice_name = "construction";
+
+    std::vector<HeldForces> held; /**< of each excavation not fully released */
+    /** Stress xx, yy, xy, zz of each deformable cell at zero strain [Pa], after
+        changes of materials and fill; empty: as at the start. */
+    AlignedArray<double> initial_stress;
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.each(held);
+      visitor.cells(initial_stress, 4);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive_members(archive, *this);
+    }
+  };
+} // namespace quoin
+
+#endif

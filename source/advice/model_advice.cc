@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/known_names.h>
+#include <quoin/advice/advice.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace quoin
+{
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    template <int dim>
+    void check_ranks(const MeshReport &report, const NodeMap<dim> &nodes,
+                     Advice &advice)
+    {
+      namespace MPI = dealii::Utilities::MPI;
+      Checks(advice, "")
+          .warn_if(MPI::min(nodes.n_cells(), nodes.communicator()) == 0,
+                   "the model has ", count_text(report.n_blocks, "block"),
+                   " and the run ", MPI::n_mpi_processes(nodes.communicator()),
+                   " MPI processes, of which some have no cells: rigid "
+                   "blocks stay whole. Fewer processes would be as fast, but "
+                   "for boundary elements, which all share.");
+    }
+
+    /** Warns of joints that the initial stress takes beyond their strength. */
+    void check_initial_joints(const Parameters &parameters,
+                              const Model<2> &model, const State<2> &state,
+                              Advice &advice)
+    {
+      if (parameters.model.initial_stresses.empty())
+        return;
+      const NodeMap<2> &nodes = model.nodes();
+      const double n          = model.joints().n_beyond_strength(
+                   state.get<JointHistory>(), nodes.communicator());
+      Checks(advice, "")
+          .warn_if(n > 0., n, " of ", 2 * nodes.n_joint_faces(),
+                   " joint points begin with tractions beyond their strength: "
+                   "they yield in the first stage. Check the initial stress "
+                   "and the strength of these joints.");
+    }
+
+    bool is_in_set(const JointNodes<2> &face, const JointSetParameters &set,
+                   const BlockTable<2> &table)
+    {
+      return is_among(face.name == 0 ? "unnamed" : table.face_names[face.name],
+                      set.curves);
+    }
+
+    /** Whether the set is for joints that appear or change later. */
+    bool is_for_later(const JointSetParameters &set,
+                      const std::vector<StageParameters> &stages)
+    {
+      const auto takes = [&](const StageParameters &stage)
+      {
+        return std::any_of(
+            stage.joint_properties.begin(), stage.joint_properties.end(),
+            [&](const auto &pair) { return pair.second == set.name; });
+      };
+      return set.all_new_contacts || !set.new_contacts.empty()
+             || std::any_of(stages.begin(), stages.end(), takes);
+    }
+
+    /** Diagonal of the box around each block [m]. Collective. */
+    std::vector<double> block_sizes(const NodeMap<2> &nodes)
+    {
+      // Upper corners have the other sign, so that one minimum finds both.
+      const unsigned int n_blocks = nodes.table().n_blocks();
+      std::vector<double> box(4 * n_blocks, infinity);
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          double *corners = &box[4 * nodes.block_of_node(i) + d];
+          corners[0]      = std::min(corners[0], nodes.point(i)[d]);
+          corners[2]      = std::min(corners[2], -nodes.point(i)[d]);
+        }
+      dealii::Utilities::MPI::min(box, nodes.communicator(), box);
+      std::vector<double> sizes;
+      for (unsigned int b = 0; b < n_blocks; ++b)
+        sizes.push_back(std::hypot(box[4 * b] + box[4 * b + 2],
+                                   box[4 * b + 1] + box[4 * b + 3]));
+      return sizes;
+    }
+
+    /** Cells and blocks beside the joints of a set. */
+    struct Neighbours
+    {
+      bool exist           = false;
+      double stiffest_cell = 0.;       /**< E by shortest edge [Pa/m] */
+      double softest_block = infinity; /**< E by size of the block [Pa/m] */
+    };
+
+    /** Collective. */
+    Neighbours neighbours(const JointSetParameters &set,
+                          const std::vector<MaterialParameters> &materials,
+                          const Model<2> &model)
+    {
+      namespace MPI = dealii::Utilities::MPI;
+      // Boxes of blocks include the parts on all ranks.
+      const NodeMap<2> &nodes = model.nodes();
+      const auto sizes        = block_sizes(nodes);
+      Neighbours result;
+      for (const JointNodes<2> &face : nodes.joint_faces())
+      {
+        if (!is_in_set(face, set, model.table()))
+          continue;
+        result.exist = true;
+        for (unsigned int side = 0; side < 2; ++side)
+        {
+          const unsigned int cell = face.cells[side];
+          if (!face.is_own[side]
+              || materials[model.material_of_cell(cell)].rigid)
+            continue;
+          const double young
+              = materials[model.material_of_cell(cell)].elastic.young;
+          double shortest = infinity;
+          for (unsigned int k = 0; k < 3; ++k)
+            shortest = std::min(
+                shortest,
+                nodes.point(nodes.cell(cell)[k])
+                    .distance(nodes.point(nodes.cell(cell)[(k + 1) % 3])));
+          result.stiffest_cell
+              = std::max(result.stiffest_cell, young / shortest);
+          result.softest_block = std::min(result.softest_block,
+                                          young / sizes[face.blocks[side]]);
+        }
+      }
+      const MPI_Comm all   = nodes.communicator();
+      result.exist         = MPI::logical_or(result.exist, all);
+      result.stiffest_cell = MPI::max(result.stiffest_cell, all);
+      result.softest_block = MPI::min(result.softest_block, all);
+      return result;
+    }
+
+    void check_joints(const Parameters &parameters, const Model<2> &model,
+                      Advice &advice)
+    {
+      /** Normal stiffness of joints by E/h of the cells beside. */
+      constexpr double stiff = 100.;
+      /** Upper limit by E/L of blocks: with their displacement in double
+          precision six digits of the closure of a joint are left. */
+      constexpr double rigid = 1e10;
+      /** Lower limit by E/L of the blocks beside. */
+      constexpr double soft = 1e-3;
+      for (const JointSetParameters &set : parameters.model.joints)
+      {
+        Checks checks(advice, "joints " + set.name + ": ");
+        const Neighbours beside
+            = neighbours(set, parameters.model.materials, model);
+        checks.warn_if(!beside.exist && !set.curves.empty()
+                           && !is_for_later(set, parameters.stages),
+                       "there are none on its curves: they act on nothing. "
+                       "Name the curves in 'Joints along' of section 'Mesh', "
+                       "or remove the set.");
+        if (!beside.exist)
+          continue;
+        const double kn      = stiffness_bound(set.law)[0];
+        const double by_cell = kn / beside.stiffest_cell;
+        // For rock joints it is a bound that few of them approach.
+        checks.warn_if(
+            !parameters.is_implicit && !stiffens(set.law)
+                && beside.stiffest_cell > 0. && by_cell > stiff,
+            "the normal stiffness ", kn, " Pa/m is ", by_cell,
+            " times E/h of the smallest triangles beside them: they, not the "
+            "blocks, make the time step short, about ",
+            std::sqrt(by_cell),
+            " times. Unless it was measured take some ten times E/h, ",
+            10. * beside.stiffest_cell, " Pa/m.");
+        checks.warn_if(
+            parameters.is_implicit && kn > rigid * beside.softest_block,
+            "the normal stiffness ", kn, " Pa/m is ", kn / beside.softest_block,
+            " times E/L of the softest block beside them: what closes them is "
+            "lost in the rounding of its displacements, and no equilibrium may "
+            "be found. Take ",
+            1e4 * beside.softest_block, " Pa/m or less.");
+        checks.warn_if(
+            kn < soft * beside.softest_block
+                && std::isfinite(beside.softest_block),
+            "the normal stiffness ", kn,
+            " Pa/m is less than a thousandth of E/L of the blocks beside "
+            "them, ",
+            beside.softest_block,
+            " Pa/m: blocks hardly deform. Check its unit, or make the blocks "
+            "rigid, which takes far fewer steps.");
+      }
+    }
+
+    void check_laws(const Parameters &parameters, Advice &advice)
+    {
+      for (const JointSetParameters &set : parameters.model.joints)
+      {
+        const std::string warning = law_warning(set.law);
+        Checks(advice, "section 'Joints/" + set.name + "': ")
+            .warn_if(!warning.empty(), warning);
+      }
+    }
+
+    template <int dim>
+    void check_materials(const Parameters &parameters, const Model<dim> &model,
+                         Advice &advice)
+    {
+      /** Poisson's ratio above which constant-strain triangles in plane strain
+          and tetrahedra lock. */
+      constexpr double locking_poisson = 0.45;
+      if (parameters.triangles != TriangleKind::plain
+          || parameters.model.plane != PlaneAssumption::plane_strain)
+        return;
+      std::vector<unsigned int> is_used(parameters.model.materials.size(), 0);
+      for (unsigned int c = 0; c < model.nodes().n_cells(); ++c)
+        is_used[model.material_of_cell(c)] = 1;
+      dealii::Utilities::MPI::max(is_used, model.nodes().communicator(),
+                                  is_used);
+      for (unsigned int m = 0; m < is_used.size(); ++m)
+      {
+        const MaterialParameters &material = parameters.model.materials[m];
+        Checks(advice, "material " + material.name + ": ")
+            .warn_if(is_used[m] && !material.rigid
+                         && material.elastic.poisson > locking_poisson,
+                     "with Poisson's ratio ", material.elastic.poisson,
+                     dim == 2 ? " plain triangles lock in plane strain, they "
+                                "are too stiff. Take 'Triangles = crossed' in "
+                                "section 'Mesh'."
+                              : " tetrahedra lock: they are too stiff. Refine "
+                                "the mesh until results no longer change.");
+      }
+    }
+
+    void check_output(const Parameters &parameters, Advice &advice)
+    {
+      /** Number of output times above which a warning is given. */
+      constexpr double many = 5000.;
+      const double duration
+          = start_of_stage(parameters.stages, parameters.stages.size());
+      const double n = duration / parameters.field_interval;
+      Checks(advice, "'Field interval = ")
+          .warn_if(parameters.field_interval > 0. && n > many,
+                   parameters.field_interval,
+                   "' in section 'Output' writes fields ",
+                   std::uint64_t(std::min(n, 1e18)),
+                   " times. Some hundred make a film: take ", duration / 200.,
+                   " s.");
+    }
+  } // namespace
+
+  template <int dim>
+  Advice model_advice(const Parameters &parameters, const MeshReport &report,
+                      const Model<dim> &model, const State<dim> &state)
+  {
+    Advice advice = report.warnings();
+    check_ranks(report, model.nodes(), advice);
+    check_laws(parameters, advice);
+    if constexpr (dim == 2)
+      check_initial_joints(parameters, model, state, advice);
+    check_materials(parameters, model, advice);
+    if constexpr (dim == 2)
+      check_joints(parameters, model, advice);
+    check_output(parameters, advice);
+    return advice;
+  }
+
+  template Advice model_advice(const Parameters &, const MeshReport &,
+                               const Model<2> &, const State<2> &);
+  template Advice model_advice(const Parameters &, const MeshReport &,
+                               const Model<3> &, const State<3> &);
+} // namespace quoin

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/number_text.h>
+#include <quoin/dynamics/solver.h>
+#include <quoin/loads/nodal_load.h>
+#include <quoin/loads/signal_frequency.h>
+#include <quoin/advice/model_summary.h>
+
+#include <boost/algorithm/string/join.hpp>
+
+#include <algorithm>
+#include <set>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Smallest to largest value over the stages in which @p load acts. */
+    std::string value_text(const Parameters &parameters,
+                           const LoadParameters &load,
+                           const LoadComponent &component)
+    {
+      std::vector<double> values;
+      for (unsigned int i = 0; i < parameters.stages.size(); ++i)
+      {
+        const StageParameters &stage = parameters.stages[i];
+        if (!names_load(stage, load.name))
+          continue;
+        const double start = start_of_stage(parameters.stages, i);
+        const auto value   = [&](const double t) {
+          return component.value({ t, start + t });
+        };
+        const bool ends = stage.end == StageEnd::time;
+        const double duration
+            = ends ? stage.duration : std::max(stage.minimum_duration, 1.);
+        for (const double v : sampled(value, duration, 513))
+          values.push_back(v);
+        if (!ends)
+          values.push_back(value(late_time));
+      }
+      if (values.empty())
+        return "0";
+      const auto [low, high]
+          = std::minmax_element(values.begin(), values.end());
+      return range_text(*low, *high);
+    }
+
+    /** The nodes of its curves, or the blocks of its groups. */
+    template <int dim>
+    std::string place_text(const LoadParameters &load,
+                           const NodeMap<dim> &node_map)
+    {
+      using boost::algorithm::join;
+      if (!load.boundaries.empty())
+      {
+        std::set<unsigned int> nodes;
+        for (const BoundaryFace<dim> &face :
+             faces_of_curves(node_map, load.boundaries, load.name))
+          nodes.insert(face.nodes.begin(), face.nodes.end());
+        return " on " + count_text(nodes.size(), "node") + " of "
+               + join(load.boundaries, ", ");
+      }
+      if (load.groups.empty())
+        return load.type == LoadType::boundary_elements ? "" : " on all blocks";
+      const auto groups = groups_of_names(node_map, load.groups, load.name);
+      unsigned int n    = 0;
+      for (const unsigned int group : node_map.table().group)
+        n += std::count(groups.begin(), groups.end(), group) > 0;
+      return " on " + count_text(n, "block") + " of " + join(load.groups, ", ");
+    }
+  } // namespace
+
+  template <int dim>
+  std::vector<std::string>
+  material_lines(const Parameters &parameters, const NodeMap<dim> &nodes,
+                 const std::vector<unsigned int> &material_of_group)
+  {
+    const auto &materials       = parameters.model.materials;
+    const unsigned int n_blocks = nodes.table().n_blocks();
+    std::vector<double> has(materials.size() * n_blocks, 0.);
+    std::vector<double> n_cells(materials.size(), 0.);
+    for (unsigned int c = 0; c < nodes.n_cells(); ++c)
+    {
+      const unsigned int m = material_of_group[nodes.group_of_cell(c)];
+      has[m * n_blocks + nodes.block_of_cell(c)] = 1.;
+      n_cells[m] += nodes.table().is_quadratic ? 0.25 : 1.;
+    }
+    dealii::Utilities::MPI::max(has, nodes.communicator(), has);
+    dealii::Utilities::MPI::sum(n_cells, nodes.communicator(), n_cells);
+    std::vector<std::string> lines;
+    for (unsigned int m = 0; m < materials.size(); ++m)
+    {
+      const auto begin = has.begin() + m * n_blocks;
+      lines.push_back(text_of(
+          "material ", materials[m].name, ": ",
+          count_text(std::count(begin, begin + n_blocks, 1.), "block"), ", ",
+          dim == 2 ? count_text(n_cells[m], "triangle")
+                   : text_of(std::uint64_t(n_cells[m]), " tetrahedra"),
+          "; ", material_text(materials[m], parameters.model.plane)));
+    }
+    return lines;
+  }
+
+  std::vector<std::string> joint_lines(const Parameters &parameters,
+                                       const MeshReport &report)
+  {
+    std::vector<std::string> lines;
+    for (const JointSetParameters &set : parameters.model.joints)
+    {
+      double length = 0.;
+      for (const std::string &curve : set.curves)
+      {
+        const auto found
+            = report.joint_size.find(curve == "unnamed" ? "" : curve);
+        if (found != report.joint_size.end())
+          length += found->second;
+      }
+      const bool takes_new = set.all_new_contacts || !set.new_contacts.empty();
+      const auto stiffness = stiffness_bound(set.law);
+      lines.push_back(
+          text_of("joints ", set.name, ": ", length,
+                  report.dimension == 2 ? " m" : " m2",
+                  takes_new ? " and new contacts" : "", "; ", law_text(set.law),
+                  ", ", stiffens(set.law) ? "up to " : "", "kn ", stiffness[0],
+                  " Pa/m, ks ", stiffness[1], " Pa/m"));
+    }
+    return lines;
+  }
+
+  template <int dim>
+  std::vector<std::string> load_lines(const Parameters &parameters,
+                                      const NodeMap<dim> &nodes)
+  {
+    std::vector<std::string> lines;
+    for (const LoadParameters &load : parameters.loads)
+    {
+      std::string text = "load " + load.name + ": " + load.type_text()
+                         + place_text(load, nodes);
+      for (const auto &given : load.given_components())
+        text += ", " + given.name + " "
+                + value_text(parameters, load, given.component) + " "
+                + given.unit;
+      if (load.type == LoadType::free_field)
+        text += ", on the base " + load.base;
+      lines.push_back(text);
+    }
+    return lines;
+  }
+
+  template std::vector<std::string>
+  material_lines(const Parameters &, const NodeMap<2> &,
+                 const std::vector<unsigned int> &);
+  template std::vector<std::string> load_lines(const Parameters &,
+                                               const NodeMap<2> &);
+  template std::vector<std::string>
+  material_lines(const Parameters &, const NodeMap<3> &,
+                 const std::vector<unsigned int> &);
+  template std::vector<std::string> load_lines(const Parameters &,
+                                               const NodeMap<3> &);
+} // namespace quoin

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/known_names.h>
+#include <quoin/base/point_text.h>
+#include <quoin/advice/advice.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace quoin
+{
+  namespace
+  {
+    /** A stage, its start time as far as it is known, and its loads. */
+    struct StageOfRun
+    {
+      StageOfRun(const Parameters &parameters, const unsigned int index)
+        : parameters(parameters), index(index), stage(parameters.stages[index]),
+          before(previous_stage(parameters.stages, index)),
+          start(start_of_stage(parameters.stages, index))
+      {
+        for (const std::string &name : stage.loads)
+          if (const LoadParameters *load = find_named(parameters.loads, name))
+            loads.push_back(load);
+      }
+
+      bool has(const LoadType type) const
+      {
+        return std::any_of(loads.begin(), loads.end(),
+                           [=](const LoadParameters *load)
+                           { return load->type == type; });
+      }
+
+      /** A component as a function of the time since the start of the stage. */
+      FunctionOfTime function(const LoadComponent &component) const
+      {
+        return [&component, begin = start](const double t) {
+          return component.value({ t, begin + t });
+        };
+      }
+
+      const Parameters &parameters;
+      const unsigned int index;
+      const StageParameters &stage;
+      const StageParameters *before; /**< that changed the state, or null */
+      const double start;            /**< [s] */
+      std::vector<const LoadParameters *> loads;
+    };
+
+    bool brings_waves(const StageOfRun &run)
+    {
+      if (run.has(LoadType::boundary_elements)
+          && !run.parameters.boundary.waves.empty())
+        return true;
+      for (const LoadParameters *load : run.loads)
+        if (load->type == LoadType::viscous_boundary)
+          for (const auto &given : load->given_components())
+          {
+            const auto values = sampled(run.function(given.component),
+                                        run.stage.duration, 1025);
+            if (std::any_of(values.begin(), values.end(),
+                            [](const double v) { return v != 0.; }))
+              return true;
+          }
+      return false;
+    }
+
+    void check_damping(const StageOfRun &run, Checks &checks)
+    {
+      const StageParameters &stage = run.stage;
+      const bool is_of_equilibria  = stage.damping == DampingType::local
+                                    || stage.damping == DampingType::adaptive;
+      checks.warn_if(
+          stage.end == StageEnd::time && is_of_equilibria && brings_waves(run),
+          "waves come in, and 'Damping = local' or 'adaptive', which is meant "
+          "for equilibria, takes their energy. Take 'none' or 'Rayleigh'.");
+      checks.warn_if(
+          stage.scaled_time_step > 0. && stage.end == StageEnd::time
+              && !stage.slows_loads() && !is_of_equilibria,
+          "'Mass scaling' changes how the model moves, and this stage follows "
+          "its motion. Remove it: it is for stages that seek an equilibrium, "
+          "with 'Damping = local' or 'adaptive'.");
+    }
+
+    /** Warns of viscous and free-field boundaries with prescribed motion. */
+    void check_supports(const StageOfRun &run, Checks &checks)
+    {
+      for (const LoadParameters *held : run.loads)
+        for (const LoadParameters *open : run.loads)
+        {
+          if (held->type != LoadType::prescribed_motion
+              || (open->type != LoadType::viscous_boundary
+                  && open->type != LoadType::free_field)
+              || held->given_components().size() < 2)
+            continue;
+          const auto shared
+              = std::find_if(open->boundaries.begin(), open->boundaries.end(),
+                             [&](const std::string &curve)
+                             { return is_among(curve, held->boundaries); });
+          if (shared != open->boundaries.end())
+            checks.warn_if(true, "the load ", held->name,
+                           " prescribes the motion of the curve ", *shared,
+                           ", so the load ", open->name,
+                           " there does nothing: no wave comes in or leaves. "
+                           "Take one of them out of 'Loads'.");
+        }
+    }
+
+    /**
+     * Component @p d of all loads of @p stage that act where @p load does, in
+     * the same way, at @p t of a stage that began at @p start [s].
+     */
+    double force_like(const Parameters &parameters,
+                      const StageParameters &stage, const LoadParameters &load,
+                      const unsigned int d, const double t, const double start)
+    {
+      double sum = 0.;
+      for (const LoadParameters &other : parameters.loads)
+        if (names_load(stage, other.name) && other.type == load.type
+            && other.boundaries == load.boundaries
+            && other.groups == load.groups
+            && other.functions()[d].quantity == LoadQuantity::force)
+          sum += other.functions()[d].value({ t, start + t });
+      return sum;
+    }
+
+    /** Jump of a force; its height is 0 if it is small. */
+    Jump jump_of(const StageOfRun &run, const LoadParameters &load,
+                 const unsigned int d)
+    {
+      /** Share of the largest value that counts as a jump. */
+      constexpr double smallest    = 0.2;
+      const Parameters &parameters = run.parameters;
+      const FunctionOfTime value   = [&](const double t)
+      { return force_like(parameters, run.stage, load, d, t, run.start); };
+      double largest = 0.;
+      for (const double v : sampled(value, run.stage.duration, 1025))
+        largest = std::max(largest, std::abs(v));
+      Jump jump   = largest_jump(value, run.stage.duration);
+      double last = 0.;
+      if (run.before && run.before->end == StageEnd::time)
+        last
+            = force_like(parameters, *run.before, load, d, run.before->duration,
+                         run.start - run.before->duration);
+      else if (run.before)
+        last = force_like(parameters, *run.before, load, d, late_time,
+                          run.start);
+      // At the start of the run the initial stress may balance it.
+      const bool is_borne
+          = run.index == 0 && !parameters.model.initial_stresses.empty();
+      if (!is_borne && std::abs(value(0.) - last) > jump.height)
+        jump = { 0., std::abs(value(0.) - last) };
+      return jump.height > smallest * largest ? jump : Jump();
+    }
+
+    /** @p rise: rise time of a force below which it counts as a jump [s]. */
+    void check_jumps(const StageOfRun &run, const double rise, Checks &checks)
+    {
+      if (!run.stage.is_dynamic() || run.stage.stiffness_coefficient > 0.)
+        return;
+      // A model that falls under its weight alone is not shaken by it.
+      const bool is_held
+          = std::any_of(run.loads.begin(), run.loads.end(),
+                        [](const LoadParameters *load)
+                        {
+                          return load->type != LoadType::gravity
+                                 && load->type != LoadType::traction
+                                 && load->type != LoadType::initial_stress;
+                        });
+      for (const LoadParameters *load : run.loads)
+      {
+        if (load->type != LoadType::traction && load->type != LoadType::platen
+            && !(load->type == LoadType::gravity && is_held))
+          continue;
+        Jump jump;
+        for (unsigned int d = 0; d < 5 && jump.height == 0.; ++d)
+          if (load->functions()[d].quantity == LoadQuantity::force)
+            jump = jump_of(run, *load, d);
+        checks.warn_if(
+            jump.height > 0., "the load ", load->name, " jumps by ",
+            jump.height, " at ", jump.time,
+            " s of an undamped stage: that excites frequencies which no mesh "
+            "resolves. Let it rise over ",
+            rise,
+            " s, what an S wave takes through ten edges, or more, or damp by "
+            "'Rayleigh' with a stiffness coefficient.");
+      }
+    }
+
+    /** Warns if gravity acts in the previous stage, but not in this one. */
+    void check_weight(const StageOfRun &run, Checks &checks)
+    {
+      const bool had_weight
+          = run.before
+            && std::any_of(run.parameters.loads.begin(),
+                           run.parameters.loads.end(),
+                           [&](const LoadParameters &load)
+                           {
+                             return load.type == LoadType::gravity
+                                    && names_load(*run.before, load.name);
+                           });
+      if (had_weight && !run.has(LoadType::gravity))
+        checks.warn_if(true, "its 'Loads' name no gravity, but stage ",
+                       run.before->name,
+                       " had some: the model becomes weightless at once. Name "
+                       "the load here, too, if that is not meant.");
+    }
+
+    /** Size of the cells of one material, for waves. */
+    template <int dim>
+    struct CellSize
+    {
+      /** Largest edge of a cell but for its diagonals [m]: the longest of a
+          triangle, which is that of a square of two cells, and the three
+          longest of a tetrahedron, which are those of a cube of six. 0: there
+          is no cell. */
+      double edge = 0.;
+      dealii::Point<dim> position; /**< of that cell [m] */
+    };
+
+    /** Cell size of each material; blocks absent in @p state do not count. */
+    template <int dim>
+    std::vector<CellSize<dim>> cell_sizes(const Model<dim> &model,
+                                          const State<dim> &state,
+                                          const std::size_t n_materials)
+    {
+      const NodeMap<dim> &nodes = model.nodes();
+      std::vector<CellSize<dim>> sizes(n_materials);
+      for (unsigned int c = 0; c < model.n_deformable_cells(); ++c)
+      {
+        if (state.is_absent(nodes.block_of_cell(c)))
+          continue;
+        std::vector<double> edges;
+        for (unsigned int k = 0; k <= dim; ++k)
+          for (unsigned int l = 0; l < k; ++l)
+            edges.push_back(nodes.point(nodes.cell(c)[k])
+                                .distance(nodes.point(nodes.cell(c)[l])));
+        std::sort(edges.begin(), edges.end());
+        const double edge   = edges[dim == 2 ? 1 : 2];
+        CellSize<dim> &size = sizes[model.material_of_cell(c)];
+        if (edge > size.edge)
+          size = { edge, nodes.point(nodes.cell(c)[0]) };
+      }
+      // The largest of all ranks; among equals that of the lowest rank.
+      for (CellSize<dim> &size : sizes)
+        for (const CellSize<dim> &other :
+             dealii::Utilities::MPI::all_gather(nodes.communicator(), size))
+          if (other.edge > size.edge)
+            size = other;
+      return sizes;
+    }
+
+    double shear_wave(const Parameters &parameters, const unsigned int material)
+    {
+      return wave_speeds(parameters.model.materials[material].elastic,
+                         parameters.model.plane)
+          .s;
+    }
+
+    template <int dim>
+    void check_edges(const StageOfRun &run,
+                     const std::vector<CellSize<dim>> &sizes, Checks &checks)
+    {
+      if (!run.stage.is_dynamic())
+        return;
+      const Shaking shaking = fastest_load(run.parameters, run.index);
+      // The material in which its waves have the fewest edges.
+      unsigned int worst = 0;
+      double fewest = std::numeric_limits<double>::infinity(), length = 0.;
+      for (unsigned int m = 0; m < sizes.size(); ++m)
+      {
+        const double wave = shear_wave(run.parameters, m) / shaking.frequency;
+        if (sizes[m].edge > 0. && wave / sizes[m].edge < fewest)
+        {
+          worst  = m;
+          fewest = wave / sizes[m].edge;
+          length = wave;
+        }
+      }
+      if (!(fewest < fewest_edges))
+        return;
+      const CellSize<dim> &size = sizes[worst];
+      checks.warn_if(true, shaking.name, " brings frequencies of up to ",
+                     shaking.frequency, " Hz, whose S waves are ", length,
+                     " m long in the material ",
+                     run.parameters.model.materials[worst].name,
+                     ". They need eight to ten edges, but edges are up to ",
+                     size.edge, " m long, at ", point_text(size.position),
+                     " m. Refine the mesh there to ", 0.1 * length,
+                     " m, or lower the frequency.");
+    }
+  } // namespace
+
+  Shaking fastest_load(const Parameters &parameters, const unsigned int index)
+  {
+    const StageOfRun run(parameters, index);
+    Shaking fastest;
+    for (const LoadParameters *load : run.loads)
+      for (const auto &given : load->given_components())
+        fastest.take_faster(
+            "the load " + load->name,
+            velocity_frequency(
+                run.function(given.component),
+                load->type == LoadType::gravity ? SignalKind::acceleration
+                : given.component.quantity == LoadQuantity::displacement
+                    ? SignalKind::displacement
+                    : SignalKind::velocity,
+                run.stage.duration));
+    return fastest;
+  }
+
+  template <int dim>
+  Advice stage_advice(const Parameters &parameters, const unsigned int index,
+                      const Model<dim> &model, const State<dim> &state,
+                      const double time_step)
+  {
+    const StageOfRun run(parameters, index);
+    Advice advice;
+    Checks checks(advice, "stage " + run.stage.name + ": ");
+    check_damping(run, checks);
+    check_supports(run, checks);
+    check_weight(run, checks);
+    const auto sizes
+        = cell_sizes(model, state, parameters.model.materials.size());
+    double rise = 0.;
+    for (unsigned int m = 0; m < sizes.size(); ++m)
+      if (sizes[m].edge > 0.)
+        rise = std::max(rise, 10. * sizes[m].edge / shear_wave(parameters, m));
+    if (rise > 0.) // else nothing deforms
+      check_jumps(run, rise, checks);
+    check_edges(run, sizes, checks);
+    checks.warn_if(index == 0 && parameters.history_interval > 0.
+                       && parameters.history_interval < time_step,
+                   "'Interval = ", parameters.history_interval,
+                   "' in section 'Histories' is shorter than the time step, ",
+                   time_step,
+                   " s: rows come at every step. Take a longer one, or 0 if "
+                   "that is meant.");
+    return advice;
+  }
+
+  template Advice stage_advice(const Parameters &, unsigned int,
+                               const Model<2> &, const State<2> &, double);
+  template Advice stage_advice(const Parameters &, unsigned int,
+                               const Model<3> &, const State<3> &, double);
+} // namespace quoin

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// Initial stress of a Model<2>.
+
+#include <quoin/base/exceptions.h>
+#include <quoin/model/model.h>
+#include <quoin/loads/nodal_load.h>
+
+#include <algorithm>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Stress xx, yy, xy, zz of @p load in a material [Pa]. */
+    std::array<double, 4> initial_stress(const LoadParameters &load,
+                                         const dealii::Point<2> &point,
+                                         const LinearElastic &material,
+                                         const PlaneAssumption plane)
+    {
+      auto stress = load.initial_stress(point[0], point[1], material.poisson);
+      if (plane == PlaneAssumption::plane_stress)
+        stress[3] = 0.;
+      return stress;
+    }
+  } // namespace
+
+  template <>
+  void Model<2>::find_initial_stress()
+  {
+    if (parameters.initial_stresses.empty())
+      return;
+    cell_stress.assign(node_map.n_cells(), {});
+    face_stress.assign(node_map.joint_faces().size(), {});
+    for (const LoadParameters &load : parameters.initial_stresses)
+    {
+      if (parameters.plane == PlaneAssumption::plane_stress && load.stress_zz)
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Stress zz' is the stress out of the plane, "
+                           "which is zero with 'Plane assumption = plane "
+                           "stress'. Leave it at "
+                           "'elastic'.");
+      if (parameters.plane == PlaneAssumption::plane_stress && load.in_situ
+          && load.in_situ->has_out_of_plane)
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Out-of-plane ratio' gives a stress out of the "
+                           "plane, which is zero with 'Plane assumption = "
+                           "plane stress'. Leave it at 'same'.");
+      const auto groups  = groups_of_names(node_map, load.groups, load.name);
+      const auto acts_in = [&](const unsigned int group)
+      {
+        return !absent_group[group]
+               && (groups.empty()
+                   || std::find(groups.begin(), groups.end(), group)
+                          != groups.end());
+      };
+      const auto stress_at
+          = [&](const dealii::Point<2> &point, const unsigned int group)
+      {
+        return initial_stress(
+            load, point, now.materials[now.material_of_group[group]].elastic,
+            parameters.plane);
+      };
+      for (unsigned int c = 0; c < node_map.n_cells(); ++c)
+      {
+        const unsigned int group = node_map.group_of_cell(c);
+        if (!acts_in(group))
+          continue;
+        dealii::Point<2> centre;
+        for (const unsigned int node : node_map.cell(c))
+          for (unsigned int d = 0; d < 2; ++d)
+            centre[d] += node_map.point(node)[d] / 3.;
+        const auto stress = stress_at(centre, group);
+        for (unsigned int k = 0; k < 4; ++k)
+          cell_stress[c][k] += stress[k];
+      }
+      for (unsigned int f = 0; f < face_stress.size(); ++f)
+      {
+        const JointNodes<2> &face = node_map.joint_faces()[f];
+        if (absent_group[face.groups[0]] || absent_group[face.groups[1]])
+          continue;
+        for (const unsigned int group : face.groups)
+          if (acts_in(group))
+            for (unsigned int k = 0; k < 2; ++k)
+            {
+              const auto stress
+                  = stress_at(node_map.point(face.lower[k]), group);
+              for (unsigned int i = 0; i < 3; ++i)
+                face_stress[f][k][i] += 0.5 * stress[i];
+            }
+      }
+    }
+    // The points' forces become those of a traction that is linear along the
+    // face. Simpson's rule on quadratic edges gives them already.
+    for (MatchedJoints::FaceStress &face : face_stress)
+      for (unsigned int i = 0; i < 3 && !table().is_quadratic; ++i)
+      {
+        const double third = (face[1][i] - face[0][i]) / 3.;
+        face[0][i] += third;
+        face[1][i] -= third;
+      }
+  }
+
+  template <>
+  void Model<2>::reset_plasticity(const unsigned int block,
+                                  PlasticHistory &history) const
+  {
+    const unsigned int part = node_map.find_part(block);
+    if (part == node_map.block_parts().size())
+      return;
+    const auto &[begin, end] = node_map.block_parts()[part].cells;
+    for (unsigned int c = begin; c < end; ++c)
+      block_forces.forget_history(c, history);
+  }
+} // namespace quoin

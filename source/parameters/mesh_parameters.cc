@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/parameter_entries.h>
+#include <quoin/layout/rock_layout.h>
+#include <quoin/layout/wall_layout.h>
+#include <quoin/parameters/model_parameters.h>
+
+#include <filesystem>
+#include <utility>
+
+namespace quoin
+{
+  namespace
+  {
+    void lay(const WallParameters &wall, Parameters &parameters)
+    {
+      const WallLayout layout     = lay_wall(wall);
+      const GmshGeometry geometry = wall_geometry(wall, layout);
+      parameters.generated = { "wall", geometry.text, wall_report(layout), "" };
+      parameters.split.joints_along = geometry.joint_curves;
+    }
+
+    void lay(const RockParameters &rock, Parameters &parameters)
+    {
+      const RockLayout layout     = lay_rock(rock);
+      const GmshGeometry geometry = rock_geometry(rock, layout);
+      parameters.generated = { "rock", geometry.text, rock_report(rock, layout),
+                               rock_statistics(rock, layout) };
+      parameters.split.joints_along = geometry.joint_curves;
+    }
+
+    /** Generates the wall or the rock, if the file has one. */
+    bool read_generated(const ParameterSection &top, Parameters &parameters)
+    {
+      const WallParameters wall
+          = WallParameters::read(ParameterSection(top, "Wall"));
+      const RockParameters rock = RockParameters::read(top);
+      const bool has_wall       = wall.bond != WallBond::none;
+      const bool has_rock       = !rock.outline.empty();
+      if (has_wall && has_rock)
+        ParameterSection(top, "Rock")
+            .fail("Outline",
+                  "does not go with a wall of section 'Wall': leave it "
+                  "empty, or set 'Wall/Bond = none'.");
+      if (!has_wall && !has_rock)
+        return false;
+      if (const ParameterSection section(top, "Mesh");
+          !section.text("File").empty())
+        section.fail("File",
+                     "does not go with a wall of section 'Wall' or rock of "
+                     "section 'Rock': leave it empty, or set 'Wall/Bond = "
+                     "none' and 'Rock/Outline' empty.");
+      naming(top.file(), [&]()
+             { has_wall ? lay(wall, parameters) : lay(rock, parameters); });
+      return true;
+    }
+
+    void check_mesh_file(const ParameterSection &section,
+                         Parameters &parameters)
+    {
+      if (parameters.mesh_file.empty())
+        section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
+                             "a bond, or section 'Rock' an outline.");
+      parameters.mesh_file = section.in_folder(parameters.mesh_file);
+      std::error_code error; // a name may be too long for any file
+      if (!std::filesystem::exists(parameters.mesh_file, error))
+        section.fail("File",
+                     "does not exist: there is no file '" + parameters.mesh_file
+                         + "'. Give the path from the folder of the parameter "
+                           "file.");
+      const auto extension
+          = std::filesystem::path(parameters.mesh_file).extension();
+      if (extension != ".geo" && extension != ".msh")
+        section.fail("File", "must end in .geo or .msh.");
+    }
+
+    void enter_mesh(ParameterEntries &entries, Parameters &parameters)
+    {
+      entries.text("File", parameters.mesh_file,
+                   "gmsh geometry (.geo) or mesh (.msh), relative to "
+                   "the folder of this file; coordinates in [m]. Empty "
+                   "with a wall of section 'Wall' or rock of section "
+                   "'Rock'.");
+      entries.choice("Dimension", parameters.dimension,
+                     { { "from mesh", MeshDimension::from_mesh },
+                       { "2", MeshDimension::two },
+                       { "3", MeshDimension::three } },
+                     "from mesh: three dimensions if the file has tetrahedra, "
+                     "or a geometry volumes, two if not; 2: the triangles in "
+                     "the plane z = 0; 3: tetrahedra.");
+      entries.choice("Triangles", parameters.triangles,
+                     { { "plain", TriangleKind::plain },
+                       { "crossed", TriangleKind::crossed },
+                       { "quadratic", TriangleKind::quadratic } },
+                     "plain: the file's or gmsh's triangles; crossed: "
+                     "quadrangles, each cut into four triangles by its "
+                     "diagonals, which do not lock in plastic flow; "
+                     "quadratic: those of 'plain' with nodes in the middle "
+                     "of their edges, for the implicit solver.");
+      SplitOptions &split = parameters.split;
+      entries.list("Joints along", split.joints_along,
+                   "Physical curves along which the mesh is split into "
+                   "blocks; empty with a wall of section 'Wall' or rock of "
+                   "section 'Rock': all of its joints.");
+      entries.pairs("Joints between", split.joints_between,
+                    "must be 'all' or pairs such as rock:concrete.",
+                    "Pairs a:b of physical surfaces between which the mesh is "
+                    "split into blocks, or 'all'.",
+                    &split.between_all);
+      entries.choice("Joint ends inside blocks", split.joint_ends,
+                     { { "keep", SplitOptions::keep },
+                       { "refuse", SplitOptions::refuse } },
+                     "Joints that end inside a block: keep them as "
+                     "cracks, or stop.");
+    }
+  } // namespace
+
+  void declare_mesh(dealii::ParameterHandler &prm)
+  {
+    declare_entries(prm, enter_mesh);
+  }
+
+  void read_mesh(const ParameterSection &top, Parameters &parameters)
+  {
+    const bool generated = read_generated(top, parameters);
+    const auto joints_of_layout
+        = std::exchange(parameters.split.joints_along, {});
+    const ParameterSection section(top, "Mesh");
+    ParameterEntries entries(section);
+    enter_mesh(entries, parameters);
+    if (!generated)
+      check_mesh_file(section, parameters);
+    else if (parameters.split.joints_along.empty())
+      parameters.split.joints_along = joints_of_layout;
+    if (generated && parameters.dimension == MeshDimension::three)
+      section.fail("Dimension",
+                   "is 2 for a wall of section 'Wall' or rock of section "
+                   "'Rock', whose meshes are plane: set 'from mesh'.");
+    if (parameters.triangles == TriangleKind::quadratic
+        && !parameters.is_implicit)
+      section.fail("Triangles",
+                   "needs 'Solver = implicit': explicit steps divide forces by "
+                   "masses of nodes, and the corners of quadratic triangles "
+                   "have none. Take 'plain' or 'crossed'.");
+  }
+} // namespace quoin

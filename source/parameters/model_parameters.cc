@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/named_sections.h>
+#include <quoin/dynamics/construction.h>
+#include <quoin/parameters/model_parameters.h>
+
+#include <algorithm>
+
+namespace quoin
+{
+  namespace
+  {
+    void check_plane_strain(const ParameterSection &top,
+                            const Parameters &parameters)
+    {
+      if (parameters.model.plane != PlaneAssumption::plane_strain)
+        top.fail("Plane assumption", "does not go with boundary elements: "
+                                     "their kernels are those of plane "
+                                     "strain.");
+    }
+
+    /** Reads the boundary elements beyond the blocks. */
+    void read_far_field(const ParameterSection &top, Parameters &parameters)
+    {
+      std::vector<const LoadParameters *> loads;
+      for (const LoadParameters &load : parameters.loads)
+        if (load.type == LoadType::boundary_elements)
+          loads.push_back(&load);
+      if (loads.empty())
+      {
+        for (const std::string name : { "Boundary elements", "Incident waves" })
+          if (!ParameterSection(top, name).list("Names").empty())
+            ParameterSection(top, name).fail(
+                "Names", "has no meaning without a load of 'Type = "
+                         "boundary elements', or 'Model = boundary "
+                         "elements': add one, or remove the names.");
+        return;
+      }
+      if (loads.size() > 1)
+        ParameterSection(ParameterSection(top, "Loads"), loads[1]->name)
+            .fail("Type", "is 'boundary elements', as that of '"
+                              + loads[0]->name
+                              + "' is: there can be one such load, with all "
+                                "interfaces among the boundaries of section "
+                                "'Boundary elements'.");
+      check_plane_strain(top, parameters);
+      parameters.boundary = BoundaryElementParameters::read(
+          top, parameters.model.materials, true);
+      if (!parameters.boundary.has(BoundaryShape::interface))
+        ParameterSection(top, "Boundary elements")
+            .fail("Names", "has no boundary with 'Shape = interface': nothing "
+                           "is coupled to the blocks.");
+      if (parameters.boundary.sampled_field.has_box)
+        ParameterSection(top, "Sampled field")
+            .fail("Box", "needs 'Model = boundary elements': leave it empty.");
+    }
+
+    /** Checks histories of boundary elements beyond blocks. */
+    void check_coupled_histories(const ParameterSection &top,
+                                 const Parameters &parameters)
+    {
+      const auto acts = [&](const LoadParameters &load)
+      {
+        return load.type == LoadType::boundary_elements
+               && std::any_of(parameters.stages.begin(),
+                              parameters.stages.end(),
+                              [&](const StageParameters &stage) {
+                                return stage.end == StageEnd::time
+                                       && names_load(stage, load.name);
+                              });
+      };
+      const ParameterSection section(top, "Histories");
+      for (const HistoryParameters &history : parameters.histories)
+      {
+        if (!history.is_of_boundary())
+          continue;
+        const ParameterSection subsection(section, history.name);
+        if (parameters.boundary.boundaries.empty())
+          subsection.fail("Quantity",
+                          "needs 'Model = boundary elements' or a load of "
+                          "'Type = boundary elements'.");
+        if (parameters.is_implicit
+            || std::none_of(parameters.loads.begin(), parameters.loads.end(),
+                            acts))
+          subsection.fail("Quantity",
+                          "is one of boundary elements in motion, but here "
+                          "they are at rest: 'Solver' is implicit, or no "
+                          "stage with 'End = time' names their load. Take "
+                          "'displacement x', 'displacement y' or 'reaction' "
+                          "of that load.");
+      }
+    }
+
+    /** Refuses sections of one kind of model in a file of the other. */
+    void refuse_names(const ParameterSection &top, const std::string &name,
+                      const std::string &model)
+    {
+      const ParameterSection section(top, name);
+      if (!section.list("Names").empty())
+        section.fail("Names", "has no meaning with 'Model = " + model
+                                  + "': remove it, or change 'Model'.");
+    }
+
+    void check_boundary_histories(const ParameterSection &top,
+                                  const Parameters &parameters)
+    {
+      const ParameterSection section(top, "Histories");
+      const BoundaryElementParameters &boundary = parameters.boundary;
+      for (const HistoryParameters &history : parameters.histories)
+      {
+        const ParameterSection subsection(section, history.name);
+        const bool interior = history.is_of_interior();
+        if (history.point_has_z)
+          subsection.fail("Point", "must have two coordinates, x and y.");
+        if (!interior && !history.is_of_boundary())
+          subsection.fail("Quantity",
+                          "is one of blocks: with 'Model = boundary "
+                          "elements' take a displacement, a "
+                          "velocity or a boundary quantity.");
+        if (interior
+            && boundary.formulation == Formulation::convolution_quadrature)
+          subsection.fail("Quantity", "is one of the domain, which is computed "
+                                      "with Galerkin and collocation only: "
+                                      "change 'Formulation', or take a "
+                                      "boundary quantity.");
+      }
+    }
+  } // namespace
+
+  void read_block_model(const ParameterSection &top, Parameters &parameters)
+  {
+    parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
+    parameters.model.contact
+        = ContactParameters::read(ParameterSection(top, "Contact"));
+    parameters.model.large_displacements
+        = parameters.model.contact.large_displacements;
+    for (const JointSetParameters &set : parameters.model.joints)
+      if (const std::string why = no_contacts(set.law);
+          !why.empty() && parameters.model.large_displacements)
+        ParameterSection(ParameterSection(top, "Joints"), set.name)
+            .fail("Law", "is for small displacements: contacts that go on "
+                         "elsewhere "
+                             + why
+                             + ". Take 'Coulomb', or 'Displacements = small' "
+                               "in section 'Contact'.");
+    parameters.loads = read_named<LoadParameters>(top, "Loads");
+    for (const LoadParameters &load : parameters.loads)
+      if (load.type == LoadType::initial_stress)
+        parameters.model.initial_stresses.push_back(load);
+    read_far_field(top, parameters);
+    parameters.initial_motion
+        = InitialMotion::read(ParameterSection(top, "Initial motion"));
+    parameters.stages
+        = read_stages(top, parameters.loads, parameters.is_implicit);
+    parameters.model.absent_groups = groups_placed_later(parameters.stages);
+    check_coupled_histories(top, parameters);
+    parameters.implicit
+        = ImplicitParameters::read(ParameterSection(top, "Implicit"));
+    if (parameters.is_implicit && !parameters.boundary.waves.empty())
+      ParameterSection(top, "Incident waves")
+          .fail("Names", "needs motion, which 'Solver = implicit' leaves "
+                         "out: remove the waves, or take 'explicit'.");
+    if (parameters.is_implicit && parameters.initial_motion.is_given)
+      top.fail("Solver", "leaves out inertia, but section 'Initial motion' "
+                         "gives one: remove that, or take 'explicit'.");
+  }
+
+  void read_boundary_model(const ParameterSection &top, Parameters &parameters)
+  {
+    for (const std::string name : { "Joints", "Loads", "Stages" })
+      refuse_names(top, name, "boundary elements");
+    for (const std::string name : { "Displacement", "Velocity" })
+      if (const ParameterSection section(top, "Initial motion");
+          !section.text(name).empty())
+        section.fail(name, "has no meaning with 'Model = boundary "
+                           "elements': it is that of blocks. Remove it.");
+    check_plane_strain(top, parameters);
+    parameters.boundary = BoundaryElementParameters::read(
+        top, parameters.model.materials, false);
+    const BoundaryElementParameters &boundary = parameters.boundary;
+    if (boundary.has(BoundaryShape::mesh))
+      read_mesh(top, parameters);
+    if (boundary.has(BoundaryShape::interface))
+      ParameterSection(top, "Boundary elements")
+          .fail("Names", "has a boundary with 'Shape = interface', but there "
+                         "are no blocks: take 'Shape = mesh'.");
+    if (boundary.is_static && !boundary.waves.empty())
+      ParameterSection(top, "Incident waves")
+          .fail("Names", "needs 'Analysis = dynamic': statics has no waves.");
+    if (boundary.sampled_field.has_box
+        && boundary.formulation == Formulation::convolution_quadrature)
+      ParameterSection(top, "Sampled field")
+          .fail("Box", "asks for the field in the domain, which is computed "
+                       "with Galerkin and collocation only: leave it empty, "
+                       "or change 'Formulation'.");
+    check_boundary_histories(top, parameters);
+  }
+} // namespace quoin

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/named_sections.h>
+#include <quoin/base/parameter_entries.h>
+#include <quoin/base/parameter_file.h>
+#include <quoin/layout/rock_parameters.h>
+#include <quoin/layout/wall_parameters.h>
+#include <quoin/parameters/model_parameters.h>
+
+#include <filesystem>
+#include <sstream>
+
+namespace quoin
+{
+  namespace
+  {
+    using dealii::ParameterHandler;
+
+    /** Sections with named subsections, and functions that declare these. */
+    const std::vector<SectionEntries> named_sections
+        = { { "Rock regions", RockRegion::declare },
+            { "Rock joints", RockJoints::declare },
+            { "Materials", MaterialParameters::declare },
+            { "Joints", JointSetParameters::declare },
+            { "Loads", LoadParameters::declare },
+            { "Stages", StageParameters::declare },
+            { "Boundary elements", BoundaryCurveParameters::declare },
+            { "Incident waves", IncidentWaveParameters::declare },
+            { "Histories", HistoryParameters::declare } };
+
+    void enter_top(ParameterEntries &entries, Parameters &parameters)
+    {
+      entries.text("Title", parameters.title,
+                   "Title of the run, for figures and logs.");
+      entries.choice("Model", parameters.is_boundary_model,
+                     { { "blocks", false }, { "boundary elements", true } },
+                     "Blocks on joints; or a domain with boundary elements "
+                     "alone, which needs no mesh, joints, loads or stages.");
+      entries.choice("Solver", parameters.is_implicit,
+                     { { "explicit", false }, { "implicit", true } },
+                     "Motion by central differences; or equilibrium by "
+                     "Newton's method, without inertia and damping: for "
+                     "blocks at small displacements, as section 'Implicit' "
+                     "says.");
+      entries.choice("Plane assumption", parameters.model.plane,
+                     { { "plane strain", PlaneAssumption::plane_strain },
+                       { "plane stress", PlaneAssumption::plane_stress } },
+                     "What all blocks are in: plane strain or plane stress.");
+      entries.positive("Thickness", parameters.model.thickness,
+                       "Thickness of the model, out of the plane [m]");
+      parameters.output_directory = "output";
+      entries.text("Output directory", parameters.output_directory,
+                   "Folder of all results, relative to the folder of this "
+                   "file.");
+    }
+
+    void enter_time_stepping(ParameterEntries &entries, Parameters &parameters)
+    {
+      entries.within("Share of critical time step",
+                     parameters.share_of_critical_step, 1e-6, 1.,
+                     "Safety factor on the time step: share of the critical "
+                     "time step that is computed from blocks, joints and "
+                     "damping; with local damping, joints that can fail or "
+                     "large displacements no more than 0.5 is used [-]");
+      entries.nonnegative("Time step", parameters.time_step,
+                          "Time step, which must be below the critical one; "
+                          "0: as the share of the critical time step says "
+                          "[s]");
+    }
+
+    void enter_histories(ParameterEntries &entries, Parameters &parameters)
+    {
+      entries.nonnegative("Interval", parameters.history_interval,
+                          "Time between rows of histories.csv and "
+                          "energies.csv; 0: every step [s]");
+    }
+
+    void enter_output(ParameterEntries &entries, Parameters &parameters)
+    {
+      entries.nonnegative("Field interval", parameters.field_interval,
+                          "Time between VTU files; 0: at the end of stages "
+                          "only [s]");
+      entries.nonnegative("Checkpoint interval", parameters.checkpoint_interval,
+                          "Wall-clock time between checkpoints; 0: at the end "
+                          "of stages only [s]");
+      entries.flag("Measure bandwidth", parameters.measure_bandwidth,
+                   "Whether the memory bandwidth is measured after the run, "
+                   "and the share of it that the run used is written.");
+    }
+
+    /** Declares the entries of @p enter, a function of this file. */
+    template <void (*enter)(ParameterEntries &, Parameters &)>
+    void declare_with(ParameterHandler &prm)
+    {
+      declare_entries(prm, enter);
+    }
+
+    /** Sections without names. */
+    const std::vector<SectionEntries> other_sections
+        = { { "Mesh", declare_mesh },
+            { "Wall", WallParameters::declare },
+            { "Rock", RockParameters::declare },
+            { "Contact", ContactParameters::declare },
+            { "Boundary elements", BoundaryElementParameters::declare },
+            { "Sampled field", SampledFieldParameters::declare },
+            { "Initial motion", InitialMotion::declare },
+            { "Implicit", ImplicitParameters::declare },
+            { "Time stepping", declare_with<enter_time_stepping> },
+            { "Histories", declare_with<enter_histories> },
+            { "Output", declare_with<enter_output> } };
+
+    void declare_fixed(ParameterHandler &prm)
+    {
+      declare_entries(prm, enter_top);
+      declare_sections(other_sections, prm);
+      declare_names(named_sections, prm);
+    }
+
+    void read_section(const ParameterSection &top, const std::string &name,
+                      void (*enter)(ParameterEntries &, Parameters &),
+                      Parameters &parameters)
+    {
+      const ParameterSection section(top, name);
+      ParameterEntries entries(section);
+      enter(entries, parameters);
+    }
+
+    /** The tables and records that values of @p text name and that exist. */
+    std::vector<std::string> time_files(const std::string &text,
+                                        const ParameterSection &top)
+    {
+      std::vector<std::string> result;
+      std::istringstream lines(text);
+      for (std::string line; std::getline(lines, line);)
+        for (const std::string word : { " table ", " record " })
+        {
+          const std::size_t place = line.find(word);
+          if (place == std::string::npos)
+            continue;
+          std::string name
+              = dealii::Utilities::trim(line.substr(place + word.size()));
+          // A factor may follow a table, options a record.
+          name = name.substr(0, name.find(word == " table " ? " times " : " "));
+          std::error_code error;
+          if (std::filesystem::is_regular_file(top.in_folder(name), error))
+            result.push_back(top.in_folder(name));
+        }
+      return result;
+    }
+  } // namespace
+
+  Parameters read_parameters(const std::string &file,
+                             const std::vector<std::string> &overrides)
+  {
+    const ParameterFile input(file, overrides);
+    ParameterHandler names;
+    declare_names(named_sections, names);
+    input.parse(names, true);
+
+    ParameterHandler prm;
+    declare_fixed(prm);
+    declare_listed(named_sections, file, names, prm);
+    input.parse(prm, false);
+
+    Parameters parameters;
+    parameters.file = file;
+    const ParameterSection top(prm, file);
+    ParameterEntries entries(top);
+    enter_top(entries, parameters);
+    parameters.output_directory = top.in_folder(parameters.output_directory);
+    if (parameters.is_implicit && parameters.is_boundary_model)
+      top.fail("Solver", "is for blocks: with 'Model = boundary elements' "
+                         "leave it 'explicit'; statics of these is 'Analysis = "
+                         "static'.");
+    if (!parameters.is_boundary_model)
+      read_mesh(top, parameters);
+    parameters.model.materials
+        = read_named<MaterialParameters>(top, "Materials");
+    if (parameters.model.materials.empty())
+      throw InputError(file
+                       + ", section 'Materials': 'Names' must list at "
+                         "least one material.");
+    parameters.histories = read_named<HistoryParameters>(top, "Histories");
+    read_section(top, "Time stepping", enter_time_stepping, parameters);
+    read_section(top, "Histories", enter_histories, parameters);
+    read_section(top, "Output", enter_output, parameters);
+    if (parameters.is_boundary_model)
+      read_boundary_model(top, parameters);
+    else
+      read_block_model(top, parameters);
+
+    std::ostringstream effective;
+    prm.print_parameters(effective, ParameterHandler::ShortPRM);
+    parameters.effective  = effective.str();
+    parameters.time_files = time_files(parameters.effective, top);
+    return parameters;
+  }
+
+  std::string describe_parameters()
+  {
+    ParameterHandler prm;
+    declare_fixed(prm);
+    declare_examples(named_sections, prm);
+    std::ostringstream text;
+    prm.print_parameters(text, ParameterHandler::PRM
+                                   | ParameterHandler::KeepDeclarationOrder);
+    return text.str();
+  }
+} // namespace quoin

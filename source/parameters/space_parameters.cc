@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/parameters/parameters.h>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Refuses parameters that a run in three dimensions does not support. */
+    class Refusals
+    {
+    public:
+      explicit Refusals(const std::string &file) : file(file)
+      {
+      }
+
+      /** Throws an InputError if @p given: @p what is section and entry. */
+      void refuse_if(const bool given, const std::string &what,
+                     const std::string &cure) const
+      {
+        if (given)
+          throw InputError(file + ", " + what
+                           + " is for models in two dimensions, and the mesh "
+                             "has three. "
+                           + cure);
+      }
+
+    private:
+      const std::string &file;
+    };
+
+    void check_materials(const Parameters &parameters, const Refusals &refusals)
+    {
+      for (const MaterialParameters &material : parameters.model.materials)
+        refusals.refuse_if(material.rigid || material.strength,
+                           "section 'Materials/" + material.name + "': 'Law = "
+                               + (material.rigid ? "rigid" : "Mohr-Coulomb")
+                               + "'",
+                           "Take 'linear elastic'.");
+    }
+
+    void check_loads(const Parameters &parameters, const Refusals &refusals)
+    {
+      for (const LoadParameters &load : parameters.loads)
+        refusals.refuse_if(
+            load.type == LoadType::platen || load.type == LoadType::free_field
+                || load.type == LoadType::initial_stress
+                || load.type == LoadType::boundary_elements,
+            "section 'Loads/" + load.name + "': 'Type = " + load.type_text()
+                + "'",
+            "Take 'prescribed motion', 'traction', 'gravity' or 'viscous "
+            "boundary'.");
+    }
+
+    void check_stages(const Parameters &parameters, const Refusals &refusals)
+    {
+      for (const StageParameters &stage : parameters.stages)
+      {
+        const std::string section = "section 'Stages/" + stage.name + "': ";
+        refusals.refuse_if(!stage.excavate.empty(), section + "'Excavate'",
+                           "Leave it empty.");
+        refusals.refuse_if(!stage.fill.empty(), section + "'Fill'",
+                           "Leave it empty.");
+        refusals.refuse_if(stage.changes_properties(),
+                           section + "'Materials' or 'Joint properties'",
+                           "Leave them empty.");
+        refusals.refuse_if(bool(stage.safety), section + "a factor of safety",
+                           "Take another 'End'.");
+      }
+    }
+  } // namespace
+
+  void check_three_dimensions(const Parameters &parameters)
+  {
+    const Refusals refusals(parameters.file);
+    refusals.refuse_if(parameters.is_implicit, "'Solver = implicit'",
+                       "Take 'explicit'.");
+    refusals.refuse_if(parameters.model.plane == PlaneAssumption::plane_stress,
+                       "'Plane assumption = plane stress'",
+                       "Leave it 'plane strain'.");
+    refusals.refuse_if(parameters.model.thickness != 1., "'Thickness'",
+                       "Leave it 1.");
+    refusals.refuse_if(parameters.model.large_displacements,
+                       "section 'Contact': 'Displacements = large'",
+                       "Take 'small'.");
+    refusals.refuse_if(!parameters.model.joints.empty(),
+                       "section 'Joints': 'Names'",
+                       "Leave it empty: blocks in three dimensions have no "
+                       "joints.");
+    refusals.refuse_if(parameters.initial_motion.is_given,
+                       "section 'Initial motion'", "Leave it out.");
+    refusals.refuse_if(parameters.measure_bandwidth,
+                       "section 'Output': 'Measure bandwidth = yes'",
+                       "Take 'no'.");
+    check_materials(parameters, refusals);
+    check_loads(parameters, refusals);
+    check_stages(parameters, refusals);
+  }
+} // namespace quoin

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../model/test_models.h"
+
+#include <quoin/farfield/boundary_report.h>
+#include <quoin/advice/advice.h>
+#include <quoin/advice/model_summary.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  /** Two blocks on a base that are pushed, in plane strain. */
+  Parameters good_parameters()
+  {
+    Parameters parameters;
+    parameters.model       = two_blocks();
+    parameters.model.plane = PlaneAssumption::plane_strain;
+    parameters.loads       = { motion("base", "bottom", "0", "0"),
+                               traction("push", "top", "1e3 * sin(pi*t)", "") };
+    parameters.stages      = { stage_with({ "base", "push" }) };
+    return parameters;
+  }
+
+  /** Advice about the model and stage @p stage, in one text. */
+  std::string advice(const Parameters &parameters, const unsigned int stage = 0)
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, 3, 2);
+    const TestNodes nodes(mesh);
+    const Model<2> model(nodes, parameters.model);
+    std::string text;
+    const State<2> state = model.initial_state();
+    for (const auto &list :
+         { model_advice(parameters, make_mesh_report(mesh), model, state),
+           stage_advice(parameters, stage, model, state, 1e-4) })
+      for (const std::string &line : list)
+        text += line + "\n";
+    return text;
+  }
+
+  void expect(const Parameters &parameters, const std::string &word,
+              const unsigned int stage = 0)
+  {
+    const std::string text = advice(parameters, stage);
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
+  }
+} // namespace
+
+TEST(InputAdvice, NoneForWhatIsRight)
+{
+  EXPECT_EQ(advice(good_parameters()), "");
+}
+
+TEST(InputAdvice, MeshTooCoarseForItsWaves)
+{
+  // S waves have sqrt(1e10 / 2.4 / 2500) = 1291 m/s; edges are 1 m, for the
+  // diagonals of squares do not count.
+  Parameters parameters = good_parameters();
+  const auto shake      = [&](const double frequency)
+  {
+    parameters.loads[1].components[0].value
+        = TimeFunction("sin(2*pi*" + std::to_string(frequency) + "*t)", "./");
+  };
+  shake(240.);
+  EXPECT_EQ(advice(parameters), "");
+  shake(270.);
+  expect(parameters, "Refine the mesh");
+  // What comes to rest has no waves.
+  parameters.stages[0].damping = DampingType::local;
+  EXPECT_EQ(advice(parameters), "");
+}
+
+TEST(InputAdvice, FrequenciesAreThoseOfVelocities)
+{
+  // Of the velocity of a pulse exp(-(t/w)^2) 99 % of the energy is below
+  // sqrt(11.345) / (2 pi w), as in the tests of SignalFrequency, and of that
+  // pulse as a velocity below sqrt(6.635) / (2 pi w); to a hertz, as in 1 s.
+  const double w        = 0.02;
+  Parameters parameters = good_parameters();
+  parameters.loads[0] = motion("base", "bottom", "exp(-((t-0.5)/0.02)^2)", "0");
+  EXPECT_NEAR(fastest_load(parameters, 0).frequency,
+              std::sqrt(6.635) / (2. * M_PI * w), 1.);
+  parameters.loads[0].components[0].quantity = LoadQuantity::displacement;
+  const Shaking shaking                      = fastest_load(parameters, 0);
+  EXPECT_EQ(shaking.name, "the load base");
+  EXPECT_NEAR(shaking.frequency, std::sqrt(11.345) / (2. * M_PI * w), 1.);
+  // A pulse of gravity is the derivative of a velocity.
+  parameters.loads[0]
+      = gravity("-2 * (t-0.5) / 0.02^2 * exp(-((t-0.5)/0.02)^2)", "");
+  parameters.stages[0].loads = { "gravity" };
+  EXPECT_NEAR(fastest_load(parameters, 0).frequency,
+              std::sqrt(6.635) / (2. * M_PI * w), 1.);
+}
+
+TEST(InputAdvice, ForcesThatJump)
+{
+  Parameters parameters = good_parameters();
+  auto &push            = parameters.loads[1].components[0].value;
+  push                  = TimeFunction("1e3", "./");
+  expect(parameters, "jumps by 1000 at 0 s");
+  push = TimeFunction("if(t < 0.25, 1e3 * t, 2e3 * t)", "./");
+  EXPECT_EQ(advice(parameters), ""); // by less than a fifth
+  push = TimeFunction("if(t < 0.25, 0, 2e3 * t)", "./");
+  expect(parameters, "jumps by 500 at 0.25 s");
+  // The same force by another load in the stage before.
+  push                   = TimeFunction("1e3", "./");
+  StageParameters before = parameters.stages[0];
+  parameters.loads.push_back(traction("ramp", "top", "1e3 * t", ""));
+  before.loads = { "base", "ramp" };
+  parameters.stages.insert(parameters.stages.begin(), before);
+  EXPECT_EQ(advice(parameters, 1), "");
+  parameters.stages[0].duration = 0.5;
+  expect(parameters, "jumps by 500 at 0 s", 1);
+  parameters.stages.erase(parameters.stages.begin());
+  parameters.stages[0].damping               = DampingType::rayleigh;
+  parameters.stages[0].stiffness_coefficient = 1e-5;
+  EXPECT_EQ(advice(parameters), "");
+}
+
+TEST(InputAdvice, LocalDampingOfWavesThatComeIn)
+{
+  Parameters parameters                      = good_parameters();
+  parameters.loads[1].type                   = LoadType::viscous_boundary;
+  parameters.loads[1].components[0].quantity = LoadQuantity::velocity;
+  EXPECT_EQ(advice(parameters), "");
+  parameters.stages[0] = stage_with({ "base", "push" }, DampingType::local);
+  expect(parameters, "waves come in");
+}
+
+TEST(InputAdvice, WhatTakesAStagesMotionAway)
+{
+  Parameters parameters                 = good_parameters();
+  parameters.stages[0].scaled_time_step = 1e-3;
+  expect(parameters, "'Mass scaling' changes how the model moves");
+  parameters.stages[0].damping           = DampingType::local;
+  parameters.stages[0].local_coefficient = 0.8;
+  EXPECT_EQ(advice(parameters), "");
+
+  // A dashpot on a curve that is held; on rollers it still works along them.
+  parameters = good_parameters();
+  parameters.loads.push_back(viscous("open", "bottom"));
+  parameters.stages[0].loads.push_back("open");
+  expect(parameters, "the load open there does nothing");
+  parameters.loads[0] = motion("base", "bottom", "", "0");
+  EXPECT_EQ(advice(parameters), "");
+}
+
+TEST(InputAdvice, WeightThatAStageForgets)
+{
+  Parameters parameters    = good_parameters();
+  StageParameters before   = parameters.stages[0];
+  before.name              = "settle";
+  before.damping           = DampingType::local;
+  before.local_coefficient = 0.8;
+  before.loads             = { "base", "gravity" };
+  parameters.loads.push_back(gravity("0", "-9.81"));
+  parameters.stages.insert(parameters.stages.begin(), before);
+  expect(parameters, "becomes weightless", 1);
+  parameters.stages[1].loads.push_back("gravity");
+  EXPECT_EQ(advice(parameters, 1), "");
+}
+
+TEST(InputAdvice, JointsAndMaterials)
+{
+  Parameters parameters = good_parameters();
+  // E/h is 1e10 Pa/m, E/L 1e10 / sqrt(13).
+  CoulombLaw &law      = coulomb_law(parameters.model.joints[0]);
+  law.normal_stiffness = 1.1e12;
+  expect(parameters, "times E/h");
+  law.normal_stiffness = 2e6;
+  expect(parameters, "thousandth");
+  law.normal_stiffness   = 3e19;
+  parameters.is_implicit = true;
+  expect(parameters, "rounding");
+  parameters.is_implicit = false;
+  law.normal_stiffness   = 2e10;
+  // A curve on the outside has no joint.
+  parameters.model.joints.push_back(elastic_joint(1e10, 1e10, "sides"));
+  expect(parameters, "act on nothing");
+  parameters.stages[0].joint_properties = { { "joint", "sides" } };
+  EXPECT_EQ(advice(parameters), "");
+
+  parameters                                    = good_parameters();
+  parameters.model.materials[1].elastic.poisson = 0.47;
+  expect(parameters, "lock");
+  parameters.triangles = TriangleKind::crossed;
+  EXPECT_EQ(advice(parameters), "");
+}
+
+TEST(InputAdvice, OutputThatIsTooFrequent)
+{
+  Parameters parameters     = good_parameters();
+  parameters.field_interval = 1e-5;
+  expect(parameters, "writes fields");
+  parameters.field_interval   = 0.;
+  parameters.history_interval = 1e-5;
+  expect(parameters, "shorter than the time step");
+}
+
+TEST(InputAdvice, BoundaryElementsTooLong)
+{
+  const Shaking shaking{ "the incident wave w", 100. };
+  EXPECT_TRUE(element_advice(shaking, 2000., 3.9).empty());
+  EXPECT_EQ(element_advice(shaking, 2000., 4.1).size(), 1U);
+  EXPECT_TRUE(element_advice({}, 2000., 4.1).empty());
+}
+
+TEST(ModelSummary, SaysWhatThereIs)
+{
+  const Parameters parameters = good_parameters();
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  const TestNodes nodes(mesh);
+  const Model<2> model(nodes, parameters.model);
+  const auto materials = material_lines<2>(
+      parameters, nodes, model.properties().material_of_group);
+  ASSERT_EQ(materials.size(), 2U);
+  EXPECT_EQ(materials[0],
+            "material lower: 1 block, 12 triangles; elastic, E 1e+10 Pa, nu "
+            "0.2, density 2500 kg/m^3, P waves 2108 m/s, S waves 1291 m/s");
+  const auto joints = joint_lines(parameters, make_mesh_report(mesh));
+  ASSERT_EQ(joints.size(), 1U);
+  EXPECT_EQ(joints[0],
+            "joints joint: 3 m; elastic, kn 2e+10 Pa/m, ks 1e+10 Pa/m");
+  const auto loads = load_lines<2>(parameters, nodes);
+  ASSERT_EQ(loads.size(), 2U);
+  EXPECT_EQ(loads[0], "load base: prescribed motion on 4 nodes of bottom, "
+                      "horizontal 0 m/s, vertical 0 m/s");
+  EXPECT_EQ(loads[1], "load push: traction on 4 nodes of top, horizontal from "
+                      "0 to 1000 Pa");
+  EXPECT_EQ(parameters.stages[0].text(false),
+            "stage stage: loads base, push; lasts 1 s; no damping");
+}
