@@ -4,48 +4,49 @@
 // ExplicitSolver before the first stage.
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/point_text.h>
 #include <quoin/dynamics/explicit_solver.h>
-
-#include <sstream>
 
 namespace quoin
 {
-  template <>
-  void ExplicitSolver<2>::account_for_initial_motion(State<2> &state) const
+  template <int dim>
+  void ExplicitSolver<dim>::account_for_initial_motion(State<dim> &state) const
   {
-    unsigned int moved = NodeMap<2>::none;
+    unsigned int moved = NodeMap<dim>::none;
     for (unsigned int i = model.n_deformable_nodes();
-         i < model.exchange().n_owned() && moved == NodeMap<2>::none; ++i)
-      for (unsigned int d = 0; d < 2; ++d)
+         i < model.exchange().n_owned() && moved == NodeMap<dim>::none; ++i)
+      for (unsigned int d = 0; d < dim; ++d)
         if (state.nodes[i].u[d] != 0. || state.velocity[i].v[d] != 0.)
           moved = i;
-    dealii::Point<2> p;
+    dealii::Point<dim> p;
     if (model.nodes().first_point(moved, p))
-    {
-      std::ostringstream message;
-      message << "section 'Initial motion': it moves the rigid block at ("
-              << p[0] << ", " << p[1]
-              << ") m, but can be given to deformable blocks only. Make it 0 "
-                 "there, or the block deformable.";
-      throw InputError(message.str());
-    }
+      throw InputError(
+          "section 'Initial motion': it moves the rigid block at "
+          + point_text(p)
+          + " m, but can be given to deformable blocks only. Make it 0 "
+            "there, or the block deformable.");
 
     // Internal variables of joints and cells are updated in the first step.
-    State<2> moving = state, rest = model.initial_state();
-    AlignedArray<NodeVector<2>> unused(state.nodes.size(),
-                                       NodeVector<2>{ { 0., 0. } });
+    State<dim> moving = state, rest = model.initial_state();
     EnergyAccounts lost;
-    model.joints().add_forces(moving.nodes.data(), moving.get<JointHistory>(),
-                              lost, unused.data());
     lost.plastic      = model.blocks().update(moving.nodes.data(),
-                                              moving.get<PlasticHistory>());
-    const auto stored = [&](const State<2> &s)
+                                              moving.template get<PlasticHistory>());
+    const auto stored = [&](const State<dim> &s)
     {
-      return model.blocks().strain_energy(s.nodes.data(),
-                                          s.get<PlasticHistory>())
-             + model.joints().stored_energy(s.nodes.data(),
-                                            s.get<JointHistory>());
+      double energy = model.blocks().stored_energy(s);
+      if constexpr (dim == 2)
+        energy += model.joints().stored_energy(s.nodes.data(),
+                                               s.template get<JointHistory>());
+      return energy;
     };
+    if constexpr (dim == 2)
+    {
+      AlignedArray<NodeVector<2>> unused(state.nodes.size(),
+                                         NodeVector<2>{ { 0., 0. } });
+      model.joints().add_forces(moving.nodes.data(),
+                                moving.template get<JointHistory>(), lost,
+                                unused.data());
+    }
     double energy = stored(moving) - stored(rest) + lost.friction
                     + lost.fracture + lost.crushing + lost.plastic;
     for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
@@ -53,4 +54,7 @@ namespace quoin
         energy += 0.5 * stepper.mass()[i] * v * v;
     state.energy.external += energy;
   }
+
+  template void ExplicitSolver<2>::account_for_initial_motion(State<2> &) const;
+  template void ExplicitSolver<3>::account_for_initial_motion(State<3> &) const;
 } // namespace quoin

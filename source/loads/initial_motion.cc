@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/number_text.h>
+#include <quoin/base/point_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/loads/initial_motion.h>
 
@@ -13,43 +14,47 @@ namespace quoin
 {
   namespace
   {
-    /** The two expressions of @p name, which is not empty. */
-    void read_pair(const ParameterSection &section, const std::string &name,
-                   std::array<SpaceTimeFunction, 2> &value)
+    /** The expressions of @p name, which is not empty. */
+    InitialMotion::Components read_components(const ParameterSection &section,
+                                              const std::string &name)
     {
       const auto parts
           = dealii::Utilities::split_string_list(section.text(name), ';');
-      if (parts.size() != 2)
-        section.fail(name, "must be two expressions of x and y with a "
-                           "semicolon between them.");
-      for (unsigned int d = 0; d < 2; ++d)
+      if (parts.size() != 2 && parts.size() != 3)
+        section.fail(name, "must be two expressions of x and y, in three "
+                           "dimensions three of x, y and z, with semicolons "
+                           "between them.");
+      InitialMotion::Components value;
+      for (const std::string &part : parts)
       {
-        value[d] = section.made(
+        value.push_back(section.made(
             name,
-            [&]() { return SpaceTimeFunction(parts[d], section.folder()); });
-        if (value[d].depends_on_time())
+            [&]() {
+              return SpaceTimeFunction(part, section.folder(), parts.size());
+            }));
+        if (value.back().depends_on_time())
           section.fail(name, "must not depend on time: it is the motion at "
-                             "t = 0. Give expressions of x and y alone.");
+                             "t = 0. Give expressions of the place alone.");
       }
+      return value;
     }
 
     void enter(ParameterEntries &entries, InitialMotion &motion)
     {
       const auto add = [&](const std::string &name, const std::string &unit,
-                           std::array<SpaceTimeFunction, 2> &value)
+                           InitialMotion::Components &value)
       {
         entries.other(name, "",
                       name
                           + " of all nodes at t = 0, horizontal and vertical: "
                             "two expressions of x and y [m] with a semicolon "
-                            "between; empty: none "
+                            "between; in three dimensions along x, y and z: "
+                            "three expressions of x, y and z; empty: none "
                           + unit,
                       [&](const ParameterSection &section)
                       {
-                        if (section.text(name).empty())
-                          return;
-                        read_pair(section, name, value);
-                        motion.is_given = true;
+                        if (!section.text(name).empty())
+                          value = read_components(section, name);
                       });
       };
       add("Displacement", "[m]", motion.displacement);
@@ -67,21 +72,37 @@ namespace quoin
     return read_entries(section, enter);
   }
 
-  void InitialMotion::apply(State<2> &state) const
+  template <int dim>
+  void InitialMotion::apply(State<dim> &state) const
   {
+    for (const auto &[name, value] :
+         { std::make_pair("Displacement", &displacement),
+           std::make_pair("Velocity", &velocity) })
+      if (!value->empty() && value->size() != dim)
+        throw InputError(text_of(
+            "section 'Initial motion': '", name, "' has ", value->size(),
+            " components, but the model has ", dim,
+            " dimensions. Give as many expressions, with semicolons between."));
     for (std::size_t i = 0; i < state.nodes.size(); ++i)
     {
-      NodeRecord<2> &node = state.nodes[i];
-      const Eigen::Vector2d x(node.X[0], node.X[1]);
-      for (unsigned int d = 0; d < 2; ++d)
+      NodeRecord<dim> &node = state.nodes[i];
+      dealii::Point<3> x;
+      dealii::Point<dim> place;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = place[d] = node.X[d];
+      for (unsigned int d = 0; d < dim; ++d)
       {
-        node.u[d]              = displacement[d](x, 0.);
-        state.velocity[i].v[d] = velocity[d](x, 0.);
-        if (!std::isfinite(node.u[d]) || !std::isfinite(state.velocity[i].v[d]))
+        double &u = node.u[d], &v = state.velocity[i].v[d];
+        u = displacement.empty() ? 0. : displacement[d](x, 0.);
+        v = velocity.empty() ? 0. : velocity[d](x, 0.);
+        if (!std::isfinite(u) || !std::isfinite(v))
           throw InputError(text_of(
-              "section 'Initial motion': the motion at (", x[0], ", ", x[1],
-              ") m is not a finite number. Correct the expressions."));
+              "section 'Initial motion': the motion at ", point_text(place),
+              " m is not a finite number. Correct the expressions."));
       }
     }
   }
+
+  template void InitialMotion::apply(State<2> &) const;
+  template void InitialMotion::apply(State<3> &) const;
 } // namespace quoin

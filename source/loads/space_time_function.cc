@@ -25,11 +25,13 @@ namespace quoin
   } // namespace
 
   SpaceTimeFunction::SpaceTimeFunction(const std::string &given,
-                                       const std::string &folder)
+                                       const std::string &folder,
+                                       const unsigned int dim)
   {
-    std::string text = dealii::Utilities::trim(given);
+    const std::string names = dim == 2 ? "x, y and t" : "x, y, z and t";
+    std::string text        = dealii::Utilities::trim(given);
     if (text.empty())
-      throw InputError("lacks an expression of x, y and t.");
+      throw InputError("lacks an expression of " + names + ".");
     TimeFunction named; // a table or a signal
     const bool is_named = TimeFunction::is_named(text);
     if (is_named)
@@ -43,21 +45,26 @@ namespace quoin
     const auto parser = std::make_shared<dealii::FunctionParser<3>>(1);
     try
     {
-      parser->initialize("x,y,t", text, { { "pi", constants::pi } });
-      parser->value(dealii::Point<3>(0., 0., 0.));
+      // Without z the third component has a name that no expression has.
+      parser->initialize(dim == 2 ? "x,y,z_,t" : "x,y,z,t", text,
+                         { { "pi", constants::pi } }, true);
+      parser->value(dealii::Point<3>());
     }
     catch (const dealii::ExceptionBase &error)
     {
       std::ostringstream reason;
       error.print_info(reason);
-      throw InputError("is no expression of x, y and t: " + reason.str());
+      throw InputError("is no expression of " + names + ": " + reason.str());
     }
-    on_place = mentions(text, "xy");
+    on_place = mentions(text, "xyz");
     on_time  = on_time || mentions(text, "t");
-    evaluate = [parser](const Eigen::Vector2d &x, const double t)
-    { return parser->value(dealii::Point<3>(x.x(), x.y(), t)); };
+    evaluate = [parser](const dealii::Point<3> &x, const double t)
+    {
+      parser->set_time(t);
+      return parser->value(x);
+    };
     if (is_named)
-      evaluate = [named, factor = evaluate](const Eigen::Vector2d &x,
+      evaluate = [named, factor = evaluate](const dealii::Point<3> &x,
                                             const double t) {
         return named({ t, t }) * factor(x, t);
       };

@@ -161,7 +161,7 @@ namespace quoin
       ParameterSection(top, "Incident waves")
           .fail("Names", "needs motion, which 'Solver = implicit' leaves "
                          "out: remove the waves, or take 'explicit'.");
-    if (parameters.is_implicit && parameters.initial_motion.is_given)
+    if (parameters.is_implicit && parameters.initial_motion.is_given())
       top.fail("Solver", "leaves out inertia, but section 'Initial motion' "
                          "gives one: remove that, or take 'explicit'.");
   }

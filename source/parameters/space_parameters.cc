@@ -89,8 +89,6 @@ namespace quoin
                        "section 'Joints': 'Names'",
                        "Leave it empty: blocks in three dimensions have no "
                        "joints.");
-    refusals.refuse_if(parameters.initial_motion.is_given,
-                       "section 'Initial motion'", "Leave it out.");
     refusals.refuse_if(parameters.measure_bandwidth,
                        "section 'Output': 'Measure bandwidth = yes'",
                        "Take 'no'.");

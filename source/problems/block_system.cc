@@ -164,16 +164,15 @@ namespace quoin
   {
     State<dim> state = model->initial_state();
     solver->prepare(state);
-    if constexpr (dim == 2)
-      if (parameters.initial_motion.is_given)
-        naming(parameters.file,
-               [&]()
-               {
-                 all_or_none<InputError>(
-                     communicator,
-                     [&]() { parameters.initial_motion.apply(state); });
-                 explicit_solver->account_for_initial_motion(state);
-               });
+    if (parameters.initial_motion.is_given())
+      naming(parameters.file,
+             [&]()
+             {
+               all_or_none<InputError>(
+                   communicator,
+                   [&]() { parameters.initial_motion.apply(state); });
+               explicit_solver->account_for_initial_motion(state);
+             });
     return state;
   }
 

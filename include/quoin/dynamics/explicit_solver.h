@@ -208,8 +208,6 @@ namespace quoin
   void ExplicitSolver<2>::advance_rigid_blocks(State<2> &state,
                                                const StepContext &context,
                                                StepSums &sums);
-  template <>
-  void ExplicitSolver<2>::account_for_initial_motion(State<2> &state) const;
 } // namespace quoin
 
 #endif

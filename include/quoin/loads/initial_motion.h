@@ -8,26 +8,33 @@
 #include <quoin/base/parameter_section.h>
 #include <quoin/operators/state.h>
 
-#include <array>
+#include <vector>
 
 namespace quoin
 {
   /**
    * Displacement [m] and velocity [m/s] of all nodes at the start of the run,
-   * as functions of x and y: section 'Initial motion'. Both are those of t = 0;
-   * the first half step to the velocities of dt/2 follows from the forces.
+   * as functions of x, y and, in three dimensions, z: section 'Initial motion'.
+   * Both are those of t = 0; the first half step to the velocities of dt/2
+   * follows from the forces.
    */
   struct InitialMotion
   {
-    bool is_given = false;
-    std::array<SpaceTimeFunction, 2> displacement;
-    std::array<SpaceTimeFunction, 2> velocity;
+    /** By component: two, three or, where none is given, no functions. */
+    using Components = std::vector<SpaceTimeFunction>;
+    Components displacement, velocity;
 
     static void declare(dealii::ParameterHandler &prm);
     static InitialMotion read(const ParameterSection &section);
 
-    /** Sets the motion of the nodes of @p state, ghosts included. */
-    void apply(State<2> &state) const;
+    bool is_given() const
+    {
+      return !displacement.empty() || !velocity.empty();
+    }
+    /** Sets the motion of the nodes of @p state, ghosts included. Throws an
+        InputError where it has not dim components or is not finite. */
+    template <int dim>
+    void apply(State<dim> &state) const;
   };
 } // namespace quoin
 

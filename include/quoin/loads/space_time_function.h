@@ -6,17 +6,19 @@
 
 #include <quoin/base/eigen_core.h>
 
+#include <deal.II/base/point.h>
+
 #include <functional>
 #include <string>
 
 namespace quoin
 {
   /**
-   * A value that depends on place and time: an expression of x, y [m] and t
-   * [s], with pi and the functions of muParser, if(condition, a, b) among
-   * them; or "table FILE" or a signal, such as "pulse triangular 1e-3 5e-3",
-   * as in TimeFunction; or one of these and "times EXPRESSION", the product of
-   * the two.
+   * A value that depends on place and time: an expression of x, y, in three
+   * dimensions z [m] and t [s], with pi and the functions of muParser,
+   * if(condition, a, b) among them; or "table FILE" or a signal, such as "pulse
+   * triangular 1e-3 5e-3", as in TimeFunction; or one of these and "times
+   * EXPRESSION", the product of the two.
    */
   class SpaceTimeFunction
   {
@@ -25,14 +27,21 @@ namespace quoin
     SpaceTimeFunction() = default;
 
     /**
-     * Reads @p text. File names are relative to @p folder. Throws an InputError
-     * that says what is wrong, without naming section or parameter.
+     * Reads @p text, of x and y or, with @p dim = 3, of x, y and z. File names
+     * are relative to @p folder. Throws an InputError that says what is wrong,
+     * without naming section or parameter.
      */
-    SpaceTimeFunction(const std::string &text, const std::string &folder);
+    SpaceTimeFunction(const std::string &text, const std::string &folder,
+                      unsigned int dim = 2);
 
-    double operator()(const Eigen::Vector2d &x, const double t) const
+    /** Value at the position @p x [m] and the time @p t [s]. */
+    double operator()(const dealii::Point<3> &x, const double t) const
     {
       return evaluate(x, t);
+    }
+    double operator()(const Eigen::Vector2d &x, const double t) const
+    {
+      return evaluate({ x[0], x[1], 0. }, t);
     }
 
     /** Whether the value may differ between points. */
@@ -48,8 +57,8 @@ namespace quoin
     }
 
   private:
-    std::function<double(const Eigen::Vector2d &, double)> evaluate
-        = [](const Eigen::Vector2d &, double) { return 0.; };
+    std::function<double(const dealii::Point<3> &, double)> evaluate
+        = [](const dealii::Point<3> &, double) { return 0.; };
     bool on_place = false;
     bool on_time  = false;
   };

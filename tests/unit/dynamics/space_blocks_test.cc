@@ -4,6 +4,7 @@
 // Blocks in three dimensions, from the distributed mesh to the steps. These
 // tests also run on two and three ranks, among which the block is divided.
 
+#include "../mesh/space_box.h"
 #include "../model/test_models.h"
 
 #include <quoin/blocks/block_cells.h>
@@ -22,70 +23,7 @@ using namespace quoin::test;
 
 namespace
 {
-  using Count  = std::array<unsigned int, 3>;
   using Vector = dealii::Tensor<1, 3>;
-
-  const std::vector<std::string> side_names
-      = { "", "x0", "x1", "y0", "y1", "z0", "z1" };
-
-  /** A box of n[0] n[1] n[2] cubes with the edge @p h [m], each cut into six
-      tetrahedra by Kuhn's division; its sides are named. */
-  BlockMesh<3> box_mesh(const Count &n, const double h)
-  {
-    BlockMesh<3> mesh;
-    mesh.group_names        = { "rock" };
-    mesh.face_names         = side_names;
-    mesh.block_first_cell   = { 0 };
-    mesh.block_first_vertex = { 0 };
-    const auto vertex       = [&](const Count &at)
-    { return (at[2] * (n[1] + 1) + at[1]) * (n[0] + 1) + at[0]; };
-    std::vector<Count> grid;
-    Count at;
-    for (at[2] = 0; at[2] <= n[2]; ++at[2])
-      for (at[1] = 0; at[1] <= n[1]; ++at[1])
-        for (at[0] = 0; at[0] <= n[0]; ++at[0])
-        {
-          mesh.vertices.emplace_back(h * at[0], h * at[1], h * at[2]);
-          grid.push_back(at);
-        }
-    const Count axes[6] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
-                            { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 } };
-    for (at[2] = 0; at[2] < n[2]; ++at[2])
-      for (at[1] = 0; at[1] < n[1]; ++at[1])
-        for (at[0] = 0; at[0] < n[0]; ++at[0])
-          for (unsigned int t = 0; t < 6; ++t)
-          {
-            Count corner = at;
-            std::array<unsigned int, 4> cell;
-            for (unsigned int k = 0; k < 4; ++k)
-            {
-              cell[k] = vertex(corner);
-              if (k < 3)
-                ++corner[axes[t][k]];
-            }
-            if (t > 2) // of odd order
-              std::swap(cell[2], cell[3]);
-            mesh.cells.push_back(cell);
-            mesh.cell_group.push_back(0);
-          }
-    mesh.block_first_cell.push_back(mesh.n_cells());
-    mesh.block_first_vertex.push_back(mesh.n_vertices());
-
-    for (unsigned int c = 0; c < mesh.n_cells(); ++c)
-      for (unsigned int f = 0; f < 4; ++f)
-      {
-        std::array<unsigned int, 3> face;
-        for (unsigned int k = 0; k < 3; ++k)
-          face[k] = mesh.cells[c][(f + 1 + k) % 4];
-        for (unsigned int d = 0; d < 3; ++d)
-          for (const unsigned int end : { 0U, n[d] })
-            if (grid[face[0]][d] == end && grid[face[1]][d] == end
-                && grid[face[2]][d] == end)
-              mesh.boundary_faces.push_back(
-                  { face, c, 1 + 2 * d + (end == 0 ? 0 : 1) });
-      }
-    return mesh;
-  }
 
   LoadParameters load(const std::string &name, const LoadType type,
                       const std::vector<std::string> &sides)

@@ -4,6 +4,7 @@
 // Meshes of tetrahedra: joints, numbers, the report, ranks. The tests of
 // SpaceMeshOfRanks also run on two and three ranks.
 
+#include "space_box.h"
 #include "test_meshes.h"
 
 #include <quoin/base/constants.h>
@@ -25,43 +26,21 @@ using namespace quoin::test;
 
 namespace
 {
-  using Count = std::array<unsigned int, 3>;
   using Point = dealii::Point<3>;
 
-  /** Adds a box of n[0] n[1] n[2] cubes with the edge @p h, each cut into six
-      tetrahedra by Kuhn's division, with nodes of its own. */
+  /** Adds box_points() and box_cells(), with vertices of their own. */
   void add_box(MeshData<3> &mesh, const Count &n, const std::string &group,
                const Point &origin = Point(), const double h = 1.)
   {
-    constexpr unsigned int axes[6][3]
-        = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
-            { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 } };
     const unsigned int first = mesh.vertices.size();
-    const auto vertex        = [&](const Count &at)
-    { return first + (at[2] * (n[1] + 1) + at[1]) * (n[0] + 1) + at[0]; };
-    Count at;
-    for (at[2] = 0; at[2] <= n[2]; ++at[2])
-      for (at[1] = 0; at[1] <= n[1]; ++at[1])
-        for (at[0] = 0; at[0] <= n[0]; ++at[0])
-          mesh.vertices.push_back(origin
-                                  + Point(h * at[0], h * at[1], h * at[2]));
-    for (at[2] = 0; at[2] < n[2]; ++at[2])
-      for (at[1] = 0; at[1] < n[1]; ++at[1])
-        for (at[0] = 0; at[0] < n[0]; ++at[0])
-          for (unsigned int t = 0; t < 6; ++t)
-          {
-            Count corner = at;
-            std::array<unsigned int, 4> cell;
-            for (unsigned int k = 0; k < 4; ++k)
-            {
-              cell[k] = vertex(corner);
-              if (k < 3)
-                ++corner[axes[t][k]];
-            }
-            if (t > 2) // of odd order
-              std::swap(cell[2], cell[3]);
-            mesh.cells.push_back(cell);
-          }
+    const auto points        = box_points(n, h, origin);
+    mesh.vertices.insert(mesh.vertices.end(), points.begin(), points.end());
+    for (auto cell : box_cells(n))
+    {
+      for (unsigned int &v : cell)
+        v += first;
+      mesh.cells.push_back(cell);
+    }
     mesh.cell_group.resize(mesh.cells.size(),
                            index_of(group, mesh.group_names));
   }
