@@ -2,6 +2,7 @@
 # Copyright (C) 2026 The quoin authors
 """What the case tests share: running quoin, reading its tables, results."""
 import argparse
+import concurrent.futures
 import json
 import os
 import subprocess
@@ -95,6 +96,12 @@ def run(quoin, prm, output, sets=(), ranks=1, extra=(), accepted=(0,)):
         raise kind("%s ended with exit status %d:\n%s"
                    % (os.path.relpath(prm, ROOT), done.returncode, tail))
     return seconds
+
+
+def in_parallel(act, items):
+    """The results of @p act, which waits for programs, for each of @p items."""
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
+        return list(threads.map(act, items))
 
 
 def read_table(path):

@@ -158,7 +158,7 @@ def compare_linear_solvers(scratch):
             for name, error in errors.items() if not error <= 1e-6]
 
 
-def compare(quoin, prm, variant, sets, scratch):
+def compare(quoin, prm, sets, variant, scratch):
     """The largest difference from one rank, and the columns that differ."""
     def run(name, ranks):
         output = os.path.join(scratch, variant + " " + name)
@@ -200,9 +200,10 @@ def body():
     worst, different = 0.0, []
     start = time.monotonic()
     with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
-        for variant, (prm, sets) in VARIANTS.items():
-            error, columns = compare(options.quoin, prm, variant, sets,
-                                     scratch)
+        outcomes = common.in_parallel(
+            lambda variant: compare(options.quoin, *VARIANTS[variant], variant,
+                                    scratch), VARIANTS)
+        for variant, (error, columns) in zip(VARIANTS, outcomes):
             if variant not in LOOSE:
                 worst = max(worst, error)
             different += columns

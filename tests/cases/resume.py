@@ -223,6 +223,53 @@ def compare_fields(what, one, other):
             raise Failure("%s: %s differs" % (what, name))
 
 
+def kill_and_resume(options, name):
+    """Kills a case again and again, resumes it, and compares; returns the
+    number of kills."""
+    prm, sets, ranks, kills = CASES[name]
+    kills = options.kills or kills
+    chance = random.Random("%d %s" % (options.seed, name))
+    with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
+        whole = os.path.join(scratch, "whole")
+        broken = os.path.join(scratch, "broken")
+        # what a run takes after its first checkpoint: its set-up may take
+        # longer than all its steps
+        checkpoint = os.path.join(whole, "checkpoint", "latest")
+        lasting = run_and_kill(
+            common.command(options.quoin, prm, whole, sets, ranks, []),
+            checkpoint)
+        if not written(checkpoint):
+            raise Failure("%s wrote no checkpoint" % name)
+        if any(value.startswith("Output/Field") for value in sets):
+            bare = os.path.join(scratch, "bare")
+            common.run(options.quoin, prm, bare,
+                       sets + ["Output/Field interval=0"], ranks)
+            compare_tables(name + ", without fields", whole, bare)
+        checkpoint = os.path.join(broken, "checkpoint", "latest")
+        killed = 0
+        for attempt in range(kills + 10):
+            delay = chance.random() * lasting / (kills + 1)
+            words = common.command(options.quoin, prm, broken, sets, ranks,
+                                   ["--resume"] if killed else [])
+            if run_and_kill(words, checkpoint, delay) is not None:
+                # a machine that is quicker now than it was: once more
+                lasting /= 2
+                shutil.rmtree(broken)
+                killed = 0
+                continue
+            killed += 1
+            print("  %s: killed %.2f s after a checkpoint" % (name, delay),
+                  flush=True)
+            if killed == kills:
+                break
+        if killed == 0:
+            raise Failure("%s finished before it could be killed" % name)
+        common.run(options.quoin, prm, broken, sets, ranks, ["--resume"])
+        compare_tables(name, whole, broken)
+        compare_fields(name, whole, broken)
+    return killed
+
+
 def body():
     parser = common.arguments(__doc__.splitlines()[0])
     parser.add_argument("--kills", type=int, help="how often in each case")
@@ -231,51 +278,10 @@ def body():
     options = parser.parse_args()
     if not options.only:
         results = common.begin(options, "resume")
-    random.seed(options.seed)
     start = time.monotonic()
-    killed_in_all = 0
-    for name, (prm, sets, ranks, kills) in CASES.items():
-        if options.only and not name.startswith(options.only):
-            continue
-        kills = options.kills or kills
-        with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
-            whole = os.path.join(scratch, "whole")
-            broken = os.path.join(scratch, "broken")
-            # what a run takes after its first checkpoint: its set-up may
-            # take longer than all its steps
-            checkpoint = os.path.join(whole, "checkpoint", "latest")
-            lasting = run_and_kill(
-                common.command(options.quoin, prm, whole, sets, ranks, []),
-                checkpoint)
-            if not written(checkpoint):
-                raise Failure("%s wrote no checkpoint" % name)
-            if any(value.startswith("Output/Field") for value in sets):
-                bare = os.path.join(scratch, "bare")
-                common.run(options.quoin, prm, bare,
-                           sets + ["Output/Field interval=0"], ranks)
-                compare_tables(name + ", without fields", whole, bare)
-            checkpoint = os.path.join(broken, "checkpoint", "latest")
-            killed = 0
-            for attempt in range(kills + 10):
-                delay = random.random() * lasting / (kills + 1)
-                words = common.command(options.quoin, prm, broken, sets, ranks,
-                                       ["--resume"] if killed else [])
-                if run_and_kill(words, checkpoint, delay) is not None:
-                    # a machine that is quicker now than it was: once more
-                    lasting /= 2
-                    shutil.rmtree(broken)
-                    killed = 0
-                    continue
-                killed += 1
-                print("  %s: killed %.2f s after a checkpoint" % (name, delay))
-                if killed == kills:
-                    break
-            if killed == 0:
-                raise Failure("%s finished before it could be killed" % name)
-            common.run(options.quoin, prm, broken, sets, ranks, ["--resume"])
-            compare_tables(name, whole, broken)
-            compare_fields(name, whole, broken)
-        killed_in_all += killed
+    killed_in_all = sum(common.in_parallel(
+        lambda name: kill_and_resume(options, name),
+        [name for name in CASES if name.startswith(options.only or "")]))
     if not options.only:
         common.write_result(
             results, "resume",

@@ -126,9 +126,11 @@ def check_series(folder):
                                       % (name, piece))
 
 
-def compare(quoin, name, scratch):
+def compare(options, name, scratch):
     """The largest difference, the columns that differ, and kills."""
+    quoin = options.quoin
     prm, sets, numbers = CASES[name]
+    chance = random.Random("%d %s" % (options.seed, name))
     whole = os.path.join(scratch, name)
     broken = os.path.join(scratch, name + ", resumed")
     common.run(quoin, prm, whole, sets)
@@ -137,7 +139,7 @@ def compare(quoin, name, scratch):
     latest = os.path.join(broken, "checkpoint", "latest")
     kills = []
     for i, n in enumerate(numbers[:-1]):
-        share = (i + random.random()) / len(numbers)
+        share = (i + chance.random()) / len(numbers)
         words = common.command(quoin, prm, broken, sets + OFTEN, n,
                                ["--resume"] if i > 0 else [])
         if not run_until(words, latest, max(1, share * n_steps)):
@@ -166,14 +168,12 @@ def body():
     options = parser.parse_args()
     if not options.only:
         results = common.begin(options, "resume_ranks")
-    random.seed(options.seed)
     start = time.monotonic()
     worst, different, n_kills = 0.0, [], 0
     with tempfile.TemporaryDirectory(prefix="quoin_") as scratch:
-        for name in CASES:
-            if options.only and name != options.only:
-                continue
-            error, columns, kills = compare(options.quoin, name, scratch)
+        names = [options.only] if options.only else list(CASES)
+        for name, (error, columns, kills) in zip(names, common.in_parallel(
+                lambda name: compare(options, name, scratch), names)):
             if name not in LOOSE:
                 worst = max(worst, error)
             different += columns

@@ -878,7 +878,6 @@ def main():
                 return "failed", "FAILED: %s: %s" % (name, failure)
 
     counts = collections.Counter()
-    # Each starts programs of its own, so threads wait in parallel.
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as threads:
         for result, text in threads.map(outcome, tests):
             counts[result] += 1
