@@ -107,7 +107,7 @@ namespace quoin
       Neighbours result;
       for (const JointNodes<2> &face : nodes.joint_faces())
       {
-        if (!is_in_set(face, set, model.table()))
+        if (!is_in_set(face, set, model.nodes().table()))
           continue;
         result.exist = true;
         for (unsigned int side = 0; side < 2; ++side)

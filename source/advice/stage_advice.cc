@@ -229,7 +229,7 @@ namespace quoin
     {
       const NodeMap<dim> &nodes = model.nodes();
       std::vector<CellSize<dim>> sizes(n_materials);
-      for (unsigned int c = 0; c < model.n_deformable_cells(); ++c)
+      for (unsigned int c = 0; c < model.nodes().n_deformable_cells(); ++c)
       {
         if (state.is_absent(nodes.block_of_cell(c)))
           continue;

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/dynamics/construction.h>
+#include <quoin/model/block_placement.h>
 
 #include <algorithm>
 
@@ -9,15 +10,19 @@ namespace quoin
 {
   Construction::Construction(Model<2> &model,
                              const std::vector<StageParameters> &stages)
-    : model(model), at_start(model.properties())
+    : model(model), at_start(model.properties()),
+      absent_at_start(find_groups(model.nodes().table(),
+                                  model.parameters().absent_groups,
+                                  "section 'Stages'"))
   {
+    const BlockTable<2> &table = model.nodes().table();
     for (const StageParameters &stage : stages)
     {
       Step step;
       step.where = "section 'Stages/" + stage.name + "'";
       step.excavate
-          = model.find_groups(stage.excavate, step.where + ", 'Excavate'");
-      step.fill    = model.find_groups(stage.fill, step.where + ", 'Fill'");
+          = find_groups(table, stage.excavate, step.where + ", 'Excavate'");
+      step.fill    = find_groups(table, stage.fill, step.where + ", 'Fill'");
       step.takes   = !stage.excavate.empty();
       step.places  = !stage.fill.empty();
       step.release = stage.release;
@@ -97,7 +102,7 @@ namespace quoin
   Construction::blocks_in(const std::vector<bool> &groups) const
   {
     std::vector<unsigned int> result;
-    for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
+    for (unsigned int b = 0; b < model.nodes().table().n_blocks(); ++b)
       if (is_in(b, groups))
         result.push_back(b);
     return result;
@@ -106,7 +111,7 @@ namespace quoin
   bool Construction::is_in(const unsigned int block,
                            const std::vector<bool> &groups) const
   {
-    return groups[model.table().group[block]];
+    return groups[model.nodes().table().group[block]];
   }
 
   void Construction::take_away(const Step &step, Solver<2> &solver,
@@ -118,7 +123,7 @@ namespace quoin
     AlignedArray<NodeVector<2>> lost = held; // of excavated joints
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
-      if (model.is_at_absent_block(i, state))
+      if (is_at_absent_block(model, i, state))
         continue;
       const JointNodes<2> &face
           = model.nodes().joint_faces()[joints.segment(i).face];
@@ -132,27 +137,28 @@ namespace quoin
       joints.detach(i, state.get<JointHistory>());
     }
     for (auto *forces : { &held, &lost })
-      model.exchange().add_to_owners(forces->data());
+      model.nodes().exchange().add_to_owners(forces->data());
     // The present energy includes the work of these forces over the last half
     // step. The held forces on blocks that stay book it again; that on
     // excavated blocks is part of the kinetic energy that is removed.
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         state.energy.external -= 0.5 * state.previous_time_step
                                  * (held[i].v[d] + lost[i].v[d])
                                  * state.velocity[i].v[d];
 
-    state.block_marks.resize(model.table().n_blocks(), block_mark::present);
+    state.block_marks.resize(model.nodes().table().n_blocks(),
+                             block_mark::present);
     const auto blocks = blocks_in(step.excavate);
     for (const unsigned int block : blocks)
       state.block_marks[block] = block_mark::absent;
     state.energy.external -= solver.stop_blocks(blocks, state);
-    model.bring_to_rest(blocks, state);
-    model.exchange().update_ghosts(state.nodes.data());
+    bring_to_rest(model, blocks, state);
+    model.nodes().exchange().update_ghosts(state.nodes.data());
 
     HeldForces item;
-    const auto absent = model.absent_nodes(state);
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    const auto absent = absent_nodes(model, state);
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         item.force.push_back(absent[i] ? 0. : held[i].v[d]);
     for (HeldForces &earlier : state.get<ConstructionState>().held)
@@ -170,14 +176,14 @@ namespace quoin
       state.block_marks[block] = block_mark::present;
     model.clear_initial_stress(step.fill, state.get<ConstructionState>());
     model.set_properties(model.properties(), state.get<ConstructionState>());
-    model.place(blocks, state);
-    model.exchange().update_ghosts(state.nodes.data());
+    place_blocks(model, blocks, state);
+    model.nodes().exchange().update_ghosts(state.nodes.data());
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
       const JointNodes<2> &face
           = model.nodes().joint_faces()[joints.segment(i).face];
       if ((step.fill[face.groups[0]] || step.fill[face.groups[1]])
-          && !model.is_at_absent_block(i, state))
+          && !is_at_absent_block(model, i, state))
         joints.begin_anew(i, state.nodes.data(), state.get<JointHistory>());
     }
   }

@@ -44,7 +44,7 @@ namespace quoin
   {
     // The first cell of all ranks whose group differs from its block's.
     const NodeMap<2> &nodes         = model.nodes();
-    const BlockTable<2> &table      = model.table();
+    const BlockTable<2> &table      = model.nodes().table();
     const unsigned int n_groups     = table.group_names.size();
     std::array<unsigned int, 2> met = { { n_groups, n_groups } };
     for (unsigned int c = 0; c < nodes.n_cells() && met[0] == n_groups; ++c)
@@ -71,8 +71,9 @@ namespace quoin
 
   void Construction::check_presence()
   {
-    const auto &group_names   = model.table().group_names;
-    std::vector<bool> present = model.groups_present_at_start();
+    const auto &group_names   = model.nodes().table().group_names;
+    std::vector<bool> present = absent_at_start;
+    present.flip();
     for (Step &step : steps)
     {
       for (unsigned int g = 0; g < group_names.size(); ++g)
@@ -95,7 +96,7 @@ namespace quoin
           present[g] = step.fill[g];
       }
       if ((step.takes || step.places || step.changes)
-          && model.large_displacements())
+          && model.parameters().large_displacements)
         throw InputError(step.where
                          + ": 'Excavate', 'Fill', 'Materials' and 'Joint "
                            "properties' are for small displacements. Set "
@@ -110,8 +111,7 @@ namespace quoin
 
   std::vector<bool> Construction::absent_in_the_end() const
   {
-    std::vector<bool> absent = model.groups_present_at_start();
-    absent.flip();
+    std::vector<bool> absent = absent_at_start;
     for (const Step &step : steps)
       for (unsigned int g = 0; g < absent.size(); ++g)
         if (step.excavate[g] || step.fill[g])
@@ -143,7 +143,7 @@ namespace quoin
                        + "' is no material. There are: "
                        + known_names(materials, &MaterialParameters::name)
                        + ". Name one of these.");
-    const auto groups = model.find_groups({ group }, where);
+    const auto groups = find_groups(model.nodes().table(), { group }, where);
     const unsigned int g
         = std::find(groups.begin(), groups.end(), true) - groups.begin();
     unsigned int &now = step.properties.material_of_group[g];

@@ -3,12 +3,29 @@
 
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
+#include <quoin/dynamics/state_checks.h>
 
 #include <algorithm>
 #include <cmath>
 
 namespace quoin
 {
+  namespace
+  {
+    ContactModel contact_model_of(const Model<2> &model)
+    {
+      const ModelProperties &properties = model.properties();
+      ContactModel result;
+      result.parameters = model.parameters().contact;
+      result.sets       = properties.joints;
+      for (const MaterialParameters &material : properties.materials)
+        result.materials.push_back(material.name);
+      result.material_of_group = properties.material_of_group;
+      result.thickness         = model.parameters().thickness;
+      return result;
+    }
+  } // namespace
+
   template <int dim>
   ExplicitSolver<dim>::ExplicitSolver(
       Model<dim> &model, const std::vector<LoadParameters> &loads,
@@ -21,11 +38,11 @@ namespace quoin
     stepper.set_mass(model.mass());
     if constexpr (dim == 2)
     {
-      if (model.contact_parameters().has_box)
+      if (model.parameters().contact.has_box)
         box = std::make_unique<const ModelBox>(model);
-      if (model.large_displacements())
+      if (model.parameters().large_displacements)
         block_contacts = std::make_unique<BlockContacts>(
-            model.nodes(), model.joints(), model.contact_model());
+            model.nodes(), model.joints(), contact_model_of(model));
     }
   }
 
@@ -120,7 +137,7 @@ namespace quoin
     {
       state.unbalanced_ratio = stepper.unbalanced_ratio(state, context, sums);
       this->check_finite(state);
-      this->check_cells(state);
+      check_cells(model, state);
     }
     time_shares.lap(energy_phase);
   }
@@ -188,7 +205,7 @@ namespace quoin
     }
     state.energy.plastic += model.blocks().update(
         state.nodes.data(), state.template get<PlasticHistory>());
-    model.exchange().update_ghosts(state.velocity.data());
+    model.nodes().exchange().update_ghosts(state.velocity.data());
   }
 
   template <>

@@ -3,6 +3,7 @@
 
 // Checks of ExplicitSolver for blocks that have left the box.
 
+#include <quoin/model/block_placement.h>
 #include <quoin/dynamics/explicit_solver.h>
 
 #include <algorithm>
@@ -12,8 +13,8 @@ namespace quoin
   template <int dim>
   void ExplicitSolver<dim>::find_moved_blocks(const State<dim> &state)
   {
-    std::vector<const MotionConstraint<dim> *> moving(constraints_on.begin(),
-                                                      constraints_on.end());
+    std::vector<const MotionConstraint<dim> *> moving(
+        acting.constraints.begin(), acting.constraints.end());
     for (std::size_t i = state.stage; i < all_stages.size(); ++i)
       for (const auto &constraint : all_constraints)
         if (names_load(all_stages[i], constraint->name()))
@@ -30,14 +31,15 @@ namespace quoin
   {
     if (state.block_marks.empty())
       return;
-    for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
+    const BlockTable<dim> &table = model.nodes().table();
+    for (unsigned int b = 0; b < table.n_blocks(); ++b)
     {
       if (!state.is_absent(b))
         continue;
-      const auto nodes = model.owned_nodes(b);
+      const auto nodes = owned_nodes(model, b);
       stepper.hold(nodes);
-      if (model.table().is_rigid[b] && !nodes.empty())
-        rigid_stage.held[model.rigid_number(b)] = true;
+      if (table.is_rigid[b] && !nodes.empty())
+        rigid_stage.held[rigid_number(model, b)] = true;
     }
   }
 
@@ -69,17 +71,17 @@ namespace quoin
     double energy = stored();
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
       // Blocks still tied to a removed block were removed with it.
-      if (model.is_at_absent_block(i, state))
+      if (is_at_absent_block(model, i, state))
         model.joints().detach(i, state.get<JointHistory>());
     std::vector<unsigned int> blocks;
     for (const BlockOutside &block : found)
       if (block.removed)
         blocks.push_back(block.block);
     energy += stop_blocks(blocks, state);
-    model.bring_to_rest(blocks, state);
+    bring_to_rest(model, blocks, state);
     state.energy.external -= energy - stored();
     hold_removed_blocks(state);
-    model.exchange().update_ghosts(state.nodes.data());
+    model.nodes().exchange().update_ghosts(state.nodes.data());
     block_contacts->search_anew(state.get<ContactState>());
   }
 
@@ -101,11 +103,11 @@ namespace quoin
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
       model.blocks().add_forces(tile, state.nodes.data(),
                                 state.template get<PlasticHistory>(), force);
-    model.exchange().add_to_owners(force);
+    model.nodes().exchange().add_to_owners(force);
     for (const unsigned int block : blocks)
     {
-      const auto nodes    = model.owned_nodes(block);
-      const bool is_rigid = model.table().is_rigid[block];
+      const auto nodes    = owned_nodes(model, block);
+      const bool is_rigid = model.nodes().table().is_rigid[block];
       for (const unsigned int i : nodes)
         for (unsigned int d = 0; d < dim; ++d)
         {
@@ -116,7 +118,7 @@ namespace quoin
         }
       if (is_rigid && !nodes.empty())
         std::fill_n(
-            state.template get<RigidBlockStates>()[model.rigid_number(block)]
+            state.template get<RigidBlockStates>()[rigid_number(model, block)]
                 .velocity,
             3, 0.);
     }

@@ -6,6 +6,8 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
+#include <quoin/model/block_placement.h>
+#include <quoin/model/material_waves.h>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +26,7 @@ namespace quoin
       double energy = rigid.kinetic_energy(
           rigid_stage, state.template get<RigidBlockStates>(),
           state.template get<RigidBlockStates>(), 1.);
-      for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
+      for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
         for (const double v : state.velocity[i].v)
           energy += 0.5 * stepper.mass()[i] * v * v;
       return energy;
@@ -46,7 +48,7 @@ namespace quoin
         scaled += mass[i];
       }
     }
-    for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
     {
       own += mass[i];
       if (stage.scaled_time_step > 0.)
@@ -61,12 +63,12 @@ namespace quoin
 
     double eigenvalue
         = model.stability().largest_eigenvalue(mass, rigid_stage.mass_factor);
-    for (const MotionConstraint<dim> *constraint : constraints_on)
+    for (const MotionConstraint<dim> *constraint : acting.constraints)
       eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
     critical_step = StableTimeStep<dim>::critical(
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
-    for (MotionConstraint<dim> *constraint : constraints_on)
+    for (MotionConstraint<dim> *constraint : acting.constraints)
       if (constraint->is_rigid_body())
       {
         double inertia = 0., spin = 0.;
@@ -107,15 +109,15 @@ namespace quoin
         if (previous && !names_load(*previous, load.name()))
           begun.push_back(&load);
       }
-    forces.push_back(&release);
-    stepper.set_operators(forces, begun, constraints_on, stage);
+    forces.push_back(&acting.release);
+    stepper.set_operators(forces, begun, acting.constraints, stage);
   }
 
   template <int dim>
   void ExplicitSolver<dim>::collect_constrained_nodes(const State<dim> &state)
   {
     // Nodes of absent blocks do not move with constraints.
-    stepper.capture_nodes(model.absent_nodes(state));
+    stepper.capture_nodes(absent_nodes(model, state));
     this->refuse_shared_platens();
     if constexpr (dim == 2)
       rigid_stage.held = this->find_held_blocks();
@@ -136,7 +138,7 @@ namespace quoin
     if (stage.end == StageEnd::time)
       return stage.duration;
 
-    const double slowest = model.slowest_shear_wave();
+    const double slowest = slowest_shear_wave(model);
     if (!std::isfinite(slowest))
       throw InputError("section 'Stages/" + stage.name
                        + "': 'Release duration = automatic' is twice the time "
@@ -154,13 +156,13 @@ namespace quoin
   {
     this->activate(new_stage, state);
     scale_masses(stage, state);
-    release = Release<dim>(state, stage, release_duration(state));
+    acting.release = Release<dim>(state, stage, release_duration(state));
     prepare(state);
     collect_operators(previous);
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
         constraint->rest(state);
-    for (MotionConstraint<dim> *constraint : constraints_on)
+    for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->begin_stage(state,
                               previous && acts_in(*constraint, *previous));
     collect_constrained_nodes(state);
@@ -181,8 +183,8 @@ namespace quoin
     collect_operators(nullptr);
     const State<dim> saved = state;
     scale_masses(stage, state);
-    release = Release<dim>(state, stage, release_duration(state));
-    for (MotionConstraint<dim> *constraint : constraints_on)
+    acting.release = Release<dim>(state, stage, release_duration(state));
+    for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->resume_stage(state);
     state = saved;
     collect_constrained_nodes(state);

@@ -4,7 +4,9 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/point_text.h>
+#include <quoin/model/block_placement.h>
 #include <quoin/model/free_bodies.h>
+#include <quoin/model/material_waves.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/prescribed_motion.h>
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <sstream>
 
 namespace quoin
 {
@@ -33,7 +36,7 @@ namespace quoin
                       const std::vector<LoadParameters> &loads,
                       std::unique_ptr<FarField> far_field,
                       std::unique_ptr<StaticFarField> static_field)
-    : model(model), communicator(model.exchange().communicator())
+    : model(model), communicator(model.nodes().communicator())
   {
     const auto &nodes = model.nodes();
     for (const LoadParameters &load : loads)
@@ -43,7 +46,8 @@ namespace quoin
       {
       case LoadType::viscous_boundary:
         all_constraints.push_back(std::make_unique<ViscousBoundary<dim>>(
-            load, nodes, model.impedance_beyond(load), model.thickness()));
+            load, nodes, impedance_beyond(model, load),
+            model.parameters().thickness));
         break;
       case LoadType::prescribed_motion:
         all_constraints.push_back(
@@ -51,7 +55,8 @@ namespace quoin
         break;
       case LoadType::traction:
       case LoadType::gravity:
-        all_loads.emplace_back(load, nodes, model.mass(), model.thickness());
+        all_loads.emplace_back(load, nodes, model.mass(),
+                               model.parameters().thickness);
         break;
       case LoadType::platen:
         if constexpr (dim == 2)
@@ -81,10 +86,10 @@ namespace quoin
   void Solver<2>::add_far_fields(std::unique_ptr<FarField> far_field,
                                  std::unique_ptr<StaticFarField> static_field)
   {
-    far = far_field.get();
+    far.elastodynamic = far_field.get();
     if (far_field)
       all_constraints.push_back(std::move(far_field));
-    static_far = static_field.get();
+    far.elastostatic = static_field.get();
     if (static_field)
       all_constraints.push_back(std::move(static_field));
   }
@@ -108,8 +113,8 @@ namespace quoin
                            "model, of type 'viscous boundary' or 'prescribed "
                            "motion'.");
       all_constraints.push_back(std::make_unique<FreeFieldBoundary>(
-          load, model.nodes(), model.free_field_ground(),
-          FreeFieldBase{ *base, model.impedance_beyond(*base) }));
+          load, model.nodes(), free_field_ground(model),
+          FreeFieldBase{ *base, impedance_beyond(model, *base) }));
     }
   }
 
@@ -118,6 +123,13 @@ namespace quoin
                              const State<dim> &state)
   {
     stage = new_stage;
+    if constexpr (dim == 2)
+    {
+      far.elastodynamic_acts
+          = far.elastodynamic && acts_in(*far.elastodynamic, stage);
+      far.elastostatic_acts
+          = far.elastostatic && acts_in(*far.elastostatic, stage);
+    }
     for (const std::string &name : stage.loads)
       if (std::find(known_loads.begin(), known_loads.end(), name)
           == known_loads.end())
@@ -145,24 +157,25 @@ namespace quoin
                            + "' cannot follow. Set it to 0, or use that load "
                              "in another stage.");
 
-    constraints_on.clear();
+    acting.constraints.clear();
     for (const auto &constraint : all_constraints)
       if (acts_in(*constraint, stage))
-        constraints_on.push_back(constraint.get());
-    std::stable_sort(constraints_on.begin(), constraints_on.end(),
+        acting.constraints.push_back(constraint.get());
+    std::stable_sort(acting.constraints.begin(), acting.constraints.end(),
                      [](const auto *a, const auto *b)
                      { return a->kind() < b->kind(); });
     refuse_absent_nodes(state);
-    loads_on.clear();
+    acting.nodal.clear();
     for (NodalLoad<dim> &load : all_loads)
       load.set_mass(model.mass());
     for (const NodalLoad<dim> &load : all_loads)
       if (names_load(stage, load.name()))
-        loads_on.push_back(&load);
+        acting.nodal.push_back(&load);
 
     // With large displacements blocks may rest on others without a joint.
-    if (stage.end == StageEnd::static_ratio && !model.large_displacements())
-      check_no_free_bodies(model, constraints_on, stage.name, state);
+    if (stage.end == StageEnd::static_ratio
+        && !model.parameters().large_displacements)
+      check_no_free_bodies(model, acting.constraints, stage.name, state);
   }
 
   template <int dim>
@@ -172,8 +185,9 @@ namespace quoin
     if constexpr (dim == 2)
     {
       const bool is_static = any.end == StageEnd::static_ratio;
-      if ((&constraint == far && is_static)
-          || (&constraint == static_far && far && !is_static))
+      if ((&constraint == far.elastodynamic && is_static)
+          || (&constraint == far.elastostatic && far.elastodynamic
+              && !is_static))
         return false;
     }
     return names_load(any, constraint.name());
@@ -189,8 +203,8 @@ namespace quoin
   template <int dim>
   void Solver<dim>::refuse_absent_nodes(const State<dim> &state) const
   {
-    const auto absent = model.absent_nodes(state);
-    for (const MotionConstraint<dim> *constraint : constraints_on)
+    const auto absent = absent_nodes(model, state);
+    for (const MotionConstraint<dim> *constraint : acting.constraints)
     {
       if (constraint->kind() == MotionKind::prescribed)
         continue;
@@ -217,7 +231,7 @@ namespace quoin
     constexpr unsigned int none = NodeMap<2>::none;
     const RigidBlocks &rigid    = model.rigid_blocks();
     std::vector<bool> held(rigid.n_blocks(), false);
-    for (const MotionConstraint<2> *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : acting.constraints)
     {
       const auto &nodes  = constraint->nodes();
       unsigned int wrong = none;
@@ -251,8 +265,8 @@ namespace quoin
   template <int dim>
   void Solver<dim>::refuse_shared_platens() const
   {
-    for (const MotionConstraint<dim> *a : constraints_on)
-      for (const MotionConstraint<dim> *b : constraints_on)
+    for (const MotionConstraint<dim> *a : acting.constraints)
+      for (const MotionConstraint<dim> *b : acting.constraints)
       {
         if (a == b || !a->is_rigid_body() || !b->is_rigid_body())
           continue;
@@ -273,22 +287,6 @@ namespace quoin
   }
 
   template <int dim>
-  bool Solver<dim>::far_field_acts() const
-  {
-    if constexpr (dim == 2)
-      return far && acts_in(*far, stage);
-    return false;
-  }
-
-  template <int dim>
-  bool Solver<dim>::static_far_field_acts() const
-  {
-    if constexpr (dim == 2)
-      return static_far && acts_in(*static_far, stage);
-    return false;
-  }
-
-  template <int dim>
   void Solver<dim>::save(State<dim> &state) const
   {
     for (const auto &constraint : all_constraints)
@@ -298,50 +296,34 @@ namespace quoin
   template <int dim>
   void Solver<dim>::discard_saved(State<dim> &state) const
   {
-    if (far)
+    if (far.elastodynamic)
       state.template get<FarFieldState>().history = {};
   }
 
   template <int dim>
-  void Solver<dim>::check_start(const State<dim> &state) const
+  void Solver<dim>::check_finite(const State<dim> &state) const
   {
-    for (const MotionConstraint<dim> *constraint : constraints_on)
-      constraint->check_start({ 0., state.time });
-  }
-
-  template <int dim>
-  std::vector<std::array<double, 4>>
-  Solver<dim>::load_values(const double stage_start,
-                           const double load_time) const
-  {
-    const TimePoint time{ load_time, stage_start + load_time };
-    std::vector<std::array<double, 4>> result;
-    for (const NodalLoad<dim> *load : loads_on)
-      result.push_back(load->amplitude(time));
-    for (const MotionConstraint<dim> *constraint : constraints_on)
-    {
-      const auto [x, y, rotation] = constraint->values(time);
-      result.push_back({ x, y, rotation, 0. });
-    }
-    return result;
-  }
-
-  template <int dim>
-  bool Solver<dim>::loads_change(const State<dim> &state,
-                                 const double duration) const
-  {
-    constexpr double earliest = 1e-9; // [s]
-    const double now          = state.load_time;
-    const double before       = std::max(0., now - duration);
-    const auto values         = load_values(state.stage_start, now);
-    if (values != load_values(state.stage_start, before))
-      return true;
-    if (release.changes() && release.share(before) != release.share(now))
-      return true;
-    for (double t = late_time; t > std::max(now, earliest); t *= 0.9)
-      if (values != load_values(state.stage_start, t))
-        return true;
-    return false;
+    unsigned int bad     = NodeMap<dim>::none;
+    const unsigned int n = model.nodes().n_owned();
+    for (unsigned int i = 0; i < n && bad == NodeMap<dim>::none; ++i)
+      for (const double u : state.nodes[i].u)
+        if (!(std::abs(u) < 1e100)) // a comparison with NaN is false
+          bad = i;
+    dealii::Point<dim> p;
+    unsigned int block = 0;
+    if (!model.nodes().first_point(bad, p, &block))
+      return;
+    acting.check_finite(stage, state, state.load_time);
+    std::ostringstream message;
+    message << "the motion is no longer finite in block " << block << " at "
+            << point_text(p) << " m, found at time " << state.time
+            << " s, step " << state.step
+            << ". The usual causes are a load that grows "
+            << "without bound, a value that is not a number in a function of "
+            << "time, or a collapse: look at the last fields, reduce 'Share "
+            << "of critical time step' or end the stage earlier. The last "
+            << "checkpoint is kept.";
+    throw RunError(message.str());
   }
 
   template <int dim>
@@ -374,10 +356,10 @@ namespace quoin
     const MotionConstraint<dim> *idle = nullptr; // of two with one name
     if constexpr (dim == 2)
     {
-      if (static_far_field_acts())
-        idle = far;
+      if (far.elastostatic_acts)
+        idle = far.elastodynamic;
       else
-        idle = static_far;
+        idle = far.elastostatic;
     }
     for (const auto &constraint : all_constraints)
       if (constraint->name() == load && constraint.get() != idle)

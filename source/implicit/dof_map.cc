@@ -4,6 +4,7 @@
 #include <quoin/base/constants.h>
 #include <quoin/implicit/dof_map.h>
 #include <quoin/loads/prescribed_motion.h>
+#include <quoin/model/block_placement.h>
 
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 
@@ -68,9 +69,9 @@ namespace quoin
   DofMap::DofMap(const Model<2> &model,
                  const std::vector<MotionConstraint<2> *> &constraints,
                  const std::vector<bool> &held, const State<2> &state)
-    : model(model), communicator(model.exchange().communicator()),
-      stage_start(state.stage_start), absent(model.absent_nodes(state)),
-      ties(model.exchange().n_local(),
+    : model(model), communicator(model.nodes().communicator()),
+      stage_start(state.stage_start), absent(absent_nodes(model, state)),
+      ties(model.nodes().n_local(),
            { dealii::numbers::invalid_dof_index, {}, {} })
   {
     add_platens(constraints, state);
@@ -78,7 +79,7 @@ namespace quoin
     number();
 
     // The last constraint that acts on a node prevails.
-    const unsigned int n = model.exchange().n_owned();
+    const unsigned int n = model.nodes().n_owned();
     std::vector<std::array<const LoadComponent *, 2>> owner(
         n, { { nullptr, nullptr } });
     for (const MotionConstraint<2> *constraint : constraints)
@@ -148,7 +149,7 @@ namespace quoin
 
   void DofMap::number()
   {
-    const NodeExchange &exchange = model.exchange();
+    const NodeExchange &exchange = model.nodes().exchange();
     const Index first_body       = 2 * Index(exchange.n_global());
     const Index first_rigid      = first_body + 4 * n_platens;
     const dealii::IndexSet rigid
@@ -268,7 +269,7 @@ namespace quoin
     for (const RigidBody &body : body_list)
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
         ties[body.nodes[i]].motion = body.present_arms[i];
-    model.exchange().update_ghosts(ties.data());
+    model.nodes().exchange().update_ghosts(ties.data());
 
     // Without bodies only the inhomogeneities change.
     const bool are_new = has_bodies || affine.n_constraints() == 0;
@@ -318,7 +319,7 @@ namespace quoin
   {
     const double before     = configuration.load_time;
     configuration.load_time = load_time;
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         if (is_free(i, d))
           configuration.nodes[i].u[d] += share * increment(dof(i, d));
@@ -341,7 +342,7 @@ namespace quoin
                    ? given_motion(body_list[b], d, before, load_time)
                    : changes[b][d];
     place(configuration);
-    model.exchange().update_ghosts(configuration.nodes.data());
+    model.nodes().exchange().update_ghosts(configuration.nodes.data());
   }
 
   void DofMap::place(Configuration &configuration) const
@@ -369,7 +370,7 @@ namespace quoin
   {
     const auto *values = reinterpret_cast<const double *>(force.data());
     affine.distribute_local_to_global(values,
-                                      values + 2 * model.exchange().n_owned(),
+                                      values + 2 * model.nodes().n_owned(),
                                       node_dofs.begin(), right_hand_side);
   }
 

@@ -32,7 +32,7 @@ namespace quoin
                            const double stage_start,
                            const StaticFarField *far_field)
     : model(model), dof_map(dof_map), loads(loads), path_sets(path_sets),
-      stage_start(stage_start), communicator(model.exchange().communicator()),
+      stage_start(stage_start), communicator(model.nodes().communicator()),
       far_field(far_field)
   {
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
@@ -69,9 +69,9 @@ namespace quoin
     model.joints().linearise(rest, false,
                              [&](const ElementLinearisation<2> &segment)
                              { add(segment.nodes, segment.n_nodes); });
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       sums[1] += model.mass()[i];
-    sums[2] = model.n_deformable_nodes();
+    sums[2] = model.nodes().n_deformable_nodes();
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     const double stiffness
         = sums[2] > 0. ? sums[0] / sums[2] : joint_stiffness();
@@ -95,7 +95,7 @@ namespace quoin
 
   void Equilibrium::find_far_stiffness()
   {
-    auto stiffness       = far_field->nodal_stiffness(model.exchange());
+    auto stiffness       = far_field->nodal_stiffness(model.nodes().exchange());
     const Eigen::Index n = stiffness.nodes.size();
     // Nothing resists a translation of the model if only the far field supports
     // it. Forces without resultant do not cause one; a stiffness in the
@@ -128,7 +128,7 @@ namespace quoin
         far_rows.push_back(dof_map.dof(node, d));
         const auto place
             = std::lower_bound(stiffness.nodes.begin(), stiffness.nodes.end(),
-                               model.exchange().global(node));
+                               model.nodes().exchange().global(node));
         dofs[2 * (place - stiffness.nodes.begin()) + d] = 1 + far_rows.back();
       }
     dealii::Utilities::MPI::sum(dofs, communicator, dofs);
@@ -210,7 +210,7 @@ namespace quoin
     if (!far_field)
       return;
     const auto &nodes = far_field->nodes();
-    AlignedArray<NodeVector<2>> force(model.exchange().n_local(), no_force);
+    AlignedArray<NodeVector<2>> force(model.nodes().n_local(), no_force);
     balance.far_field_energy = far_field->add_forces(
         configuration.nodes.data(), committed.get<StaticFarFieldState>(),
         force.data());
@@ -237,10 +237,10 @@ namespace quoin
                              const Configuration &configuration,
                              Balance &balance, Slopes *slopes)
   {
-    balance.drag.assign(model.exchange().n_local(), no_force);
+    balance.drag.assign(model.nodes().n_local(), no_force);
     if (drag == 0.)
       return;
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
     {
       const double stiffness = drag * drag_stiffness[i];
       for (unsigned int d = 0; d < 2; ++d)
@@ -284,8 +284,8 @@ namespace quoin
     model.blocks().prepare(trial);
     trial.copy_slices(committed);
     trial.add<BreakingJoints>().points = broken;
-    balance.force.assign(model.exchange().n_local(), no_force);
-    joint_force.assign(model.exchange().n_local(), no_force);
+    balance.force.assign(model.nodes().n_local(), no_force);
+    joint_force.assign(model.nodes().n_local(), no_force);
 
     double path = 0.;
     model.joints().linearise(trial, slopes,
@@ -302,16 +302,16 @@ namespace quoin
                                if (!dof_map.is_absent(cell.nodes[0]))
                                  add_element(cell, balance.force, path, slopes);
                              });
-    model.exchange().add_to_owners(joint_force.data());
-    model.exchange().add_to_owners(balance.force.data());
+    model.nodes().exchange().add_to_owners(joint_force.data());
+    model.nodes().exchange().add_to_owners(balance.force.data());
   }
 
   void Equilibrium::add_loads(const State<2> &committed,
                               const Configuration &configuration,
                               Balance &balance)
   {
-    const unsigned int n_owned = model.exchange().n_owned();
-    balance.external.assign(model.exchange().n_local(), no_force);
+    const unsigned int n_owned = model.nodes().n_owned();
+    balance.external.assign(model.nodes().n_local(), no_force);
     add_external(configuration.load_time, balance.external);
 
     const double left = 1. - configuration.released;
@@ -351,10 +351,10 @@ namespace quoin
   {
     double sums[3] = { 0., 0., 0. }; // unbalanced, applied, dragged
     AlignedArray<NodeVector<2>> total = balance.force;
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         total[i].v[d] += balance.drag[i].v[d];
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
     {
       sums[1] += norm(applied[i]);
       sums[2] += norm(balance.drag[i]);
@@ -403,7 +403,7 @@ namespace quoin
                               const Advance &advance, Balance &balance,
                               Slopes &slopes)
   {
-    const unsigned int n_owned = model.exchange().n_owned();
+    const unsigned int n_owned = model.nodes().n_owned();
     dof_map.update_constraints(configuration, advance.load_time);
     matrix                 = 0.;
     slopes.by_advance      = 0.;

@@ -156,9 +156,9 @@ namespace quoin
       if (iteration == 0)
         start = balance;
       const double ratio = balance.ratio();
-      reports.push_back({ current_step, attempt, iteration,
-                          configuration.load_time, ratio, last_share,
-                          double(linear_solver->n_iterations()) });
+      done.iterations.push_back({ current_step, attempt, iteration,
+                                  configuration.load_time, ratio, last_share,
+                                  double(linear_solver->n_iterations()) });
       if (!std::isfinite(ratio))
         return Outcome::failed;
       ratios.push_back(ratio);
@@ -178,7 +178,7 @@ namespace quoin
         return Outcome::failed;
       correct(state, share, configuration);
       ++iteration;
-      ++iterations_done;
+      ++done.n_iterations;
     }
   }
 
@@ -276,7 +276,7 @@ namespace quoin
       if (outcome == Outcome::converged
           && (!state.get<ImplicitState>().jumps || flowed <= most_flow))
         break;
-      ++cuts_done;
+      ++done.n_cuts;
       if (!cut_step(state))
         give_up(state);
     }
@@ -318,7 +318,7 @@ namespace quoin
     now.last_step = std::clamp(next, 0.01 * parameters.first_step,
                                parameters.largest_step);
     now.step      = now.last_step;
-    jumps_done.push_back(
+    done.jumps.push_back(
         { now.jump_time, now.n_drag,
           dealii::Utilities::MPI::sum(now.jump_loss, communicator) });
   }
@@ -326,7 +326,7 @@ namespace quoin
   bool ImplicitSolver::has_gone_far(const State<2> &state) const
   {
     double moved = 0.;
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         moved = std::max(moved, std::abs(state.nodes[i].u[d]
                                          - last_equilibrium.nodes[i].u[d]));

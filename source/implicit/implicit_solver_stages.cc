@@ -53,7 +53,7 @@ namespace quoin
       path_sets(joint_sets.size(), parameters.path_joints.empty()),
       set_names(joint_sets)
   {
-    if (model.large_displacements())
+    if (model.parameters().large_displacements)
       throw InputError("section 'Contact': 'Displacements = large' asks for "
                        "contacts that come and go, which the implicit solver "
                        "does not follow. Take 'small', or 'Solver = "
@@ -71,7 +71,7 @@ namespace quoin
   double ImplicitSolver::rest_time() const
   {
     const auto values
-        = [&](const double t) { return load_values(stage_start, t); };
+        = [&](const double t) { return acting.values(stage_start, t); };
     constexpr double earliest = 1e-9; // [s]
     const auto last           = values(late_time);
     if (values(1.7 * late_time) != last)
@@ -79,7 +79,7 @@ namespace quoin
                        + "': 'End = static ratio', but its loads never rest. "
                          "Take 'End = time' and a 'Duration', or functions of "
                          "time that become constant.");
-    for (const MotionConstraint<2> *constraint : constraints_on)
+    for (const MotionConstraint<2> *constraint : acting.constraints)
     {
       if (constraint->parts())
         for (const LoadComponent &part : *constraint->parts())
@@ -115,7 +115,7 @@ namespace quoin
   void ImplicitSolver::prepare_stage(const State<2> &state)
   {
     stage_start = state.stage_start;
-    check_no_free_bodies(model, constraints_on, stage.name, state);
+    check_no_free_bodies(model, acting.constraints, stage.name, state);
     refuse_shared_platens();
     held_blocks = find_held_blocks();
     hold_absent_blocks(state);
@@ -130,16 +130,16 @@ namespace quoin
       if (rests)
         stage_duration = resting_duration;
     }
-    release = Release(state, stage,
-                      stage.release_duration >= 0. ? stage.release_duration
-                                                   : stage_duration);
-    rests   = rests && !release.changes();
-    dof_map
-        = std::make_unique<DofMap>(model, constraints_on, held_blocks, state);
+    acting.release = Release(
+        state, stage,
+        stage.release_duration >= 0. ? stage.release_duration : stage_duration);
+    rests   = rests && !acting.release.changes();
+    dof_map = std::make_unique<DofMap>(model, acting.constraints, held_blocks,
+                                       state);
     equilibrium = std::make_unique<Equilibrium>(
-        model, *dof_map, loads_on, path_sets, stage_start,
-        static_far_field_acts() ? static_far : nullptr);
-    equilibrium->set_release(release);
+        model, *dof_map, acting.nodal, path_sets, stage_start,
+        far.elastostatic_acts ? far.elastostatic : nullptr);
+    equilibrium->set_release(acting.release);
     linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver,
                                                    model, *dof_map);
     residual.reinit(dof_map->owned(), communicator);
@@ -170,7 +170,7 @@ namespace quoin
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
         constraint->rest(state);
-    for (MotionConstraint<2> *constraint : constraints_on)
+    for (MotionConstraint<2> *constraint : acting.constraints)
     {
       constraint->set_mass(model.mass());
       constraint->begin_stage(state,
@@ -189,7 +189,7 @@ namespace quoin
                                     State<2> &state)
   {
     activate(resumed, state);
-    for (MotionConstraint<2> *constraint : constraints_on)
+    for (MotionConstraint<2> *constraint : acting.constraints)
       constraint->set_mass(model.mass());
     if (state.get<ImplicitState>().jumps)
     {
@@ -221,20 +221,20 @@ namespace quoin
     ImplicitState &now = state.get<ImplicitState>();
     now.released       = 1.;
     now.step           = first_load_step();
-    if (static_far_field_acts() && !state.get<StaticFarFieldState>().active)
+    if (far.elastostatic_acts && !state.get<StaticFarFieldState>().active)
     {
       // It holds the forces that its boundary carried until now, without loads
       // that begin here.
       std::vector<const NodalLoad<2> *> before;
-      for (const NodalLoad<2> *load : loads_on)
+      for (const NodalLoad<2> *load : acting.nodal)
         if (previous && names_load(*previous, load->name()))
           before.push_back(load);
-      Equilibrium without(model, *dof_map, previous ? before : loads_on,
+      Equilibrium without(model, *dof_map, previous ? before : acting.nodal,
                           path_sets, stage_start, nullptr);
-      without.set_release(release);
+      without.set_release(acting.release);
       without.find_forces(state, dof_map->configuration(state), broken,
                           balance);
-      static_far->hold(balance.force.data(), state);
+      far.elastostatic->hold(balance.force.data(), state);
     }
     equilibrium->find_forces(state, dof_map->configuration(state), broken,
                              balance);
@@ -242,7 +242,7 @@ namespace quoin
       return;
     now.released               = 0.;
     now.step                   = parameters.first_step;
-    const unsigned int n_owned = model.exchange().n_owned();
+    const unsigned int n_owned = model.nodes().n_owned();
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
         now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i].v[d]
@@ -286,7 +286,7 @@ namespace quoin
     if (state.load_time == stage_duration
         && state.get<ImplicitState>().path_length == 0. && balance.path == 0.)
       state.time = state.stage_start + stage_duration;
-    if (static_far_field_acts())
+    if (far.elastostatic_acts)
       state.get<StaticFarFieldState>().stored = balance.far_field_energy;
     find_energies(state,
                   model.blocks().strain_energy(state.nodes.data(),
@@ -306,7 +306,7 @@ namespace quoin
     const double left_0 = 1. - state.get<ImplicitState>().released;
     const double left_1 = 1. - configuration.released;
     const double mean   = 0.5 * (left_0 + left_1);
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
       {
         const double u = configuration.nodes[i].u[d] - state.nodes[i].u[d];
@@ -322,11 +322,11 @@ namespace quoin
         if (!held.empty())
           energy.damping -= mean * held[2 * i + d] * u;
       }
-    if (static_far_field_acts())
-      for (unsigned int k = 0; k < static_far->nodes().size(); ++k)
+    if (far.elastostatic_acts)
+      for (unsigned int k = 0; k < far.elastostatic->nodes().size(); ++k)
         for (unsigned int d = 0; d < 2; ++d)
         {
-          const unsigned int node = static_far->nodes()[k];
+          const unsigned int node = far.elastostatic->nodes()[k];
           energy.external
               += state.get<StaticFarFieldState>().held[2 * k + d]
                  * (configuration.nodes[node].u[d] - state.nodes[node].u[d]);
@@ -355,10 +355,10 @@ namespace quoin
   {
     std::array<double, 3> result{};
     const auto found
-        = std::find_if(constraints_on.begin(), constraints_on.end(),
+        = std::find_if(acting.constraints.begin(), acting.constraints.end(),
                        [&](const MotionConstraint<2> *constraint)
                        { return constraint->name() == load; });
-    if (found == constraints_on.end() || balance.force.empty())
+    if (found == acting.constraints.end() || balance.force.empty())
       return result;
     if ((*found)->is_rigid_body())
     {
@@ -370,7 +370,7 @@ namespace quoin
                                                       : balance.drives[b][d];
       return result;
     }
-    if (*found == static_far)
+    if (*found == far.elastostatic)
       result = balance.far_field_force;
     else if ((*found)->kind() == MotionKind::prescribed)
       for (const DofMap::Prescribed &given : dof_map->prescribed())
@@ -391,8 +391,8 @@ namespace quoin
   {
     // The largest unbalanced force, on a node or, if all bodies are rigid, on a
     // body; a joint if it has nearly as much.
-    const unsigned int n_owned = model.exchange().n_owned();
-    std::vector<bool> on_joint(model.exchange().n_local(), false);
+    const unsigned int n_owned = model.nodes().n_owned();
+    std::vector<bool> on_joint(model.nodes().n_local(), false);
     for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
       for (unsigned int k = 0; k < 2; ++k)
       {
@@ -439,8 +439,8 @@ namespace quoin
   void ImplicitSolver::fail(const State<2> &state, const double tried,
                             const bool jumped) const
   {
-    check_loads(state, state.load_time);
-    check_loads(state, state.load_time + tried * stage_duration);
+    acting.check_finite(stage, state, state.load_time);
+    acting.check_finite(stage, state, state.load_time + tried * stage_duration);
     const std::string where = worst_place();
     std::ostringstream message;
     message << "no equilibrium was found beyond "

@@ -78,7 +78,7 @@ namespace quoin
       (*rigid_motions)[mode][row] = value;
     };
     // Rigid body modes about a corner of the model, in units of its size.
-    const auto origin = model.table().box[0];
+    const auto origin = model.nodes().table().box[0];
     const double size = model.nodes().diagonal();
     const auto place  = [&](const DofMap::Index first, const double x,
                            const double y, const bool(&free)[2])
@@ -94,7 +94,7 @@ namespace quoin
         set(2, first + 1, (x - origin[0]) / size);
       }
     };
-    for (unsigned int i = 0; i < model.exchange().n_owned(); ++i)
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
     {
       const NodeRecord<2> &node = configuration.nodes[i];
       const bool free[2] = { dof_map.is_free(i, 0), dof_map.is_free(i, 1) };

@@ -227,7 +227,7 @@ namespace quoin
                     std::vector<NodeVector<2>> &force,
                     std::vector<double> &sums)
     {
-      const NodeExchange &exchange = model.exchange();
+      const NodeExchange &exchange = model.nodes().exchange();
       const unsigned int n         = dealii::Utilities::MPI::sum(
                   unsigned(platen.nodes().size()), exchange.communicator());
       std::array<double, 3> part{};
@@ -253,7 +253,7 @@ namespace quoin
     {
       const NodeMap<dim> &nodes    = model.nodes();
       const unsigned int n_blocks  = nodes.table().n_blocks();
-      const NodeExchange &exchange = model.exchange();
+      const NodeExchange &exchange = model.nodes().exchange();
       std::vector<NodeVector<dim>> force(exchange.n_local(), NodeVector<dim>{});
       for (const NodalLoad<dim> *load : loads)
         load->add_forces(time, force.data());
@@ -310,7 +310,7 @@ namespace quoin
                        const std::string &stage, const State<dim> &state)
   {
     Bodies<dim> bodies(model, constraints, state, false);
-    for (unsigned int b = 0; b < model.table().n_blocks(); ++b)
+    for (unsigned int b = 0; b < model.nodes().table().n_blocks(); ++b)
     {
       if (state.is_absent(b) || free_motions<dim>(bodies.gram(b)).empty())
         continue;
@@ -331,7 +331,7 @@ namespace quoin
       const std::vector<TimePoint> &times, const State<dim> &state)
   {
     Bodies<dim> bodies(model, constraints, state, true);
-    std::vector<unsigned int> n_blocks(model.table().n_blocks(), 0);
+    std::vector<unsigned int> n_blocks(model.nodes().table().n_blocks(), 0);
     std::vector<UnsupportedBody<dim>> found;
     std::vector<std::vector<Motion<dim>>> motions;
     for (unsigned int b = 0; b < n_blocks.size(); ++b)

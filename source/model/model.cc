@@ -4,12 +4,11 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/mesh/kind_text.h>
-#include <quoin/model/model.h>
+#include <quoin/model/block_placement.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace quoin
 {
@@ -17,47 +16,47 @@ namespace quoin
   Model<dim>::Model(const NodeMap<dim> &nodes,
                     const ModelParameters &parameters)
     : node_map(nodes),
-      parameters(parameters), now{ parameters.materials, {}, parameters.joints }
+      given(parameters), now{ parameters.materials, {}, parameters.joints }
   {
-    if (dim == 3 && table().n_joint_faces > 0)
+    const BlockTable<dim> &table = nodes.table();
+    if (dim == 3 && table.n_joint_faces > 0)
       throw InputError(
-          "section 'Mesh': the mesh has "
-          + std::to_string(table().n_joint_faces)
+          "section 'Mesh': the mesh has " + std::to_string(table.n_joint_faces)
           + " joint faces between its blocks, but blocks in three "
             "dimensions have no joints. Make them one piece: leave "
             "'Joints along' and 'Joints between' empty, and let "
             "volumes that touch share their surface.");
     find_materials();
-    absent_group = find_groups(parameters.absent_groups, "section 'Stages'");
+    absent_group
+        = find_groups(table, parameters.absent_groups, "section 'Stages'");
     find_masses();
     if constexpr (dim == 2)
       find_initial_stress();
     pack_blocks({});
     if constexpr (dim == 2)
       matched_joints.prepare(nodes, now.joints, parameters.thickness);
-    if (!table().is_quadratic)
+    if (!table.is_quadratic)
       find_stable_step();
   }
 
   template <int dim>
   void Model<dim>::find_materials()
   {
-    constexpr unsigned int none = -1;
-    now.material_of_group.assign(table().group_names.size(), none);
+    constexpr unsigned int none           = -1;
+    const std::vector<std::string> &names = node_map.table().group_names;
+    now.material_of_group.assign(names.size(), none);
     for (unsigned int m = 0; m < now.materials.size(); ++m)
     {
       const auto &material = now.materials[m];
       for (const auto &group : material.groups)
       {
-        const auto found = std::find(table().group_names.begin(),
-                                     table().group_names.end(), group);
-        if (found == table().group_names.end())
-          throw InputError(
-              "section 'Materials/" + material.name + "': the mesh has no "
-              + group_kind<dim> + " '" + group + "'. It has: "
-              + known_names(table().group_names) + ". Correct 'Groups'.");
-        unsigned int &owner
-            = now.material_of_group[found - table().group_names.begin()];
+        const auto found = std::find(names.begin(), names.end(), group);
+        if (found == names.end())
+          throw InputError("section 'Materials/" + material.name
+                           + "': the mesh has no " + group_kind<dim> + " '"
+                           + group + "'. It has: " + known_names(names)
+                           + ". Correct 'Groups'.");
+        unsigned int &owner = now.material_of_group[found - names.begin()];
         if (owner != none)
           throw InputError("section 'Materials/" + material.name
                            + "': " + group_kind<dim> + " '" + group
@@ -70,11 +69,9 @@ namespace quoin
     {
       if (now.material_of_group[g] == none)
         throw InputError(std::string("section 'Materials': ")
-                         + group_kind<dim> + " '" + table().group_names[g]
+                         + group_kind<dim> + " '" + names[g]
                          + "' has no material. Add it to the 'Groups' of "
                            "one.");
-      group_impedance.push_back(impedance_of(
-          now.materials[now.material_of_group[g]].elastic, parameters.plane));
     }
   }
 
@@ -84,9 +81,9 @@ namespace quoin
     std::vector<double> density;
     for (const unsigned int material : now.material_of_group)
       density.push_back(now.materials[material].elastic.density);
-    node_mass = lumped_masses(node_map, density, parameters.thickness);
+    node_mass = lumped_masses(node_map, density, given.thickness);
     if constexpr (dim == 2)
-      rigid.prepare(node_map, density, parameters.thickness);
+      rigid.prepare(node_map, density, given.thickness);
   }
 
   template <int dim>
@@ -94,7 +91,7 @@ namespace quoin
   Model<dim>::stiffness_of(const MaterialParameters &material) const
   {
     if constexpr (dim == 2)
-      return plane_stiffness(material.elastic, parameters.plane);
+      return plane_stiffness(material.elastic, given.plane);
     else
       return space_stiffness(material.elastic);
   }
@@ -106,18 +103,18 @@ namespace quoin
     take_cells(node_map, data);
     for (const MaterialParameters &material : now.materials)
       data.stiffness.push_back(stiffness_of(material));
-    for (unsigned int c = 0; c < n_deformable_cells(); ++c)
+    for (unsigned int c = 0; c < node_map.n_deformable_cells(); ++c)
       data.cell_stiffness.push_back(material_of_cell(c));
     if constexpr (dim == 2)
     {
-      data.quadratic = table().is_quadratic;
-      data.thickness = parameters.thickness;
+      data.quadratic = node_map.table().is_quadratic;
+      data.thickness = given.thickness;
       for (const MaterialParameters &material : now.materials)
       {
         data.laws.emplace_back();
         if (material.strength)
           data.laws.back().emplace(material.elastic, *material.strength,
-                                   parameters.plane);
+                                   given.plane);
       }
       const AlignedArray<double> stress = construction.initial_stress.empty()
                                               ? packed_initial_stress()
@@ -139,18 +136,18 @@ namespace quoin
     block_forces.add_stiffness_bound(state, {}, bound);
     if constexpr (dim == 2)
     {
-      if (parameters.large_displacements)
+      if (given.large_displacements)
         add_contact_bound(bound);
       else
         add_joint_bound(state, bound);
     }
-    exchange().add_to_owners(bound.data());
+    node_map.exchange().add_to_owners(bound.data());
     bound.resize(node_map.n_owned());
     std::vector<double> rigid_bound;
     if constexpr (dim == 2)
       for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
         rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
-    std::fill(bound.begin() + n_deformable_nodes(), bound.end(),
+    std::fill(bound.begin() + node_map.n_deformable_nodes(), bound.end(),
               NodeStiffness<dim>{});
     stable_step = std::make_unique<StableTimeStep<dim>>(bound);
     stable_step->set_rigid_blocks(rigid_bound);
@@ -160,7 +157,7 @@ namespace quoin
   void Model<2>::add_joint_bound(const State<2> &state,
                                  std::vector<NodeStiffness<2>> &bound) const
   {
-    const auto &is_rigid = table().is_rigid;
+    const auto &is_rigid = node_map.table().is_rigid;
     if (std::find(is_rigid.begin(), is_rigid.end(), true) == is_rigid.end())
     {
       matched_joints.add_stiffness_bound(
@@ -180,14 +177,14 @@ namespace quoin
     matched_joints.add_stiffness_bound(
         state, [](unsigned int, unsigned int) { return 0.; }, springs);
     std::vector<double> own(node_map.n_local(), 0.);
-    for (unsigned int i = 0; i < n_deformable_nodes(); ++i)
+    for (unsigned int i = 0; i < node_map.n_deformable_nodes(); ++i)
       own[i] = StableTimeStep<2>({ springs[i] })
                    .largest_eigenvalue({ node_mass[i] });
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
       std::fill(own.begin() + rigid.block(b).begin,
                 own.begin() + rigid.block(b).end,
                 rigid.largest_eigenvalue(b, springs));
-    exchange().update_ghosts(own.data());
+    node_map.exchange().update_ghosts(own.data());
 
     const auto is_rigid_node = [&](const unsigned int i)
     { return is_rigid[node_map.block_of_node(i)]; };
@@ -216,7 +213,7 @@ namespace quoin
           = 0.5 * node_map.point(edge[0]).distance(node_map.point(edge[1]));
       for (const unsigned int node : edge)
         for (unsigned int c = 0; c < 2; ++c)
-          bound[node][c] += 2. * stiffness * tributary * parameters.thickness;
+          bound[node][c] += 2. * stiffness * tributary * given.thickness;
     };
     for (const OuterFace<2> &face : node_map.outer_faces())
       add_edge(face.nodes);
@@ -227,123 +224,6 @@ namespace quoin
       if (face.is_own[1])
         add_edge(face.upper);
     }
-  }
-
-  template <int dim>
-  std::vector<Impedance>
-  Model<dim>::impedance_beyond(const LoadParameters &load) const
-  {
-    if (load.far_material.empty())
-      return group_impedance;
-    for (const MaterialParameters &material : now.materials)
-      if (!material.rigid && material.name == load.far_material)
-        return std::vector<Impedance>(
-            group_impedance.size(),
-            impedance_of(material.elastic, parameters.plane));
-    const auto elastic = [](const MaterialParameters &material)
-    { return material.rigid ? std::string() : material.name; };
-    throw InputError("section 'Loads/" + load.name
-                     + "': 'Far field material = " + load.far_material
-                     + "' is no linear elastic material of section "
-                       "'Materials'. There are: "
-                     + known_names(now.materials, elastic) + ".");
-  }
-
-  template <int dim>
-  double Model<dim>::slowest_shear_wave() const
-  {
-    double slowest = std::numeric_limits<double>::infinity();
-    for (const unsigned int m : now.material_of_group)
-    {
-      const MaterialParameters &material = now.materials[m];
-      if (material.rigid)
-        continue;
-      const double shear
-          = 0.5 * material.elastic.young / (1. + material.elastic.poisson);
-      slowest = std::min(slowest, std::sqrt(shear / material.elastic.density));
-    }
-    return slowest;
-  }
-
-  template <int dim>
-  FreeFieldGround Model<dim>::free_field_ground() const
-  {
-    FreeFieldGround ground;
-    for (const unsigned int m : now.material_of_group)
-    {
-      ground.materials.push_back(now.materials[m].elastic);
-      ground.is_rigid.push_back(now.materials[m].rigid);
-      ground.yields.push_back(now.materials[m].strength.has_value());
-    }
-    ground.plane     = parameters.plane;
-    ground.thickness = parameters.thickness;
-    return ground;
-  }
-
-  template <int dim>
-  ContactModel Model<dim>::contact_model() const
-  {
-    ContactModel result;
-    result.parameters = parameters.contact;
-    result.sets       = now.joints;
-    for (const MaterialParameters &material : now.materials)
-      result.materials.push_back(material.name);
-    result.material_of_group = now.material_of_group;
-    result.thickness         = parameters.thickness;
-    return result;
-  }
-
-  template <int dim>
-  std::vector<bool>
-  Model<dim>::find_groups(const std::vector<std::string> &names,
-                          const std::string &where) const
-  {
-    std::vector<bool> result(table().group_names.size(), false);
-    for (const std::string &name : names)
-    {
-      const auto found = std::find(table().group_names.begin(),
-                                   table().group_names.end(), name);
-      if (found == table().group_names.end())
-        throw InputError(where + ": the mesh has no " + group_kind<dim> + " '"
-                         + name
-                         + "'. It has: " + known_names(table().group_names)
-                         + ". Name one of these.");
-      result[found - table().group_names.begin()] = true;
-    }
-    return result;
-  }
-
-  template <int dim>
-  std::vector<unsigned int>
-  Model<dim>::owned_nodes(const unsigned int block) const
-  {
-    std::vector<unsigned int> result;
-    const NodeRange own = block_nodes(block);
-    for (std::size_t i = own.begin; i < own.end; ++i)
-      result.push_back(i);
-    for (unsigned int i = node_map.first_shared_node();
-         i < n_deformable_nodes(); ++i)
-      if (node_map.block_of_node(i) == block)
-        result.push_back(i);
-    return result;
-  }
-
-  template <int dim>
-  std::vector<bool> Model<dim>::absent_nodes(const State<dim> &state) const
-  {
-    std::vector<bool> result(node_map.n_local(), false);
-    if (!state.block_marks.empty())
-      for (unsigned int i = 0; i < result.size(); ++i)
-        result[i] = state.is_absent(node_map.block_of_node(i));
-    return result;
-  }
-
-  template <int dim>
-  std::vector<bool> Model<dim>::groups_present_at_start() const
-  {
-    std::vector<bool> present = absent_group;
-    present.flip();
-    return present;
   }
 
   template <int dim>
@@ -370,12 +250,12 @@ namespace quoin
     if (std::find(absent_group.begin(), absent_group.end(), true)
         == absent_group.end())
       return state;
-    for (const unsigned int group : table().group)
+    for (const unsigned int group : node_map.table().group)
       state.block_marks.push_back(absent_group[group] ? block_mark::absent
                                                       : block_mark::present);
     if constexpr (dim == 2)
       for (unsigned int i = 0; i < matched_joints.n_segments(); ++i)
-        if (is_at_absent_block(i, state))
+        if (is_at_absent_block(*this, i, state))
           matched_joints.detach(i, state.template get<JointHistory>());
     return state;
   }

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/model/block_placement.h>
 #include <quoin/model/model_box.h>
 
 #include <algorithm>
@@ -34,10 +35,10 @@ namespace quoin
   } // namespace
 
   ModelBox::ModelBox(const Model<2> &model)
-    : model(model), parameters(model.contact_parameters())
+    : model(model), parameters(model.parameters().contact)
   {
     const NodeMap<2> &nodes = model.nodes();
-    std::vector<std::uint8_t> is_in(model.table().n_blocks(), 0);
+    std::vector<std::uint8_t> is_in(model.nodes().table().n_blocks(), 0);
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       if (is_inside(parameters.box, nodes.point(i)[0], nodes.point(i)[1]))
         is_in[nodes.block_of_node(i)] = 1;
@@ -61,8 +62,8 @@ namespace quoin
   ModelBox::find_outside(State<2> &state, const std::vector<bool> &moved) const
   {
     using Outside               = ContactParameters::Outside;
-    const MPI_Comm communicator = model.exchange().communicator();
-    const unsigned int n        = model.table().n_blocks();
+    const MPI_Comm communicator = model.nodes().communicator();
+    const unsigned int n        = model.nodes().table().n_blocks();
     const bool removes          = parameters.outside == Outside::remove;
     auto &marks                 = state.block_marks;
     marks.resize(n, 0);
@@ -135,10 +136,10 @@ namespace quoin
       for (const auto &[a, b] : tied)
         if (stays[a] != stays[b])
           stays[a] = stays[b] = changed = 1;
-      changed = dealii::Utilities::MPI::max(changed,
-                                            model.exchange().communicator());
+      changed
+          = dealii::Utilities::MPI::max(changed, model.nodes().communicator());
       if (changed)
-        reduce(stays, model.exchange().communicator());
+        reduce(stays, model.nodes().communicator());
     }
   }
 
@@ -147,13 +148,13 @@ namespace quoin
   {
     std::vector<double> sums(3 * found.size(), 0.);
     for (unsigned int k = 0; k < found.size(); ++k)
-      for (const unsigned int i : model.owned_nodes(found[k].block))
+      for (const unsigned int i : owned_nodes(model, found[k].block))
       {
         for (unsigned int d = 0; d < 2; ++d)
           sums[3 * k + d] += state.nodes[i].X[d] + state.nodes[i].u[d];
         ++sums[3 * k + 2];
       }
-    dealii::Utilities::MPI::sum(sums, model.exchange().communicator(), sums);
+    dealii::Utilities::MPI::sum(sums, model.nodes().communicator(), sums);
     for (unsigned int k = 0; k < found.size(); ++k)
       for (unsigned int d = 0; d < 2; ++d)
         found[k].position[d] = sums[3 * k + d] / sums[3 * k + 2];

@@ -10,68 +10,11 @@
 namespace quoin
 {
   template <>
-  void Model<2>::bring_to_rest(const std::vector<unsigned int> &blocks,
-                               State<2> &state) const
-  {
-    // A deformable block may lie on several ranks, and so may its nodes.
-    std::vector<double> sums(3 * blocks.size(), 0.);
-    for (unsigned int k = 0; k < blocks.size(); ++k)
-      for (const unsigned int i : owned_nodes(blocks[k]))
-      {
-        state.velocity[i] = NodeVector<2>{ { 0., 0. } };
-        for (unsigned int d = 0; d < 2; ++d)
-          sums[3 * k + d] += state.nodes[i].u[d];
-        ++sums[3 * k + 2];
-      }
-    dealii::Utilities::MPI::sum(sums, node_map.communicator(), sums);
-    for (unsigned int k = 0; k < blocks.size(); ++k)
-    {
-      const unsigned int block = blocks[k];
-      if (table().is_rigid[block])
-      {
-        if (block_nodes(block).size() > 0)
-          std::fill_n(
-              state.get<RigidBlockStates>()[rigid_number(block)].velocity, 3,
-              0.);
-        continue;
-      }
-      for (const unsigned int i : owned_nodes(block))
-        for (unsigned int d = 0; d < 2; ++d)
-          state.nodes[i].u[d] = sums[3 * k + d] / sums[3 * k + 2];
-      reset_plasticity(block, state.get<PlasticHistory>());
-    }
-  }
-
-  template <>
-  void Model<2>::place(const std::vector<unsigned int> &blocks,
-                       State<2> &state) const
-  {
-    bring_to_rest(blocks, state);
-    for (const unsigned int block : blocks)
-    {
-      const auto nodes = owned_nodes(block);
-      for (const unsigned int i : nodes)
-        std::fill_n(state.nodes[i].u, 2, 0.);
-      if (table().is_rigid[block] && !nodes.empty())
-        state.get<RigidBlockStates>()[rigid_number(block)] = RigidBlockState();
-    }
-  }
-
-  template <>
-  bool Model<2>::is_at_absent_block(const unsigned int segment,
-                                    const State<2> &state) const
-  {
-    const JointNodes<2> &face
-        = node_map.joint_faces()[matched_joints.segment(segment).face];
-    return state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]);
-  }
-
-  template <>
   AlignedArray<double> Model<2>::packed_initial_stress() const
   {
     AlignedArray<double> result;
-    for (unsigned int c = 0; c < n_deformable_cells() && !cell_stress.empty();
-         ++c)
+    for (unsigned int c = 0;
+         c < node_map.n_deformable_cells() && !cell_stress.empty(); ++c)
       for (const double stress : cell_stress[c])
         result.push_back(stress);
     return result;
@@ -85,7 +28,7 @@ namespace quoin
     find_masses();
     pack_blocks(construction);
     matched_joints.set_laws(now.joints);
-    if (!table().is_quadratic)
+    if (!node_map.table().is_quadratic)
       find_stable_step();
   }
 
@@ -109,15 +52,14 @@ namespace quoin
     std::vector<std::optional<MohrCoulomb>> laws;
     for (const MaterialParameters &material : properties.materials)
     {
-      stiffness.push_back(plane_stiffness(material.elastic, parameters.plane));
+      stiffness.push_back(plane_stiffness(material.elastic, given.plane));
       laws.emplace_back();
       if (material.strength)
-        laws.back().emplace(material.elastic, *material.strength,
-                            parameters.plane);
+        laws.back().emplace(material.elastic, *material.strength, given.plane);
     }
     auto &initial           = state.get<ConstructionState>().initial_stress;
     PlasticHistory &plastic = state.get<PlasticHistory>();
-    for (unsigned int c = 0; c < n_deformable_cells(); ++c)
+    for (unsigned int c = 0; c < node_map.n_deformable_cells(); ++c)
     {
       const unsigned int m
           = properties.material_of_group[node_map.group_of_cell(c)];
@@ -135,7 +77,7 @@ namespace quoin
         continue;
       if (initial.empty())
         initial = packed_initial_stress();
-      initial.resize(4 * n_deformable_cells(), 0.);
+      initial.resize(4 * node_map.n_deformable_cells(), 0.);
       for (unsigned int k = 0; k < 4; ++k)
         initial[4 * c + k] = bears[k] + before[k] - after[k];
     }

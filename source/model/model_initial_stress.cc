@@ -29,19 +29,19 @@ namespace quoin
   template <>
   void Model<2>::find_initial_stress()
   {
-    if (parameters.initial_stresses.empty())
+    if (given.initial_stresses.empty())
       return;
     cell_stress.assign(node_map.n_cells(), {});
     face_stress.assign(node_map.joint_faces().size(), {});
-    for (const LoadParameters &load : parameters.initial_stresses)
+    for (const LoadParameters &load : given.initial_stresses)
     {
-      if (parameters.plane == PlaneAssumption::plane_stress && load.stress_zz)
+      if (given.plane == PlaneAssumption::plane_stress && load.stress_zz)
         throw InputError("section 'Loads/" + load.name
                          + "': 'Stress zz' is the stress out of the plane, "
                            "which is zero with 'Plane assumption = plane "
                            "stress'. Leave it at "
                            "'elastic'.");
-      if (parameters.plane == PlaneAssumption::plane_stress && load.in_situ
+      if (given.plane == PlaneAssumption::plane_stress && load.in_situ
           && load.in_situ->has_out_of_plane)
         throw InputError("section 'Loads/" + load.name
                          + "': 'Out-of-plane ratio' gives a stress out of the "
@@ -60,7 +60,7 @@ namespace quoin
       {
         return initial_stress(
             load, point, now.materials[now.material_of_group[group]].elastic,
-            parameters.plane);
+            given.plane);
       };
       for (unsigned int c = 0; c < node_map.n_cells(); ++c)
       {
@@ -94,23 +94,11 @@ namespace quoin
     // The points' forces become those of a traction that is linear along the
     // face. Simpson's rule on quadratic edges gives them already.
     for (MatchedJoints::FaceStress &face : face_stress)
-      for (unsigned int i = 0; i < 3 && !table().is_quadratic; ++i)
+      for (unsigned int i = 0; i < 3 && !node_map.table().is_quadratic; ++i)
       {
         const double third = (face[1][i] - face[0][i]) / 3.;
         face[0][i] += third;
         face[1][i] -= third;
       }
-  }
-
-  template <>
-  void Model<2>::reset_plasticity(const unsigned int block,
-                                  PlasticHistory &history) const
-  {
-    const unsigned int part = node_map.find_part(block);
-    if (part == node_map.block_parts().size())
-      return;
-    const auto &[begin, end] = node_map.block_parts()[part].cells;
-    for (unsigned int c = begin; c < end; ++c)
-      block_forces.forget_history(c, history);
   }
 } // namespace quoin

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace quoin
 {
@@ -68,7 +69,7 @@ namespace quoin
       fields(run.output, *system.model, *system.solver),
       boundary(run.output, MPI_COMM_SELF)
   {
-    if (system.solver->far_field())
+    if (system.solver->far_fields().elastodynamic)
       far_field_table = &run.tables.add(
           "far_field.csv",
           { "time [s]", "steps [-]", "radiated [J]", "substeps [J]",
@@ -86,7 +87,7 @@ namespace quoin
     run.on_first_rank(
         [&]()
         {
-          if (system.solver->far_field())
+          if (system.solver->far_fields().elastodynamic)
             boundary.start();
           if (!run.options.resume)
             write_generated_geometry();
@@ -151,11 +152,12 @@ namespace quoin
   template <>
   void BlockOutputs<2>::write_far_field_row(const State<2> &state)
   {
-    const FarField::Ledger ledger = system.solver->far_field()->ledger(state);
-    const double taken            = ledger.radiated + ledger.given;
-    largest_throughput            = std::max(
-                   { largest_throughput, std::abs(ledger.radiated), std::abs(ledger.given),
-                     system.solver->energies().throughput() });
+    const FarField::Ledger ledger
+        = system.solver->far_fields().elastodynamic->ledger(state);
+    const double taken = ledger.radiated + ledger.given;
+    largest_throughput = std::max(
+        { largest_throughput, std::abs(ledger.radiated), std::abs(ledger.given),
+          system.solver->energies().throughput() });
     if (taken < -largest_created_share * largest_throughput)
       throw RunError(
           text_of("the boundary elements have created energy, ", -taken,
@@ -173,7 +175,8 @@ namespace quoin
   template <>
   void BlockOutputs<2>::write_iterations()
   {
-    for (const IterationReport &report : system.implicit_solver->take_reports())
+    for (const IterationReport &report :
+         std::exchange(system.implicit_solver->record().iterations, {}))
       convergence_table->add_row({ double(report.step), double(report.attempt),
                                    double(report.iteration), report.load_time,
                                    report.unbalanced_ratio, report.line_search,
@@ -188,7 +191,7 @@ namespace quoin
     fields_time = state.time;
     measured([&]() { fields.write(state.time, state); });
     if constexpr (dim == 2)
-      if (system.solver->far_field())
+      if (system.solver->far_fields().elastodynamic)
         write_boundary(state);
     run.tables.flush();
   }
@@ -196,10 +199,11 @@ namespace quoin
   template <>
   void BlockOutputs<2>::write_boundary(const State<2> &state)
   {
-    if (!system.solver->far_field_acts() || !state.get<FarFieldState>().active)
+    if (!system.solver->far_fields().elastodynamic_acts
+        || !state.get<FarFieldState>().active)
       return;
     const BoundaryState on_boundary
-        = boundary_state(*system.solver->far_field(), state);
+        = boundary_state(*system.solver->far_fields().elastodynamic, state);
     run.on_first_rank(
         [&]()
         {

@@ -4,6 +4,7 @@
 #include <quoin/results/entry_numbers.h>
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/advice/advice.h>
+#include <quoin/dynamics/state_checks.h>
 #include <quoin/problems/block_problem.h>
 #include <quoin/problems/costs.h>
 #include <quoin/advice/model_summary.h>
@@ -84,7 +85,7 @@ namespace quoin
     if (const unsigned int n_rigid = system.n_rigid_blocks(); n_rigid > 0)
       run.log.message(n_rigid, " of the blocks ",
                       n_rigid == 1 ? "is rigid" : "are rigid");
-    if (const StaticFarField *far = system.solver->static_far_field())
+    if (const StaticFarField *far = system.solver->far_fields().elastostatic)
       run.log.message("static boundary elements: their forces' matrix was "
                       "symmetric to ",
                       far->asymmetry(), " of its largest entry");
@@ -140,14 +141,16 @@ namespace quoin
                                              const State<dim> &begun) const
   {
     const StageParameters &stage = parameters.stages[index];
-    if (stage.end == StageEnd::time && !system.model->large_displacements())
-      if (const auto bodies = system.solver->unsupported_bodies(begun);
+    if (stage.end == StageEnd::time
+        && !system.model->parameters().large_displacements)
+      if (const auto bodies = system.solver->stage_loads().unsupported_bodies(
+              *system.model, stage, begun);
           !bodies.empty())
         run.log.warning("stage ", stage.name, ": ",
                         unsupported_body_text(bodies));
     run.log.warnings(stage_advice(parameters, index, *system.model, begun,
                                   system.explicit_solver->get_time_step()));
-    if (system.solver->far_field_acts())
+    if (system.solver->far_fields().elastodynamic_acts)
       run.log.warnings(boundary_advice(
           parameters.boundary, system.boundary_geometry, stage.duration));
   }
@@ -187,7 +190,7 @@ namespace quoin
   void BlockProblem<dim>::complete_state()
   {
     system.solver->check_finite(state);
-    system.solver->check_cells(state);
+    check_cells(*system.model, state);
     system.solver->save(state);
   }
 
@@ -377,7 +380,7 @@ namespace quoin
           "the energy balance error is ", 100. * residual,
           " % of the energy throughput, more than 0.1 %. Compare with a run "
           "with half the 'Share of critical time step'",
-          dim == 3 || system.model->large_displacements()
+          dim == 3 || system.model->parameters().large_displacements
               ? "."
               : "; blocks that turn or slide far need 'Displacements = large' "
                 "in section 'Contact'.");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/dynamics/state_checks.h>
 #include <quoin/problems/block_stage.h>
 
 namespace quoin
@@ -36,7 +37,7 @@ namespace quoin
   {
     finish();
     system.solver->check_finite(state);
-    system.solver->check_cells(state);
+    check_cells(*system.model, state);
     warn_of_slip();
     ++state.stage;
     outputs.write_fields(state);
@@ -47,11 +48,11 @@ namespace quoin
   {
     /** Slip by face length at which half of the edges still overlap [-]. */
     constexpr double most = 0.5;
-    if (system.model->large_displacements())
+    if (system.model->parameters().large_displacements)
       return;
     double share = 0.;
     if constexpr (dim == 2)
-      share = system.solver->largest_slip_share(state);
+      share = largest_slip_share(*system.model, state);
     if (share > most)
       log.warning("stage ", stage.name, ": joints have slipped by up to ",
                   100. * share,
@@ -91,7 +92,7 @@ namespace quoin
     return state.time - state.stage_start >= stage.minimum_duration
            && state.stage_step > interval
            && state.unbalanced_ratio <= stage.static_ratio
-           && !system.solver->loads_change(
+           && !system.solver->stage_loads().change(
                state, interval * system.explicit_solver->get_time_step());
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/dynamics/initial_energy.h>
 #include <quoin/farfield/boundary_values.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/mesh/block_numbering.h>
@@ -130,7 +131,7 @@ namespace quoin
       return std::make_unique<FarField>(
           load->name, std::move(domain), *nodes,
           faces_of_curves(*nodes, settings.interface_curves(), load->name),
-          model->thickness());
+          model->parameters().thickness);
     }
     catch (const InputError &error)
     {
@@ -156,7 +157,7 @@ namespace quoin
         far->name(), far->domain(), *nodes,
         faces_of_curves(*nodes, parameters.boundary.interface_curves(),
                         far->name()),
-        model->thickness());
+        model->parameters().thickness);
   }
 
   template <int dim>
@@ -171,7 +172,7 @@ namespace quoin
                all_or_none<InputError>(
                    communicator,
                    [&]() { parameters.initial_motion.apply(state); });
-               explicit_solver->account_for_initial_motion(state);
+               account_for_initial_motion(*model, state);
              });
     return state;
   }
@@ -194,7 +195,7 @@ namespace quoin
       if (explicit_solver)
         explicit_solver->begin_stage(stage, previous, state);
       if (time_is_known)
-        solver->check_start(state);
+        solver->stage_loads().check_start(state);
     }
     catch (const InputError &error)
     {
@@ -245,7 +246,7 @@ namespace quoin
   template <int dim>
   unsigned int BlockSystem<dim>::n_rigid_blocks() const
   {
-    const auto &is_rigid = model->table().is_rigid;
+    const auto &is_rigid = model->nodes().table().is_rigid;
     return std::count(is_rigid.begin(), is_rigid.end(), true);
   }
 

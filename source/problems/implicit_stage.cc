@@ -62,12 +62,13 @@ namespace quoin
 
     void ImplicitStage::step()
     {
-      const auto iterations = solver.n_iterations();
-      const auto cuts       = solver.n_cuts();
-      const auto count      = [&]()
+      const ImplicitRecord &record = solver.record();
+      const auto iterations        = record.n_iterations;
+      const auto cuts              = record.n_cuts;
+      const auto count             = [&]()
       {
-        context.iterations += solver.n_iterations() - iterations;
-        context.cuts += solver.n_cuts() - cuts;
+        context.iterations += record.n_iterations - iterations;
+        context.cuts += record.n_cuts - cuts;
       };
       try
       {
@@ -88,7 +89,7 @@ namespace quoin
       step();
       solver.check_finite(state);
       outputs.write_iterations();
-      for (const JumpReport &jump : solver.take_jumps())
+      for (const JumpReport &jump : std::exchange(solver.record().jumps, {}))
         log.message("jumped to another equilibrium at the load time ",
                     jump.load_time, " s, in ", jump.n_steps, " steps, losing ",
                     jump.loss, " J");

@@ -161,7 +161,7 @@ namespace quoin
         {
           solver.step(state);
           outputs.write_iterations();
-          solver.take_jumps();
+          solver.record().jumps.clear();
           if (context.run.progress.due())
             context.run.progress.update(figures());
         }
@@ -170,14 +170,14 @@ namespace quoin
       catch (const ModelFailure &)
       {
         outputs.write_iterations();
-        solver.take_jumps();
+        solver.record().jumps.clear();
       }
     }
 
     double SafetyStage::largest_displacement() const
     {
       double largest = 0.;
-      for (unsigned int i = 0; i < system.model->exchange().n_owned(); ++i)
+      for (unsigned int i = 0; i < system.model->nodes().n_owned(); ++i)
       {
         const double *now = state.nodes[i].u, *then = base.nodes[i].u;
         largest

@@ -31,7 +31,8 @@ namespace quoin
     bool joints_may_fail(const Model<dim> &model)
     {
       if constexpr (dim == 2)
-        return model.joints().can_fail() || model.large_displacements();
+        return model.joints().can_fail()
+               || model.parameters().large_displacements;
       return false;
     }
   } // namespace
@@ -68,9 +69,10 @@ namespace quoin
                   : parameters.share_of_critical_step);
     steps_of_stage = 0;
     if constexpr (dim == 2)
-      if (system.solver->far_field_acts())
+      if (system.solver->far_fields().elastodynamic_acts)
         dt = choose_far_field_step(stage, dt);
-    if (stage.end == StageEnd::time && !system.solver->far_field_acts())
+    if (stage.end == StageEnd::time
+        && !system.solver->far_fields().elastodynamic_acts)
     {
       // The stage ends at a step, not near one.
       steps_of_stage = std::uint64_t(count_steps(
@@ -88,7 +90,7 @@ namespace quoin
   double StageSteps<2>::choose_far_field_step(const StageParameters &stage,
                                               const double dt)
   {
-    FarField &far                             = *system.solver->far_field();
+    FarField &far = *system.solver->far_fields().elastodynamic;
     const BoundaryElementParameters &settings = parameters.boundary;
     const std::string section
         = parameters.file + ", section 'Boundary elements': ";
@@ -135,7 +137,7 @@ namespace quoin
   template <>
   void StageSteps<2>::make_waves(const double step)
   {
-    FarField &far   = *system.solver->far_field();
+    FarField &far   = *system.solver->far_fields().elastodynamic;
     double duration = 0.;
     for (const StageParameters &stage : parameters.stages)
       if (stage.end == StageEnd::time && names_load(stage, far.name()))
@@ -153,7 +155,7 @@ namespace quoin
   template <>
   void StageSteps<2>::report_far_field()
   {
-    const FarField &far    = *system.solver->far_field();
+    const FarField &far    = *system.solver->far_fields().elastodynamic;
     const Boundary &domain = far.domain().boundary;
     const auto lengths     = domain.lengths();
     log.message("boundary elements: ", domain.n_elements(), ", ",

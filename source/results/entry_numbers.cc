@@ -24,9 +24,9 @@ namespace quoin
                               EntryNumbers &result)
     {
       const NodeMap<2> &nodes = model.nodes();
-      if (const FarField *far = solver.far_field())
+      if (const FarField *far = solver.far_fields().elastodynamic)
         result.own[FarFieldState::slice_name] = nodes_of(*far, nodes);
-      if (const StaticFarField *far = solver.static_far_field())
+      if (const StaticFarField *far = solver.far_fields().elastostatic)
         result.own[StaticFarFieldState::slice_name] = nodes_of(*far, nodes);
 
       if (const BlockContacts *contacts = solver.contacts())

@@ -54,7 +54,7 @@ namespace quoin
         fields.strain.push_back(strain[own]);
         if (model.blocks().is_plastic())
         {
-          const bool is_rigid = own >= model.n_deformable_cells();
+          const bool is_rigid = own >= model.nodes().n_deformable_cells();
           fields.yielding.push_back(is_rigid ? 0 : plastic.yielding[own]);
           fields.plastic_shear.push_back(is_rigid ? 0. : plastic.shear[own]);
         }
@@ -173,7 +173,7 @@ namespace quoin
     constexpr double of_files        = 5000.; // XML
     const double n_cells             = model.nodes().n_cells();
     double bytes
-        = of_files + of_node * model.exchange().n_owned() + of_cell * n_cells;
+        = of_files + of_node * model.nodes().n_owned() + of_cell * n_cells;
     if (model.blocks().is_plastic())
       bytes += of_plastic_cell * n_cells;
     if constexpr (dim == 2)
@@ -187,7 +187,7 @@ namespace quoin
                 .is_own[0])
           bytes += of_joint + 2. * of_joint_point;
     }
-    return dealii::Utilities::MPI::sum(bytes, model.exchange().communicator());
+    return dealii::Utilities::MPI::sum(bytes, model.nodes().communicator());
   }
 
   template BlockFields<2> block_fields(const Model<2> &, const State<2> &);

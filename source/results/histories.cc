@@ -7,6 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/blocks/triangle.h>
+#include <quoin/model/block_placement.h>
 #include <quoin/results/block_output.h>
 
 #include <algorithm>
@@ -127,7 +128,7 @@ namespace quoin
       }
       // Sum of positions, and how many there are.
       std::vector<double> sums(dim + 1, 0.);
-      for (const unsigned int node : model.owned_nodes(block))
+      for (const unsigned int node : owned_nodes(model, block))
       {
         for (unsigned int d = 0; d < dim; ++d)
           sums[d] += nodes.point(node)[d];
@@ -151,7 +152,7 @@ namespace quoin
       const NodeMap<dim> &nodes = model.nodes();
       const auto farther        = [&](const unsigned int node)
       {
-        return absent_in_the_end[model.table().group[nodes.block_of_node(node)]]
+        return absent_in_the_end[nodes.table().group[nodes.block_of_node(node)]]
                    ? just_behind
                    : 0.;
       };
@@ -164,7 +165,7 @@ namespace quoin
       namespace MPI = dealii::Utilities::MPI;
       least         = MPI::min(least, nodes.communicator());
       // The blocks that have a node there, on all ranks.
-      std::vector<unsigned int> has_one(model.table().n_blocks(), 0);
+      std::vector<unsigned int> has_one(nodes.table().n_blocks(), 0);
       for (unsigned int i = 0; i < nodes.n_owned(); ++i)
         if (distance(i) == least)
           has_one[nodes.block_of_node(i)] = 1;
@@ -202,7 +203,7 @@ namespace quoin
       for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
       {
         const auto &face = nodes.joint_faces()[model.joints().segment(i).face];
-        if (!curve.empty() && model.table().face_names[face.name] != curve)
+        if (!curve.empty() && nodes.table().face_names[face.name] != curve)
           continue;
         for (unsigned int k = 0; k < 2; ++k)
         {
@@ -224,8 +225,7 @@ namespace quoin
                             const BoundaryGeometry &geometry,
                             const BoundaryElementParameters &boundaries,
                             const std::vector<bool> &absent_in_the_end)
-    : model(model), solver(solver),
-      communicator(model.exchange().communicator()),
+    : model(model), solver(solver), communicator(model.nodes().communicator()),
       absent_in_the_end(absent_in_the_end)
   {
     std::vector<HistoryParameters> boundary_probes;
@@ -242,7 +242,7 @@ namespace quoin
     row.resize(1 + probes.size());
     if (!boundary_probes.empty())
       of_boundary = std::make_unique<BoundaryHistories>(
-          boundary_probes, geometry, boundaries, model.thickness());
+          boundary_probes, geometry, boundaries, model.parameters().thickness);
   }
 
   template <int dim>
@@ -386,7 +386,7 @@ namespace quoin
     case HistoryQuantity::stress:
     case HistoryQuantity::principal_stress:
     {
-      if (probe.entity >= model.n_deformable_cells())
+      if (probe.entity >= model.nodes().n_deformable_cells())
         return 0.;
       const auto stress = model.blocks().cell_stress(
           state.nodes.data(), state.template get<PlasticHistory>(),
@@ -419,7 +419,7 @@ namespace quoin
   double Histories<2>::yield_value(const Probe &probe,
                                    const State<2> &state) const
   {
-    if (probe.entity >= model.n_deformable_cells()
+    if (probe.entity >= model.nodes().n_deformable_cells()
         || !model.blocks().cell_law(probe.entity))
       return 0.;
     const PlasticPoint point = model.blocks().cell_history(
@@ -462,7 +462,7 @@ namespace quoin
       return state.is_absent(model.nodes().block_of_cell(probe.entity));
     case HistoryQuantity::joint:
       if constexpr (dim == 2)
-        return model.is_at_absent_block(probe.entity / 2, state);
+        return is_at_absent_block(model, probe.entity / 2, state);
       return false;
     default:
       return false;
@@ -474,7 +474,7 @@ namespace quoin
                                 const State<2> &state) const
   {
     const auto &nodes = model.nodes().cell(cell);
-    if (cell >= model.n_deformable_cells())
+    if (cell >= model.nodes().n_deformable_cells())
     {
       const RigidBlocks &rigid = model.rigid_blocks();
       unsigned int b           = 0;
@@ -575,7 +575,7 @@ namespace quoin
   void Histories<2>::add_boundary_values(const State<2> &state,
                                          std::vector<double> &result) const
   {
-    const FarField &far  = *solver.far_field();
+    const FarField &far  = *solver.far_fields().elastodynamic;
     BoundaryState fields = boundary_state(far, state);
     // The row is for the time before the last step.
     const double since = (double(state.get<FarFieldState>().substep) - 1.)

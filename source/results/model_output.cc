@@ -10,9 +10,9 @@ namespace quoin
   ModelOutput<dim>::ModelOutput(const std::string &folder,
                                 const Model<dim> &model, Solver<dim> &solver)
     : model(model), solver(solver),
-      blocks(folder, model.exchange().communicator()),
-      joints(folder, model.exchange().communicator()),
-      contacts(folder, model.exchange().communicator(), "contacts")
+      blocks(folder, model.nodes().communicator()),
+      joints(folder, model.nodes().communicator()),
+      contacts(folder, model.nodes().communicator(), "contacts")
   {
   }
 

@@ -86,6 +86,7 @@ namespace quoin
 
     Model<2> &model;
     const ModelProperties at_start;
+    const std::vector<bool> absent_at_start; /**< of physical surfaces */
     std::vector<Step> steps;
     unsigned int n_begun = 0; /**< stages whose properties the model has */
   };

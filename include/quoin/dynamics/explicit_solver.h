@@ -42,12 +42,6 @@ namespace quoin
 
     void prepare(State<dim> &state) const override;
 
-    /**
-     * Books the energy of @p state, which is in motion at the start of the run,
-     * as external work. Throws an InputError if rigid blocks move; collective.
-     */
-    void account_for_initial_motion(State<dim> &state) const;
-
     /** Steps between checks of the unbalanced force, of NaN, and of the loading
         rate. */
     static constexpr std::uint64_t balance_interval = 100;
@@ -136,9 +130,8 @@ namespace quoin
     using Solver<dim>::communicator;
     using Solver<dim>::all_constraints;
     using Solver<dim>::all_loads;
-    using Solver<dim>::constraints_on;
     using Solver<dim>::stage;
-    using Solver<dim>::release;
+    using Solver<dim>::acting;
     using Solver<dim>::time_shares;
     using Solver<dim>::acts_in;
     using Solver<dim>::sum;

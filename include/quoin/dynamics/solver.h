@@ -6,11 +6,11 @@
 
 #include <quoin/base/phase_clock.h>
 #include <quoin/operators/state.h>
+#include <quoin/contact/block_contacts.h>
 #include <quoin/farfield/far_field.h>
 #include <quoin/farfield/static_far_field.h>
-#include <quoin/model/free_bodies.h>
 #include <quoin/model/model.h>
-#include <quoin/dynamics/release.h>
+#include <quoin/dynamics/stage_loads.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/motion_constraint.h>
@@ -48,10 +48,21 @@ namespace quoin
     double throughput() const;
   };
 
+  /** The two constraints of the load of type 'boundary elements'; null: there
+      is none. */
+  struct FarFields
+  {
+    FarField *elastodynamic      = nullptr; /**< for stages that end by time */
+    StaticFarField *elastostatic = nullptr; /**< for static stages */
+    // In the stage that has begun:
+    bool elastodynamic_acts = false;
+    bool elastostatic_acts  = false;
+  };
+
   /**
    * Base of all solvers: the loads of a run and those that act in the stage,
-   * the energies, checks of the state. Platens, free fields, boundary elements
-   * and rigid blocks belong to two dimensions.
+   * the energies. Platens, free fields, boundary elements and rigid blocks
+   * belong to two dimensions.
    */
   template <int dim>
   class Solver
@@ -88,61 +99,28 @@ namespace quoin
       return 0.;
     }
 
-    /** Throws a RunError if the state is no longer finite; collective. */
+    /** Throws a RunError if the motion is no longer finite, which names the
+        load if one is not; collective. */
     void check_finite(const State<dim> &state) const;
-    /** As check_finite(); names the load if an active one is not finite at
-        @p load_time [s] of the stage. */
-    void check_loads(const State<dim> &state, double load_time) const;
-    /**
-     * The largest slip of a matched joint that bears pressure, by the length of
-     * its face: beyond about one half its blocks no longer face each other, and
-     * small displacements are no longer valid. Collective.
-     */
-    double largest_slip_share(const State<dim> &state) const;
-
-    /** Throws a RunError if a cell is inverted; collective. */
-    void check_cells(const State<dim> &state) const;
-
     /** Energies as last computed. */
     const Energies &energies() const
     {
       return last_energies;
     }
-    /**
-     * Whether loads have changed in the last @p duration of the stage [s], or
-     * will: a static stage does not end before they are constant. Future times
-     * are sampled with a ratio of 1.1: a shorter pulse may be missed.
-     */
-    bool loads_change(const State<dim> &state, double duration) const;
 
-    /** Throws an InputError about loads that would begin with a jump. */
-    void check_start(const State<dim> &state) const;
-
-    /**
-     * Unsupported bodies that the loads of the stage begun with @p state push;
-     * see find_unsupported_bodies().
-     */
-    std::vector<UnsupportedBody<dim>>
-    unsupported_bodies(const State<dim> &state) const;
+    /** The loads that act in the stage that has begun. */
+    const StageLoads<dim> &stage_loads() const
+    {
+      return acting;
+    }
 
     /** Force x, y [N] and moment [N m] of a load; collective. */
     virtual std::array<double, 3> resultant(const std::string &load) const;
 
-    /** Null if there is none. */
-    FarField *far_field() const
+    const FarFields &far_fields() const
     {
       return far;
     }
-    /** Whether the far field acts in the stage that has begun. */
-    bool far_field_acts() const;
-
-    /** Null if there is none. */
-    const StaticFarField *static_far_field() const
-    {
-      return static_far;
-    }
-    /** Whether the static far field acts in the stage that has begun. */
-    bool static_far_field_acts() const;
 
     /** Called before a checkpoint: completes @p state. */
     virtual void save(State<dim> &state) const;
@@ -192,24 +170,17 @@ namespace quoin
     void find_energies(const State<dim> &state, double strain, double joint,
                        double kinetic);
     double sum(double value) const;
-    /** Values of all loads of the stage at a time of the loads' clock [s]. */
-    std::vector<std::array<double, 4>> load_values(double stage_start,
-                                                   double load_time) const;
 
     Model<dim> &model;
     MPI_Comm communicator;
 
     std::vector<std::unique_ptr<MotionConstraint<dim>>> all_constraints;
-    FarField *far              = nullptr; /**< one of them */
-    StaticFarField *static_far = nullptr; /**< one of them */
+    FarFields far; /**< two of them */
     std::vector<NodalLoad<dim>> all_loads;
     std::vector<std::string> known_loads;
 
-    std::vector<MotionConstraint<dim> *>
-        constraints_on; /**< in order of action */
-    std::vector<const NodalLoad<dim> *> loads_on;
     StageParameters stage;
-    Release<dim> release; /**< of the forces of excavated blocks */
+    StageLoads<dim> acting; /**< in this stage */
     PhaseClock time_shares;
 
   private:
@@ -230,8 +201,6 @@ namespace quoin
                             std::unique_ptr<StaticFarField> static_far_field);
   template <>
   std::vector<bool> Solver<2>::find_held_blocks() const;
-  template <>
-  double Solver<2>::largest_slip_share(const State<2> &state) const;
 
   /** Whether @p stage names the load @p name. */
   bool names_load(const StageParameters &stage, const std::string &name);

@@ -39,6 +39,14 @@ namespace quoin
     double loss; /**< energy dissipated by drag [J] */
   };
 
+  /** Iterations and jumps of an ImplicitSolver. */
+  struct ImplicitRecord
+  {
+    std::vector<IterationReport> iterations; /**< not yet reported */
+    std::vector<JumpReport> jumps;           /**< ended, not yet reported */
+    std::uint64_t n_iterations = 0, n_cuts = 0;
+  };
+
   /**
    * Static equilibrium: the same blocks, joints and loads without inertia, by
    * Newton's method with consistent tangents and line search
@@ -120,23 +128,10 @@ namespace quoin
 
     std::array<double, 3> resultant(const std::string &load) const override;
 
-    /** Jumps that ended since the last call. */
-    std::vector<JumpReport> take_jumps()
+    /** What it has done; whoever reports it empties the lists. */
+    ImplicitRecord &record()
     {
-      return std::exchange(jumps_done, {});
-    }
-    /** Iterations since the last call. */
-    std::vector<IterationReport> take_reports()
-    {
-      return std::exchange(reports, {});
-    }
-    std::uint64_t n_iterations() const
-    {
-      return iterations_done;
-    }
-    std::uint64_t n_cuts() const
-    {
-      return cuts_done;
+      return done;
     }
     DofMap::Index n_unknowns() const
     {
@@ -226,9 +221,8 @@ namespace quoin
 
     unsigned int attempt = 0, iteration = 0;
     double last_share = 1.; /**< of the line search */
-    std::vector<IterationReport> reports;
-    std::vector<JumpReport> jumps_done;
-    std::uint64_t iterations_done = 0, cuts_done = 0, current_step = 0;
+    ImplicitRecord done;
+    std::uint64_t current_step        = 0;
     const unsigned int assembly_phase = time_shares.phase("assembly"),
                        solver_phase   = time_shares.phase("linear solver");
   };

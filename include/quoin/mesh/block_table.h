@@ -64,6 +64,15 @@ namespace quoin
           &n_vertices &n_joint_faces &is_quadratic &box;
     }
   };
+
+  /**
+   * Whether @p names has each group of @p table. Throws an InputError that
+   * begins with @p where about a name that is no group.
+   */
+  template <int dim>
+  std::vector<bool> find_groups(const BlockTable<dim> &table,
+                                const std::vector<std::string> &names,
+                                const std::string &where);
 } // namespace quoin
 
 #endif

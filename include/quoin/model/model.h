@@ -6,15 +6,13 @@
 
 #include <quoin/model/construction_state.h>
 #include <quoin/operators/state.h>
-#include <quoin/contact/block_contacts.h>
+#include <quoin/contact/contact_parameters.h>
 #include <quoin/contact/matched_joints.h>
 #include <quoin/blocks/block_cells.h>
 #include <quoin/blocks/stable_time_step.h>
 #include <quoin/blocks/rigid_blocks.h>
 #include <quoin/joints/joint_parameters.h>
-#include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/load_parameters.h>
-#include <quoin/loads/viscous_boundary.h>
 #include <quoin/materials/material_parameters.h>
 #include <quoin/materials/plane_assumption.h>
 #include <quoin/mesh/node_map.h>
@@ -70,16 +68,14 @@ namespace quoin
      */
     Model(const NodeMap<dim> &nodes, const ModelParameters &parameters);
 
-    /** Data of BlockContacts, for large displacements. */
-    ContactModel contact_model() const;
-    const ContactParameters &contact_parameters() const
-    {
-      return parameters.contact;
-    }
-
     /** State at rest, with initial joint tractions and absent blocks. */
     State<dim> initial_state() const;
 
+    /** Parameters of the start of the run; properties() are those of now. */
+    const ModelParameters &parameters() const
+    {
+      return given;
+    }
     const ModelProperties &properties() const
     {
       return now;
@@ -99,27 +95,9 @@ namespace quoin
     void clear_initial_stress(const std::vector<bool> &groups,
                               ConstructionState &construction);
 
-    /** Whether @p names has each physical surface; throws an InputError that
-        begins with @p where. */
-    std::vector<bool> find_groups(const std::vector<std::string> &names,
-                                  const std::string &where) const;
-    /** Whether a block beside joint segment @p segment is absent. */
-    bool is_at_absent_block(unsigned int segment,
-                            const State<dim> &state) const;
-    /** Whether the block of each local node is absent in @p state. */
-    std::vector<bool> absent_nodes(const State<dim> &state) const;
-
     const NodeMap<dim> &nodes() const
     {
       return node_map;
-    }
-    const BlockTable<dim> &table() const
-    {
-      return node_map.table();
-    }
-    const NodeExchange &exchange() const
-    {
-      return node_map.exchange();
     }
     /** The deformable blocks: their nodes, cells and numbers come first. */
     const BlockForces<dim> &blocks() const
@@ -129,20 +107,6 @@ namespace quoin
     const RigidBlocks &rigid_blocks() const
     {
       return rigid;
-    }
-    /** First owned node of rigid blocks. */
-    unsigned int n_deformable_nodes() const
-    {
-      return node_map.n_deformable_nodes();
-    }
-    /** First owned cell of rigid blocks. */
-    unsigned int n_deformable_cells() const
-    {
-      return node_map.n_deformable_cells();
-    }
-    bool large_displacements() const
-    {
-      return parameters.large_displacements;
     }
     const MatchedJoints &joints() const
     {
@@ -165,60 +129,10 @@ namespace quoin
     {
       return node_mass;
     }
-    /** Impedances of each cell group [Pa s/m]. */
-    const std::vector<Impedance> &impedance() const
-    {
-      return group_impedance;
-    }
-    /**
-     * Impedances beyond a viscous boundary: those of the material that @p load
-     * names, or of the cells there. Throws an InputError.
-     */
-    std::vector<Impedance> impedance_beyond(const LoadParameters &load) const;
-    /** Lowest S wave velocity of deformable blocks [m/s]; infinite: there are
-        none. */
-    double slowest_shear_wave() const;
-    /** Materials of the columns of free-field boundaries. */
-    FreeFieldGround free_field_ground() const;
-    /** Index into rigid_blocks() of this rank of @p block of the mesh. */
-    unsigned int rigid_number(const unsigned int block) const
-    {
-      return node_map.find_part(block) - node_map.n_deformable_block_parts();
-    }
-    /** Nodes of @p block of the whole mesh that this rank owns. */
-    std::vector<unsigned int> owned_nodes(unsigned int block) const;
-    /** Local nodes of @p block without those that other ranks share. */
-    NodeRange block_nodes(const unsigned int block) const
-    {
-      const unsigned int part = node_map.find_part(block);
-      if (part == node_map.block_parts().size())
-        return { 0, 0 };
-      const auto &[begin, end] = node_map.block_parts()[part].nodes;
-      return { begin, end };
-    }
-    /** Whether each physical surface is present at the start of the run. */
-    std::vector<bool> groups_present_at_start() const;
-
-    // In these functions @p blocks are numbers in the whole mesh.
-
-    /** Leaves @p blocks where they are, without strain and motion. Collective.
-     */
-    void bring_to_rest(const std::vector<unsigned int> &blocks,
-                       State<dim> &state) const;
-    /** Puts @p blocks in their reference position, without strain and motion.
-        Collective. */
-    void place(const std::vector<unsigned int> &blocks,
-               State<dim> &state) const;
-    /** Resets the internal variables of the cells of @p block on this rank. */
-    void reset_plasticity(unsigned int block, PlasticHistory &history) const;
     /** Index into the materials of an owned cell. */
     unsigned int material_of_cell(const unsigned int cell) const
     {
       return now.material_of_group[node_map.group_of_cell(cell)];
-    }
-    double thickness() const
-    {
-      return parameters.thickness;
     }
 
   private:
@@ -236,11 +150,10 @@ namespace quoin
     void add_contact_bound(std::vector<NodeStiffness<dim>> &bound) const;
 
     const NodeMap<dim> &node_map;
-    const ModelParameters parameters;
+    const ModelParameters given;
 
     ModelProperties now;
     std::vector<bool> absent_group; /**< of physical surfaces, at the start */
-    std::vector<Impedance> group_impedance;
     std::vector<double> node_mass;
     std::vector<std::array<double, 4>> cell_stress;     /**< or empty */
     std::vector<MatchedJoints::FaceStress> face_stress; /**< or empty */
@@ -269,18 +182,6 @@ namespace quoin
   template <>
   void Model<2>::clear_initial_stress(const std::vector<bool> &groups,
                                       ConstructionState &construction);
-  template <>
-  bool Model<2>::is_at_absent_block(unsigned int segment,
-                                    const State<2> &state) const;
-  template <>
-  void Model<2>::bring_to_rest(const std::vector<unsigned int> &blocks,
-                               State<2> &state) const;
-  template <>
-  void Model<2>::place(const std::vector<unsigned int> &blocks,
-                       State<2> &state) const;
-  template <>
-  void Model<2>::reset_plasticity(unsigned int block,
-                                  PlasticHistory &history) const;
 } // namespace quoin
 
 #endif

@@ -8,6 +8,7 @@
 #include <quoin/results/boundary_histories.h>
 #include <quoin/operators/state.h>
 #include <quoin/farfield/far_field.h>
+#include <quoin/contact/block_contacts.h>
 #include <quoin/model/model.h>
 #include <quoin/results/block_output.h>
 #include <quoin/results/boundary_output.h>

@@ -6,6 +6,8 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/dynamics/construction.h>
+#include <quoin/dynamics/initial_energy.h>
+#include <quoin/model/block_placement.h>
 
 using namespace quoin;
 using namespace quoin::test;
@@ -70,10 +72,10 @@ namespace
     stages.insert(stages.begin(), stage_with({}));
     Construction construction(run.model, stages);
     run.throw_at_random(1e-5);
-    const NodeRange upper = run.model.block_nodes(1);
+    const NodeRange upper = block_nodes(run.model, 1);
     for (std::size_t i = upper.begin; i < upper.end; ++i)
       run.state.velocity[i] = NodeVector<2>{ { 0., 0. } };
-    run.solver.account_for_initial_motion(run.state);
+    account_for_initial_motion(run.model, run.state);
     double result = 0.;
     for (unsigned int i = 0; i < stages.size(); ++i)
     {
@@ -111,7 +113,7 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
     StageParameters stage  = stages[0];
     stage.release_duration = 4.;
     const auto after       = forces(run.model, run.state);
-    const NodeRange lower  = run.model.block_nodes(0);
+    const NodeRange lower  = block_nodes(run.model, 0);
     for (const bool linear : { false, true })
     {
       stage.releases_linearly = linear;
@@ -157,7 +159,7 @@ TEST(Construction, PlacedBlocksAreFreeOfStress)
   construction.begin_stage(0, run.solver, run.state);
   construction.begin_stage(1, run.solver, run.state);
   EXPECT_FALSE(run.state.is_absent(1));
-  const NodeRange upper = run.model.block_nodes(1);
+  const NodeRange upper = block_nodes(run.model, 1);
   const auto force      = forces(run.model, run.state);
   for (std::size_t i = upper.begin; i < upper.end; ++i)
     for (unsigned int d = 0; d < 2; ++d)

@@ -5,6 +5,7 @@
 #include "../model/test_models.h"
 
 #include <quoin/base/exceptions.h>
+#include <quoin/dynamics/initial_energy.h>
 #include <quoin/loads/free_field_boundary.h>
 
 using namespace quoin;
@@ -283,7 +284,7 @@ TEST(InitialMotion, BringsItsEnergyAndIsOfSecondOrder)
       run.state.nodes[n].u[0]    = 1e-12 * y * (1. + jump);
       run.state.velocity[n].v[1] = 1e-9 * y;
     }
-    run.solver.account_for_initial_motion(run.state);
+    account_for_initial_motion(run.model, run.state);
     run.begin(stage_with({ "base" }));
     run.solver.set_time_step(0.5e-4 / (1U << k));
     const double given = run.state.energy.external;

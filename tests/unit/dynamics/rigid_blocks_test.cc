@@ -84,7 +84,7 @@ namespace
 
   unsigned int rigid_block(const TestRun &run, const std::string &group)
   {
-    const BlockTable<2> &table = run.model.table();
+    const BlockTable<2> &table = run.model.nodes().table();
     for (unsigned int b = 0; b < run.model.rigid_blocks().n_blocks(); ++b)
     {
       const unsigned int v = run.model.rigid_blocks().block(b).begin;
@@ -216,8 +216,8 @@ TEST(RigidBlocks, MassAndInertiaOfARectangle)
     EXPECT_NEAR(block.centre[1], -1e5 + 0.75, 1e-9);
     EXPECT_NEAR(block.inertia, mass * (9. + 2.25) / 12., 1e-8 * mass);
     EXPECT_GT(block.lumped_inertia, 1.05 * block.inertia);
-    EXPECT_EQ(model.n_deformable_nodes(), 0U);
-    EXPECT_EQ(model.n_deformable_cells(), 0U);
+    EXPECT_EQ(model.nodes().n_deformable_nodes(), 0U);
+    EXPECT_EQ(model.nodes().n_deformable_cells(), 0U);
     EXPECT_EQ(model.blocks().n_tiles(), 0U);
   }
 }
@@ -518,9 +518,9 @@ TEST(RigidBlocks, PatchWithDeformableBlocks)
   TestRun run(mesh, parameters,
               { motion("base", "bottom", "0", "0"),
                 traction("press", "top", "0", "-1e5") });
-  EXPECT_EQ(run.model.n_deformable_cells(), 8U);
-  EXPECT_EQ(run.model.n_deformable_nodes(), 12U);
-  EXPECT_EQ(run.model.table().is_rigid,
+  EXPECT_EQ(run.model.nodes().n_deformable_cells(), 8U);
+  EXPECT_EQ(run.model.nodes().n_deformable_nodes(), 12U);
+  EXPECT_EQ(run.model.nodes().table().is_rigid,
             std::vector<bool>({ false, false, true }));
   StageParameters stage = stage_with({ "base", "press" }, DampingType::local);
   run.begin(stage, 0.5);

@@ -207,7 +207,7 @@ TEST(ImplicitSolver, IterationsConvergeQuadratically)
   run.solver.step(run.state);
   ASSERT_TRUE(run.solver.has_ended(run.state));
   EXPECT_GT(run.state.nodes[nodes_at(run.nodes, 6., 2.)[0]].u[1], 0.5);
-  expect_quadratic_convergence(run.solver.take_reports(), 2);
+  expect_quadratic_convergence(run.solver.record().iterations, 2);
 }
 
 // The same where a rigid block turns: forces of its nodes turn with it.
@@ -236,7 +236,7 @@ TEST(ImplicitSolver, IterationsOfATurningBlockConvergeQuadratically)
   run.solver.step(run.state);
   ASSERT_TRUE(run.solver.has_ended(run.state));
   EXPECT_LT(run.state.get<RigidBlockStates>()[0].rotation, -0.1);
-  expect_quadratic_convergence(run.solver.take_reports(), 1);
+  expect_quadratic_convergence(run.solver.record().iterations, 1);
 }
 
 TEST(ImplicitSolver, SlidingBeyondItsLimitKeepsTheLastEquilibrium)
@@ -353,7 +353,7 @@ TEST(ImplicitSolver, ReactionOfTheFarField)
       {}, { "joint" },
       std::make_unique<StaticFarField>(
           "far", domain, nodes, faces_of_curves<2>(nodes, { "bottom" }, "far"),
-          model.thickness()));
+          model.parameters().thickness));
   State<2> state = model.initial_state();
   solver.begin_stage(stage_with({ "far", "turn" }), nullptr, state);
   while (!solver.has_ended(state))

@@ -141,7 +141,7 @@ TEST(SnapBack, AJumpLosesWhatTheSpringsHadTooMuch)
   bar.begin();
   bar.run->finish();
   // Below the peak a short way may lead to the next equilibrium; one jumps.
-  const auto jumps = bar.run->solver.take_jumps();
+  const auto jumps = bar.run->solver.record().jumps;
   ASSERT_GE(jumps.size(), 1U);
   double short_ways = 0.;
   for (unsigned int i = 0; i + 1 < jumps.size(); ++i)

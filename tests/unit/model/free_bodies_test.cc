@@ -39,8 +39,10 @@ namespace
     BlockMesh<2> mesh;
     make_stack_and_block(mesh);
     TestRun run(mesh, three_blocks(), loads);
-    run.begin(stage_with(names));
-    return run.solver.unsupported_bodies(run.state);
+    const StageParameters stage = stage_with(names);
+    run.begin(stage);
+    return run.solver.stage_loads().unsupported_bodies(run.model, stage,
+                                                       run.state);
   }
 } // namespace
 

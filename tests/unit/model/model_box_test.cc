@@ -5,6 +5,8 @@
 #include "test_models.h"
 
 #include <quoin/results/field_output.h>
+#include <quoin/dynamics/state_checks.h>
+#include <quoin/model/block_placement.h>
 #include <quoin/base/exceptions.h>
 
 using namespace quoin;
@@ -62,7 +64,7 @@ namespace
   void throw_upper(TestRun &run, const double x, const double y,
                    const double spin)
   {
-    if (run.model.table().is_rigid[1])
+    if (run.model.nodes().table().is_rigid[1])
     {
       double *v = run.state.get<RigidBlockStates>()[1].velocity;
       v[0]      = x;
@@ -72,7 +74,7 @@ namespace
     }
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-0.1, 0.1);
-    const NodeRange range = run.model.block_nodes(1);
+    const NodeRange range = block_nodes(run.model, 1);
     for (std::size_t i = range.begin; i < range.end; ++i)
     {
       const double *X       = run.state.nodes[i].X;
@@ -146,7 +148,7 @@ TEST(ModelBox, DeletedBlockTakesItsEnergyAlong)
     EXPECT_EQ(run.state.block_marks[1], block_mark::removed);
 
     // What is left is at rest, without strain, and stays so.
-    const NodeRange range = run.model.block_nodes(1);
+    const NodeRange range = block_nodes(run.model, 1);
     const State<2> then   = run.state;
     for (unsigned int i = 0; i < 300; ++i)
     {
@@ -201,7 +203,7 @@ TEST(ModelBox, DeletedBlockTouchesNothing)
     const auto momentum = [&]()
     {
       double sum            = 0.;
-      const NodeRange range = run.model.block_nodes(1);
+      const NodeRange range = block_nodes(run.model, 1);
       for (std::size_t i = range.begin; i < range.end; ++i)
         sum += run.model.mass()[i] * run.state.velocity[i].v[1];
       return sum;
@@ -327,7 +329,7 @@ TEST(ModelBox, DeletedBlocksAreNotWritten)
   run.state.nodes.back().u[0] = 1e-3;
   ASSERT_EQ(step_and_check(run).size(), 1U);
   const BlockFields<2> fields = block_fields(run.model, run.state);
-  EXPECT_EQ(fields.position.size(), run.model.block_nodes(1).size());
+  EXPECT_EQ(fields.position.size(), block_nodes(run.model, 1).size());
   EXPECT_EQ(fields.displacement.size(), fields.position.size());
   EXPECT_EQ(fields.velocity.size(), fields.position.size());
   ASSERT_EQ(fields.cells.size(), 8U);
@@ -405,14 +407,14 @@ TEST(ModelBox, CellsInsideOutAreFound)
     }
     TestRun run(mesh, parameters, {});
     run.begin(stage_with({}), 0.1);
-    run.solver.check_cells(run.state);
+    check_cells(run.model, run.state);
     // Turned and stretched is no harm.
     for (NodeRecord<2> &node : run.state.nodes)
     {
       node.u[0] = -1.2 * node.X[1] - node.X[0];
       node.u[1] = 0.8 * node.X[0] - node.X[1];
     }
-    run.solver.check_cells(run.state);
+    check_cells(run.model, run.state);
     for (NodeRecord<2> &node : run.state.nodes)
       node.u[0] = node.u[1] = 0.;
     run.step(1);

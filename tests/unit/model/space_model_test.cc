@@ -58,7 +58,7 @@ namespace
       stage.loads.push_back(each.name);
     stage.end = end;
     solver.begin_stage(stage, nullptr, state);
-    return solver.unsupported_bodies(state);
+    return solver.stage_loads().unsupported_bodies(model, stage, state);
   }
 } // namespace
 

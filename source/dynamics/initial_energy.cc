@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// ExplicitSolver before the first stage.
-
 #include <quoin/base/exceptions.h>
 #include <quoin/base/point_text.h>
-#include <quoin/dynamics/explicit_solver.h>
+#include <quoin/dynamics/initial_energy.h>
 
 namespace quoin
 {
   template <int dim>
-  void ExplicitSolver<dim>::account_for_initial_motion(State<dim> &state) const
+  void account_for_initial_motion(const Model<dim> &model, State<dim> &state)
   {
-    unsigned int moved = NodeMap<dim>::none;
-    for (unsigned int i = model.n_deformable_nodes();
-         i < model.exchange().n_owned() && moved == NodeMap<dim>::none; ++i)
+    const NodeMap<dim> &nodes = model.nodes();
+    unsigned int moved        = NodeMap<dim>::none;
+    for (unsigned int i = nodes.n_deformable_nodes();
+         i < nodes.n_owned() && moved == NodeMap<dim>::none; ++i)
       for (unsigned int d = 0; d < dim; ++d)
         if (state.nodes[i].u[d] != 0. || state.velocity[i].v[d] != 0.)
           moved = i;
     dealii::Point<dim> p;
-    if (model.nodes().first_point(moved, p))
+    if (nodes.first_point(moved, p))
       throw InputError(
           "section 'Initial motion': it moves the rigid block at "
           + point_text(p)
@@ -49,12 +48,12 @@ namespace quoin
     }
     double energy = stored(moving) - stored(rest) + lost.friction
                     + lost.fracture + lost.crushing + lost.plastic;
-    for (unsigned int i = 0; i < model.n_deformable_nodes(); ++i)
+    for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
       for (const double v : state.velocity[i].v)
-        energy += 0.5 * stepper.mass()[i] * v * v;
+        energy += 0.5 * model.mass()[i] * v * v;
     state.energy.external += energy;
   }
 
-  template void ExplicitSolver<2>::account_for_initial_motion(State<2> &) const;
-  template void ExplicitSolver<3>::account_for_initial_motion(State<3> &) const;
+  template void account_for_initial_motion(const Model<2> &, State<2> &);
+  template void account_for_initial_motion(const Model<3> &, State<3> &);
 } // namespace quoin

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_dynamics_stage_loads_h
+#define quoin_dynamics_stage_loads_h
+
+#include <quoin/model/free_bodies.h>
+#include <quoin/dynamics/release.h>
+#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/loads/motion_constraint.h>
+#include <quoin/loads/nodal_load.h>
+
+#include <array>
+#include <vector>
+
+namespace quoin
+{
+  /** The loads of a run that act in a stage. Times are those of the loads'
+      clock, from the start of the stage. */
+  template <int dim>
+  struct StageLoads
+  {
+    std::vector<MotionConstraint<dim> *> constraints; /**< in order of action */
+    std::vector<const NodalLoad<dim> *> nodal;
+    Release<dim> release; /**< of the forces of excavated blocks */
+
+    /** Values of all of them but the release at @p load_time [s]. */
+    std::vector<std::array<double, 4>> values(double stage_start,
+                                              double load_time) const;
+    /**
+     * Whether they have changed in the last @p duration of the stage [s], or
+     * will: a static stage does not end before they are constant. Future times
+     * are sampled with a ratio of 1.1: a shorter pulse may be missed.
+     */
+    bool change(const State<dim> &state, double duration) const;
+
+    /** Throws an InputError about loads that would begin with a jump. */
+    void check_start(const State<dim> &state) const;
+    /** Throws a RunError that names a load if it is not finite at @p load_time
+        [s] of @p stage. */
+    void check_finite(const StageParameters &stage, const State<dim> &state,
+                      double load_time) const;
+
+    /**
+     * Unsupported bodies that they push in @p stage, begun with @p state; see
+     * find_unsupported_bodies().
+     */
+    std::vector<UnsupportedBody<dim>>
+    unsupported_bodies(const Model<dim> &model, const StageParameters &stage,
+                       const State<dim> &state) const;
+  };
+} // namespace quoin
+
+#endif
