@@ -41,6 +41,21 @@ namespace quoin
   public:
     using RunError::RunError;
   };
+
+  /** Returns the result of @p task and puts the name of the parameter file
+      before its InputErrors. */
+  template <typename Task>
+  auto naming(const std::string &file, const Task &task)
+  {
+    try
+    {
+      return task();
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(file + ", " + error.what());
+    }
+  }
 } // namespace quoin
 
 #endif

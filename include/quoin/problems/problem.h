@@ -159,21 +159,6 @@ namespace quoin
   std::unique_ptr<Problem> make_problem(const Parameters &parameters,
                                         const RunContext &run);
 
-  /** Returns the result of @p task and puts the name of the parameter file
-      before its InputErrors. */
-  template <typename Task>
-  auto naming(const std::string &file, const Task &task)
-  {
-    try
-    {
-      return task();
-    }
-    catch (const InputError &error)
-    {
-      throw InputError(file + ", " + error.what());
-    }
-  }
-
   /**
    * fingerprint() of all parameters, of the mesh as it was read or generated,
    * and of the files of tables and records.
