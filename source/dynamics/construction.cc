@@ -121,7 +121,7 @@ namespace quoin
       if (model.is_at_absent_block(i, state))
         continue;
       const JointNodes<2> &face
-          = model.nodes().joint_faces()[joints.segment(i).face];
+          = model.nodes().faces().joints[joints.segment(i).face];
       const bool lower = step.excavate[face.groups[0]];
       const bool upper = step.excavate[face.groups[1]];
       if (!lower && !upper)
@@ -175,7 +175,7 @@ namespace quoin
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
       const JointNodes<2> &face
-          = model.nodes().joint_faces()[joints.segment(i).face];
+          = model.nodes().faces().joints[joints.segment(i).face];
       if ((step.fill[face.groups[0]] || step.fill[face.groups[1]])
           && !model.is_at_absent_block(i, state))
         joints.begin_anew(i, state.nodes.data(), state.get<JointHistory>());

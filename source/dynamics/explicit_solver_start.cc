@@ -6,6 +6,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/explicit_solver.h>
+#include <quoin/mesh/global_geometry.h>
 
 namespace quoin
 {
@@ -19,7 +20,7 @@ namespace quoin
         if (state.nodes[i].u[d] != 0. || state.velocity[i].v[d] != 0.)
           moved = i;
     dealii::Point<dim> p;
-    if (model.nodes().first_point(moved, p))
+    if (first_point(model.nodes(), moved, p))
       throw InputError(
           "section 'Initial motion': it moves the rigid block at "
           + point_text(p)

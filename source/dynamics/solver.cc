@@ -9,6 +9,7 @@
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/viscous_boundary.h>
+#include <quoin/mesh/global_geometry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -199,7 +200,7 @@ namespace quoin
         if (absent[node])
           first = std::min(first, node);
       dealii::Point<dim> p;
-      if (!model.nodes().first_point(first, p))
+      if (!first_point(model.nodes(), first, p))
         continue;
       throw InputError(
           "section 'Stages/" + stage.name + "': the load '" + constraint->name()
@@ -236,7 +237,7 @@ namespace quoin
           wrong = *first;
       }
       dealii::Point<2> p;
-      if (!model.nodes().first_point(wrong, p))
+      if (!first_point(model.nodes(), wrong, p))
         continue;
       throw InputError(
           "section 'Stages/" + stage.name + "': the load '" + constraint->name()
@@ -261,8 +262,9 @@ namespace quoin
                               b->nodes().begin(), b->nodes().end(),
                               std::back_inserter(shared));
         dealii::Point<dim> p;
-        if (!model.nodes().first_point(
-                shared.empty() ? NodeMap<dim>::none : shared.front(), p))
+        if (!first_point(model.nodes(),
+                         shared.empty() ? NodeMap<dim>::none : shared.front(),
+                         p))
           continue;
         throw InputError("section 'Stages/" + stage.name + "': the platens '"
                          + a->name() + "' and '" + b->name()

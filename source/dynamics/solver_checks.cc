@@ -7,6 +7,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/solver.h>
+#include <quoin/mesh/global_geometry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +43,7 @@ namespace quoin
           bad = i;
     dealii::Point<dim> p;
     unsigned int block = 0;
-    if (!model.nodes().first_point(bad, p, &block))
+    if (!first_point(model.nodes(), bad, p, &block))
       return;
     check_loads(state, state.load_time);
     std::ostringstream message;
@@ -103,7 +104,7 @@ namespace quoin
     // Twice the area or six times the volume, positive in valid cells.
     const auto size = [&](const unsigned int cell)
     {
-      const auto &corners = model.nodes().cell(cell);
+      const auto &corners = model.nodes().cells().nodes[cell];
       dealii::Tensor<2, dim> edges;
       for (unsigned int k = 0; k < dim; ++k)
         for (unsigned int d = 0; d < dim; ++d)
@@ -135,8 +136,8 @@ namespace quoin
     } cell{};
     if (bad < n)
     {
-      cell.block = model.nodes().block_of_cell(bad);
-      for (const unsigned int node : model.nodes().cell(bad))
+      cell.block = model.nodes().blocks().block_of_cell(bad);
+      for (const unsigned int node : model.nodes().cells().nodes[bad])
         for (unsigned int d = 0; d < dim; ++d)
         {
           const auto &[X, u] = state.nodes[node];

@@ -218,9 +218,9 @@ namespace quoin
         for (unsigned int c = 0; c < 2; ++c)
           bound[node][c] += 2. * stiffness * tributary * parameters.thickness;
     };
-    for (const OuterFace<2> &face : node_map.outer_faces())
+    for (const OuterFace<2> &face : node_map.faces().outer)
       add_edge(face.nodes);
-    for (const JointNodes<2> &face : node_map.joint_faces())
+    for (const JointNodes<2> &face : node_map.faces().joints)
     {
       if (face.is_own[0])
         add_edge(face.lower);

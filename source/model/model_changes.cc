@@ -62,7 +62,7 @@ namespace quoin
                                     const State<2> &state) const
   {
     const JointNodes<2> &face
-        = node_map.joint_faces()[matched_joints.segment(segment).face];
+        = node_map.faces().joints[matched_joints.segment(segment).face];
     return state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]);
   }
 
@@ -97,7 +97,7 @@ namespace quoin
       construction.initial_stress = packed_initial_stress();
     auto &stress = construction.initial_stress;
     for (unsigned int c = 0; 4 * c < stress.size(); ++c)
-      if (groups[node_map.group_of_cell(c)])
+      if (groups[node_map.cells().group[c]])
         std::fill_n(&stress[4 * c], 4, 0.);
   }
 
@@ -120,7 +120,7 @@ namespace quoin
     for (unsigned int c = 0; c < n_deformable_cells(); ++c)
     {
       const unsigned int m
-          = properties.material_of_group[node_map.group_of_cell(c)];
+          = properties.material_of_group[node_map.cells().group[c]];
       const MohrCoulomb *law = laws[m] ? &*laws[m] : nullptr;
       const auto before      = block_forces.stress_of_strain(
                state.nodes.data(), plastic, c, block_forces.cell_stiffness(c),

@@ -90,7 +90,7 @@ namespace quoin
     {
       std::array<dealii::Point<dim>, dim + 1> result;
       for (unsigned int k = 0; k <= dim; ++k)
-        result[k] = nodes.point(nodes.cell(cell)[k]);
+        result[k] = nodes.point(nodes.cells().nodes[cell][k]);
       return result;
     }
 
@@ -116,11 +116,11 @@ namespace quoin
                                                const dealii::Point<dim> &point)
     {
       const NodeMap<dim> &nodes = model.nodes();
-      const unsigned int part   = nodes.find_part(block);
+      const unsigned int part   = nodes.blocks().find(block);
       unsigned int inside       = 0;
-      if (part < nodes.block_parts().size())
+      if (part < nodes.blocks().parts.size())
       {
-        const auto &[begin, end] = nodes.block_parts()[part].cells;
+        const auto &[begin, end] = nodes.blocks().parts[part].cells;
         for (unsigned int c = begin; c < end; ++c)
           if (contains(nodes, c, point))
             inside = 1;
@@ -184,7 +184,7 @@ namespace quoin
     void consider_cells(const Model<dim> &model, Nearest<dim> &nearest)
     {
       const NodeMap<dim> &nodes = model.nodes();
-      for (unsigned int c = 0; c < nodes.n_cells(); ++c)
+      for (unsigned int c = 0; c < nodes.cells().size(); ++c)
       {
         dealii::Point<dim> centroid;
         for (const auto &corner : corners(nodes, c))
@@ -201,7 +201,7 @@ namespace quoin
       const NodeMap<2> &nodes = model.nodes();
       for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
       {
-        const auto &face = nodes.joint_faces()[model.joints().segment(i).face];
+        const auto &face = nodes.faces().joints[model.joints().segment(i).face];
         if (!curve.empty() && model.table().face_names[face.name] != curve)
           continue;
         for (unsigned int k = 0; k < 2; ++k)
@@ -339,7 +339,7 @@ namespace quoin
       probe.here = probe.here && part == least;
     }
     double longest = 0.;
-    for (const auto &cell : nodes.all_cells())
+    for (const auto &cell : nodes.cells().nodes)
       for (unsigned int k = 0; k <= dim; ++k)
         for (unsigned int l = 0; l < k; ++l)
           longest = std::max(longest, nodes.point(cell[k]).distance_square(
@@ -459,7 +459,8 @@ namespace quoin
     case HistoryQuantity::principal_stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
-      return state.is_absent(model.nodes().block_of_cell(probe.entity));
+      return state.is_absent(
+          model.nodes().blocks().block_of_cell(probe.entity));
     case HistoryQuantity::joint:
       if constexpr (dim == 2)
         return model.is_at_absent_block(probe.entity / 2, state);
@@ -473,7 +474,7 @@ namespace quoin
   double Histories<2>::rotation(const unsigned int cell,
                                 const State<2> &state) const
   {
-    const auto &nodes = model.nodes().cell(cell);
+    const auto &nodes = model.nodes().cells().nodes[cell];
     if (cell >= model.n_deformable_cells())
     {
       const RigidBlocks &rigid = model.rigid_blocks();

@@ -138,7 +138,7 @@ namespace quoin
     /** First owned cell of rigid blocks. */
     unsigned int n_deformable_cells() const
     {
-      return node_map.n_deformable_cells();
+      return node_map.cells().n_deformable;
     }
     bool large_displacements() const
     {
@@ -183,17 +183,17 @@ namespace quoin
     /** Index into rigid_blocks() of this rank of @p block of the mesh. */
     unsigned int rigid_number(const unsigned int block) const
     {
-      return node_map.find_part(block) - node_map.n_deformable_block_parts();
+      return node_map.blocks().find(block) - node_map.blocks().n_deformable;
     }
     /** Nodes of @p block of the whole mesh that this rank owns. */
     std::vector<unsigned int> owned_nodes(unsigned int block) const;
     /** Local nodes of @p block without those that other ranks share. */
     NodeRange block_nodes(const unsigned int block) const
     {
-      const unsigned int part = node_map.find_part(block);
-      if (part == node_map.block_parts().size())
+      const unsigned int part = node_map.blocks().find(block);
+      if (part == node_map.blocks().parts.size())
         return { 0, 0 };
-      const auto &[begin, end] = node_map.block_parts()[part].nodes;
+      const auto &[begin, end] = node_map.blocks().parts[part].nodes;
       return { begin, end };
     }
     /** Whether each physical surface is present at the start of the run. */
@@ -214,7 +214,7 @@ namespace quoin
     /** Index into the materials of an owned cell. */
     unsigned int material_of_cell(const unsigned int cell) const
     {
-      return now.material_of_group[node_map.group_of_cell(cell)];
+      return now.material_of_group[node_map.cells().group[cell]];
     }
     double thickness() const
     {

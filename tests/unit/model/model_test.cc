@@ -51,7 +51,7 @@ TEST(Model, LumpsAThirdOfEachCell)
   EXPECT_DOUBLE_EQ(mass[0], 1200. * 0.5);
   EXPECT_DOUBLE_EQ(mass[1], 3000. * 0.5);
   EXPECT_EQ(model.table().n_blocks(), 2U);
-  EXPECT_EQ(model.nodes().n_cells(), 4U);
+  EXPECT_EQ(model.nodes().cells().size(), 4U);
   EXPECT_EQ(model.thickness(), 0.5);
 }
 
