@@ -20,7 +20,7 @@ namespace quoin
     {
       namespace MPI = dealii::Utilities::MPI;
       Checks(advice, "")
-          .warn_if(MPI::min(nodes.n_cells(), nodes.communicator()) == 0,
+          .warn_if(MPI::min(nodes.cells().size(), nodes.communicator()) == 0,
                    "the model has ", count_text(report.n_blocks, "block"),
                    " and the run ", MPI::n_mpi_processes(nodes.communicator()),
                    " MPI processes, of which some have no cells: rigid "
@@ -39,7 +39,7 @@ namespace quoin
       const double n          = model.joints().n_beyond_strength(
                    state.get<JointHistory>(), nodes.communicator());
       Checks(advice, "")
-          .warn_if(n > 0., n, " of ", 2 * nodes.n_joint_faces(),
+          .warn_if(n > 0., n, " of ", 2 * nodes.faces().n_global_joints,
                    " joint points begin with tractions beyond their strength: "
                    "they yield in the first stage. Check the initial stress "
                    "and the strength of these joints.");
@@ -105,7 +105,7 @@ namespace quoin
       const NodeMap<2> &nodes = model.nodes();
       const auto sizes        = block_sizes(nodes);
       Neighbours result;
-      for (const JointNodes<2> &face : nodes.joint_faces())
+      for (const JointNodes<2> &face : nodes.faces().joints)
       {
         if (!is_in_set(face, set, model.nodes().table()))
           continue;
@@ -118,12 +118,12 @@ namespace quoin
             continue;
           const double young
               = materials[model.material_of_cell(cell)].elastic.young;
-          double shortest = infinity;
+          const auto &corners = nodes.cells().nodes[cell];
+          double shortest     = infinity;
           for (unsigned int k = 0; k < 3; ++k)
             shortest = std::min(
-                shortest,
-                nodes.point(nodes.cell(cell)[k])
-                    .distance(nodes.point(nodes.cell(cell)[(k + 1) % 3])));
+                shortest, nodes.point(corners[k])
+                              .distance(nodes.point(corners[(k + 1) % 3])));
           result.stiffest_cell
               = std::max(result.stiffest_cell, young / shortest);
           result.softest_block = std::min(result.softest_block,
@@ -211,7 +211,7 @@ namespace quoin
           || parameters.model.plane != PlaneAssumption::plane_strain)
         return;
       std::vector<unsigned int> is_used(parameters.model.materials.size(), 0);
-      for (unsigned int c = 0; c < model.nodes().n_cells(); ++c)
+      for (unsigned int c = 0; c < model.nodes().cells().size(); ++c)
         is_used[model.material_of_cell(c)] = 1;
       dealii::Utilities::MPI::max(is_used, model.nodes().communicator(),
                                   is_used);

@@ -5,6 +5,7 @@
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/signal_frequency.h>
+#include <quoin/mesh/global_geometry.h>
 #include <quoin/advice/model_summary.h>
 
 #include <boost/algorithm/string/join.hpp>
@@ -80,10 +81,10 @@ namespace quoin
     const unsigned int n_blocks = nodes.table().n_blocks();
     std::vector<double> has(materials.size() * n_blocks, 0.);
     std::vector<double> n_cells(materials.size(), 0.);
-    for (unsigned int c = 0; c < nodes.n_cells(); ++c)
+    for (unsigned int c = 0; c < nodes.cells().size(); ++c)
     {
-      const unsigned int m = material_of_group[nodes.group_of_cell(c)];
-      has[m * n_blocks + nodes.block_of_cell(c)] = 1.;
+      const unsigned int m = material_of_group[nodes.cells().group[c]];
+      has[m * n_blocks + nodes.blocks().block_of_cell(c)] = 1.;
       n_cells[m] += nodes.table().is_quadratic ? 0.25 : 1.;
     }
     dealii::Utilities::MPI::max(has, nodes.communicator(), has);

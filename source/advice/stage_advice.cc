@@ -229,20 +229,21 @@ namespace quoin
     {
       const NodeMap<dim> &nodes = model.nodes();
       std::vector<CellSize<dim>> sizes(n_materials);
-      for (unsigned int c = 0; c < model.nodes().n_deformable_cells(); ++c)
+      for (unsigned int c = 0; c < model.nodes().cells().n_deformable; ++c)
       {
-        if (state.is_absent(nodes.block_of_cell(c)))
+        if (state.is_absent(nodes.blocks().block_of_cell(c)))
           continue;
+        const auto &cell = nodes.cells().nodes[c];
         std::vector<double> edges;
         for (unsigned int k = 0; k <= dim; ++k)
           for (unsigned int l = 0; l < k; ++l)
-            edges.push_back(nodes.point(nodes.cell(c)[k])
-                                .distance(nodes.point(nodes.cell(c)[l])));
+            edges.push_back(
+                nodes.point(cell[k]).distance(nodes.point(cell[l])));
         std::sort(edges.begin(), edges.end());
         const double edge   = edges[dim == 2 ? 1 : 2];
         CellSize<dim> &size = sizes[model.material_of_cell(c)];
         if (edge > size.edge)
-          size = { edge, nodes.point(nodes.cell(c)[0]) };
+          size = { edge, nodes.point(cell[0]) };
       }
       // The largest of all ranks; among equals that of the lowest rank.
       for (CellSize<dim> &size : sizes)

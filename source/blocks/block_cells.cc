@@ -19,7 +19,7 @@ namespace quoin
 
     Triangle element(const NodeMap<2> &nodes, const unsigned int cell)
     {
-      const auto &[i, j, k] = nodes.cell(cell);
+      const auto &[i, j, k] = nodes.cells().nodes[cell];
       return { at_rest(nodes.point(i)), at_rest(nodes.point(j)),
                at_rest(nodes.point(k)) };
     }
@@ -36,11 +36,11 @@ namespace quoin
     Tetrahedron<OneLane> element(const NodeMap<3> &nodes,
                                  const unsigned int cell)
     {
+      const auto &corners = nodes.cells().nodes[cell];
       double edges[3][3];
       for (unsigned int k = 0; k < 3; ++k)
       {
-        const auto edge = nodes.point(nodes.cell(cell)[k + 1])
-                          - nodes.point(nodes.cell(cell)[0]);
+        const auto edge = nodes.point(corners[k + 1]) - nodes.point(corners[0]);
         for (unsigned int d = 0; d < 3; ++d)
           edges[k][d] = edge[d];
       }
@@ -53,13 +53,14 @@ namespace quoin
   template <int dim>
   void take_cells(const NodeMap<dim> &nodes, BlockForcesData<dim> &data)
   {
-    data.cells.assign(nodes.all_cells().begin(),
-                      nodes.all_cells().begin() + nodes.n_deformable_cells());
+    const LocalCells<dim> &cells = nodes.cells();
+    data.cells.assign(cells.nodes.begin(),
+                      cells.nodes.begin() + cells.n_deformable);
     data.block_first_cell = { 0 };
     data.block_first_node = { 0 };
-    for (unsigned int b = 0; b < nodes.n_deformable_block_parts(); ++b)
+    for (unsigned int b = 0; b < nodes.blocks().n_deformable; ++b)
     {
-      const BlockPart &part = nodes.block_parts()[b];
+      const BlockPart &part = nodes.blocks().parts[b];
       // Cells beside other ranks count as a block without nodes of its own, so
       // that they get a tile in a block larger than one tile.
       if (part.cells[0] < part.first_inner_cell
@@ -79,11 +80,12 @@ namespace quoin
                                     const double thickness)
   {
     std::vector<NodeVector<dim>> mass(nodes.n_local());
-    for (unsigned int c = 0; c < nodes.n_cells(); ++c)
+    const LocalCells<dim> &cells = nodes.cells();
+    for (unsigned int c = 0; c < cells.size(); ++c)
     {
       const double share = volume(element(nodes, c)) * thickness
-                           * density[nodes.group_of_cell(c)] / (dim + 1.);
-      for (const unsigned int node : nodes.mass_nodes(c))
+                           * density[cells.group[c]] / (dim + 1.);
+      for (const unsigned int node : cells.mass_nodes(c))
         mass[node].v[0] += share;
     }
     nodes.exchange().add_to_owners(mass.data());

@@ -69,14 +69,16 @@ namespace quoin
                             const std::vector<double> &density,
                             const double thickness)
   {
+    const LocalCells<2> &cells = nodes.cells();
+    const LocalBlocks &local   = nodes.blocks();
+
     node_begin = nodes.n_deformable_nodes();
     blocks.clear();
     arms.clear();
-    for (unsigned int b = nodes.n_deformable_block_parts();
-         b < nodes.block_parts().size(); ++b)
+    for (unsigned int b = local.n_deformable; b < local.parts.size(); ++b)
     {
-      const auto [first_cell, last_cell] = nodes.block_parts()[b].cells;
-      const auto [first_node, last_node] = nodes.block_parts()[b].nodes;
+      const auto [first_cell, last_cell] = local.parts[b].cells;
+      const auto [first_node, last_node] = local.parts[b].nodes;
       const unsigned int n_nodes         = last_node - first_node;
 
       // Positions are taken from a node, to keep digits far from the origin.
@@ -86,15 +88,15 @@ namespace quoin
       double mass = 0.;
       for (unsigned int c = first_cell; c < last_cell; ++c)
       {
-        const auto &[i, j, k] = nodes.cell(c);
+        const auto &[i, j, k] = cells.nodes[c];
         const auto e1         = nodes.point(j) - nodes.point(i);
         const auto e2         = nodes.point(k) - nodes.point(i);
         cell_mass.push_back(0.5 * std::abs(e1[0] * e2[1] - e1[1] * e2[0])
-                            * thickness * density[nodes.group_of_cell(c)]);
+                            * thickness * density[cells.group[c]]);
         mass += cell_mass.back();
-        for (const unsigned int node : nodes.cell(c))
+        for (const unsigned int node : cells.nodes[c])
           centre += cell_mass.back() / 3. * (nodes.point(node) - origin);
-        for (const unsigned int node : nodes.mass_nodes(c))
+        for (const unsigned int node : cells.mass_nodes(c))
           node_mass[node - first_node] += cell_mass.back() / 3.;
       }
       centre /= mass;
@@ -106,8 +108,8 @@ namespace quoin
         dealii::Tensor<1, 2> mean;
         for (unsigned int k = 0; k < 3; ++k)
         {
-          const auto &p = nodes.point(nodes.cell(c)[k]);
-          own += p.distance_square(nodes.point(nodes.cell(c)[(k + 1) % 3]));
+          const auto &p = nodes.point(cells.nodes[c][k]);
+          own += p.distance_square(nodes.point(cells.nodes[c][(k + 1) % 3]));
           mean += (p - origin - centre) / 3.;
         }
         inertia += cell_mass[c - first_cell] * (own / 36. + mean.norm_square());

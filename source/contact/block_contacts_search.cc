@@ -11,6 +11,7 @@
 #include <quoin/base/wall_clock.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/contact_search.h>
+#include <quoin/mesh/global_geometry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -677,8 +678,8 @@ namespace quoin
     }
     dealii::Point<2> p;
     unsigned int block = 0;
-    if (!node_map.first_point(fast, p, &block)) // the root was rounded
-      p = node_map.point_of_block(block);       // otherwise than here
+    if (!first_point(node_map, fast, p, &block)) // the root was rounded
+      p = point_of_block(node_map, block);       // otherwise than here
     std::ostringstream message;
     message << "block " << block << ", at rest at (" << p[0] << ", " << p[1]
             << ") m, moves at " << speed << " m/s, that is " << speed * dt

@@ -109,15 +109,15 @@ namespace quoin
     const auto add = [&](const unsigned int a, const unsigned int b,
                          const unsigned int cell, const unsigned int interface)
     {
-      const auto &c = nodes.cell(cell);
+      const auto &c = nodes.cells().nodes[cell];
       const auto e1 = nodes.point(c[1]) - nodes.point(c[0]);
       const auto e2 = nodes.point(c[2]) - nodes.point(c[0]);
       ContactEdge edge;
       edge.nodes  = { nodes.exchange().global(a), nodes.exchange().global(b) };
       edge.points = { nodes.point(a), nodes.point(b) };
       edge.number = nodes.number_of_node(a);
-      edge.block  = nodes.block_of_cell(cell);
-      edge.group  = nodes.group_of_cell(cell);
+      edge.block  = nodes.blocks().block_of_cell(cell);
+      edge.group  = nodes.cells().group[cell];
       edge.previous  = none;
       edge.next      = none;
       edge.interface = interface;
@@ -125,16 +125,16 @@ namespace quoin
       edge.height    = (e1[0] * e2[1] - e1[1] * e2[0]) / edge.length;
       own_edges.push_back(edge);
     };
-    for (unsigned int f = 0; f < nodes.joint_faces().size(); ++f)
+    for (unsigned int f = 0; f < nodes.faces().joints.size(); ++f)
     {
-      const JointNodes<2> &face    = nodes.joint_faces()[f];
+      const JointNodes<2> &face    = nodes.faces().joints[f];
       const unsigned int interface = edges_of_joints[f].interface;
       if (face.is_own[0])
         add(face.lower[0], face.lower[1], face.cells[0], interface);
       if (face.is_own[1])
         add(face.upper[1], face.upper[0], face.cells[1], interface);
     }
-    for (const OuterFace<2> &face : nodes.outer_faces())
+    for (const OuterFace<2> &face : nodes.faces().outer)
       add(face.nodes[0], face.nodes[1], face.cell, none);
     std::sort(own_edges.begin(), own_edges.end(), by_number);
     link();
@@ -151,7 +151,7 @@ namespace quoin
   {
     const auto &joined = node_map.table().joined;
     std::vector<unsigned char> tips(joined.size(), 0);
-    for (const JointNodes<2> &face : node_map.joint_faces())
+    for (const JointNodes<2> &face : node_map.faces().joints)
     {
       std::array<unsigned int, 2> blocks = face.blocks;
       std::sort(blocks.begin(), blocks.end());
@@ -294,7 +294,8 @@ namespace quoin
     std::vector<unsigned int> nodes;
     for (const LooseEnd &end : loose)
       nodes.push_back(end.node);
-    const dealii::IndexSet wanted = index_set(node_map.n_global(), nodes);
+    const dealii::IndexSet wanted
+        = index_set(node_map.exchange().n_global(), nodes);
     const auto owners
         = mpi::compute_index_owner(node_map.dof_handler().locally_owned_dofs(),
                                    wanted, node_map.communicator());
@@ -337,7 +338,7 @@ namespace quoin
   void ContactEdges::find_joint_edges()
   {
     // Each side of each joint has an index of its own.
-    const auto &faces    = node_map.joint_faces();
+    const auto &faces    = node_map.faces().joints;
     const auto edge_from = edges_by_first_node(own_edges);
     std::map<unsigned int, unsigned int> place_of_side;
     std::vector<unsigned int> own_sides, foreign_sides;
@@ -356,7 +357,7 @@ namespace quoin
         own_sides.push_back(index);
         edges_of_joints[f].edges[side] = own_edges[place_of_side[index]].number;
       }
-    const unsigned int n_sides = 2 * node_map.n_joint_faces();
+    const unsigned int n_sides = 2 * node_map.faces().n_global_joints;
     if (mpi::n_mpi_processes(node_map.communicator()) == 1 || n_sides == 0)
       return;
 

@@ -49,11 +49,11 @@ namespace quoin
     {
       const unsigned int first
           = dealii::Utilities::MPI::min(number, nodes.communicator());
-      if (first == nodes.n_joint_faces())
+      if (first == nodes.faces().n_global_joints)
         return;
       // Both ranks of a face know the same of it.
       std::vector<unsigned int> known(3, 0);
-      for (const JointNodes<2> &face : nodes.joint_faces())
+      for (const JointNodes<2> &face : nodes.faces().joints)
         if (face.number == first)
           known = { face.name, face.groups[0], face.groups[1] };
       dealii::Utilities::MPI::max(known, nodes.communicator(), known);
@@ -77,10 +77,10 @@ namespace quoin
     const BlockTable<2> &table = nodes.table();
     const auto set_of_line     = sets_of_lines(table.face_names, sets);
     // The first face without set of all ranks is the one that is named.
-    unsigned int without_set = nodes.n_joint_faces();
-    for (unsigned int f = 0; f < nodes.joint_faces().size(); ++f)
+    unsigned int without_set = nodes.faces().n_global_joints;
+    for (unsigned int f = 0; f < nodes.faces().joints.size(); ++f)
     {
-      const JointNodes<2> &face = nodes.joint_faces()[f];
+      const JointNodes<2> &face = nodes.faces().joints[f];
       const unsigned int set    = set_of_line[face.name];
       if (set == no_set)
       {
@@ -90,7 +90,7 @@ namespace quoin
       Segment segment;
       for (unsigned int k = 0; k < 2; ++k)
         segment.area[k]
-            = nodes.face_share(face.lower[k]) * thickness
+            = face_share(nodes, face.lower[k]) * thickness
               * nodes.point(face.lower[0]).distance(nodes.point(face.lower[1]));
       segment.lower = face.lower;
       segment.upper = face.upper;

@@ -108,7 +108,7 @@ namespace quoin
     {
       const NodeRange range = blocks.tile_cells(tile);
       for (std::size_t cell = range.begin; cell < range.end; ++cell)
-        for (const unsigned int node : nodes.cell(cell))
+        for (const unsigned int node : nodes.cells().nodes[cell])
           if (node >= nodes.first_shared_node())
             return true;
       return false;

@@ -126,7 +126,7 @@ namespace quoin
       if (is_at_absent_block(model, i, state))
         continue;
       const JointNodes<2> &face
-          = model.nodes().joint_faces()[joints.segment(i).face];
+          = model.nodes().faces().joints[joints.segment(i).face];
       const bool lower = step.excavate[face.groups[0]];
       const bool upper = step.excavate[face.groups[1]];
       if (!lower && !upper)
@@ -181,7 +181,7 @@ namespace quoin
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
     {
       const JointNodes<2> &face
-          = model.nodes().joint_faces()[joints.segment(i).face];
+          = model.nodes().faces().joints[joints.segment(i).face];
       if ((step.fill[face.groups[0]] || step.fill[face.groups[1]])
           && !is_at_absent_block(model, i, state))
         joints.begin_anew(i, state.nodes.data(), state.get<JointHistory>());

@@ -47,10 +47,11 @@ namespace quoin
     const BlockTable<2> &table      = model.nodes().table();
     const unsigned int n_groups     = table.group_names.size();
     std::array<unsigned int, 2> met = { { n_groups, n_groups } };
-    for (unsigned int c = 0; c < nodes.n_cells() && met[0] == n_groups; ++c)
+    const LocalCells<2> &cells      = nodes.cells();
+    for (unsigned int c = 0; c < cells.size() && met[0] == n_groups; ++c)
     {
-      const unsigned int one   = table.group[nodes.block_of_cell(c)];
-      const unsigned int other = nodes.group_of_cell(c);
+      const unsigned int one   = table.group[nodes.blocks().block_of_cell(c)];
+      const unsigned int other = cells.group[c];
       if (groups[one] != groups[other])
         met = { { groups[one] ? one : other, groups[one] ? other : one } };
     }

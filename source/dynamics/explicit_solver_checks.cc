@@ -20,10 +20,10 @@ namespace quoin
         if (names_load(all_stages[i], constraint->name()))
           moving.push_back(constraint.get());
     const NodeMap<dim> &nodes = model.nodes();
-    moved_blocks.assign(nodes.block_parts().size(), false);
+    moved_blocks.assign(nodes.blocks().parts.size(), false);
     for (const MotionConstraint<dim> *constraint : moving)
       for (const unsigned int node : constraint->nodes())
-        moved_blocks[nodes.find_part(nodes.block_of_node(node))] = true;
+        moved_blocks[nodes.blocks().find(nodes.block_of_node(node))] = true;
   }
 
   template <int dim>

@@ -146,7 +146,8 @@ namespace quoin
                          "rigid. Give a time in which forces may be released "
                          "without shaking the blocks.");
     // Masses that are added slow waves down.
-    return 2. * model.nodes().diagonal() / slowest * std::sqrt(1. + added_mass);
+    return 2. * model.nodes().table().diagonal() / slowest
+           * std::sqrt(1. + added_mass);
   }
 
   template <int dim>

@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/initial_energy.h>
+#include <quoin/mesh/global_geometry.h>
 
 namespace quoin
 {
@@ -18,7 +19,7 @@ namespace quoin
         if (state.nodes[i].u[d] != 0. || state.velocity[i].v[d] != 0.)
           moved = i;
     dealii::Point<dim> p;
-    if (nodes.first_point(moved, p))
+    if (first_point(nodes, moved, p))
       throw InputError(
           "section 'Initial motion': it moves the rigid block at "
           + point_text(p)

@@ -11,6 +11,7 @@
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/viscous_boundary.h>
+#include <quoin/mesh/global_geometry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -213,7 +214,7 @@ namespace quoin
         if (absent[node])
           first = std::min(first, node);
       dealii::Point<dim> p;
-      if (!model.nodes().first_point(first, p))
+      if (!first_point(model.nodes(), first, p))
         continue;
       throw InputError(
           "section 'Stages/" + stage.name + "': the load '" + constraint->name()
@@ -250,7 +251,7 @@ namespace quoin
           wrong = *first;
       }
       dealii::Point<2> p;
-      if (!model.nodes().first_point(wrong, p))
+      if (!first_point(model.nodes(), wrong, p))
         continue;
       throw InputError(
           "section 'Stages/" + stage.name + "': the load '" + constraint->name()
@@ -275,8 +276,9 @@ namespace quoin
                               b->nodes().begin(), b->nodes().end(),
                               std::back_inserter(shared));
         dealii::Point<dim> p;
-        if (!model.nodes().first_point(
-                shared.empty() ? NodeMap<dim>::none : shared.front(), p))
+        if (!first_point(model.nodes(),
+                         shared.empty() ? NodeMap<dim>::none : shared.front(),
+                         p))
           continue;
         throw InputError("section 'Stages/" + stage.name + "': the platens '"
                          + a->name() + "' and '" + b->name()
@@ -311,7 +313,7 @@ namespace quoin
           bad = i;
     dealii::Point<dim> p;
     unsigned int block = 0;
-    if (!model.nodes().first_point(bad, p, &block))
+    if (!first_point(model.nodes(), bad, p, &block))
       return;
     acting.check_finite(stage, state, state.load_time);
     std::ostringstream message;

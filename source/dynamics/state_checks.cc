@@ -36,7 +36,7 @@ namespace quoin
     // Twice the area or six times the volume, positive in valid cells.
     const auto size = [&](const unsigned int cell)
     {
-      const auto &corners = nodes.cell(cell);
+      const auto &corners = nodes.cells().nodes[cell];
       dealii::Tensor<2, dim> edges;
       for (unsigned int k = 0; k < dim; ++k)
         for (unsigned int d = 0; d < dim; ++d)
@@ -47,7 +47,7 @@ namespace quoin
         }
       return determinant(edges);
     };
-    const unsigned int n = nodes.n_deformable_cells();
+    const unsigned int n = nodes.cells().n_deformable;
     unsigned int bad     = 0;
     while (bad < n && size(bad) > 0.)
       ++bad;
@@ -68,8 +68,8 @@ namespace quoin
     } cell{};
     if (bad < n)
     {
-      cell.block = nodes.block_of_cell(bad);
-      for (const unsigned int node : nodes.cell(bad))
+      cell.block = nodes.blocks().block_of_cell(bad);
+      for (const unsigned int node : nodes.cells().nodes[bad])
         for (unsigned int d = 0; d < dim; ++d)
         {
           const auto &[X, u] = state.nodes[node];

@@ -75,9 +75,9 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
     const double stiffness
         = sums[2] > 0. ? sums[0] / sums[2] : joint_stiffness();
-    const unsigned int n_nodes = model.nodes().n_global();
+    const unsigned int n_nodes = model.nodes().exchange().n_global();
     least_applied
-        = least_motion * model.nodes().diagonal() * stiffness * n_nodes;
+        = least_motion * model.nodes().table().diagonal() * stiffness * n_nodes;
     const double by_mass = stiffness / (sums[1] / n_nodes);
     for (const double mass : model.mass())
       drag_stiffness.push_back(by_mass * mass);

@@ -331,7 +331,7 @@ namespace quoin
         moved = std::max(moved, std::abs(state.nodes[i].u[d]
                                          - last_equilibrium.nodes[i].u[d]));
     return dealii::Utilities::MPI::max(moved, communicator)
-           > collapse_share * model.nodes().diagonal();
+           > collapse_share * model.nodes().table().diagonal();
   }
 
   void ImplicitSolver::give_up(State<2> &state)

@@ -149,9 +149,9 @@ namespace quoin
 
   void ImplicitSolver::hold_absent_blocks(const State<2> &state)
   {
-    const unsigned int first = model.nodes().n_deformable_block_parts();
+    const unsigned int first = model.nodes().blocks().n_deformable;
     for (unsigned int b = 0; b < held_blocks.size(); ++b)
-      if (state.is_absent(model.nodes().block_parts()[first + b].number))
+      if (state.is_absent(model.nodes().blocks().parts[first + b].number))
         held_blocks[b] = true;
   }
 
@@ -477,7 +477,7 @@ namespace quoin
       for (unsigned int k = 0; k < 2; ++k)
         if (segment.lower[k] == node || segment.upper[k] == node)
         {
-          const auto &[a, b] = nodes.joint_faces()[segment.face].blocks;
+          const auto &[a, b] = nodes.faces().joints[segment.face].blocks;
           text << ", at a joint of the set '" << set_names[segment.set]
                << "' between the blocks " << a << " and " << b;
           return text.str();

@@ -79,7 +79,7 @@ namespace quoin
     };
     // Rigid body modes about a corner of the model, in units of its size.
     const auto origin = model.nodes().table().box[0];
-    const double size = model.nodes().diagonal();
+    const double size = model.nodes().table().diagonal();
     const auto place  = [&](const DofMap::Index first, const double x,
                            const double y, const bool(&free)[2])
     {

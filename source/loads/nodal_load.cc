@@ -62,7 +62,7 @@ namespace quoin
           = position(face_names, name, load, "Boundary", boundary_kind<dim>);
       std::vector<bool> wanted(face_names.size(), false);
       wanted[line]     = true;
-      const auto found = node_map.gather_faces(wanted);
+      const auto found = gather_faces(node_map, wanted);
       faces.insert(faces.end(), found.begin(), found.end());
       if (found.empty())
         throw InputError("section 'Loads/" + load + "': 'Boundary = " + name

@@ -21,10 +21,10 @@ namespace quoin
     {
       // Another rank may have the cells of an owned node.
       std::vector<NodeVector<2>> is_in(node_map.n_local());
-      for (unsigned int c = 0; c < node_map.n_cells(); ++c)
-        if (std::find(groups.begin(), groups.end(), node_map.group_of_cell(c))
+      for (unsigned int c = 0; c < node_map.cells().size(); ++c)
+        if (std::find(groups.begin(), groups.end(), node_map.cells().group[c])
             != groups.end())
-          for (const unsigned int node : node_map.cell(c))
+          for (const unsigned int node : node_map.cells().nodes[c])
             is_in[node].v[0] = 1.;
       node_map.exchange().add_to_owners(is_in.data());
       std::vector<unsigned int> nodes;

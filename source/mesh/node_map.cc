@@ -6,9 +6,6 @@
 #include <deal.II/base/mpi_consensus_algorithms.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
-#include <boost/serialization/utility.hpp>
-
-#include <limits>
 #include <map>
 #include <numeric>
 
@@ -60,17 +57,20 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  NodeMap<dim>::NodeMap(const BlockTriangulation<dim> &blocks)
-    : blocks(blocks), dofs(blocks.triangulation())
+  NodeMap<dim>::NodeMap(const BlockTriangulation<dim> &mesh)
+    : mesh(mesh), dofs(mesh.triangulation())
   {
     AssertThrow(dim == 2 || !table().is_quadratic,
                 dealii::ExcMessage("Quadratic cells are triangles."));
     dofs.distribute_dofs(
         dealii::FE_SimplexP<dim>(table().is_quadratic ? 2 : 1));
     number_nodes();
-    find_ghosts();
-    pack_cells();
-    pack_faces();
+    const Partners partners_of = nodes_of_joints();
+    find_ghosts(partners_of);
+    const std::vector<unsigned int> cell_place = order_cells();
+    pack_cells(cell_place);
+    pack_joints(partners_of, cell_place);
+    pack_outer_faces(cell_place);
   }
 
   template <int dim>
@@ -109,7 +109,7 @@ namespace quoin
             visit_node(node, visit++);
       else
         for (unsigned int k = 0; k <= dim; ++k)
-          visit_node(nodes[k], blocks.vertex_numbers()[cell->vertex_index(k)]);
+          visit_node(nodes[k], mesh.vertex_numbers()[cell->vertex_index(k)]);
     }
     for (const auto &cell : dofs.active_cell_iterators())
       if (cell->is_ghost())
@@ -145,7 +145,7 @@ namespace quoin
     std::map<unsigned int,
              typename dealii::DoFHandler<dim>::active_cell_iterator>
         cell_of_number;
-    for (const JointPair<dim> &pair : blocks.joints())
+    for (const JointPair<dim> &pair : mesh.joints())
       for (unsigned int side = 0; side < 2; ++side)
         if (pair.ranks[side] == rank)
           cell_of_number.emplace(pair.cells[side], dofs.end());
@@ -157,13 +157,13 @@ namespace quoin
           found->second = cell;
       }
 
-    Partners result(blocks.joints().size());
+    Partners result(mesh.joints().size());
     // To other ranks: number of the pair, side, nodes.
     std::map<unsigned int, std::vector<std::vector<unsigned int>>> to_send;
     std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
-    for (unsigned int p = 0; p < blocks.joints().size(); ++p)
+    for (unsigned int p = 0; p < mesh.joints().size(); ++p)
     {
-      const JointPair<dim> &pair = blocks.joints()[p];
+      const JointPair<dim> &pair = mesh.joints()[p];
       for (unsigned int side = 0; side < 2; ++side)
       {
         if (pair.ranks[side] != rank)
@@ -186,17 +186,17 @@ namespace quoin
       for (const auto &message : messages)
       {
         const auto found = std::lower_bound(
-            blocks.joints().begin(), blocks.joints().end(), message[0],
+            mesh.joints().begin(), mesh.joints().end(), message[0],
             [](const JointPair<dim> &pair, const unsigned int number)
             { return pair.number < number; });
-        result[found - blocks.joints().begin()][message[1]].assign(
+        result[found - mesh.joints().begin()][message[1]].assign(
             message.begin() + 2, message.end());
       }
     return result;
   }
 
   template <int dim>
-  void NodeMap<dim>::find_ghosts()
+  void NodeMap<dim>::find_ghosts(const Partners &partners_of)
   {
     const unsigned int rank
         = dealii::Utilities::MPI::this_mpi_process(communicator());
@@ -218,11 +218,10 @@ namespace quoin
       }
     sort(shared);
 
-    const Partners partners_of = nodes_of_joints();
     std::vector<unsigned int> partners;
     for (unsigned int p = 0; p < partners_of.size(); ++p)
       for (unsigned int side = 0; side < 2; ++side)
-        if (blocks.joints()[p].ranks[side] != rank)
+        if (mesh.joints()[p].ranks[side] != rank)
           partners.insert(partners.end(), partners_of[p][side].begin(),
                           partners_of[p][side].end());
     sort(partners);
@@ -231,10 +230,148 @@ namespace quoin
     node_exchange   = std::make_unique<NodeExchange>(
         first, first + owned.n_elements(), dofs.n_dofs(), shared, partners,
         communicator());
+  }
 
-    order_cells();
+  template <int dim>
+  std::vector<unsigned int> NodeMap<dim>::order_cells()
+  {
+    std::vector<BlockPart> &parts = local_blocks.parts;
+    const unsigned int n_parts    = linear_cells_of(table().is_quadratic);
+    std::vector<bool> is_at_others;
+    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
+    for (const auto &cell : dofs.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      const unsigned int block
+          = table().block_of_cell(cell->id().get_coarse_cell_id());
+      const unsigned int begin = n_parts * is_at_others.size();
+      if (parts.empty() || parts.back().number != block)
+      {
+        parts.push_back({ block, { begin, begin }, begin, { 0, 0 } });
+        local_blocks.n_deformable += !table().is_rigid[block];
+      }
+      cell->get_dof_indices(nodes);
+      is_at_others.push_back(!table().is_rigid[block]
+                             && std::any_of(nodes.begin(), nodes.end(),
+                                            [&](const Dof node) {
+                                              return node_exchange->local(node)
+                                                     >= shared_nodes_begin;
+                                            }));
+      parts.back().first_inner_cell += n_parts * is_at_others.back();
+      parts.back().cells[1] = begin + n_parts;
+    }
+    std::vector<unsigned int> cell_place;
+    for (const BlockPart &part : parts)
+    {
+      unsigned int at_others = part.cells[0] / n_parts,
+                   inner     = part.first_inner_cell / n_parts;
+      for (unsigned int c = part.cells[0] / n_parts;
+           c < part.cells[1] / n_parts; ++c)
+        cell_place.push_back(is_at_others[c] ? at_others++ : inner++);
+    }
+    return cell_place;
+  }
 
-    // Joints, by local nodes and cells.
+  template <int dim>
+  void NodeMap<dim>::pack_cells(const std::vector<unsigned int> &cell_place)
+  {
+    const bool is_quadratic = table().is_quadratic;
+    points.resize(node_exchange->n_local());
+    node_block.resize(points.size(), none);
+    node_numbers.resize(points.size());
+    midside.assign(is_quadratic ? points.size() : 0, false);
+
+    const unsigned int n_parts = linear_cells_of(is_quadratic);
+    local_cells.is_quadratic   = is_quadratic;
+    local_cells.nodes.resize(n_parts * cell_place.size());
+    local_cells.group.resize(local_cells.size());
+    local_cells.number.resize(local_cells.size());
+    unsigned int index = 0;
+    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
+    for (const auto &cell : dofs.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      const unsigned int block
+          = table().block_of_cell(cell->id().get_coarse_cell_id());
+      cell->get_dof_indices(nodes);
+      for (Dof &node : nodes)
+        node = node_exchange->local(node);
+      for (unsigned int k = 0; k <= dim; ++k)
+      {
+        points[nodes[k]]       = cell->vertex(k);
+        node_numbers[nodes[k]] = mesh.vertex_numbers()[cell->vertex_index(k)];
+      }
+      if (is_quadratic)
+        for (unsigned int f = 0; f <= dim; ++f)
+        {
+          const auto face     = nodes_of_face<dim>(f, true);
+          const auto [v0, v1] = std::minmax(
+              { node_numbers[nodes[face[0]]], node_numbers[nodes[face[2]]] });
+          node_numbers[nodes[face[1]]] = (v1 + 1) << 32U | v0;
+          points[nodes[face[1]]]
+              = 0.5 * (cell->vertex(face[0]) + cell->vertex(face[2]));
+          midside[nodes[face[1]]] = true;
+        }
+      for (const Dof node : nodes)
+        node_block[node] = block;
+      unsigned int place   = n_parts * cell_place[index++];
+      std::uint64_t number = n_parts * cell->id().get_coarse_cell_id();
+      for (const auto &part : linear_cells<dim>(nodes))
+      {
+        local_cells.nodes[place]    = part;
+        local_cells.group[place]    = cell->material_id();
+        local_cells.number[place++] = number++;
+      }
+    }
+
+    std::vector<BlockPart> &parts   = local_blocks.parts;
+    const unsigned int n_deformable = local_blocks.n_deformable;
+    local_cells.n_deformable        = n_deformable == parts.size()
+                                          ? local_cells.size()
+                                          : parts[n_deformable].cells[0];
+
+    // Nodes of a block that are not shared are consecutive.
+    unsigned int node = 0;
+    for (unsigned int p = 0; p < parts.size(); ++p)
+    {
+      if (p == n_deformable)
+        node = deformable_nodes;
+      const unsigned int end
+          = p < n_deformable ? shared_nodes_begin : n_owned();
+      parts[p].nodes[0] = node;
+      while (node < end && node_block[node] == parts[p].number)
+        ++node;
+      parts[p].nodes[1] = node;
+    }
+
+    std::vector<std::array<double, dim>> positions(points.size());
+    for (unsigned int i = 0; i < n_owned(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        positions[i][d] = points[i][d];
+    node_exchange->update_ghosts(positions.data());
+    node_exchange->update_ghosts(node_block.data());
+    node_exchange->update_ghosts(node_numbers.data());
+    std::vector<unsigned char> is_midside(midside.begin(), midside.end());
+    if (is_quadratic)
+      node_exchange->update_ghosts(is_midside.data());
+    for (unsigned int i = n_owned(); i < points.size(); ++i)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        points[i][d] = positions[i][d];
+      if (is_quadratic)
+        midside[i] = is_midside[i];
+    }
+  }
+
+  template <int dim>
+  void NodeMap<dim>::pack_joints(const Partners &partners_of,
+                                 const std::vector<unsigned int> &cell_place)
+  {
+    const unsigned int rank
+        = dealii::Utilities::MPI::this_mpi_process(communicator());
+    const bool is_quadratic = table().is_quadratic;
     std::vector<unsigned int> numbers; // of owned cells, ascending
     for (const auto &cell : dofs.active_cell_iterators())
       if (cell->is_locally_owned())
@@ -245,18 +382,19 @@ namespace quoin
       const unsigned int cell
           = cell_place[std::lower_bound(numbers.begin(), numbers.end(), number)
                        - numbers.begin()];
-      return table().is_quadratic ? 4 * cell + vertex : cell;
+      return is_quadratic ? 4 * cell + vertex : cell;
     };
+    local_faces.n_global_joints
+        = table().n_joint_faces * (is_quadratic ? 2 : 1);
     for (unsigned int p = 0; p < partners_of.size(); ++p)
     {
-      const JointPair<dim> &pair = blocks.joints()[p];
+      const JointPair<dim> &pair = mesh.joints()[p];
       const auto local = [&](const unsigned int side, const unsigned int k)
       {
         const unsigned int node = partners_of[p][side][k];
         return pair.ranks[side] == rank ? node_exchange->local(node)
                                         : node_exchange->partner(node);
       };
-      const bool is_quadratic = table().is_quadratic;
       for (unsigned int part = 0; part < (is_quadratic ? 2 : 1); ++part)
       {
         JointNodes<dim> joint;
@@ -295,150 +433,14 @@ namespace quoin
           std::swap(joint.lower[1], joint.lower[2]);
           std::swap(joint.upper[1], joint.upper[2]);
         }
-        joints.push_back(joint);
+        local_faces.joints.push_back(joint);
       }
     }
   }
 
   template <int dim>
-  void NodeMap<dim>::order_cells()
-  {
-    const unsigned int n_parts = linear_cells_of(table().is_quadratic);
-    std::vector<bool> is_at_others;
-    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
-    for (const auto &cell : dofs.active_cell_iterators())
-    {
-      if (!cell->is_locally_owned())
-        continue;
-      const unsigned int block
-          = table().block_of_cell(cell->id().get_coarse_cell_id());
-      const unsigned int begin = n_parts * is_at_others.size();
-      if (parts.empty() || parts.back().number != block)
-      {
-        parts.push_back({ block, { begin, begin }, begin, { 0, 0 } });
-        n_deformable_parts += !table().is_rigid[block];
-      }
-      cell->get_dof_indices(nodes);
-      is_at_others.push_back(!table().is_rigid[block]
-                             && std::any_of(nodes.begin(), nodes.end(),
-                                            [&](const Dof node) {
-                                              return node_exchange->local(node)
-                                                     >= shared_nodes_begin;
-                                            }));
-      parts.back().first_inner_cell += n_parts * is_at_others.back();
-      parts.back().cells[1] = begin + n_parts;
-    }
-    for (const BlockPart &part : parts)
-    {
-      unsigned int at_others = part.cells[0] / n_parts,
-                   inner     = part.first_inner_cell / n_parts;
-      for (unsigned int c = part.cells[0] / n_parts;
-           c < part.cells[1] / n_parts; ++c)
-        cell_place.push_back(is_at_others[c] ? at_others++ : inner++);
-    }
-  }
-
-  template <int dim>
-  void NodeMap<dim>::pack_cells()
-  {
-    const bool is_quadratic = table().is_quadratic;
-    points.resize(node_exchange->n_local());
-    node_block.resize(points.size(), none);
-    node_numbers.resize(points.size());
-    midside.assign(is_quadratic ? points.size() : 0, false);
-
-    const unsigned int n_parts = linear_cells_of(is_quadratic);
-    cells.resize(n_parts * cell_place.size());
-    cell_group.resize(cells.size());
-    unsigned int index = 0;
-    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
-    for (const auto &cell : dofs.active_cell_iterators())
-    {
-      if (!cell->is_locally_owned())
-        continue;
-      const unsigned int block
-          = table().block_of_cell(cell->id().get_coarse_cell_id());
-      cell->get_dof_indices(nodes);
-      for (Dof &node : nodes)
-        node = node_exchange->local(node);
-      for (unsigned int k = 0; k <= dim; ++k)
-      {
-        points[nodes[k]]       = cell->vertex(k);
-        node_numbers[nodes[k]] = blocks.vertex_numbers()[cell->vertex_index(k)];
-      }
-      if (is_quadratic)
-        for (unsigned int f = 0; f <= dim; ++f)
-        {
-          const auto face     = nodes_of_face<dim>(f, true);
-          const auto [v0, v1] = std::minmax(
-              { node_numbers[nodes[face[0]]], node_numbers[nodes[face[2]]] });
-          node_numbers[nodes[face[1]]] = (v1 + 1) << 32U | v0;
-          points[nodes[face[1]]]
-              = 0.5 * (cell->vertex(face[0]) + cell->vertex(face[2]));
-          midside[nodes[face[1]]] = true;
-        }
-      for (const Dof node : nodes)
-        node_block[node] = block;
-      unsigned int place = n_parts * cell_place[index++];
-      for (const auto &part : linear_cells<dim>(nodes))
-      {
-        cells[place]        = part;
-        cell_group[place++] = cell->material_id();
-      }
-    }
-
-    // Nodes of a block that are not shared are consecutive.
-    unsigned int node = 0;
-    for (unsigned int p = 0; p < parts.size(); ++p)
-    {
-      if (p == n_deformable_parts)
-        node = deformable_nodes;
-      const unsigned int end
-          = p < n_deformable_parts ? shared_nodes_begin : n_owned();
-      parts[p].nodes[0] = node;
-      while (node < end && node_block[node] == parts[p].number)
-        ++node;
-      parts[p].nodes[1] = node;
-    }
-
-    std::vector<std::array<double, dim>> positions(points.size());
-    for (unsigned int i = 0; i < n_owned(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-        positions[i][d] = points[i][d];
-    node_exchange->update_ghosts(positions.data());
-    node_exchange->update_ghosts(node_block.data());
-    node_exchange->update_ghosts(node_numbers.data());
-    std::vector<unsigned char> is_midside(midside.begin(), midside.end());
-    if (is_quadratic)
-      node_exchange->update_ghosts(is_midside.data());
-    for (unsigned int i = n_owned(); i < points.size(); ++i)
-    {
-      for (unsigned int d = 0; d < dim; ++d)
-        points[i][d] = positions[i][d];
-      if (is_quadratic)
-        midside[i] = is_midside[i];
-    }
-  }
-
-  template <int dim>
-  std::vector<std::uint64_t> NodeMap<dim>::cell_numbers() const
-  {
-    const unsigned int n_parts = linear_cells_of(table().is_quadratic);
-    std::vector<std::uint64_t> result(cells.size());
-    unsigned int index = 0;
-    for (const auto &cell : dofs.active_cell_iterators())
-      if (cell->is_locally_owned())
-      {
-        const unsigned int place = n_parts * cell_place[index++];
-        for (unsigned int part = 0; part < n_parts; ++part)
-          result[place + part]
-              = n_parts * cell->id().get_coarse_cell_id() + part;
-      }
-    return result;
-  }
-
-  template <int dim>
-  void NodeMap<dim>::pack_faces()
+  void
+  NodeMap<dim>::pack_outer_faces(const std::vector<unsigned int> &cell_place)
   {
     const bool is_quadratic    = table().is_quadratic;
     const unsigned int n_names = table().face_names.size();
@@ -467,12 +469,12 @@ namespace quoin
           result.cell = first + (is_quadratic ? face[part == 0 ? 0 : 2] : 0);
           result.name = cell->face(f)->boundary_id();
           if constexpr (dim == 3)
-            turn_outward(result.nodes, cells[result.cell]);
-          outer.push_back(result);
+            turn_outward(result.nodes, local_cells.nodes[result.cell]);
+          local_faces.outer.push_back(result);
         }
       }
     }
-    std::sort(outer.begin(), outer.end(),
+    std::sort(local_faces.outer.begin(), local_faces.outer.end(),
               [](const OuterFace<dim> &a, const OuterFace<dim> &b)
               { return a.nodes < b.nodes; });
   }
@@ -492,119 +494,6 @@ namespace quoin
               * (points[*opposite] - points[face[0]])
           > 0.)
         std::swap(face[1], face[2]);
-  }
-
-  template <int dim>
-  unsigned int NodeMap<dim>::block_of_cell(const unsigned int cell) const
-  {
-    return (std::upper_bound(parts.begin(), parts.end(), cell,
-                             [](const unsigned int c, const BlockPart &part)
-                             { return c < part.cells[0]; })
-            - 1)
-        ->number;
-  }
-
-  template <int dim>
-  unsigned int NodeMap<dim>::find_part(const unsigned int number) const
-  {
-    const auto found
-        = std::lower_bound(parts.begin(), parts.end(), number,
-                           [](const BlockPart &part, const unsigned int n)
-                           { return part.number < n; });
-    return found != parts.end() && found->number == number
-               ? found - parts.begin()
-               : parts.size();
-  }
-
-  template <int dim>
-  std::vector<BoundaryFace<dim>>
-  NodeMap<dim>::gather_faces(const std::vector<bool> &wanted) const
-  {
-    std::vector<BoundaryFace<dim>> own;
-    for (const OuterFace<dim> &face : outer)
-    {
-      if (!wanted[face.name])
-        continue;
-      BoundaryFace<dim> result;
-      for (unsigned int k = 0; k < dim; ++k)
-      {
-        result.nodes[k]  = node_exchange->global(face.nodes[k]);
-        result.points[k] = points[face.nodes[k]];
-        result.shares[k] = face_share(face.nodes[k]);
-      }
-      result.group = cell_group[face.cell];
-      result.block = block_of_cell(face.cell);
-      result.name  = face.name;
-      own.push_back(result);
-    }
-    std::vector<BoundaryFace<dim>> all;
-    for (const auto &part :
-         dealii::Utilities::MPI::all_gather(communicator(), own))
-      all.insert(all.end(), part.begin(), part.end());
-    std::sort(all.begin(), all.end(),
-              [](const BoundaryFace<dim> &a, const BoundaryFace<dim> &b)
-              { return a.nodes < b.nodes; });
-    return all;
-  }
-
-  template <int dim>
-  std::array<dealii::Point<dim>, 2>
-  NodeMap<dim>::box_of_block(const unsigned int number) const
-  {
-    // The upper corner with the other sign, so that one minimum finds both.
-    std::vector<double> box(2 * dim, std::numeric_limits<double>::max());
-    for (unsigned int i = 0; i < n_owned(); ++i)
-      if (node_block[i] == number)
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          box[d]       = std::min(box[d], points[i][d]);
-          box[dim + d] = std::min(box[dim + d], -points[i][d]);
-        }
-    dealii::Utilities::MPI::min(box, communicator(), box);
-    std::array<dealii::Point<dim>, 2> result;
-    for (unsigned int d = 0; d < dim; ++d)
-    {
-      result[0][d] = box[d];
-      result[1][d] = -box[dim + d];
-    }
-    return result;
-  }
-
-  template <int dim>
-  dealii::Point<dim>
-  NodeMap<dim>::point_of_block(const unsigned int number) const
-  {
-    const auto found
-        = std::find(node_block.begin(), node_block.begin() + n_owned(), number);
-    dealii::Point<dim> result;
-    first_point(found == node_block.begin() + n_owned()
-                    ? none
-                    : found - node_block.begin(),
-                result);
-    return result;
-  }
-
-  template <int dim>
-  bool NodeMap<dim>::first_point(const unsigned int node,
-                                 dealii::Point<dim> &position,
-                                 unsigned int *block) const
-  {
-    const unsigned int own = node == none ? none : node_exchange->global(node);
-    const unsigned int first = dealii::Utilities::MPI::min(own, communicator());
-    if (first == none)
-      return false;
-    const unsigned int rank
-        = dealii::Utilities::MPI::this_mpi_process(communicator());
-    const unsigned int speaker = dealii::Utilities::MPI::min(
-        own == first ? rank : none, communicator());
-    std::pair<dealii::Point<dim>, unsigned int> found;
-    if (rank == speaker)
-      found = { points[node], node_block[node] };
-    found = dealii::Utilities::MPI::broadcast(communicator(), found, speaker);
-    position = found.first;
-    if (block)
-      *block = found.second;
-    return true;
   }
 
   template class NodeMap<2>;

@@ -14,10 +14,10 @@ namespace quoin
                           PlasticHistory &history)
     {
       const NodeMap<2> &nodes = model.nodes();
-      const unsigned int part = nodes.find_part(block);
-      if (part == nodes.block_parts().size())
+      const unsigned int part = nodes.blocks().find(block);
+      if (part == nodes.blocks().parts.size())
         return;
-      const auto &[begin, end] = nodes.block_parts()[part].cells;
+      const auto &[begin, end] = nodes.blocks().parts[part].cells;
       for (unsigned int c = begin; c < end; ++c)
         model.blocks().forget_history(c, history);
     }
@@ -43,10 +43,10 @@ namespace quoin
   NodeRange block_nodes(const Model<dim> &model, const unsigned int block)
   {
     const NodeMap<dim> &nodes = model.nodes();
-    const unsigned int part   = nodes.find_part(block);
-    if (part == nodes.block_parts().size())
+    const unsigned int part   = nodes.blocks().find(block);
+    if (part == nodes.blocks().parts.size())
       return { 0, 0 };
-    const auto &[begin, end] = nodes.block_parts()[part].nodes;
+    const auto &[begin, end] = nodes.blocks().parts[part].nodes;
     return { begin, end };
   }
 
@@ -54,7 +54,7 @@ namespace quoin
   unsigned int rigid_number(const Model<dim> &model, const unsigned int block)
   {
     const NodeMap<dim> &nodes = model.nodes();
-    return nodes.find_part(block) - nodes.n_deformable_block_parts();
+    return nodes.blocks().find(block) - nodes.blocks().n_deformable;
   }
 
   template <int dim>
@@ -73,7 +73,7 @@ namespace quoin
                           const State<2> &state)
   {
     const JointNodes<2> &face
-        = model.nodes().joint_faces()[model.joints().segment(segment).face];
+        = model.nodes().faces().joints[model.joints().segment(segment).face];
     return state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]);
   }
 

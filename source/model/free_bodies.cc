@@ -4,6 +4,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/point_text.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/mesh/global_geometry.h>
 #include <quoin/model/free_bodies.h>
 
 #include <quoin/base/eigen_core.h>
@@ -124,7 +125,7 @@ namespace quoin
                         const std::vector<MotionConstraint<dim> *> &constraints,
                         const State<dim> &state, const bool with_drag)
       : nodes(model.nodes()), n(nodes.table().n_blocks()),
-        origin(nodes.table().box[0]), size(nodes.diagonal()),
+        origin(nodes.table().box[0]), size(nodes.table().diagonal()),
         entries(n_entries * n, 0.), rank(n), parent(n),
         sets(rank.data(), parent.data()), grams(n, Gram<dim>::Zero())
     {
@@ -316,7 +317,7 @@ namespace quoin
         continue;
       throw InputError(text_of(
           "section 'Stages/", stage, "': block ", b, " at ",
-          point_text(model.nodes().point_of_block(b)),
+          point_text(point_of_block(model.nodes(), b)),
           " m and what is joined to it can move freely, so a stage with 'End = "
           "static ratio' would not come to rest. Hold it by a prescribed "
           "motion or a driven platen, or end the stage by 'time'."));
@@ -341,7 +342,7 @@ namespace quoin
       const auto motions_of_body = free_motions<dim>(bodies.gram(b));
       if (motions_of_body.empty())
         continue;
-      const auto [low, high] = model.nodes().box_of_block(b);
+      const auto [low, high] = box_of_block(model.nodes(), b);
       found.push_back({ b, 0, low + 0.5 * (high - low),
                         motions_of_body.size() == n_motions<dim> });
       motions.push_back(motions_of_body);

@@ -103,7 +103,7 @@ namespace quoin
     take_cells(node_map, data);
     for (const MaterialParameters &material : now.materials)
       data.stiffness.push_back(stiffness_of(material));
-    for (unsigned int c = 0; c < node_map.n_deformable_cells(); ++c)
+    for (unsigned int c = 0; c < node_map.cells().n_deformable; ++c)
       data.cell_stiffness.push_back(material_of_cell(c));
     if constexpr (dim == 2)
     {
@@ -215,9 +215,9 @@ namespace quoin
         for (unsigned int c = 0; c < 2; ++c)
           bound[node][c] += 2. * stiffness * tributary * given.thickness;
     };
-    for (const OuterFace<2> &face : node_map.outer_faces())
+    for (const OuterFace<2> &face : node_map.faces().outer)
       add_edge(face.nodes);
-    for (const JointNodes<2> &face : node_map.joint_faces())
+    for (const JointNodes<2> &face : node_map.faces().joints)
     {
       if (face.is_own[0])
         add_edge(face.lower);

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/mesh/global_geometry.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/model/model_box.h>
 
@@ -47,7 +48,7 @@ namespace quoin
     {
       if (is_in[b])
         continue;
-      const dealii::Point<2> first = nodes.point_of_block(b);
+      const dealii::Point<2> first = point_of_block(nodes, b);
       std::ostringstream message;
       message << "section 'Contact': " << text(parameters.box)
               << ", but before anything moves the block at (" << first[0]
@@ -76,8 +77,8 @@ namespace quoin
       if (const NodeRecord<2> &node = state.nodes[i]; is_inside(
               parameters.box, node.X[0] + node.u[0], node.X[1] + node.u[1]))
         inside[nodes.block_of_node(i)] = 1;
-    for (unsigned int i = 0; i < nodes.block_parts().size(); ++i)
-      held[nodes.block_parts()[i].number] = moved[i];
+    for (unsigned int i = 0; i < nodes.blocks().parts.size(); ++i)
+      held[nodes.blocks().parts[i].number] = moved[i];
     reduce(inside, communicator);
     reduce(held, communicator);
     bool is_news = false;
@@ -124,7 +125,7 @@ namespace quoin
     for (unsigned int i = 0; i < joints.n_segments(); ++i)
       if (!state.get<JointHistory>().handed_over[i])
         tied.push_back(
-            model.nodes().joint_faces()[joints.segment(i).face].blocks);
+            model.nodes().faces().joints[joints.segment(i).face].blocks);
     std::sort(tied.begin(), tied.end());
     tied.erase(std::unique(tied.begin(), tied.end()), tied.end());
 

@@ -14,7 +14,7 @@ namespace quoin
   {
     AlignedArray<double> result;
     for (unsigned int c = 0;
-         c < node_map.n_deformable_cells() && !cell_stress.empty(); ++c)
+         c < node_map.cells().n_deformable && !cell_stress.empty(); ++c)
       for (const double stress : cell_stress[c])
         result.push_back(stress);
     return result;
@@ -40,7 +40,7 @@ namespace quoin
       construction.initial_stress = packed_initial_stress();
     auto &stress = construction.initial_stress;
     for (unsigned int c = 0; 4 * c < stress.size(); ++c)
-      if (groups[node_map.group_of_cell(c)])
+      if (groups[node_map.cells().group[c]])
         std::fill_n(&stress[4 * c], 4, 0.);
   }
 
@@ -59,10 +59,10 @@ namespace quoin
     }
     auto &initial           = state.get<ConstructionState>().initial_stress;
     PlasticHistory &plastic = state.get<PlasticHistory>();
-    for (unsigned int c = 0; c < node_map.n_deformable_cells(); ++c)
+    for (unsigned int c = 0; c < node_map.cells().n_deformable; ++c)
     {
       const unsigned int m
-          = properties.material_of_group[node_map.group_of_cell(c)];
+          = properties.material_of_group[node_map.cells().group[c]];
       const MohrCoulomb *law = laws[m] ? &*laws[m] : nullptr;
       const auto before      = block_forces.stress_of_strain(
                state.nodes.data(), plastic, c, block_forces.cell_stiffness(c),
@@ -77,7 +77,7 @@ namespace quoin
         continue;
       if (initial.empty())
         initial = packed_initial_stress();
-      initial.resize(4 * node_map.n_deformable_cells(), 0.);
+      initial.resize(4 * node_map.cells().n_deformable, 0.);
       for (unsigned int k = 0; k < 4; ++k)
         initial[4 * c + k] = bears[k] + before[k] - after[k];
     }

@@ -31,8 +31,8 @@ namespace quoin
   {
     if (given.initial_stresses.empty())
       return;
-    cell_stress.assign(node_map.n_cells(), {});
-    face_stress.assign(node_map.joint_faces().size(), {});
+    cell_stress.assign(node_map.cells().size(), {});
+    face_stress.assign(node_map.faces().joints.size(), {});
     for (const LoadParameters &load : given.initial_stresses)
     {
       if (given.plane == PlaneAssumption::plane_stress && load.stress_zz)
@@ -62,13 +62,13 @@ namespace quoin
             load, point, now.materials[now.material_of_group[group]].elastic,
             given.plane);
       };
-      for (unsigned int c = 0; c < node_map.n_cells(); ++c)
+      for (unsigned int c = 0; c < node_map.cells().size(); ++c)
       {
-        const unsigned int group = node_map.group_of_cell(c);
+        const unsigned int group = node_map.cells().group[c];
         if (!acts_in(group))
           continue;
         dealii::Point<2> centre;
-        for (const unsigned int node : node_map.cell(c))
+        for (const unsigned int node : node_map.cells().nodes[c])
           for (unsigned int d = 0; d < 2; ++d)
             centre[d] += node_map.point(node)[d] / 3.;
         const auto stress = stress_at(centre, group);
@@ -77,7 +77,7 @@ namespace quoin
       }
       for (unsigned int f = 0; f < face_stress.size(); ++f)
       {
-        const JointNodes<2> &face = node_map.joint_faces()[f];
+        const JointNodes<2> &face = node_map.faces().joints[f];
         if (absent_group[face.groups[0]] || absent_group[face.groups[1]])
           continue;
         for (const unsigned int group : face.groups)

@@ -126,7 +126,8 @@ namespace quoin
       ExplicitSolver<2> &solver = *system.explicit_solver;
       FailureWatch watch(safety.failure_displacement > 0.
                              ? safety.failure_displacement
-                             : failure_share * system.nodes->diagonal());
+                             : failure_share
+                                   * system.nodes->table().diagonal());
       context.steps.choose(stage);
       for (;;)
       {

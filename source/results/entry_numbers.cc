@@ -43,7 +43,7 @@ namespace quoin
       List &segments = result.own[JointHistory::slice_name];
       for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
         segments.push_back(
-            nodes.joint_faces()[model.joints().segment(i).face].number);
+            nodes.faces().joints[model.joints().segment(i).face].number);
     }
   } // namespace
 
@@ -56,15 +56,16 @@ namespace quoin
     for (unsigned int i = 0; i < nodes.n_local(); ++i)
       result.nodes.push_back(nodes.number_of_node(i));
     result.n_owned_nodes = nodes.n_owned();
-    result.cells         = nodes.cell_numbers();
-    result.cells.resize(nodes.n_deformable_cells());
+    const auto &cells    = nodes.cells().number;
+    result.cells.assign(cells.begin(),
+                        cells.begin() + nodes.cells().n_deformable);
 
     for (const auto &constraint : solver.constraints())
       result.own[constraint->name()] = nodes_of(*constraint, nodes);
     List &blocks = result.own[RigidBlockStates::slice_name];
-    for (unsigned int part = nodes.n_deformable_block_parts();
-         part < nodes.block_parts().size(); ++part)
-      blocks.push_back(nodes.block_parts()[part].number);
+    for (unsigned int part = nodes.blocks().n_deformable;
+         part < nodes.blocks().parts.size(); ++part)
+      blocks.push_back(nodes.blocks().parts[part].number);
     if constexpr (dim == 2)
       number_plane_entries(model, solver, result);
     return result;

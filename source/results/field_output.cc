@@ -17,8 +17,8 @@ namespace quoin
     decltype(fields.stress) stress;
     decltype(fields.strain) strain;
     model.blocks().stresses(state.nodes.data(), plastic, stress, strain);
-    stress.resize(nodes.n_cells()); // those of rigid blocks are zero
-    strain.resize(nodes.n_cells());
+    stress.resize(nodes.cells().size()); // those of rigid blocks are zero
+    strain.resize(nodes.cells().size());
     std::vector<std::int32_t> number(nodes.n_local(), -1);
     const auto add_node = [&](const unsigned int i)
     {
@@ -34,7 +34,7 @@ namespace quoin
       fields.displacement.push_back(vector(node.u));
       fields.velocity.push_back(vector(state.velocity[i].v));
     };
-    for (const BlockPart &part : nodes.block_parts())
+    for (const BlockPart &part : nodes.blocks().parts)
     {
       const unsigned int block = part.number;
       if (state.is_absent(block))
@@ -44,17 +44,17 @@ namespace quoin
       for (unsigned int own = part.cells[0]; own < part.cells[1]; ++own)
       {
         // Shared nodes are added with their first cell.
-        for (const unsigned int i : nodes.cell(own))
+        for (const unsigned int i : nodes.cells().nodes[own])
           if (number[i] < 0)
             add_node(i);
         fields.cells.emplace_back();
         for (unsigned int k = 0; k <= dim; ++k)
-          fields.cells.back()[k] = number[nodes.cell(own)[k]];
+          fields.cells.back()[k] = number[nodes.cells().nodes[own][k]];
         fields.stress.push_back(stress[own]);
         fields.strain.push_back(strain[own]);
         if (model.blocks().is_plastic())
         {
-          const bool is_rigid = own >= model.nodes().n_deformable_cells();
+          const bool is_rigid = own >= model.nodes().cells().n_deformable;
           fields.yielding.push_back(is_rigid ? 0 : plastic.yielding[own]);
           fields.plastic_shear.push_back(is_rigid ? 0. : plastic.shear[own]);
         }
@@ -75,7 +75,7 @@ namespace quoin
     {
       const auto &segment = model.joints().segment(i);
       // A joint between two ranks is written by the rank of its lower side.
-      if (!model.nodes().joint_faces()[segment.face].is_own[0]
+      if (!model.nodes().faces().joints[segment.face].is_own[0]
           || history.handed_over[i])
         continue;
       const auto gaps = model.joints().gaps(state.nodes.data(), i);
@@ -171,7 +171,7 @@ namespace quoin
                                + 1;
     constexpr double of_plastic_cell = 4 + 8;
     constexpr double of_files        = 5000.; // XML
-    const double n_cells             = model.nodes().n_cells();
+    const double n_cells             = model.nodes().cells().size();
     double bytes
         = of_files + of_node * model.nodes().n_owned() + of_cell * n_cells;
     if (model.blocks().is_plastic())
@@ -181,10 +181,9 @@ namespace quoin
       const double of_joint_point
           = 2 * 3 * 8 + 4 * 8 + 1 + 8 * model.joints().field_names().size();
       constexpr double of_joint = 1 + 4 + 8 + 2 * 4 + 4 + 1;
+      const auto &faces         = model.nodes().faces().joints;
       for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
-        if (model.nodes()
-                .joint_faces()[model.joints().segment(i).face]
-                .is_own[0])
+        if (faces[model.joints().segment(i).face].is_own[0])
           bytes += of_joint + 2. * of_joint_point;
     }
     return dealii::Utilities::MPI::sum(bytes, model.nodes().communicator());

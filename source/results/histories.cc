@@ -91,7 +91,7 @@ namespace quoin
     {
       std::array<dealii::Point<dim>, dim + 1> result;
       for (unsigned int k = 0; k <= dim; ++k)
-        result[k] = nodes.point(nodes.cell(cell)[k]);
+        result[k] = nodes.point(nodes.cells().nodes[cell][k]);
       return result;
     }
 
@@ -117,11 +117,11 @@ namespace quoin
                                                const dealii::Point<dim> &point)
     {
       const NodeMap<dim> &nodes = model.nodes();
-      const unsigned int part   = nodes.find_part(block);
+      const unsigned int part   = nodes.blocks().find(block);
       unsigned int inside       = 0;
-      if (part < nodes.block_parts().size())
+      if (part < nodes.blocks().parts.size())
       {
-        const auto &[begin, end] = nodes.block_parts()[part].cells;
+        const auto &[begin, end] = nodes.blocks().parts[part].cells;
         for (unsigned int c = begin; c < end; ++c)
           if (contains(nodes, c, point))
             inside = 1;
@@ -185,7 +185,7 @@ namespace quoin
     void consider_cells(const Model<dim> &model, Nearest<dim> &nearest)
     {
       const NodeMap<dim> &nodes = model.nodes();
-      for (unsigned int c = 0; c < nodes.n_cells(); ++c)
+      for (unsigned int c = 0; c < nodes.cells().size(); ++c)
       {
         dealii::Point<dim> centroid;
         for (const auto &corner : corners(nodes, c))
@@ -202,7 +202,7 @@ namespace quoin
       const NodeMap<2> &nodes = model.nodes();
       for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
       {
-        const auto &face = nodes.joint_faces()[model.joints().segment(i).face];
+        const auto &face = nodes.faces().joints[model.joints().segment(i).face];
         if (!curve.empty() && nodes.table().face_names[face.name] != curve)
           continue;
         for (unsigned int k = 0; k < 2; ++k)
@@ -339,7 +339,7 @@ namespace quoin
       probe.here = probe.here && part == least;
     }
     double longest = 0.;
-    for (const auto &cell : nodes.all_cells())
+    for (const auto &cell : nodes.cells().nodes)
       for (unsigned int k = 0; k <= dim; ++k)
         for (unsigned int l = 0; l < k; ++l)
           longest = std::max(longest, nodes.point(cell[k]).distance_square(
@@ -386,7 +386,7 @@ namespace quoin
     case HistoryQuantity::stress:
     case HistoryQuantity::principal_stress:
     {
-      if (probe.entity >= model.nodes().n_deformable_cells())
+      if (probe.entity >= model.nodes().cells().n_deformable)
         return 0.;
       const auto stress = model.blocks().cell_stress(
           state.nodes.data(), state.template get<PlasticHistory>(),
@@ -419,7 +419,7 @@ namespace quoin
   double Histories<2>::yield_value(const Probe &probe,
                                    const State<2> &state) const
   {
-    if (probe.entity >= model.nodes().n_deformable_cells()
+    if (probe.entity >= model.nodes().cells().n_deformable
         || !model.blocks().cell_law(probe.entity))
       return 0.;
     const PlasticPoint point = model.blocks().cell_history(
@@ -459,7 +459,8 @@ namespace quoin
     case HistoryQuantity::principal_stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
-      return state.is_absent(model.nodes().block_of_cell(probe.entity));
+      return state.is_absent(
+          model.nodes().blocks().block_of_cell(probe.entity));
     case HistoryQuantity::joint:
       if constexpr (dim == 2)
         return is_at_absent_block(model, probe.entity / 2, state);
@@ -473,8 +474,8 @@ namespace quoin
   double Histories<2>::rotation(const unsigned int cell,
                                 const State<2> &state) const
   {
-    const auto &nodes = model.nodes().cell(cell);
-    if (cell >= model.nodes().n_deformable_cells())
+    const auto &nodes = model.nodes().cells().nodes[cell];
+    if (cell >= model.nodes().cells().n_deformable)
     {
       const RigidBlocks &rigid = model.rigid_blocks();
       unsigned int b           = 0;

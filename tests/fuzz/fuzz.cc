@@ -223,7 +223,7 @@ namespace
             "cells without a rank");
     const std::vector<unsigned int> first(mesh.n_cells(), 0);
     const BlockTriangulation<dim> blocks(mesh, first, is_rigid, MPI_COMM_SELF);
-    require(NodeMap<dim>(blocks).n_global() == report.n_nodes,
+    require(NodeMap<dim>(blocks).exchange().n_global() == report.n_nodes,
             "nodes are not those of the report");
   }
 

@@ -119,7 +119,7 @@ namespace quoin
         across joints. */
     void keep(const std::vector<unsigned int> &numbers);
 
-    /** The sides of NodeMap::joint_faces()[face]. */
+    /** The sides of LocalFaces::joints[face]. */
     const JointEdges &joint_edges(const unsigned int face) const
     {
       return edges_of_joints[face];

@@ -209,7 +209,7 @@ namespace quoin
       std::array<double, 2> area;               /**< of each point [m^2] */
       float share; /**< of the energy that this rank counts */
       unsigned int set;
-      unsigned int face; /**< into NodeMap::joint_faces() */
+      unsigned int face; /**< into LocalFaces::joints */
     };
 
     const Segment &segment(const unsigned int i) const

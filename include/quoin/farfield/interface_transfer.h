@@ -5,7 +5,7 @@
 #define quoin_farfield_interface_transfer_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/mesh/node_map.h>
+#include <quoin/mesh/global_geometry.h>
 #include <quoin/elastodynamics/boundary.h>
 
 #include <array>

@@ -6,7 +6,7 @@
 
 #include <quoin/operators/force_operator.h>
 #include <quoin/loads/load_parameters.h>
-#include <quoin/mesh/node_map.h>
+#include <quoin/mesh/global_geometry.h>
 
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace quoin
 {
   /**
    * A traction or gravity: forces a(t) w_i on nodes i with fixed weights w_i,
-   * the tributary area [m^2] (NodeMap::face_share()) or the mass [kg]. A
+   * the tributary area [m^2] (face_share()) or the mass [kg]. A
    * pressure adds p(t) n_i, with n_i the tributary area times the inward
    * normal.
    * Tractions and pressures act on the reference area and keep their

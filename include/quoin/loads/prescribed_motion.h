@@ -6,7 +6,7 @@
 
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/motion_constraint.h>
-#include <quoin/mesh/node_map.h>
+#include <quoin/mesh/global_geometry.h>
 
 namespace quoin
 {

@@ -8,7 +8,7 @@
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/materials/plane_assumption.h>
-#include <quoin/mesh/node_map.h>
+#include <quoin/mesh/global_geometry.h>
 
 #include <array>
 #include <vector>

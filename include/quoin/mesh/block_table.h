@@ -42,6 +42,11 @@ namespace quoin
     bool is_quadratic          = false;      /**< cells have midside nodes */
     std::array<dealii::Point<dim>, 2> box{}; /**< lower and upper corner [m] */
 
+    /** Diagonal of the box around all vertices [m]. */
+    double diagonal() const
+    {
+      return box[0].distance(box[1]);
+    }
     unsigned int n_blocks() const
     {
       return group.size();

@@ -132,7 +132,7 @@ namespace quoin
     /** Index into the materials of an owned cell. */
     unsigned int material_of_cell(const unsigned int cell) const
     {
-      return now.material_of_group[node_map.group_of_cell(cell)];
+      return now.material_of_group[node_map.cells().group[cell]];
     }
 
   private:

@@ -214,7 +214,7 @@ namespace
     void expect_divided() const
     {
       unsigned int n_divided = 0;
-      for (const BlockPart &block : part.nodes.block_parts())
+      for (const BlockPart &block : part.nodes.blocks().parts)
         n_divided += block.cells[1] - block.cells[0]
                      < part.nodes.table().first_cell[block.number + 1]
                            - part.nodes.table().first_cell[block.number];

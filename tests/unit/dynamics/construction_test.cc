@@ -213,11 +213,11 @@ TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
 
     // the new stiffness from there on
     const double stiff
-        = run.model.blocks().cell_stiffness(run.nodes->n_cells() - 1).c33;
+        = run.model.blocks().cell_stiffness(run.nodes->cells().size() - 1).c33;
     EXPECT_DOUBLE_EQ(stiff, 3e9 / 2.6);
     construction.restart();
     EXPECT_DOUBLE_EQ(
-        run.model.blocks().cell_stiffness(run.nodes->n_cells() - 1).c33,
+        run.model.blocks().cell_stiffness(run.nodes->cells().size() - 1).c33,
         1e10 / 2.4);
   }
   parameters.initial_stresses.clear();

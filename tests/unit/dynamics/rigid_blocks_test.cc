@@ -217,7 +217,7 @@ TEST(RigidBlocks, MassAndInertiaOfARectangle)
     EXPECT_NEAR(block.inertia, mass * (9. + 2.25) / 12., 1e-8 * mass);
     EXPECT_GT(block.lumped_inertia, 1.05 * block.inertia);
     EXPECT_EQ(model.nodes().n_deformable_nodes(), 0U);
-    EXPECT_EQ(model.nodes().n_deformable_cells(), 0U);
+    EXPECT_EQ(model.nodes().cells().n_deformable, 0U);
     EXPECT_EQ(model.blocks().n_tiles(), 0U);
   }
 }
@@ -518,7 +518,7 @@ TEST(RigidBlocks, PatchWithDeformableBlocks)
   TestRun run(mesh, parameters,
               { motion("base", "bottom", "0", "0"),
                 traction("press", "top", "0", "-1e5") });
-  EXPECT_EQ(run.model.nodes().n_deformable_cells(), 8U);
+  EXPECT_EQ(run.model.nodes().cells().n_deformable, 8U);
   EXPECT_EQ(run.model.nodes().n_deformable_nodes(), 12U);
   EXPECT_EQ(run.model.nodes().table().is_rigid,
             std::vector<bool>({ false, false, true }));

@@ -107,7 +107,8 @@ TEST(BoundaryParameters, All)
   EXPECT_EQ(hole.polygon, CirclePolygon::equal_area);
   EXPECT_EQ(hole.centre[1], -2.);
   EXPECT_TRUE(hole.traction_is_given[0]);
-  EXPECT_NEAR(hole.pressure({ 5., 6. }, 0.5), 1e6 * std::sin(0.5), 1e-9);
+  EXPECT_NEAR(hole.pressure(Eigen::Vector2d(5., 6.), 0.5), 1e6 * std::sin(0.5),
+              1e-9);
   EXPECT_FALSE(hole.pressure.depends_on_place());
   EXPECT_TRUE(hole.pressure.depends_on_time());
   EXPECT_FALSE(hole.value[0].depends_on_time());
@@ -117,7 +118,7 @@ TEST(BoundaryParameters, All)
   EXPECT_EQ(surface.points[0][0], 9.);
   EXPECT_FALSE(surface.traction_is_given[0]);
   EXPECT_TRUE(surface.traction_is_given[1]);
-  EXPECT_NEAR(surface.value[0]({ 3., 0. }, 0.5), 10., 1e-12);
+  EXPECT_NEAR(surface.value[0](Eigen::Vector2d(3., 0.), 0.5), 10., 1e-12);
   EXPECT_TRUE(surface.value[0].depends_on_place());
   EXPECT_TRUE(surface.value[0].depends_on_time());
   EXPECT_FALSE(surface.value[1].depends_on_time());

@@ -42,7 +42,7 @@ namespace
       for (unsigned int k = 0; k < n; ++k)
         domain.interface.push_back(k);
       far     = std::make_unique<FarField>("beyond", std::move(domain), nodes,
-                                       nodes->gather_faces({ false, true }),
+                                       gather_faces(*nodes, { false, true }),
                                        thickness);
       step.dt = step.dt_before = step.dt_velocity = element / medium.c1;
       state.nodes.resize(nodes->n_local());

@@ -23,7 +23,7 @@ namespace
     const TestNodes nodes{ mesh() };
     /** Of the upper edge alone. */
     const std::vector<BoundaryFace<2>> faces
-        = nodes->gather_faces({ false, true });
+        = gather_faces(*nodes, { false, true });
 
     static BlockMesh<2> mesh()
     {
@@ -179,7 +179,7 @@ TEST(InterfaceTransfer, chords)
   Boundary boundary;
   boundary.add_curve(points, true);
   const InterfaceTransfer transfer(boundary, { 0, 1, 2, 3, 4, 5, 6, 7 }, nodes,
-                                   nodes->gather_faces({ false, true }));
+                                   gather_faces(*nodes, { false, true }));
   EXPECT_EQ(transfer.nodes().size(), n);
   Eigen::VectorXd means;
   transfer.gather(

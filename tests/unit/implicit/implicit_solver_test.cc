@@ -167,7 +167,7 @@ TEST(ImplicitSolver, UniformStressIsExact)
                     numbers);
     run.begin({ "left", "floor", "pull" });
     run.finish();
-    for (unsigned int c = 0; c < run.nodes->n_cells(); ++c)
+    for (unsigned int c = 0; c < run.nodes->cells().size(); ++c)
     {
       const auto stress
           = run.model.blocks().cell_stress(run.state.nodes.data(), {}, c);

@@ -5,6 +5,7 @@
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/mesh_report.h>
 #include <quoin/base/node_vector.h>
+#include <quoin/mesh/global_geometry.h>
 #include <quoin/mesh/node_map.h>
 #include <quoin/mesh/partition.h>
 
@@ -132,9 +133,9 @@ namespace quoin::test
     void check_nodes(const BlockMesh<dim> &whole, const NodeMap<dim> &nodes,
                      const BlockTriangulation<dim> &blocks)
     {
-      EXPECT_EQ(nodes.n_global(), whole.n_vertices());
+      EXPECT_EQ(nodes.exchange().n_global(), whole.n_vertices());
       EXPECT_EQ(sum(nodes.n_owned()), whole.n_vertices());
-      EXPECT_EQ(sum(nodes.n_cells()), whole.n_cells());
+      EXPECT_EQ(sum(nodes.cells().size()), whole.n_cells());
 
       // Positions are those of the vertices, whoever owns them.
       unsigned int c = 0;
@@ -142,13 +143,15 @@ namespace quoin::test
         if (cell->is_locally_owned())
         {
           const unsigned int number = cell->id().get_coarse_cell_id();
-          EXPECT_EQ(nodes.group_of_cell(c), whole.cell_group[number]);
-          EXPECT_EQ(nodes.block_of_cell(c), whole.block_of_cell(number));
+          EXPECT_EQ(nodes.cells().number[c], number);
+          EXPECT_EQ(nodes.cells().group[c], whole.cell_group[number]);
+          EXPECT_EQ(nodes.blocks().block_of_cell(c),
+                    whole.block_of_cell(number));
           for (unsigned int k = 0; k <= dim; ++k)
           {
-            EXPECT_EQ(nodes.point(nodes.cell(c)[k]),
+            EXPECT_EQ(nodes.point(nodes.cells().nodes[c][k]),
                       whole.vertices[whole.cells[number][k]]);
-            EXPECT_EQ(nodes.block_of_node(nodes.cell(c)[k]),
+            EXPECT_EQ(nodes.block_of_node(nodes.cells().nodes[c][k]),
                       whole.block_of_cell(number));
           }
           ++c;
@@ -166,8 +169,8 @@ namespace quoin::test
           valence[key] += 1.;
         }
       std::vector<NodeVector<dim>> count(nodes.n_local());
-      for (unsigned int cell = 0; cell < nodes.n_cells(); ++cell)
-        for (const unsigned int node : nodes.cell(cell))
+      for (unsigned int cell = 0; cell < nodes.cells().size(); ++cell)
+        for (const unsigned int node : nodes.cells().nodes[cell])
           count[node].v[0] += 1.;
       nodes.exchange().add_to_owners(count.data());
       double total = 0., squares = 0., expected = 0.;
@@ -186,7 +189,7 @@ namespace quoin::test
     void check_joints(const BlockMesh<dim> &whole, const NodeMap<dim> &nodes)
     {
       double sides = 0.;
-      for (const JointNodes<dim> &joint : nodes.joint_faces())
+      for (const JointNodes<dim> &joint : nodes.faces().joints)
       {
         sides += joint.is_own[0] + joint.is_own[1];
         for (unsigned int k = 0; k < dim; ++k)
@@ -200,14 +203,14 @@ namespace quoin::test
             for (const unsigned int node :
                  side == 0 ? joint.lower : joint.upper)
             {
-              const auto &cell = nodes.cell(joint.cells[side]);
+              const auto &cell = nodes.cells().nodes[joint.cells[side]];
               EXPECT_EQ(std::count(cell.begin(), cell.end(), node), 1);
             }
       }
       EXPECT_EQ(sum(sides), 2 * whole.joint_faces.size());
 
       const std::vector<bool> all(whole.face_names.size(), true);
-      const auto faces = nodes.gather_faces(all);
+      const auto faces = gather_faces(nodes, all);
       ASSERT_EQ(faces.size(), whole.boundary_faces.size());
       double area = 0., whole_area = 0.;
       const auto middle = [](const auto &points)
@@ -248,7 +251,7 @@ namespace quoin::test
     std::vector<bool> bottom(n, false);
     for (unsigned int i = 0; i < n; ++i)
       bottom[i] = blocks.table().face_names[i] == "bottom";
-    const auto faces = nodes.gather_faces(bottom);
+    const auto faces = gather_faces(nodes, bottom);
     ASSERT_EQ(faces.size(), 6U);
     for (const BoundaryFace<2> &face : faces)
     {
@@ -269,24 +272,24 @@ namespace quoin::test
     for (unsigned int v = 0; v < whole.n_vertices(); ++v)
       EXPECT_EQ(nodes.point(v), whole.vertices[v]);
     for (unsigned int c = 0; c < whole.n_cells(); ++c)
-      EXPECT_EQ(nodes.cell(c), whole.cells[c]);
-    ASSERT_EQ(nodes.joint_faces().size(), whole.joint_faces.size());
+      EXPECT_EQ(nodes.cells().nodes[c], whole.cells[c]);
+    ASSERT_EQ(nodes.faces().joints.size(), whole.joint_faces.size());
     for (unsigned int f = 0; f < whole.joint_faces.size(); ++f)
     {
-      EXPECT_EQ(nodes.joint_faces()[f].lower, whole.joint_faces[f].lower);
-      EXPECT_EQ(nodes.joint_faces()[f].upper, whole.joint_faces[f].upper);
+      EXPECT_EQ(nodes.faces().joints[f].lower, whole.joint_faces[f].lower);
+      EXPECT_EQ(nodes.faces().joints[f].upper, whole.joint_faces[f].upper);
     }
-    ASSERT_EQ(nodes.outer_faces().size(), whole.boundary_faces.size());
+    ASSERT_EQ(nodes.faces().outer.size(), whole.boundary_faces.size());
     for (unsigned int f = 0; f < whole.boundary_faces.size(); ++f)
     {
-      EXPECT_EQ(nodes.outer_faces()[f].nodes, whole.boundary_faces[f].vertices);
-      EXPECT_EQ(nodes.outer_faces()[f].cell, whole.boundary_faces[f].cell);
+      EXPECT_EQ(nodes.faces().outer[f].nodes, whole.boundary_faces[f].vertices);
+      EXPECT_EQ(nodes.faces().outer[f].cell, whole.boundary_faces[f].cell);
     }
-    ASSERT_EQ(nodes.block_parts().size(), 2U);
+    ASSERT_EQ(nodes.blocks().parts.size(), 2U);
     for (unsigned int b = 0; b < 2; ++b)
     {
-      EXPECT_EQ(nodes.block_parts()[b].nodes[0], whole.block_first_vertex[b]);
-      EXPECT_EQ(nodes.block_parts()[b].nodes[1],
+      EXPECT_EQ(nodes.blocks().parts[b].nodes[0], whole.block_first_vertex[b]);
+      EXPECT_EQ(nodes.blocks().parts[b].nodes[1],
                 whole.block_first_vertex[b + 1]);
     }
   }
@@ -315,22 +318,22 @@ namespace quoin::test
     const BlockTriangulation<2> blocks(mesh, in_stripes(whole),
                                        { false, false }, MPI_COMM_WORLD);
     const NodeMap<2> nodes(blocks);
-    EXPECT_EQ(sum(nodes.n_cells()), 4 * whole.n_cells());
+    EXPECT_EQ(sum(nodes.cells().size()), 4 * whole.n_cells());
     double area = 0.;
-    for (unsigned int c = 0; c < nodes.n_cells(); ++c)
+    for (unsigned int c = 0; c < nodes.cells().size(); ++c)
     {
-      const auto &[i, j, k] = nodes.cell(c);
+      const auto &[i, j, k] = nodes.cells().nodes[c];
       const auto a          = nodes.point(j) - nodes.point(i);
       const auto b          = nodes.point(k) - nodes.point(i);
       EXPECT_NEAR(a[0] * b[1] - a[1] * b[0], 0.25, 1e-14);
       area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
-      for (const unsigned int node : nodes.mass_nodes(c))
+      for (const unsigned int node : nodes.cells().mass_nodes(c))
         EXPECT_TRUE(nodes.is_midside(node));
       EXPECT_EQ(nodes.is_midside(i), c % 4 == 3);
     }
     EXPECT_NEAR(sum(area), 48., 1e-12);
     double sides = 0.;
-    for (const JointNodes<2> &joint : nodes.joint_faces())
+    for (const JointNodes<2> &joint : nodes.faces().joints)
     {
       sides += joint.is_own[0] + joint.is_own[1];
       EXPECT_NE(nodes.is_midside(joint.lower[0]),
@@ -341,15 +344,15 @@ namespace quoin::test
         if (joint.is_own[side])
           for (const unsigned int node : side == 0 ? joint.lower : joint.upper)
           {
-            const auto &cell = nodes.cell(joint.cells[side]);
+            const auto &cell = nodes.cells().nodes[joint.cells[side]];
             EXPECT_EQ(std::count(cell.begin(), cell.end(), node), 1);
           }
     }
     EXPECT_EQ(sum(sides), 4 * whole.joint_faces.size());
-    for (const OuterFace<2> &face : nodes.outer_faces())
+    for (const OuterFace<2> &face : nodes.faces().outer)
       for (const unsigned int node : face.nodes)
       {
-        const auto &cell = nodes.cell(face.cell);
+        const auto &cell = nodes.cells().nodes[face.cell];
         EXPECT_EQ(std::count(cell.begin(), cell.end(), node), 1);
       }
   }
@@ -387,15 +390,14 @@ namespace quoin::test
       const BlockMesh<2> linear = mesh;
       const TestNodes nodes(mesh);
       ASSERT_TRUE(nodes->table().is_quadratic);
-      EXPECT_EQ(nodes->n_cells(), 4 * linear.n_cells());
-      EXPECT_EQ(nodes->n_global_cells(), 4 * linear.n_cells());
+      EXPECT_EQ(nodes->cells().size(), 4 * linear.n_cells());
       for (unsigned int t = 0; t < linear.n_cells(); ++t)
       {
-        const auto &[m01, m12, m20] = nodes->cell(4 * t + 3);
+        const auto &[m01, m12, m20] = nodes->cells().nodes[4 * t + 3];
         const unsigned int mid[3]   = { m01, m12, m20 };
         for (unsigned int k = 0; k < 3; ++k)
         {
-          const auto &cell = nodes->cell(4 * t + k);
+          const auto &cell = nodes->cells().nodes[4 * t + k];
           EXPECT_EQ(cell[1], mid[k]);
           EXPECT_EQ(cell[2], mid[(k + 2) % 3]);
           EXPECT_FALSE(nodes->is_midside(cell[0]));
@@ -408,16 +410,19 @@ namespace quoin::test
         }
         for (unsigned int k = 0; k < 4; ++k)
         {
-          EXPECT_EQ(nodes->group_of_cell(4 * t + k), linear.cell_group[t]);
-          EXPECT_EQ(nodes->block_of_cell(4 * t + k), linear.block_of_cell(t));
-          EXPECT_EQ(nodes->mass_nodes(4 * t + k), nodes->cell(4 * t + 3));
+          EXPECT_EQ(nodes->cells().number[4 * t + k], 4 * t + k);
+          EXPECT_EQ(nodes->cells().group[4 * t + k], linear.cell_group[t]);
+          EXPECT_EQ(nodes->blocks().block_of_cell(4 * t + k),
+                    linear.block_of_cell(t));
+          EXPECT_EQ(nodes->cells().mass_nodes(4 * t + k),
+                    nodes->cells().nodes[4 * t + 3]);
         }
       }
       for (unsigned int b = 0; b < 4; ++b)
       {
-        EXPECT_EQ(nodes->block_parts()[b].cells[0],
+        EXPECT_EQ(nodes->blocks().parts[b].cells[0],
                   4 * linear.block_first_cell[b]);
-        EXPECT_EQ(nodes->block_parts()[b].cells[1],
+        EXPECT_EQ(nodes->blocks().parts[b].cells[1],
                   4 * linear.block_first_cell[b + 1]);
       }
     }
@@ -427,22 +432,22 @@ namespace quoin::test
   {
     const BlockMesh<2> whole = cracked_blocks();
     const TestNodes nodes(whole);
-    ASSERT_EQ(nodes->outer_faces().size(), 2 * whole.boundary_faces.size());
-    ASSERT_EQ(nodes->joint_faces().size(), 2 * whole.joint_faces.size());
-    EXPECT_EQ(nodes->n_joint_faces(), 2 * whole.joint_faces.size());
+    ASSERT_EQ(nodes->faces().outer.size(), 2 * whole.boundary_faces.size());
+    ASSERT_EQ(nodes->faces().joints.size(), 2 * whole.joint_faces.size());
+    EXPECT_EQ(nodes->faces().n_global_joints, 2 * whole.joint_faces.size());
     double length = 0.;
-    for (const OuterFace<2> &face : nodes->outer_faces())
+    for (const OuterFace<2> &face : nodes->faces().outer)
     {
       EXPECT_NE(nodes->is_midside(face.nodes[0]),
                 nodes->is_midside(face.nodes[1]));
-      EXPECT_TRUE(
-          has_edge(nodes->cell(face.cell), face.nodes[0], face.nodes[1]));
+      EXPECT_TRUE(has_edge(nodes->cells().nodes[face.cell], face.nodes[0],
+                           face.nodes[1]));
       // By Simpson's rule.
       double sum = 0.;
       for (const unsigned int node : face.nodes)
       {
-        sum += nodes->face_share(node);
-        EXPECT_DOUBLE_EQ(nodes->face_share(node),
+        sum += face_share(*nodes, node);
+        EXPECT_DOUBLE_EQ(face_share(*nodes, node),
                          nodes->is_midside(node) ? 2. / 3. : 1. / 3.);
       }
       EXPECT_DOUBLE_EQ(sum, 1.);
@@ -451,7 +456,7 @@ namespace quoin::test
     }
     EXPECT_NEAR(length, whole.boundary_faces.size(), 1e-12);
     std::vector<unsigned int> n_parts(whole.joint_faces.size(), 0);
-    for (const JointNodes<2> &joint : nodes->joint_faces())
+    for (const JointNodes<2> &joint : nodes->faces().joints)
     {
       const JointFace<2> &face = whole.joint_faces[joint.number / 2];
       ++n_parts[joint.number / 2];
@@ -462,9 +467,9 @@ namespace quoin::test
       for (unsigned int k = 0; k < 2; ++k)
         EXPECT_EQ(nodes->is_midside(joint.lower[k]),
                   nodes->is_midside(joint.upper[k]));
-      EXPECT_TRUE(has_edge(nodes->cell(joint.cells[0]), joint.lower[0],
+      EXPECT_TRUE(has_edge(nodes->cells().nodes[joint.cells[0]], joint.lower[0],
                            joint.lower[1]));
-      EXPECT_TRUE(has_edge(nodes->cell(joint.cells[1]), joint.upper[1],
+      EXPECT_TRUE(has_edge(nodes->cells().nodes[joint.cells[1]], joint.upper[1],
                            joint.upper[0]));
       // Both halves have the direction of the whole.
       const auto t
@@ -485,7 +490,7 @@ namespace quoin::test
     EXPECT_EQ(nodes_at(nodes, 4., 0.).size(), 2U);
     EXPECT_EQ(nodes_at(nodes, 1., 1.).size(), 1U);
     EXPECT_EQ(nodes_at(nodes, 2., 1.).size(), 1U);
-    EXPECT_EQ(make_mesh_report(whole).n_nodes, nodes->n_global());
+    EXPECT_EQ(make_mesh_report(whole).n_nodes, nodes->exchange().n_global());
   }
 
   TEST(NodeMap, SaysThePointOfTheLowestNode)
@@ -496,13 +501,13 @@ namespace quoin::test
                                        { false, false }, MPI_COMM_WORLD);
     const NodeMap<2> nodes(blocks);
     dealii::Point<2> position;
-    EXPECT_FALSE(nodes.first_point(NodeMap<2>::none, position));
+    EXPECT_FALSE(first_point(nodes, NodeMap<2>::none, position));
     const bool is_last
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD)
           == n_ranks() - 1;
     unsigned int block = 7;
     EXPECT_TRUE(
-        nodes.first_point(is_last ? 0 : NodeMap<2>::none, position, &block));
+        first_point(nodes, is_last ? 0 : NodeMap<2>::none, position, &block));
     if (is_last)
     {
       EXPECT_EQ(position, nodes.point(0));

@@ -541,18 +541,19 @@ TEST(SpaceMeshOfRanks, BlocksAreDistributed)
   const BlockTriangulation<3> blocks(mesh, rank_of_cell, { false, false },
                                      MPI_COMM_WORLD);
   const NodeMap<3> nodes(blocks);
-  EXPECT_EQ(nodes.n_global(), report.n_nodes);
-  EXPECT_EQ(nodes.n_global_cells(), report.n_cells);
-  EXPECT_EQ(nodes.n_joint_faces(), report.n_joint_faces);
+  EXPECT_EQ(nodes.exchange().n_global(), report.n_nodes);
+  EXPECT_EQ(dealii::Utilities::MPI::sum(nodes.cells().size(), MPI_COMM_WORLD),
+            report.n_cells);
+  EXPECT_EQ(nodes.faces().n_global_joints, report.n_joint_faces);
 
   std::vector<Point> points;
   for (unsigned int i = 0; i < nodes.n_local(); ++i)
     points.push_back(nodes.point(i));
   std::array<double, 2> volumes{}, sum_of_volumes{};
-  for (unsigned int c = 0; c < nodes.n_cells(); ++c)
+  for (unsigned int c = 0; c < nodes.cells().size(); ++c)
   {
-    const auto &v = nodes.cell(c);
-    volumes[nodes.group_of_cell(c)]
+    const auto &v = nodes.cells().nodes[c];
+    volumes[nodes.cells().group[c]]
         += area_vector(points, { { v[0], v[1], v[2] } })
            * (points[v[3]] - points[v[0]]) / 3.;
   }
@@ -563,7 +564,7 @@ TEST(SpaceMeshOfRanks, BlocksAreDistributed)
   EXPECT_NEAR(sum_of_volumes[1], 0.5, 1e-12);
 
   double joint = 0., outer = 0.;
-  for (const JointNodes<3> &face : nodes.joint_faces())
+  for (const JointNodes<3> &face : nodes.faces().joints)
   {
     for (unsigned int k = 0; k < 3; ++k)
       EXPECT_LT(points[face.lower[k]].distance(points[face.upper[k]]), 1e-12);
@@ -573,7 +574,7 @@ TEST(SpaceMeshOfRanks, BlocksAreDistributed)
     if (face.is_own[0])
       joint += n.norm();
   }
-  for (const OuterFace<3> &face : nodes.outer_faces())
+  for (const OuterFace<3> &face : nodes.faces().outer)
     outer += area_vector(points, face.nodes).norm();
   EXPECT_NEAR(sum(joint, MPI_COMM_WORLD), 1., 1e-12);
   EXPECT_NEAR(sum(outer, MPI_COMM_WORLD), 8., 1e-12);

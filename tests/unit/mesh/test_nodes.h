@@ -49,6 +49,10 @@ namespace quoin::test
     {
       return nodes;
     }
+    const NodeMap<2> &operator*() const
+    {
+      return nodes;
+    }
     const NodeMap<2> *operator->() const
     {
       return &nodes;
@@ -74,7 +78,7 @@ namespace quoin::test
   inline std::array<unsigned int, 2> nodes_of_block(const NodeMap<2> &nodes,
                                                     const unsigned int block)
   {
-    return nodes.block_parts().at(nodes.find_part(block)).nodes;
+    return nodes.blocks().parts.at(nodes.blocks().find(block)).nodes;
   }
 } // namespace quoin::test
 

@@ -53,7 +53,7 @@ TEST(Model, LumpsAThirdOfEachCell)
   EXPECT_DOUBLE_EQ(mass[0], 1200. * 0.5);
   EXPECT_DOUBLE_EQ(mass[1], 3000. * 0.5);
   EXPECT_EQ(model.nodes().table().n_blocks(), 2U);
-  EXPECT_EQ(model.nodes().n_cells(), 4U);
+  EXPECT_EQ(model.nodes().cells().size(), 4U);
   EXPECT_EQ(model.parameters().thickness, 0.5);
 }
 
