@@ -103,7 +103,7 @@ namespace
             && tags[order.back()] - tags[order.front()] + 1 == tags.size();
     }
 
-    /** Their number if there is no such tag. */
+    /** Index of the node with @p tag; the number of nodes if there is none. */
     std::size_t find(const std::size_t tag) const
     {
       if (contiguous && tag >= tags[order.front()] && tag <= tags[order.back()])
@@ -209,7 +209,7 @@ namespace
     const bool accepts_quadrangles;
     GmshMesh mesh;
 
-    /** Of gmsh, for all nodes. */
+    /** All nodes as gmsh returns them. */
     std::vector<std::size_t> tags;
     std::vector<double> coordinates, parametric;
 

@@ -90,7 +90,7 @@ namespace quoin
                Point(bounds[2] + margin, bounds[3] + margin) };
     }
 
-    /** Of so many consecutive edges other ranks see the box. */
+    /** Number of consecutive edges whose common box other ranks see. */
     constexpr unsigned int edges_of_box = 16;
 
     /** Boxes of edges of one block each. */
@@ -127,7 +127,7 @@ namespace quoin
       }
     };
 
-    /** Those of @p ends that reach into @p boxes, and their neighbours. */
+    /** The edges @p ends that reach into @p boxes, and their neighbours. */
     std::vector<EdgeThere> edges_in(const std::vector<Bounds> &boxes,
                                     const ContactEdges &edges,
                                     const std::vector<EdgeEnds> &ends,
@@ -268,7 +268,7 @@ namespace quoin
 
   namespace
   {
-    /** Of some 220 bytes each. */
+    /** Largest number of pairs, of some 220 bytes each. */
     constexpr std::size_t most_pairs = 20000000;
 
     [[noreturn]] void refuse_pairs(const EdgeEnds &edge, const std::size_t n,

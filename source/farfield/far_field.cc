@@ -395,7 +395,7 @@ namespace quoin
     }
     if (is_first_rank)
     {
-      // Of the work done on the domain, that on the scattered field has left.
+      // The work done on the scattered field of the domain has left the model.
       const auto power = [&](const VectorXd &v) {
         return (p - incident_p).cwiseProduct(area).dot(v - incident_velocity);
       };

@@ -276,7 +276,7 @@ namespace quoin
       if (is_set && !joints.is_persistent)
         row("gap", "m", &joints.gap, drawn.gap, {});
 
-      // Of infinitely many lines with the means asked for.
+      // The value asked for is that of infinitely many lines with these means.
       text << joints.name << ",length per area,1/m,";
       if (is_set)
         text << (joints.is_persistent

@@ -74,7 +74,7 @@ namespace quoin
       {
         return s - s % (dim + 1) + side_vertices<dim>[s % (dim + 1)][k];
       }
-      /** The same in the mesh. */
+      /** Vertex @p k of side @p s in the mesh. */
       unsigned int vertex(const unsigned int s, const unsigned int k) const
       {
         return data.cells[cell_of(s)][side_vertices<dim>[s % (dim + 1)][k]];
@@ -194,7 +194,7 @@ namespace quoin
                                 const Same &same) const
     {
       const auto a = vertices_of(s), b = vertices_of(t);
-      // Of two vertices one order is the other one turned round.
+      // Two vertices have one order and its reverse, three have three turns.
       constexpr unsigned int n_turns = dim == 2 ? 1 : dim;
       for (unsigned int turn = 0; turn < n_turns; ++turn)
       {

@@ -57,7 +57,7 @@ namespace quoin
 
     void add_quality(const BlockMesh<3> &mesh, MeshReport &report)
     {
-      // Of vertices, and of the faces opposite to them.
+      // Pairs of vertices, and of the faces opposite to them.
       constexpr unsigned int pairs[6][2]
           = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3 }, { 2, 3 } };
       report.shortest_edge  = std::numeric_limits<double>::max();

@@ -405,7 +405,7 @@ namespace quoin
         {
           joint.blocks[side] = table().block_of_cell(pair.cells[side]);
           joint.is_own[side] = pair.ranks[side] == rank;
-          // Of halves, the linear cell at their vertex.
+          // A half belongs to the linear cell at its vertex.
           const auto face = nodes_of_face<dim>(pair.faces[side], is_quadratic);
           const bool at_start
               = part == (side == 1 && pair.match[0] == 1 ? 1U : 0U);

@@ -28,7 +28,7 @@ namespace quoin
     return text.empty() ? "none" : text;
   }
 
-  /** The same for a list of names. */
+  /** "a, b" for a message that lists @p names. */
   template <typename Names>
   std::string known_names(const Names &names)
   {

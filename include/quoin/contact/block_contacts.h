@@ -99,7 +99,7 @@ namespace quoin
       search_is_due       = true;
     }
 
-    /** The same for positions of update(); adds to owned nodes. */
+    /** Adds the forces at the positions of update() to owned nodes. */
     void add_forces(const StepContext &step, State<2> &state,
                     const NodeForces<2> &forces) override;
 
@@ -123,7 +123,7 @@ namespace quoin
     {
       return edges;
     }
-    /** Of ContactState::search_positions, local. */
+    /** Local nodes of ContactState::search_positions. */
     const std::vector<unsigned int> &watched_nodes() const
     {
       return boundary_nodes;
@@ -137,7 +137,8 @@ namespace quoin
       std::array<std::array<double, 2>, 2> reference; /**< of lower [m] */
       std::array<double, 2> opening, slip;            /**< [m] */
     };
-    /** Of pair @p pair at the positions of update(). */
+    /** The contact of pair @p pair at the positions of update(); false if it is
+        inactive or the edges do not overlap. */
     bool contact(const ContactState &contacts, unsigned int pair,
                  Contact &result) const;
     /** Whether this rank writes the pair. */
@@ -196,7 +197,7 @@ namespace quoin
     void bind_edges(const ContactState &contacts);
     void bind_nodes();
     void bind_pairs(const ContactState &contacts);
-    /** Of an entry of edge_pairs. */
+    /** The pair that entry @p i of edge_pairs stands for. */
     const ContactPair &pair_or_copy(const ContactState &contacts,
                                     const unsigned int i) const
     {
@@ -204,7 +205,7 @@ namespace quoin
                  ? contacts.pairs[i]
                  : copies.pairs()[i - contacts.pairs.size()];
     }
-    /** Of an edge, into local_edges. */
+    /** Index of @p edge into local_edges. */
     unsigned int local_edge(unsigned int edge) const;
     void gather(const State<2> &state);
 

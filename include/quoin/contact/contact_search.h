@@ -46,7 +46,7 @@ namespace quoin
   near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
              double skin);
 
-  /** Of two edges, 0 if they cross [m]. */
+  /** Distance of two edges [m]; 0 if they cross. */
   double distance(const EdgeEnds &a, const EdgeEnds &b);
 } // namespace quoin
 

@@ -60,7 +60,7 @@ namespace quoin
 
     AlignedArray<std::uint8_t> handed_over; /**< of interfaces of joints */
 
-    /** Of the boundary nodes, when pairs were last searched [m]. */
+    /** Positions of the boundary nodes when pairs were last searched [m]. */
     AlignedArray<NodeVector<2>> search_positions;
     std::uint64_t next_check = 0; /**< step of the next look at motions */
     std::uint64_t n_searches = 0;

@@ -39,7 +39,7 @@ namespace quoin
     }
 
   private:
-    /** Of each of the ranks. */
+    /** Numbers of pairs, one for each rank. */
     using Counts = std::vector<unsigned int>;
 
     template <typename T>

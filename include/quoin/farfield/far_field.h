@@ -85,7 +85,8 @@ namespace quoin
     double incident    = 0.; /**< [J] */
     double given       = 0.; /**< [J] */
     double mismatch    = 0.; /**< [-] */
-    /** Of all boundary elements in the last step, scattered. */
+    /** Scattered field of all boundary elements in the last step: [m], [m/s],
+        [Pa]. */
     std::vector<double> displacement, velocity, traction;
     SavedHistory history; /**< in checkpoints */
 

@@ -82,7 +82,7 @@ namespace quoin
     Eigen::MatrixXd congruence(const std::vector<double> &diagonal) const;
 
     /**
-     * The same for both components, twice as large: by thickness, the motion
+     * congruence() of both components, twice as large: by thickness, the motion
      * of elements by their tractions if @p gain is motion by force of nodes.
      */
     Eigen::MatrixXd mobility(const std::vector<double> &gain) const;

@@ -124,7 +124,7 @@ namespace quoin
       return stiffness;
     }
 
-    /** Of peak roughness, i [rad], at the traction s [Pa]. */
+    /** Dilation angle i [rad] by peak roughness at the traction s [Pa]. */
     template <typename Number>
     Number peak_roughness(const Number &traction) const;
 

@@ -174,19 +174,19 @@ namespace quoin
     CompositeDissipation update(CompositePoint<dim> &point, double opening,
                                 const Slip<dim> &slip) const;
 
-    /** The same with the consistent tangent, see CoulombLaw. */
+    /** As update(), with the consistent tangent; see CoulombLaw. */
     template <int dim>
     CompositeDissipation update(CompositePoint<dim> &point, double opening,
                                 const Slip<dim> &slip,
                                 JointTangent<dim> &tangent) const;
 
-    /** The same, if the joint is elastic there and no crack closes; else
-        false. */
+    /** As update(), if the joint is elastic there and no crack closes; else it
+        returns false. */
     template <int dim>
     bool update_elastic(CompositePoint<dim> &point, double opening,
                         const Slip<dim> &slip) const;
 
-    /** The same for a joint that fails or closes. */
+    /** As update(), for a joint that fails or closes. */
     template <int dim>
     CompositeDissipation update_failing(CompositePoint<dim> &point,
                                         double opening,

@@ -46,7 +46,7 @@ namespace quoin
     /** tan(psi) [-] at the end of @p flow. */
     double dilation(const CompositeFlow &flow) const;
 
-    /** The same without what pressure takes off. */
+    /** tan(psi) [-] without pressure, which lowers it. */
     double free_dilation(double bond) const;
 
     const CompositeLaw &law;
@@ -60,22 +60,22 @@ namespace quoin
      */
     bool iterate(CompositeFlow &flow, bool opens, bool slips) const;
 
-    /** The same for slip alone without dilation, which is one equation. */
+    /** As iterate(), for slip alone without dilation: one equation. */
     bool slide(CompositeFlow &flow) const;
 
     /** Whether the tractions of @p flow leave the cap as it was. */
     bool within_cap(const CompositeFlow &flow) const;
 
-    /** With whatever opening there must be. */
+    /** The flow with whatever opening there must be. */
     CompositeFlow opened() const;
 
-    /** With the opening that leaves @p sigma of the normal trial. */
+    /** The flow with the opening that leaves @p sigma of the normal trial. */
     CompositeFlow slipped(double sigma) const;
 
-    /** With the opening and slip that leave @p sigma and @p tau. */
+    /** The flow with the opening and slip that leave @p sigma and @p tau. */
     CompositeFlow crushed(double sigma, double tau) const;
 
-    /** The same without crushing. */
+    /** As crushed(), without crushing. */
     CompositeFlow loosened(double sigma, double tau) const;
 
     /**
@@ -85,12 +85,12 @@ namespace quoin
     void relax(CompositeFlow &flow, double sigma, double tau,
                double share) const;
 
-    /** f1, f2 [Pa] and f3 [Pa^2]. */
+    /** The yield functions f1, f2 [Pa] and f3 [Pa^2]. */
     double opening_excess(const CompositeFlow &flow) const;
     double slip_excess(const CompositeFlow &flow) const;
     double overload(const CompositeFlow &flow) const;
 
-    /** Of f1 and f2, with rounding errors of @p sigma [Pa]. */
+    /** Tolerance of f1 and f2 [Pa], with rounding errors of @p sigma [Pa]. */
     double tolerance(double sigma) const;
 
     const double bond_start, crushing_start;

@@ -131,7 +131,7 @@ namespace quoin
                             const Slip<dim> &slip) const;
 
     /**
-     * The same with the consistent tangent, for a Newton solver, which
+     * As update(), with the consistent tangent for a Newton solver, which
      * updates a copy of the point that it began with and keeps the last copy
      * once it has converged. Where a joint breaks its tractions jump; the
      * tangent is then that beyond the jump.
@@ -142,7 +142,7 @@ namespace quoin
                             JointTangent<dim> &tangent) const;
 
     /**
-     * The same, but an intact joint stays elastic beyond its strength unless
+     * As update(), but an intact joint stays elastic beyond its strength unless
      * it @p breaks: no Newton iteration survives the jump. See excess().
      */
     template <int dim>
@@ -156,12 +156,13 @@ namespace quoin
     template <int dim>
     double excess(const JointPoint<dim> &point) const;
 
-    /** The same, if the joint neither fails, slips nor is open; else false. */
+    /** As update(), if the joint neither fails, slips nor is open; else it
+        returns false. */
     template <int dim>
     bool update_elastic(JointPoint<dim> &point, double opening,
                         const Slip<dim> &slip) const;
 
-    /** The same for a joint that fails, slips or is open. */
+    /** As update(), for a joint that fails, slips or is open. */
     template <int dim>
     JointDissipation update_failing(JointPoint<dim> &point, double opening,
                                     const Slip<dim> &slip) const;
@@ -223,7 +224,8 @@ namespace quoin
                                       double opening,
                                       const Slip<dim> &slip) const;
 
-    /** Of a failed joint, whose traction is cut off at the residual one. */
+    /** Energy per area [J/m^2] of the opening of a failed joint, whose traction
+        is cut off at the residual strength. */
     double normal_energy(const double sigma_trial) const
     {
       const double cut = std::min(sigma_trial, residual.tension);
@@ -358,7 +360,7 @@ namespace quoin
   {
     if (point.state != JointState::intact)
       return update(point, opening, slip, tangent);
-    // Its strength is the residual one from now on, or none limits it.
+    // The joint has residual strength from now on, or no strength limits it.
     CoulombLaw law = *this;
     law.peak       = breaks ? residual : JointStrength();
     return law.update(point, opening, slip, tangent);
@@ -392,7 +394,8 @@ namespace quoin
     if (excess <= 0.) // the residual strength is above the peak's
       return { kn, {}, {}, isotropic<dim>(ks) };
 
-    // Of the plastic slip dp by opening and slip; all of it at the bound.
+    // Derivatives of the plastic slip dp by opening and slip; at the bound all
+    // of the slip is plastic.
     const double largest  = magnitude(tau_trial) / ks;
     const bool is_bounded = excess / stiffness > largest;
     const double by_opening

@@ -35,11 +35,11 @@ namespace quoin
     AlignedArray<double> shear_traction;  /**< [Pa] */
     AlignedArray<double> plastic_slip;    /**< inelastic slip [m] */
     AlignedArray<double> plastic_opening; /**< dilation, offsets [m] */
-    /** Of each point n_internal numbers, the internal variables of its law. */
+    /** Internal variables of the laws: n_internal numbers for each point. */
     AlignedArray<double> internal;
     unsigned int n_internal = 0;
     AlignedArray<JointState> state;
-    /** Of each segment, two points: it is a general contact by now. */
+    /** Whether each segment, two points, is a general contact by now. */
     AlignedArray<std::uint8_t> handed_over;
 
     void resize(const std::size_t n, const unsigned int n_internal = 0)
@@ -57,7 +57,7 @@ namespace quoin
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
-      // Of each segment, two points.
+      // Each segment has two points.
       visitor.own(normal_traction, 2);
       visitor.own(shear_traction, 2);
       visitor.own(plastic_slip, 2);

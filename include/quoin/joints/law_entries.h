@@ -26,10 +26,10 @@ namespace quoin
   class LawEntries
   {
   public:
-    /** Those of the law that @p section names. */
+    /** Entries of the law that @p section names. */
     explicit LawEntries(const ParameterSection &section);
 
-    /** Those of all laws, collected. */
+    /** Entries of all laws, collected. */
     static LawEntries all();
 
     /** Declares 'Law' and what was collected. */

@@ -202,7 +202,7 @@ namespace quoin
                        find_step(own(), point, opening, slip));
     }
 
-    /** The same with the consistent tangent, see CoulombLaw. */
+    /** As update(), with the consistent tangent; see CoulombLaw. */
     JointDissipation update(RockPoint &point, const double opening,
                             const double slip, JointTangent<2> &tangent) const
     {

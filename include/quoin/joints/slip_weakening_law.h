@@ -140,7 +140,7 @@ namespace quoin
       return true;
     }
 
-    /** The same for a joint that slips or is open; returns what that
+    /** As update(), for a joint that slips or is open; returns what that
         dissipated, by the trapezoidal rule. */
     template <int dim>
     JointDissipation update_failing(SlipWeakeningPoint<dim> &point,

@@ -93,7 +93,8 @@ namespace quoin
     void assign_holes();
     /** Parts of @p loop that pass no vertex twice. */
     std::vector<Loop> split(const Loop &loop) const;
-    /** The same among faces for which @p is_wanted(face) holds. */
+    /** The face around @p point among those for which @p is_wanted(face) holds.
+     */
     template <typename IsWanted>
     unsigned int find(const dealii::Point<2> &point,
                       const IsWanted &is_wanted) const;

@@ -32,7 +32,7 @@ namespace quoin
    * Joints number @p number of @p rock, cut at the outline and at the region
    * that they are limited to.
    *
-   * Of a set, line 0 goes through the origin, lines 1, 2, ... are above it (in
+   * Line 0 of a set goes through the origin, lines 1, 2, ... are above it (in
    * the direction of the dip turned anticlockwise by 90 degrees), lines -1, -2,
    * ... below. On each, traces and gaps follow each other from a random place
    * on; a trace has its own dip and is turned about its middle. Spacings are

@@ -63,8 +63,8 @@ namespace quoin
                           TriangleKind kind = TriangleKind::plain);
 
   /**
-   * The same by the first rank; the others have an empty mesh. An InputError is
-   * thrown on all of them. Collective.
+   * Reads @p filename on the first rank, as the function above; the others have
+   * an empty mesh. An InputError is thrown on all of them. Collective.
    */
   template <int dim = 2>
   MeshData<dim> read_gmsh(const std::string &filename,
@@ -72,7 +72,8 @@ namespace quoin
                           TriangleKind kind = TriangleKind::plain);
 
   /**
-   * The same for a mesh of @p dimension, which all ranks know afterwards. A
+   * Reads a mesh of @p dimension, as read_gmsh(); all ranks know whether it has
+   * two or three dimensions afterwards. A
    * .msh file has three if it has tetrahedra, a .geo file if it has volumes.
    * Collective.
    */

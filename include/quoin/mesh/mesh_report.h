@@ -30,8 +30,8 @@ namespace quoin
     unsigned int n_joint_faces = 0;
     bool quadratic             = false; /**< nodes on the middle of edges */
 
-    /** Of joints, by the name of their curve or surface; "" stands for joints
-        without one. */
+    /** Length [m] or area [m^2] of joints by the name of their curve or
+        surface; "" stands for joints without one. */
     std::map<std::string, double> joint_size;
     double total_joint_size = 0.;
 

@@ -38,7 +38,7 @@ namespace quoin
     unsigned int row_length;
     double share = 1.; /**< share of the derivatives that this rank adds */
 
-    // Of joints, for following a path.
+    // What joints add for following an equilibrium path.
 
     /** Area times the increment of inelastic opening and slip, negative on
         reversal [m^3], and its derivative [m^2], only if requested. */

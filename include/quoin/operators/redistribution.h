@@ -79,7 +79,7 @@ namespace quoin
       /** Numbers and local indices, ascending. */
       std::vector<std::pair<std::uint64_t, unsigned int>> here;
       std::vector<bool> found;
-      // Of the current part.
+      // The part whose entries are being taken.
       std::size_t n_there = 0;
       std::vector<std::array<unsigned int, 2>> moves; /**< from, to */
 

@@ -15,8 +15,8 @@ namespace quoin
   struct SavedHistory
   {
     std::vector<double> common; /**< the same on all ranks */
-    /** Of equations that ranks share, group by group: from @p first_group on
-        those of one rank, or all of them. */
+    /** Histories of the equations that ranks share, group by group: from
+        @p first_group on those of one rank, or all of them. */
     std::vector<std::vector<double>> groups;
     unsigned int first_group = 0;
 

@@ -48,9 +48,10 @@ namespace quoin
                                 const BoundaryElement &element);
 
   /**
-   * The same in the frame of the element: components t and n instead of x and
-   * y, for a source at distance @p d below the element (d > 0: on the side of
-   * the domain) and ends at @p s1 and @p s2 > @p s1 along the tangent [m].
+   * element_integrals() in the frame of the element: components t and n instead
+   * of x and y, for a source at distance @p d below the element (d > 0: on the
+   * side of the domain) and ends at @p s1 and @p s2 > @p s1 along the tangent
+   * [m].
    */
   TimeKernels local_element_integrals(const ElasticMedium &medium, double time,
                                       double d, double s1, double s2);

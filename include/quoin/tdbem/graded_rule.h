@@ -16,7 +16,8 @@ namespace quoin
   GaussRule graded_rule(unsigned n);
 
   /**
-   * The same with the regularised incomplete beta function x = I_t(8, 8),
+   * As graded_rule(), with the regularised incomplete beta function
+   * x = I_t(8, 8),
    * which begins like t^8, for functions that are logarithmic at an end.
    */
   GaussRule strongly_graded_rule(unsigned n);

@@ -123,7 +123,8 @@ namespace quoin
     };
 
     Pair pair(unsigned e, unsigned f) const;
-    /** Those of the equation of the second are left out by collocation. */
+    /** Integrals of @p pair; collocation leaves out those of the equation of
+        the second element. */
     PairIntegrals integrate(const Pair &pair, double time) const;
     TimeKernels near_integral(const Element &outer, const Element &inner,
                               double time, bool close) const;

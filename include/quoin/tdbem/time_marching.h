@@ -43,7 +43,7 @@ namespace quoin
      */
     void step(const Eigen::VectorXd &given);
 
-    /** The same without adding the step to the history: see finish_step(). */
+    /** As step(), without adding the step to the history: see finish_step(). */
     void begin_step(const Eigen::VectorXd &given);
 
     /**
