@@ -79,8 +79,7 @@ namespace quoin
     strain_at_start       = sum(model.blocks().strain_energy(
               rest.nodes.data(), rest.template get<PlasticHistory>()));
     if constexpr (dim == 2)
-      joint_at_start = sum(model.joints().stored_energy(
-          rest.nodes.data(), rest.template get<JointHistory>()));
+      joint_at_start = sum(model.joints().stored_energy(rest));
   }
 
   template <>

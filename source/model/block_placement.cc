@@ -73,7 +73,7 @@ namespace quoin
                           const State<2> &state)
   {
     const JointNodes<2> &face
-        = model.nodes().faces().joints[model.joints().segment(segment).face];
+        = model.nodes().faces().joints[model.joints().segments()[segment].face];
     return state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]);
   }
 

@@ -82,7 +82,6 @@ namespace quoin
         initial[4 * c + k] = bears[k] + before[k] - after[k];
     }
     set_properties(properties, state.get<ConstructionState>());
-    matched_joints.keep_tractions(state.nodes.data(),
-                                  state.get<JointHistory>());
+    keep_joint_tractions(matched_joints, state);
   }
 } // namespace quoin
