@@ -92,8 +92,7 @@ namespace quoin
 
   double Construction::stored_energy(const State<2> &state) const
   {
-    return model.blocks().strain_energy(state.nodes.data(),
-                                        state.get<PlasticHistory>())
+    return model.blocks().stored_energy(state)
            + model.joints().stored_energy(state);
   }
 

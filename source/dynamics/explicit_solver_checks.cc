@@ -64,8 +64,7 @@ namespace quoin
     const auto stored = [&]()
     {
       return model.joints().stored_energy(state)
-             + model.blocks().strain_energy(state.nodes.data(),
-                                            state.get<PlasticHistory>());
+             + model.blocks().stored_energy(state);
     };
     double energy = stored();
     for (unsigned int i = 0; i < model.joints().segments().size(); ++i)

@@ -288,9 +288,7 @@ namespace quoin
       state.time = state.stage_start + stage_duration;
     if (far.elastostatic_acts)
       state.get<StaticFarFieldState>().stored = balance.far_field_energy;
-    find_energies(state,
-                  model.blocks().strain_energy(state.nodes.data(),
-                                               state.get<PlasticHistory>()),
+    find_energies(state, model.blocks().stored_energy(state),
                   model.joints().stored_energy(state), 0.);
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/blocks/cell_states.h>
 #include <quoin/contact/law_fields.h>
 #include <quoin/results/field_output.h>
 #include <quoin/tdbem/tangential_stress.h>
@@ -17,7 +18,7 @@ namespace quoin
     const auto &plastic       = state.template get<PlasticHistory>();
     decltype(fields.stress) stress;
     decltype(fields.strain) strain;
-    model.blocks().stresses(state.nodes.data(), plastic, stress, strain);
+    cell_stresses(model.blocks(), state.nodes.data(), plastic, stress, strain);
     stress.resize(nodes.cells().size()); // those of rigid blocks are zero
     strain.resize(nodes.cells().size());
     std::vector<std::int32_t> number(nodes.n_local(), -1);
@@ -53,7 +54,7 @@ namespace quoin
           fields.cells.back()[k] = number[nodes.cells().nodes[own][k]];
         fields.stress.push_back(stress[own]);
         fields.strain.push_back(strain[own]);
-        if (model.blocks().is_plastic())
+        if (model.blocks().cell_data().is_plastic())
         {
           const bool is_rigid = own >= model.nodes().cells().n_deformable;
           fields.yielding.push_back(is_rigid ? 0 : plastic.yielding[own]);
@@ -175,7 +176,7 @@ namespace quoin
     const double n_cells             = model.nodes().cells().size();
     double bytes
         = of_files + of_node * model.nodes().n_owned() + of_cell * n_cells;
-    if (model.blocks().is_plastic())
+    if (model.blocks().cell_data().is_plastic())
       bytes += of_plastic_cell * n_cells;
     if constexpr (dim == 2)
     {

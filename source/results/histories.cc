@@ -7,6 +7,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/blocks/triangle.h>
+#include <quoin/blocks/cell_states.h>
 #include <quoin/contact/law_fields.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/results/block_output.h>
@@ -390,9 +391,9 @@ namespace quoin
     {
       if (probe.entity >= model.nodes().cells().n_deformable)
         return 0.;
-      const auto stress = model.blocks().cell_stress(
-          state.nodes.data(), state.template get<PlasticHistory>(),
-          probe.entity);
+      const auto stress
+          = cell_stress(model.blocks(), state.nodes.data(),
+                        state.template get<PlasticHistory>(), probe.entity);
       if (wanted.quantity == HistoryQuantity::principal_stress)
         return principal_stress(stress).value[wanted.component];
       // Index from the order xx, yy, xy, zz, xz, yz.
@@ -422,10 +423,11 @@ namespace quoin
                                    const State<2> &state) const
   {
     if (probe.entity >= model.nodes().cells().n_deformable
-        || !model.blocks().cell_law(probe.entity))
+        || !model.blocks().cell_data().law_of(probe.entity))
       return 0.;
-    const PlasticPoint point = model.blocks().cell_history(
-        state.nodes.data(), state.get<PlasticHistory>(), probe.entity);
+    const PlasticPoint point
+        = cell_history(model.blocks(), state.nodes.data(),
+                       state.get<PlasticHistory>(), probe.entity);
     return probe.parameters.component == 0 ? point.state : point.plastic_shear;
   }
 
