@@ -36,8 +36,8 @@ namespace quoin
       if (parameters.model.initial_stresses.empty())
         return;
       const NodeMap<2> &nodes = model.nodes();
-      const double n          = model.joints().n_beyond_strength(
-                   state.get<JointHistory>(), nodes.communicator());
+      const double n          = n_beyond_strength(
+                   model.joints(), state.get<JointHistory>(), nodes.communicator());
       Checks(advice, "")
           .warn_if(n > 0., n, " of ", 2 * nodes.faces().n_global_joints,
                    " joint points begin with tractions beyond their strength: "

@@ -3,7 +3,7 @@
 
 #include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/blocks/block_forces.h>
+#include <quoin/blocks/cell_states.h>
 
 #include <algorithm>
 #include <limits>
@@ -43,13 +43,13 @@ namespace quoin
       const State<2> &state, const NodeRatio &,
       std::vector<NodeStiffness<2>> &stiffness) const
   {
-    for (unsigned int c = 0; c < n_cells(); ++c)
+    for (unsigned int c = 0; c < data.cells.size(); ++c)
     {
       const auto &[i, j, k] = data.cells[c];
       const Triangle cell(state.nodes[i], state.nodes[j], state.nodes[k]);
       // With a third of its mass at each node; the density cancels out.
       const double share
-          = largest_eigenvalue_squared_frequency(cell, cell_stiffness(c), 1.)
+          = largest_eigenvalue_squared_frequency(cell, data.stiffness_of(c), 1.)
             * cell.area() * data.thickness / 3.;
       for (const unsigned int node : data.cells[c])
         for (unsigned int d = 0; d < 2; ++d)
@@ -137,7 +137,7 @@ namespace quoin
     masks.resize(first + n_rows, 0);
     if (!data.initial_stress.empty())
       lane_stress.resize(3 * (first + n_rows) * n_lanes, 0.);
-    if (is_plastic())
+    if (data.is_plastic())
       lane_cells.resize((first + n_rows) * n_lanes, tile.cells.begin);
 
     for (std::size_t lane = 0; lane < n_lanes; ++lane)
@@ -156,7 +156,7 @@ namespace quoin
         if (!in_piece || strips[k].cell == StripEntry::no_cell)
           continue;
         masks[row] |= 1u << lane;
-        if (is_plastic())
+        if (data.is_plastic())
           lane_cells[row * n_lanes + lane] = strips[k].cell;
         if (!data.initial_stress.empty())
         {
@@ -190,7 +190,7 @@ namespace quoin
       ScaledModuli moduli{ run.bulk, run.shear };
       const NodeRecord<2> *tile_records = nodes + tile.nodes.begin;
       NodeVector<2> *tile_force         = force + tile.nodes.begin;
-      if (const MohrCoulomb *yields = law(run.stiffness))
+      if (const MohrCoulomb *yields = data.law(run.stiffness))
       {
         const PlasticStrips<lanes> strips(
             *yields, data.stiffness[run.stiffness], data.thickness,
@@ -233,7 +233,7 @@ namespace quoin
                                     PlasticHistory &history,
                                     NodeVector<2> *force) const
   {
-    if (is_plastic())
+    if (data.is_plastic())
       for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
            ++k)
         history.yielding[k] = MohrCoulomb::past(history.yielding[k]);
@@ -257,7 +257,13 @@ namespace quoin
   void BlockForces<2>::prepare(State<2> &state) const
   {
     if (!state.find<PlasticHistory>())
-      state.add<PlasticHistory>() = initial_history();
+      state.add<PlasticHistory>() = initial_history(*this);
+  }
+
+  double BlockForces<2>::stored_energy(const State<2> &state) const
+  {
+    return strain_energy(*this, state.nodes.data(),
+                         state.get<PlasticHistory>());
   }
 
   void BlockForces<2>::add_forces(const StepContext &step, State<2> &state,

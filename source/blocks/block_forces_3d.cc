@@ -2,11 +2,12 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/operators/archive.h>
-#include <quoin/blocks/block_forces_3d.h>
+#include <quoin/blocks/cell_states.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "cell_strain.h"
 #include "tetrahedron_kernel.h"
 
 namespace quoin
@@ -225,7 +226,7 @@ namespace quoin
       const State<3> &state, const NodeRatio &,
       std::vector<NodeStiffness<3>> &stiffness) const
   {
-    for (unsigned int c = 0; c < n_cells(); ++c)
+    for (unsigned int c = 0; c < data.cells.size(); ++c)
     {
       const auto &nodes = data.cells[c];
       double edges[3][3];
@@ -237,7 +238,7 @@ namespace quoin
       cell.set_edges(edges);
       // With a quarter of its mass at each node; the density cancels out.
       const double share
-          = largest_eigenvalue_squared_frequency(cell, cell_stiffness(c), 1.)
+          = largest_eigenvalue_squared_frequency(cell, data.stiffness_of(c), 1.)
             * cell.det / 24.;
       for (const unsigned int node : nodes)
         for (unsigned int d = 0; d < 3; ++d)
@@ -245,9 +246,8 @@ namespace quoin
     }
   }
 
-  BlockForces<3>::CellMotion
-  BlockForces<3>::cell_motion(const NodeRecord<3> *nodes,
-                              const std::size_t cell) const
+  CellMotion cell_motion(const BlockForcesData<3> &data,
+                         const NodeRecord<3> *nodes, const std::size_t cell)
   {
     const auto &n = data.cells[cell];
     double e[3][3], d[3][3];
@@ -265,11 +265,10 @@ namespace quoin
     return motion;
   }
 
-  void BlockForces<3>::add_cell_forces(const std::size_t cell,
-                                       const Tetrahedron<OneLane> &geometry,
-                                       const double (&R)[3][3],
-                                       const double (&T)[3][3],
-                                       NodeVector<3> *force) const
+  void add_cell_forces(const BlockForcesData<3> &data, const std::size_t cell,
+                       const Tetrahedron<OneLane> &geometry,
+                       const double (&R)[3][3], const double (&T)[3][3],
+                       NodeVector<3> *force)
   {
     double P[3][3], f[3][3];
     for (unsigned int r = 0; r < 3; ++r)
@@ -286,26 +285,24 @@ namespace quoin
       }
   }
 
-  double BlockForces<3>::add_forces_by_cell(const unsigned int tile,
-                                            const NodeRecord<3> *nodes,
-                                            PlasticHistory &,
-                                            NodeVector<3> *force) const
+  void add_forces_by_cell(const BlockForces<3> &blocks, const unsigned int tile,
+                          const NodeRecord<3> *nodes, NodeVector<3> *force)
   {
-    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
-         ++k)
+    const BlockForcesData<3> &data = blocks.cell_data();
+    const NodeRange cells          = blocks.tile_cells(tile);
+    for (std::size_t k = cells.begin; k < cells.end; ++k)
     {
-      const CellMotion motion = cell_motion(nodes, k);
+      const CellMotion motion = cell_motion(data, nodes, k);
       double R[3][3], e[6], S[6], T[3][3];
       motion.polar.rotation_and_strain(R, e);
-      copy(initial_stress(k), S);
+      copy(data.initial_stress_of(k), S);
       motion.polar.turning_stress(S, e, T);
-      const SpaceTensor s = elastic_stress(cell_stiffness(k), e);
+      const SpaceTensor s = elastic_stress(data.stiffness_of(k), e);
       for (unsigned int r = 0; r < 3; ++r)
         for (unsigned int c = 0; c < 3; ++c)
           T[r][c] += s[symmetric_index[r][c]];
-      add_cell_forces(k, motion.geometry, R, T, force);
+      add_cell_forces(data, k, motion.geometry, R, T, force);
     }
-    return 0.;
   }
 
   void BlockForces<3>::add_viscous_forces(const unsigned int tile,
@@ -317,7 +314,7 @@ namespace quoin
     for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
          ++k)
     {
-      const CellMotion motion = cell_motion(nodes, k);
+      const CellMotion motion = cell_motion(data, nodes, k);
       const auto &n           = data.cells[k];
       double R[3][3], e[6], d[3][3], L[3][3], A[3][3], S[6], T[3][3];
       motion.polar.rotation_and_strain(R, e);
@@ -329,12 +326,12 @@ namespace quoin
         for (unsigned int c = 0; c < 3; ++c)
           A[r][c] = R[0][r] * L[0][c] + R[1][r] * L[1][c] + R[2][r] * L[2][c];
       const PolarRate rate(motion.polar, e, A);
-      SpaceTensor s = elastic_stress(cell_stiffness(k), rate.U);
+      SpaceTensor s = elastic_stress(data.stiffness_of(k), rate.U);
       for (double &component : s)
         component *= beta;
       copy(s, S);
       motion.polar.turning_stress(S, e, T);
-      add_cell_forces(k, motion.geometry, R, T, force);
+      add_cell_forces(data, k, motion.geometry, R, T, force);
     }
   }
 
@@ -343,7 +340,7 @@ namespace quoin
   {
     CellLinearisation cell;
     PlasticHistory &history = state.get<PlasticHistory>();
-    for (unsigned int c = 0; c < n_cells(); ++c)
+    for (unsigned int c = 0; c < data.cells.size(); ++c)
     {
       if (!linearise(c, state.nodes.data(), history, cell, with_stiffness))
         continue;
@@ -358,13 +355,13 @@ namespace quoin
                                  CellLinearisation &result,
                                  const bool with_stiffness) const
   {
-    const CellMotion motion = cell_motion(nodes, cell);
+    const CellMotion motion = cell_motion(data, nodes, cell);
     const auto &polar       = motion.polar;
     const double volume     = motion.geometry.det / 6.;
-    const SpaceStiffness &C = cell_stiffness(cell);
+    const SpaceStiffness &C = data.stiffness_of(cell);
     double R[3][3], e[6], S0[6], T[3][3];
     polar.rotation_and_strain(R, e);
-    copy(initial_stress(cell), S0);
+    copy(data.initial_stress_of(cell), S0);
     polar.turning_stress(S0, e, T);
     double w[3], y[3]; // of the turning stress
     polar.commutator(S0, e, w);
@@ -442,17 +439,18 @@ namespace quoin
     return true;
   }
 
-  double BlockForces<3>::strain_energy(const NodeRecord<3> *nodes,
-                                       const PlasticHistory &) const
+  double strain_energy(const BlockForces<3> &blocks, const NodeRecord<3> *nodes,
+                       const PlasticHistory &)
   {
-    double energy = 0.;
+    const BlockForcesData<3> &data = blocks.cell_data();
+    double energy                  = 0.;
     for (std::size_t k = 0; k < data.cells.size(); ++k)
     {
-      const CellMotion motion = cell_motion(nodes, k);
+      const CellMotion motion = cell_motion(data, nodes, k);
       double R[3][3], e[6];
       motion.polar.rotation_and_strain(R, e);
-      const SpaceTensor s  = elastic_stress(cell_stiffness(k), e);
-      const SpaceTensor s0 = initial_stress(k);
+      const SpaceTensor s  = elastic_stress(data.stiffness_of(k), e);
+      const SpaceTensor s0 = data.initial_stress_of(k);
       double density       = 0.;
       for (unsigned int i = 0; i < 6; ++i)
         density += (i < 3 ? 1. : 2.) * (0.5 * s[i] + s0[i]) * e[i];
@@ -461,40 +459,42 @@ namespace quoin
     return energy;
   }
 
-  SpaceTensor BlockForces<3>::cell_stress(const NodeRecord<3> *nodes,
-                                          const PlasticHistory &,
-                                          const std::size_t cell,
-                                          SpaceTensor *strain) const
+  SpaceTensor cell_stress(const BlockForces<3> &blocks,
+                          const NodeRecord<3> *nodes, const PlasticHistory &,
+                          const std::size_t cell, SpaceTensor *strain)
   {
+    const BlockForcesData<3> &data = blocks.cell_data();
     double R[3][3], e[6];
-    cell_motion(nodes, cell).polar.rotation_and_strain(R, e);
+    cell_motion(data, nodes, cell).polar.rotation_and_strain(R, e);
     if (strain)
       *strain = to_global(R, { e[0], e[1], e[2], e[3], e[4], e[5] });
-    SpaceTensor s        = elastic_stress(cell_stiffness(cell), e);
-    const SpaceTensor s0 = initial_stress(cell);
+    SpaceTensor s        = elastic_stress(data.stiffness_of(cell), e);
+    const SpaceTensor s0 = data.initial_stress_of(cell);
     for (unsigned int i = 0; i < 6; ++i)
       s[i] += s0[i];
     return to_global(R, s);
   }
 
-  void BlockForces<3>::stresses(const NodeRecord<3> *nodes,
-                                const PlasticHistory &history,
-                                std::vector<SpaceTensor> &stress,
-                                std::vector<SpaceTensor> &strain) const
+  void cell_stresses(const BlockForces<3> &blocks, const NodeRecord<3> *nodes,
+                     const PlasticHistory &history,
+                     std::vector<SpaceTensor> &stress,
+                     std::vector<SpaceTensor> &strain)
   {
-    stress.resize(data.cells.size());
-    strain.resize(data.cells.size());
-    for (std::size_t k = 0; k < data.cells.size(); ++k)
-      stress[k] = cell_stress(nodes, history, k, &strain[k]);
+    const std::size_t n_cells = blocks.cell_data().cells.size();
+    stress.resize(n_cells);
+    strain.resize(n_cells);
+    for (std::size_t k = 0; k < n_cells; ++k)
+      stress[k] = cell_stress(blocks, nodes, history, k, &strain[k]);
   }
 
-  unsigned int
-  BlockForces<3>::first_inverted_cell(const NodeRecord<3> *nodes) const
+  unsigned int first_inverted_cell(const BlockForces<3> &blocks,
+                                   const NodeRecord<3> *nodes)
   {
-    unsigned int k = 0;
+    const BlockForcesData<3> &data = blocks.cell_data();
+    unsigned int k                 = 0;
     for (; k < data.cells.size(); ++k)
     {
-      const CellMotion motion = cell_motion(nodes, k);
+      const CellMotion motion = cell_motion(data, nodes, k);
       if (!(motion.geometry.det > 0.) || !(motion.polar.j > -1.))
         break;
     }
@@ -504,7 +504,13 @@ namespace quoin
   void BlockForces<3>::prepare(State<3> &state) const
   {
     if (!state.find<PlasticHistory>())
-      state.add<PlasticHistory>() = initial_history();
+      state.add<PlasticHistory>();
+  }
+
+  double BlockForces<3>::stored_energy(const State<3> &state) const
+  {
+    return strain_energy(*this, state.nodes.data(),
+                         state.get<PlasticHistory>());
   }
 
   void BlockForces<3>::add_forces(const StepContext &step, State<3> &state,

@@ -3,17 +3,19 @@
 
 // BlockForces cell by cell, without strips.
 
-#include <quoin/blocks/block_forces.h>
+#include <quoin/blocks/cell_states.h>
+
+#include "cell_strain.h"
 
 namespace quoin
 {
-  CorotatedStrain BlockForces<2>::cell_strain(const NodeRecord<2> *nodes,
-                                              const std::size_t cell,
-                                              double *area) const
+  CorotatedStrain cell_strain(const BlockForcesData<2> &data,
+                              const NodeRecord<2> *nodes,
+                              const std::size_t cell, double *area)
   {
     if (data.quadratic)
     {
-      const CellPoint point = cell_point(nodes, cell);
+      const CellPoint point = cell_point(data, nodes, cell);
       if (area)
         *area = point.area;
       return CorotatedStrain(point.displacement_gradient(nodes));
@@ -26,49 +28,52 @@ namespace quoin
         triangle.gradient(nodes[a].u, nodes[b].u, nodes[c].u));
   }
 
-  PlasticHistory BlockForces<2>::initial_history() const
+  PlasticHistory initial_history(const BlockForces<2> &blocks)
   {
+    const BlockForcesData<2> &data = blocks.cell_data();
     PlasticHistory history;
-    if (!is_plastic())
+    if (!data.is_plastic())
       return history;
     history.resize(data.cells.size());
     for (unsigned int k = 0; k < data.cells.size(); ++k)
-      forget_history(k, history);
+      forget_history(blocks, k, history);
     return history;
   }
 
-  void BlockForces<2>::forget_history(const unsigned int cell,
-                                      PlasticHistory &history) const
+  void forget_history(const BlockForces<2> &blocks, const unsigned int cell,
+                      PlasticHistory &history)
   {
-    if (!is_plastic())
+    const BlockForcesData<2> &data = blocks.cell_data();
+    if (!data.is_plastic())
       return;
     history.cells[cell]    = PlasticCell();
     history.shear[cell]    = 0.;
     history.yielding[cell] = 0;
-    if (!cell_law(cell))
+    if (!data.law_of(cell))
       return;
-    const auto s = initial_stress(cell);
+    const auto s = data.initial_stress_of(cell);
     std::copy(s.begin(), s.end(), history.cells[cell].stress);
   }
 
-  double BlockForces<2>::update_cell(const std::size_t cell,
-                                     const PlaneTensor &strain,
-                                     PlasticHistory &history) const
+  double update_cell(const BlockForcesData<2> &data, const std::size_t cell,
+                     const PlaneTensor &strain, PlasticHistory &history)
   {
-    PlasticPoint point = plastic_point(history, cell);
-    const double dissipated
-        = cell_law(cell)->update(point, strain, initial_stress(cell));
+    PlasticPoint point      = plastic_point(history, cell);
+    const double dissipated = data.law_of(cell)->update(
+        point, strain, data.initial_stress_of(cell));
     set_plastic_point(point, cell, history);
     return dissipated;
   }
 
-  PlasticPoint BlockForces<2>::cell_history(const NodeRecord<2> *nodes,
-                                            const PlasticHistory &history,
-                                            const unsigned int cell) const
+  PlasticPoint cell_history(const BlockForces<2> &blocks,
+                            const NodeRecord<2> *nodes,
+                            const PlasticHistory &history,
+                            const unsigned int cell)
   {
-    PlasticPoint point = plastic_point(history, cell);
-    cell_law(cell)->update(point, cell_strain(nodes, cell).e,
-                           initial_stress(cell));
+    const BlockForcesData<2> &data = blocks.cell_data();
+    PlasticPoint point             = plastic_point(history, cell);
+    data.law_of(cell)->update(point, cell_strain(data, nodes, cell).e,
+                              data.initial_stress_of(cell));
     return point;
   }
 
@@ -76,37 +81,38 @@ namespace quoin
                                 PlasticHistory &history) const
   {
     double dissipated = 0.;
-    if (!is_plastic())
+    if (!data.is_plastic())
       return dissipated;
     for (std::size_t k = 0; k < data.cells.size(); ++k)
-      if (cell_law(k))
+      if (data.law_of(k))
       {
         double area;
-        const CorotatedStrain strain = cell_strain(nodes, k, &area);
-        dissipated += data.thickness * area * update_cell(k, strain.e, history);
+        const CorotatedStrain strain = cell_strain(data, nodes, k, &area);
+        dissipated
+            += data.thickness * area * update_cell(data, k, strain.e, history);
       }
     return dissipated;
   }
 
-  double BlockForces<2>::add_forces_by_cell(const unsigned int tile,
-                                            const NodeRecord<2> *nodes,
-                                            PlasticHistory &history,
-                                            NodeVector<2> *force) const
+  double add_forces_by_cell(const BlockForces<2> &blocks,
+                            const unsigned int tile, const NodeRecord<2> *nodes,
+                            PlasticHistory &history, NodeVector<2> *force)
   {
-    double dissipated = 0.;
-    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
-         ++k)
+    const BlockForcesData<2> &data = blocks.cell_data();
+    const NodeRange cells          = blocks.tile_cells(tile);
+    double dissipated              = 0.;
+    for (std::size_t k = cells.begin; k < cells.end; ++k)
     {
       const auto [a, b, c] = data.cells[k];
       const Triangle triangle(nodes[a], nodes[b], nodes[c]);
-      const CorotatedStrain strain = cell_strain(nodes, k);
-      PlaneTensor elastic = elastic_stress(cell_stiffness(k), strain.e);
-      const auto s        = initial_stress(k);
+      const CorotatedStrain strain = cell_strain(data, nodes, k);
+      PlaneTensor elastic = elastic_stress(data.stiffness_of(k), strain.e);
+      const auto s        = data.initial_stress_of(k);
       PlaneTensor turning{ s[0], s[1], s[2] };
-      if (cell_law(k))
+      if (data.law_of(k))
       {
         dissipated += data.thickness * triangle.area()
-                      * update_cell(k, strain.e, history);
+                      * update_cell(data, k, strain.e, history);
         elastic = {};
         std::copy_n(history.cells[k].stress, 3, turning.begin());
       }
@@ -117,18 +123,19 @@ namespace quoin
     return dissipated;
   }
 
-  void BlockForces<2>::add_viscous_forces_by_cell(const unsigned int tile,
-                                                  const NodeRecord<2> *nodes,
-                                                  const NodeVector<2> *velocity,
-                                                  const double beta,
-                                                  NodeVector<2> *force) const
+  void add_viscous_forces_by_cell(const BlockForces<2> &blocks,
+                                  const unsigned int tile,
+                                  const NodeRecord<2> *nodes,
+                                  const NodeVector<2> *velocity,
+                                  const double beta, NodeVector<2> *force)
   {
-    for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
-         ++k)
+    const BlockForcesData<2> &data = blocks.cell_data();
+    const NodeRange cells          = blocks.tile_cells(tile);
+    for (std::size_t k = cells.begin; k < cells.end; ++k)
     {
       const auto [a, b, c] = data.cells[k];
       const Triangle triangle(nodes[a], nodes[b], nodes[c]);
-      const CorotatedStrain strain = cell_strain(nodes, k);
+      const CorotatedStrain strain = cell_strain(data, nodes, k);
       const auto L
           = triangle.gradient(velocity[a].v, velocity[b].v, velocity[c].v);
       // sym(R^T L)
@@ -139,24 +146,25 @@ namespace quoin
                                   * (cs * (L[1] + L[2]) + sn * (L[3] - L[0])) };
       add_nodal_forces(triangle, data.thickness,
                        piola_stress(strain,
-                                    elastic_stress(cell_stiffness(k), rate),
+                                    elastic_stress(data.stiffness_of(k), rate),
                                     { 0., 0., 0. }),
                        force[a], force[b], force[c]);
     }
   }
 
-  double BlockForces<2>::strain_energy(const NodeRecord<2> *nodes,
-                                       const PlasticHistory &history) const
+  double strain_energy(const BlockForces<2> &blocks, const NodeRecord<2> *nodes,
+                       const PlasticHistory &history)
   {
-    double energy = 0.;
+    const BlockForcesData<2> &data = blocks.cell_data();
+    double energy                  = 0.;
     for (std::size_t k = 0; k < data.cells.size(); ++k)
     {
       double area;
-      PlaneTensor e                = cell_strain(nodes, k, &area).e;
-      const PlaneStiffness &moduli = cell_stiffness(k);
-      const auto s0                = initial_stress(k);
+      PlaneTensor e                = cell_strain(data, nodes, k, &area).e;
+      const PlaneStiffness &moduli = data.stiffness_of(k);
+      const auto s0                = data.initial_stress_of(k);
       double density               = 0.;
-      if (const MohrCoulomb *yields = cell_law(k))
+      if (const MohrCoulomb *yields = data.law_of(k))
       {
         const auto &p = history.cells[k].strain;
         for (unsigned int i = 0; i < 3; ++i)
@@ -175,20 +183,23 @@ namespace quoin
     return energy;
   }
 
-  std::array<double, 4> BlockForces<2>::cell_stress(
-      const NodeRecord<2> *nodes, const PlasticHistory &history,
-      const std::size_t cell, PlaneTensor *strain_out) const
+  std::array<double, 4> cell_stress(const BlockForces<2> &blocks,
+                                    const NodeRecord<2> *nodes,
+                                    const PlasticHistory &history,
+                                    const std::size_t cell,
+                                    PlaneTensor *strain_out)
   {
-    const CorotatedStrain strain = cell_strain(nodes, cell);
+    const BlockForcesData<2> &data = blocks.cell_data();
+    const CorotatedStrain strain   = cell_strain(data, nodes, cell);
     if (strain_out)
       *strain_out = strain.to_global(strain.e);
-    std::array<double, 4> s = initial_stress(cell);
-    if (cell_law(cell))
-      s = cell_history(nodes, history, cell).stress;
+    std::array<double, 4> s = data.initial_stress_of(cell);
+    if (data.law_of(cell))
+      s = cell_history(blocks, nodes, history, cell).stress;
     else
     {
-      const auto elastic = elastic_stress(cell_stiffness(cell), strain.e);
-      s[3] += cell_stiffness(cell).zz_over_sum * (elastic[0] + elastic[1]);
+      const auto elastic = elastic_stress(data.stiffness_of(cell), strain.e);
+      s[3] += data.stiffness_of(cell).zz_over_sum * (elastic[0] + elastic[1]);
       for (unsigned int i = 0; i < 3; ++i)
         s[i] += elastic[i];
     }
@@ -196,26 +207,27 @@ namespace quoin
     return { in_plane[0], in_plane[1], in_plane[2], s[3] };
   }
 
-  std::array<double, 4> BlockForces<2>::stress_of_strain(
-      const NodeRecord<2> *nodes, const PlasticHistory &history,
-      const std::size_t cell, const PlaneStiffness &stiffness,
-      const MohrCoulomb *law) const
+  std::array<double, 4>
+  stress_of_strain(const BlockForces<2> &blocks, const NodeRecord<2> *nodes,
+                   const PlasticHistory &history, const std::size_t cell,
+                   const PlaneStiffness &stiffness, const MohrCoulomb *law)
   {
-    const PlaneTensor e = cell_strain(nodes, cell).e;
+    const PlaneTensor e = cell_strain(blocks.cell_data(), nodes, cell).e;
     if (law)
       return law->trial_stress(plastic_point(history, cell), e);
     const auto s = elastic_stress(stiffness, e);
     return { s[0], s[1], s[2], stiffness.zz_over_sum * (s[0] + s[1]) };
   }
 
-  void BlockForces<2>::stresses(const NodeRecord<2> *nodes,
-                                const PlasticHistory &history,
-                                std::vector<std::array<double, 4>> &stress_out,
-                                std::vector<PlaneTensor> &strain_out) const
+  void cell_stresses(const BlockForces<2> &blocks, const NodeRecord<2> *nodes,
+                     const PlasticHistory &history,
+                     std::vector<std::array<double, 4>> &stress_out,
+                     std::vector<PlaneTensor> &strain_out)
   {
-    stress_out.resize(data.cells.size());
-    strain_out.resize(data.cells.size());
-    for (std::size_t k = 0; k < data.cells.size(); ++k)
-      stress_out[k] = cell_stress(nodes, history, k, &strain_out[k]);
+    const std::size_t n_cells = blocks.cell_data().cells.size();
+    stress_out.resize(n_cells);
+    strain_out.resize(n_cells);
+    for (std::size_t k = 0; k < n_cells; ++k)
+      stress_out[k] = cell_stress(blocks, nodes, history, k, &strain_out[k]);
   }
 } // namespace quoin

@@ -6,10 +6,12 @@
 #include <quoin/blocks/block_forces.h>
 #include <quoin/blocks/triangle_tangent.h>
 
+#include "cell_strain.h"
+
 namespace quoin
 {
-  std::array<double, 4> BlockForces<2>::CellPoint::displacement_gradient(
-      const NodeRecord<2> *records) const
+  std::array<double, 4>
+  CellPoint::displacement_gradient(const NodeRecord<2> *records) const
   {
     // Differences keep the digits of strains under large motions.
     const double *origin = records[nodes[0]].u;
@@ -24,9 +26,8 @@ namespace quoin
     return H;
   }
 
-  BlockForces<2>::CellPoint
-  BlockForces<2>::cell_point(const NodeRecord<2> *nodes,
-                             const unsigned int cell) const
+  CellPoint cell_point(const BlockForcesData<2> &data,
+                       const NodeRecord<2> *nodes, const unsigned int cell)
   {
     std::array<unsigned int, 3> corners = data.cells[cell];
     const unsigned int first = cell & ~3U; // first cell of a quadratic triangle
@@ -77,7 +78,7 @@ namespace quoin
   {
     CellLinearisation cell;
     PlasticHistory &history = state.get<PlasticHistory>();
-    for (unsigned int c = 0; c < n_cells(); ++c)
+    for (unsigned int c = 0; c < data.cells.size(); ++c)
     {
       if (!linearise(c, state.nodes.data(), history, cell, with_stiffness))
         continue;
@@ -93,32 +94,32 @@ namespace quoin
                                  CellLinearisation &result,
                                  const bool with_stiffness) const
   {
-    const CellPoint point = cell_point(nodes, cell);
+    const CellPoint point = cell_point(data, nodes, cell);
     const CorotatedStrain strain(point.displacement_gradient(nodes));
     if (point.area == 0.)
     {
-      if (cell_law(cell))
-        update_cell(cell, strain.e, history);
+      if (data.law_of(cell))
+        update_cell(data, cell, strain.e, history);
       return false;
     }
     const double volume = data.thickness * point.area;
-    const auto initial  = initial_stress(cell);
+    const auto initial  = data.initial_stress_of(cell);
 
     PlaneTensor stress;
     PlaneTangent tangent;
     result.dissipated = 0.;
-    if (const MohrCoulomb *yields = cell_law(cell))
+    if (const MohrCoulomb *yields = data.law_of(cell))
     {
       if (with_stiffness)
         tangent = yields->tangent(yields->trial_stress(
             plastic_point(history, cell), strain.e, initial));
-      result.dissipated = volume * update_cell(cell, strain.e, history);
+      result.dissipated = volume * update_cell(data, cell, strain.e, history);
       std::copy_n(history.cells[cell].stress, 3, stress.begin());
     }
     else
     {
-      tangent = elastic_tangent(cell_stiffness(cell));
-      stress  = elastic_stress(cell_stiffness(cell), strain.e);
+      tangent = elastic_tangent(data.stiffness_of(cell));
+      stress  = elastic_stress(data.stiffness_of(cell), strain.e);
       for (unsigned int i = 0; i < 3; ++i)
         stress[i] += initial[i];
     }

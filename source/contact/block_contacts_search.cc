@@ -230,16 +230,16 @@ namespace quoin
     ContactState &contacts      = state.get<ContactState>();
     const JointHistory &history = state.get<JointHistory>();
     bool found                  = false;
-    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
     {
-      const JointEdges &joint = edges.joint_edges(joints.segment(i).face);
+      const JointEdges &joint = edges.joint_edges(joints.segments()[i].face);
       if (history.handed_over[i]
           || (history.state[2 * i] == JointState::intact
               && history.state[2 * i + 1] == JointState::intact)
           || edges.has_tip(joint.interface))
         continue;
       const double limit = parameters.handover * edges[joint.edges[0]].length;
-      const auto gaps    = joints.gaps(state.nodes.data(), i);
+      const auto gaps    = joint_gaps(joints.segments()[i], state.nodes.data());
       for (const auto &[opening, slip] : gaps)
         if (opening > limit || std::abs(slip) > limit)
         {
@@ -258,13 +258,13 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, contacts.handed_over.data(),
                   contacts.handed_over.size(), MPI_UINT8_T, MPI_MAX,
                   exchange.communicator());
-    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
     {
-      const JointEdges &joint = edges.joint_edges(joints.segment(i).face);
+      const JointEdges &joint = edges.joint_edges(joints.segments()[i].face);
       if (history.handed_over[i] || !contacts.handed_over[joint.interface])
         continue;
-      const auto &segment = joints.segment(i);
-      const auto gaps     = joints.gaps(state.nodes.data(), i);
+      const auto &segment = joints.segments()[i];
+      const auto gaps = joint_gaps(joints.segments()[i], state.nodes.data());
       ContactPair pair;
       pair.lower       = joint.edges[0];
       pair.upper       = joint.edges[1];

@@ -12,8 +12,14 @@
 
 namespace quoin
 {
-  inline MatchedJoints::Frame MatchedJoints::frame(const Segment &segment,
-                                                   const NodeRecord<2> *nodes)
+  struct JointFrame
+  {
+    double normal[2];
+    double tangent[2];
+  };
+
+  inline JointFrame joint_frame(const JointSegment &segment,
+                                const NodeRecord<2> *nodes)
   {
     const NodeRecord<2> &a0 = nodes[segment.lower[0]];
     const NodeRecord<2> &a1 = nodes[segment.lower[1]];
@@ -30,10 +36,11 @@ namespace quoin
     return { { nx, ny }, { ny, -nx } };
   }
 
-  inline std::array<double, 2> MatchedJoints::gap(const Segment &segment,
-                                                  const Frame &frame,
-                                                  const NodeRecord<2> *nodes,
-                                                  const unsigned int k)
+  /** Opening and slip [m] of point @p k. */
+  inline std::array<double, 2> joint_gap(const JointSegment &segment,
+                                         const JointFrame &frame,
+                                         const NodeRecord<2> *nodes,
+                                         const unsigned int k)
   {
     const NodeRecord<2> &a = nodes[segment.lower[k]];
     const NodeRecord<2> &b = nodes[segment.upper[k]];

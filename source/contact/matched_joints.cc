@@ -73,7 +73,7 @@ namespace quoin
                               const double thickness)
   {
     set_laws(sets);
-    segments.clear();
+    all_segments.clear();
     const BlockTable<2> &table = nodes.table();
     const auto set_of_line     = sets_of_lines(table.face_names, sets);
     // The first face without set of all ranks is the one that is named.
@@ -87,7 +87,7 @@ namespace quoin
         without_set = std::min(without_set, face.number);
         continue;
       }
-      Segment segment;
+      JointSegment segment;
       for (unsigned int k = 0; k < 2; ++k)
         segment.area[k]
             = face_share(nodes, face.lower[k]) * thickness
@@ -97,33 +97,26 @@ namespace quoin
       segment.share = 0.5f * (face.is_own[0] + face.is_own[1]);
       segment.set   = set;
       segment.face  = f;
-      segments.push_back(segment);
+      all_segments.push_back(segment);
     }
     refuse_without_set(nodes, without_set);
-    std::stable_sort(segments.begin(), segments.end(),
-                     [](const Segment &a, const Segment &b)
+    std::stable_sort(all_segments.begin(), all_segments.end(),
+                     [](const JointSegment &a, const JointSegment &b)
                      { return a.set < b.set; });
     set_begin.assign(1, 0);
     for (unsigned int s = 0; s < sets.size(); ++s)
-      set_begin.push_back(std::partition_point(segments.begin(), segments.end(),
-                                               [s](const Segment &a)
-                                               { return a.set <= s; })
-                          - segments.begin());
+      set_begin.push_back(std::partition_point(
+                              all_segments.begin(), all_segments.end(),
+                              [s](const JointSegment &a) { return a.set <= s; })
+                          - all_segments.begin());
   }
 
-  std::array<std::array<double, 2>, 2>
-  MatchedJoints::gaps(const NodeRecord<2> *nodes, const unsigned int i) const
+  std::array<std::array<double, 2>, 2> joint_gaps(const JointSegment &segment,
+                                                  const NodeRecord<2> *nodes)
   {
-    const Frame local = frame(segments[i], nodes);
-    return { { gap(segments[i], local, nodes, 0),
-               gap(segments[i], local, nodes, 1) } };
-  }
-
-  bool MatchedJoints::can_fail() const
-  {
-    return std::any_of(laws.begin(), laws.end(),
-                       [](const JointLaw &law)
-                       { return quoin::can_fail(law); });
+    const JointFrame local = joint_frame(segment, nodes);
+    return { { joint_gap(segment, local, nodes, 0),
+               joint_gap(segment, local, nodes, 1) } };
   }
 
   template <typename Law>
@@ -133,11 +126,11 @@ namespace quoin
                                      EnergyAccounts &energy,
                                      NodeVector<2> *force) const
   {
-    // Positions first, for some segments at a time: the square roots and
+    // Positions first, for some all_segments at a time: the square roots and
     // divisions of several then overlap, where one followed by its law would
     // wait for each.
     constexpr unsigned int chunk = 32;
-    std::array<Frame, chunk> frames;
+    std::array<JointFrame, chunk> frames;
     std::array<std::array<double, 2>, 2 * chunk> gaps;
 
     const unsigned int end = set_begin[set + 1];
@@ -146,18 +139,18 @@ namespace quoin
       const unsigned int n = std::min(chunk, end - begin);
       for (unsigned int j = 0; j < n; ++j)
       {
-        const Segment &segment = segments[begin + j];
-        frames[j]              = frame(segment, nodes);
+        const JointSegment &segment = all_segments[begin + j];
+        frames[j]                   = joint_frame(segment, nodes);
         for (unsigned int k = 0; k < 2; ++k)
-          gaps[2 * j + k] = gap(segment, frames[j], nodes, k);
+          gaps[2 * j + k] = joint_gap(segment, frames[j], nodes, k);
       }
       for (unsigned int j = 0; j < 2 * n; ++j)
       {
-        const Segment &segment     = segments[begin + j / 2];
-        const Frame &local         = frames[j / 2];
-        const unsigned int k       = j % 2;
-        const unsigned int p       = 2 * begin + j;
-        const auto [opening, slip] = gaps[j];
+        const JointSegment &segment = all_segments[begin + j / 2];
+        const JointFrame &local     = frames[j / 2];
+        const unsigned int k        = j % 2;
+        const unsigned int p        = 2 * begin + j;
+        const auto [opening, slip]  = gaps[j];
         if (history.handed_over[begin + j / 2])
           continue;
         const auto point
@@ -180,8 +173,21 @@ namespace quoin
 
   void MatchedJoints::prepare(State<2> &state) const
   {
-    if (!state.find<JointHistory>())
-      state.add<JointHistory>() = make_history();
+    if (state.find<JointHistory>())
+      return;
+    unsigned int most = 0;
+    for (const JointLaw &law : all_laws)
+      most = std::max(most, n_internal(law));
+    JointHistory &history = state.add<JointHistory>();
+    history.resize(n_points(), most);
+    for (unsigned int i = 0; i < all_segments.size(); ++i)
+      std::visit(
+          [&](const auto &law)
+          {
+            for (const unsigned int p : { 2 * i, 2 * i + 1 })
+              write_point(PointOf<decltype(law)>(), history, p);
+          },
+          all_laws[all_segments[i].set]);
   }
 
   void MatchedJoints::add_forces(const StepContext &step, State<2> &state,
@@ -200,13 +206,14 @@ namespace quoin
   {
     // Summed apart: a step's share is small beside the account.
     EnergyAccounts lost;
-    for (unsigned int set = 0; set < laws.size(); ++set)
-      with_law(set,
-               [&](const auto &law)
-               {
-                 const auto own = law; // which no history can alias
-                 add_set_forces(set, own, nodes, history, lost, force);
-               });
+    for (unsigned int set = 0; set < all_laws.size(); ++set)
+      std::visit(
+          [&](const auto &law)
+          {
+            const auto own = law; // which no history can alias
+            add_set_forces(set, own, nodes, history, lost, force);
+          },
+          all_laws[set]);
     energy += lost;
   }
 
@@ -216,10 +223,10 @@ namespace quoin
                                          const double beta,
                                          NodeVector<2> *force) const
   {
-    for (unsigned int i = 0; i < segments.size(); ++i)
+    for (unsigned int i = 0; i < all_segments.size(); ++i)
     {
-      const Segment &segment = segments[i];
-      const Frame local      = frame(segment, nodes);
+      const JointSegment &segment = all_segments[i];
+      const JointFrame local      = joint_frame(segment, nodes);
       for (unsigned int k = 0; k < 2; ++k)
       {
         const JointState state = history.state[2 * i + k];
@@ -232,11 +239,11 @@ namespace quoin
         const double slip_rate = (b[0] - a[0]) * local.tangent[0]
                                  + (b[1] - a[1]) * local.tangent[1];
         std::array<double, 2> stiffness;
-        with_law(segment.set,
-                 [&](const auto &law) {
-                   stiffness
-                       = law.stiffness_at(history.normal_traction[2 * i + k]);
-                 });
+        std::visit(
+            [&](const auto &law) {
+              stiffness = law.stiffness_at(history.normal_traction[2 * i + k]);
+            },
+            all_laws[segment.set]);
         const double sigma = beta * stiffness[0] * opening_rate;
         const double tau   = beta * stiffness[1] * slip_rate;
         for (unsigned int d = 0; d < 2; ++d)
@@ -250,68 +257,45 @@ namespace quoin
     }
   }
 
-  double MatchedJoints::stored_energy(const NodeRecord<2> *nodes,
-                                      const JointHistory &history) const
+  double MatchedJoints::stored_energy(const State<2> &state) const
   {
-    double energy = 0.;
-    for (unsigned int i = 0; i < segments.size(); ++i)
+    const JointHistory &history = state.get<JointHistory>();
+    double energy               = 0.;
+    for (unsigned int i = 0; i < all_segments.size(); ++i)
     {
       if (history.handed_over[i])
         continue;
-      const Segment &segment = segments[i];
-      const auto gap         = gaps(nodes, i);
-      with_law(segment.set,
-               [&](const auto &law)
-               {
-                 for (unsigned int k = 0; k < 2; ++k)
-                   energy
-                       += segment.area[k] * segment.share
-                          * law.stored_energy(
-                              read_point(law, history, 2 * i + k), gap[k][0]);
-               });
+      const JointSegment &segment = all_segments[i];
+      const auto gap              = joint_gaps(segment, state.nodes.data());
+      std::visit(
+          [&](const auto &law)
+          {
+            for (unsigned int k = 0; k < 2; ++k)
+              energy += segment.area[k] * segment.share
+                        * law.stored_energy(read_point(law, history, 2 * i + k),
+                                            gap[k][0]);
+          },
+          all_laws[segment.set]);
     }
     return energy;
   }
 
-  std::vector<std::string> MatchedJoints::field_names() const
+  void MatchedJoints::set_laws(const std::vector<JointSetParameters> &sets)
   {
-    std::vector<std::string> names;
-    for (const JointLaw &law : laws)
-      std::visit(
-          [&](const auto &own)
-          {
-            for (const auto &field : own.template fields<2>())
-              if (std::find(names.begin(), names.end(), field.name)
-                  == names.end())
-                names.push_back(field.name);
-          },
-          law);
-    return names;
-  }
-
-  double MatchedJoints::field(const std::string &name, const unsigned int p,
-                              const JointHistory &history) const
-  {
-    double value = 0.;
-    with_law(segments[p / 2].set,
-             [&](const auto &law)
-             {
-               for (const auto &field : law.template fields<2>())
-                 if (field.name == name)
-                   value = field.value(read_point(law, history, p));
-             });
-    return value;
+    all_laws.clear();
+    for (const auto &set : sets)
+      all_laws.push_back(set.law);
   }
 
   void MatchedJoints::add_stiffness_bound(
       const State<2> &state, const NodeRatio &ratio,
       std::vector<NodeStiffness<2>> &stiffness) const
   {
-    for (const Segment &segment : segments)
+    for (const JointSegment &segment : all_segments)
     {
-      const Frame local = frame(segment, state.nodes.data());
+      const JointFrame local = joint_frame(segment, state.nodes.data());
       const auto [normal_stiffness, shear_stiffness]
-          = stiffness_bound(laws[segment.set]);
+          = stiffness_bound(all_laws[segment.set]);
       const double *n = local.normal, *s = local.tangent;
       for (unsigned int k = 0; k < 2; ++k)
       {

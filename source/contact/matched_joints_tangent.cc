@@ -105,14 +105,14 @@ namespace quoin
         = breaking ? breaking->points : std::vector<std::uint8_t>(n_points());
     JointHistory &history = state.get<JointHistory>();
     JointLinearisation segment;
-    for (unsigned int i = 0; i < n_segments(); ++i)
+    for (unsigned int i = 0; i < all_segments.size(); ++i)
     {
       linearise(i, state.nodes.data(), broken, history, state.energy, segment,
                 with_stiffness);
       take({ segment.nodes.data(), 4, segment.force.data(),
-             segment.stiffness[0].data(), 8, segments[i].share,
+             segment.stiffness[0].data(), 8, all_segments[i].share,
              segment.inelastic, segment.inelastic_gradient.data(),
-             segments[i].set });
+             all_segments[i].set });
     }
   }
 
@@ -123,8 +123,8 @@ namespace quoin
                                 JointLinearisation &result,
                                 const bool with_stiffness) const
   {
-    const Segment &segment = segments[i];
-    const Frame local      = frame(segment, nodes);
+    const JointSegment &segment = all_segments[i];
+    const JointFrame local      = joint_frame(segment, nodes);
     result.nodes = { { segment.lower[0], segment.lower[1], segment.upper[0],
                        segment.upper[1] } };
     result.force.fill(0.);
@@ -142,17 +142,18 @@ namespace quoin
         = with_stiffness ? turn_of_frame(nodes, result.nodes) : Row();
     for (unsigned int k = 0; k < 2; ++k)
     {
-      const auto local_gap = gap(segment, local, nodes, k);
+      const auto local_gap = joint_gap(segment, local, nodes, k);
       const double opening = local_gap[0], slip = local_gap[1];
       const double area    = segment.area[k];
       const unsigned int p = 2 * i + k;
       Response point;
-      with_law(segment.set,
-               [&](const auto &law)
-               {
-                 point = respond(law, opening, slip, broken[p],
-                                 area * segment.share, history, p, energy);
-               });
+      std::visit(
+          [&](const auto &law)
+          {
+            point = respond(law, opening, slip, broken[p], area * segment.share,
+                            history, p, energy);
+          },
+          all_laws[segment.set]);
       result.inelastic += area
                           * (point.opens * point.plastic_opening
                              + point.slips * point.plastic_slip);
@@ -202,12 +203,13 @@ namespace quoin
   {
     double excess = 0.;
     if (!history.handed_over[p / 2])
-      with_law(segments[p / 2].set,
-               [&](const auto &law)
-               {
-                 if constexpr (std::decay_t<decltype(law)>::is_brittle)
-                   excess = law.excess(read_point(law, history, p));
-               });
+      std::visit(
+          [&](const auto &law)
+          {
+            if constexpr (std::decay_t<decltype(law)>::is_brittle)
+              excess = law.excess(read_point(law, history, p));
+          },
+          all_laws[all_segments[p / 2].set]);
     return excess;
   }
 } // namespace quoin

@@ -92,10 +92,8 @@ namespace quoin
 
   double Construction::stored_energy(const State<2> &state) const
   {
-    return model.blocks().strain_energy(state.nodes.data(),
-                                        state.get<PlasticHistory>())
-           + model.joints().stored_energy(state.nodes.data(),
-                                          state.get<JointHistory>());
+    return model.blocks().stored_energy(state)
+           + model.joints().stored_energy(state);
   }
 
   std::vector<unsigned int>
@@ -121,20 +119,19 @@ namespace quoin
     AlignedArray<NodeVector<2>> held(state.nodes.size(),
                                      NodeVector<2>{ { 0., 0. } });
     AlignedArray<NodeVector<2>> lost = held; // of excavated joints
-    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
     {
       if (is_at_absent_block(model, i, state))
         continue;
       const JointNodes<2> &face
-          = model.nodes().faces().joints[joints.segment(i).face];
+          = model.nodes().faces().joints[joints.segments()[i].face];
       const bool lower = step.excavate[face.groups[0]];
       const bool upper = step.excavate[face.groups[1]];
       if (!lower && !upper)
         continue;
-      joints.add_traction_forces(i, state.nodes.data(),
-                                 state.get<JointHistory>(),
-                                 lower != upper ? held.data() : lost.data());
-      joints.detach(i, state.get<JointHistory>());
+      add_traction_forces(joints, i, state,
+                          lower != upper ? held.data() : lost.data());
+      detach_joint(i, state.get<JointHistory>());
     }
     for (auto *forces : { &held, &lost })
       model.nodes().exchange().add_to_owners(forces->data());
@@ -178,13 +175,13 @@ namespace quoin
     model.set_properties(model.properties(), state.get<ConstructionState>());
     place_blocks(model, blocks, state);
     model.nodes().exchange().update_ghosts(state.nodes.data());
-    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
     {
       const JointNodes<2> &face
-          = model.nodes().faces().joints[joints.segment(i).face];
+          = model.nodes().faces().joints[joints.segments()[i].face];
       if ((step.fill[face.groups[0]] || step.fill[face.groups[1]])
           && !is_at_absent_block(model, i, state))
-        joints.begin_anew(i, state.nodes.data(), state.get<JointHistory>());
+        begin_joint_anew(joints, i, state);
     }
   }
 } // namespace quoin

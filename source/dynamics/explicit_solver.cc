@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/blocks/cell_states.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
 #include <quoin/dynamics/state_checks.h>
@@ -110,7 +111,7 @@ namespace quoin
     model.blocks().update(state.nodes.data(), plastic_now);
     StoredEnergies stored;
     stored.strain
-        = model.blocks().strain_energy(state.nodes.data(), plastic_now);
+        = strain_energy(model.blocks(), state.nodes.data(), plastic_now);
     stored.joint = stepper.stored_energy(state);
     time_shares.lap(energy_phase);
     return stored;

@@ -63,16 +63,14 @@ namespace quoin
                                                   state.get<PlasticHistory>());
     const auto stored = [&]()
     {
-      return model.joints().stored_energy(state.nodes.data(),
-                                          state.get<JointHistory>())
-             + model.blocks().strain_energy(state.nodes.data(),
-                                            state.get<PlasticHistory>());
+      return model.joints().stored_energy(state)
+             + model.blocks().stored_energy(state);
     };
     double energy = stored();
-    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
       // Blocks still tied to a removed block were removed with it.
       if (is_at_absent_block(model, i, state))
-        model.joints().detach(i, state.get<JointHistory>());
+        detach_joint(i, state.get<JointHistory>());
     std::vector<unsigned int> blocks;
     for (const BlockOutside &block : found)
       if (block.removed)

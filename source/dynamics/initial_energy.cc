@@ -35,8 +35,7 @@ namespace quoin
     {
       double energy = model.blocks().stored_energy(s);
       if constexpr (dim == 2)
-        energy += model.joints().stored_energy(s.nodes.data(),
-                                               s.template get<JointHistory>());
+        energy += model.joints().stored_energy(s);
       return energy;
     };
     if constexpr (dim == 2)

@@ -76,11 +76,9 @@ namespace quoin
       make_free_fields(loads);
 
     const State<dim> rest = model.initial_state();
-    strain_at_start       = sum(model.blocks().strain_energy(
-              rest.nodes.data(), rest.template get<PlasticHistory>()));
+    strain_at_start       = sum(model.blocks().stored_energy(rest));
     if constexpr (dim == 2)
-      joint_at_start = sum(model.joints().stored_energy(
-          rest.nodes.data(), rest.template get<JointHistory>()));
+      joint_at_start = sum(model.joints().stored_energy(rest));
   }
 
   template <>

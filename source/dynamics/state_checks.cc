@@ -16,11 +16,11 @@ namespace quoin
     const NodeMap<2> &nodes     = model.nodes();
     const MatchedJoints &joints = model.joints();
     double largest              = 0.;
-    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
     {
-      const auto &[a, b]  = joints.segment(i).lower;
+      const auto &[a, b]  = joints.segments()[i].lower;
       const double length = nodes.point(a).distance(nodes.point(b));
-      const auto gaps     = joints.gaps(state.nodes.data(), i);
+      const auto gaps = joint_gaps(joints.segments()[i], state.nodes.data());
       for (unsigned int k = 0; k < 2; ++k)
         if (state.get<JointHistory>().normal_traction[2 * i + k] < 0.)
           largest = std::max(largest, std::abs(gaps[k][1]) / length);

@@ -35,9 +35,9 @@ namespace quoin
       stage_start(stage_start), communicator(model.nodes().communicator()),
       far_field(far_field)
   {
-    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
     {
-      const auto &segment = model.joints().segment(i);
+      const auto &segment = model.joints().segments()[i];
       if (path_sets[segment.set])
         path_area += (segment.area[0] + segment.area[1]) * segment.share;
     }
@@ -144,12 +144,13 @@ namespace quoin
   double Equilibrium::joint_stiffness() const
   {
     double largest = 1.;
-    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
     {
-      const auto &segment = model.joints().segment(i);
+      const auto &segment = model.joints().segments()[i];
       largest             = std::max(
-                      largest, segment.area[0]
-                                   * stiffness_bound(model.joints().law(segment.set))[0]);
+                      largest,
+                      segment.area[0]
+                          * stiffness_bound(model.joints().laws()[segment.set])[0]);
     }
     return dealii::Utilities::MPI::max(largest, communicator);
   }

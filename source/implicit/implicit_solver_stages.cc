@@ -288,12 +288,8 @@ namespace quoin
       state.time = state.stage_start + stage_duration;
     if (far.elastostatic_acts)
       state.get<StaticFarFieldState>().stored = balance.far_field_energy;
-    find_energies(state,
-                  model.blocks().strain_energy(state.nodes.data(),
-                                               state.get<PlasticHistory>()),
-                  model.joints().stored_energy(state.nodes.data(),
-                                               state.get<JointHistory>()),
-                  0.);
+    find_energies(state, model.blocks().stored_energy(state),
+                  model.joints().stored_energy(state), 0.);
   }
 
   void ImplicitSolver::book_work(const State<2> &state,
@@ -393,11 +389,11 @@ namespace quoin
     // body; a joint if it has nearly as much.
     const unsigned int n_owned = model.nodes().n_owned();
     std::vector<bool> on_joint(model.nodes().n_local(), false);
-    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
       for (unsigned int k = 0; k < 2; ++k)
       {
-        on_joint[model.joints().segment(i).lower[k]] = true;
-        on_joint[model.joints().segment(i).upper[k]] = true;
+        on_joint[model.joints().segments()[i].lower[k]] = true;
+        on_joint[model.joints().segments()[i].upper[k]] = true;
       }
     double largest     = -1.;
     unsigned int worst = 0;
@@ -471,9 +467,9 @@ namespace quoin
     std::ostringstream text;
     text << "in block " << nodes.block_of_node(node) << " at ("
          << nodes.point(node)[0] << ", " << nodes.point(node)[1] << ") m";
-    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
     {
-      const auto &segment = model.joints().segment(i);
+      const auto &segment = model.joints().segments()[i];
       for (unsigned int k = 0; k < 2; ++k)
         if (segment.lower[k] == node || segment.upper[k] == node)
         {

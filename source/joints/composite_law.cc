@@ -34,8 +34,8 @@ namespace quoin
       lost.friction     = slid - lost.shear;
       lost.crushing
           = flow.cap
-            * (sigma * (2. * law.cap_normal * flow.sigma + law.cap_offset)
-               + tau * 2. * law.cap_shear * flow.tau);
+            * (sigma * (2. * law.cap.normal * flow.sigma + law.cap.offset)
+               + tau * 2. * law.cap.shear * flow.tau);
 
       point.normal_traction = flow.sigma;
       point.shear_traction  = direction * flow.tau;
@@ -102,8 +102,8 @@ namespace quoin
       const double psi_bond = bond > 0. ? map.fade * psi / bond : 0.;
 
       Eigen::Matrix<double, 5, 5> J = Eigen::Matrix<double, 5, 5>::Identity();
-      J(0, 0) += kn * (psi_sigma * flow.slip + 2. * law.cap_normal * flow.cap);
-      J(1, 1) += ks * 2. * law.cap_shear * flow.cap;
+      J(0, 0) += kn * (psi_sigma * flow.slip + 2. * law.cap.normal * flow.cap);
+      J(1, 1) += ks * 2. * law.cap.shear * flow.cap;
       if (flow.opening > 0.)
       {
         J(0, 2) = 1. + psi_bond * bond_by_opening * flow.slip;
@@ -125,17 +125,17 @@ namespace quoin
       }
       if (flow.cap > 0.)
       {
-        const double normal = 2. * law.cap_normal * flow.sigma + law.cap_offset;
-        const double shear  = 2. * law.cap_shear * flow.tau;
+        const double normal = 2. * law.cap.normal * flow.sigma + law.cap.offset;
+        const double shear  = 2. * law.cap.shear * flow.tau;
         const double norm   = std::sqrt(normal * normal + shear * shear);
         double slope;
-        const double limit = law.cap(flow.crushing, slope);
+        const double limit = law.cap.limit(flow.crushing, slope);
         const double drop  = 2. * limit * slope / norm;
         const double part  = 2. * drop * flow.cap;
         J(0, 4)            = normal / norm;
         J(1, 4)            = ks / kn * shear / norm;
-        J(4, 0)            = normal / norm * (1. - part * law.cap_normal);
-        J(4, 1)            = shear / norm * (1. - part * law.cap_shear);
+        J(4, 0)            = normal / norm * (1. - part * law.cap.normal);
+        J(4, 1)            = shear / norm * (1. - part * law.cap.shear);
         J(4, 4)            = -drop / kn;
       }
       Eigen::Matrix<double, 5, 2> trial = Eigen::Matrix<double, 5, 2>::Zero();
@@ -192,7 +192,7 @@ namespace quoin
     }
   } // namespace
 
-  double CompositeLaw::cap(const double crushing, double &slope) const
+  double CompositeCap::limit(const double crushing, double &slope) const
   {
     slope = 0.;
     if (std::isinf(compression))
@@ -220,14 +220,17 @@ namespace quoin
     return last + (middle - last) * decay;
   }
 
-  bool CompositeLaw::softens_gently(const double sigma) const
+  bool softens_gently(const CompositeLaw &law, const double sigma)
   {
+    const CompositeCap &cap = law.cap;
     const double steepest_cap
-        = compression / (middle_crushing() - peak_crushing);
-    const double loss = cohesion - sigma * (friction - residual_friction);
-    return normal_stiffness > tension * opening_softening()
-           && shear_stiffness > loss * slip_softening()
-           && (std::isinf(compression) || normal_stiffness > steepest_cap);
+        = cap.compression / (cap.middle_crushing() - cap.peak_crushing);
+    const double loss
+        = law.cohesion - sigma * (law.friction - law.residual_friction);
+    return law.normal_stiffness > law.tension * law.opening_softening()
+           && law.shear_stiffness > loss * law.slip_softening()
+           && (std::isinf(cap.compression)
+               || law.normal_stiffness > steepest_cap);
   }
 
   CompositeLaw CompositeLaw::read(LawEntries &entries)
@@ -278,23 +281,23 @@ namespace quoin
                    "the crack is closed, as published; close: it closes "
                    "without resistance first, for cyclic loading");
 
-    entries.positive_or_none("Compressive strength", law.compression,
+    entries.positive_or_none("Compressive strength", law.cap.compression,
                              "fm of the masonry, or 'none': no crushing", "Pa");
-    if (entries.reads() && std::isinf(law.compression))
+    if (entries.reads() && std::isinf(law.cap.compression))
     {
       entries.refuse_numbers({ "Compressive fracture energy", "Peak crushing" },
                              "Compressive strength");
       return law;
     }
-    entries.positive("Compressive fracture energy", law.compression_energy,
+    entries.positive("Compressive fracture energy", law.cap.compression_energy,
                      "Gfc", "J/m^2");
-    entries.positive("Peak crushing", law.peak_crushing,
+    entries.positive("Peak crushing", law.cap.peak_crushing,
                      "plastic closing at fm, kappa_p", "m");
-    entries.positive("Cap shear", law.cap_shear,
+    entries.positive("Cap shear", law.cap.shear,
                      "weight Css of the shear traction in the cap", "-");
-    entries.positive("Cap normal", law.cap_normal,
+    entries.positive("Cap normal", law.cap.normal,
                      "weight Cnn of the normal traction in the cap", "-");
-    entries.nonnegative("Cap offset", law.cap_offset,
+    entries.nonnegative("Cap offset", law.cap.offset,
                         "Cn of the cap, whose centre is at -Cn/(2 Cnn)", "Pa");
     return law;
   }
@@ -305,12 +308,12 @@ namespace quoin
            + ", " + named_number("cohesion", cohesion, "Pa") + ", "
            + named_number("friction angle",
                           std::atan(friction) / constants::degree, "degrees")
-           + ", " + named_number("compressive strength", compression, "Pa");
+           + ", " + named_number("compressive strength", cap.compression, "Pa");
   }
 
   std::string CompositeLaw::warning() const
   {
-    if (softens_gently())
+    if (softens_gently(*this))
       return "";
     return "the joint drops by itself at failure and does not dissipate its "
            "fracture energies. 'Normal stiffness' should be above ft^2 / GfI = "

@@ -175,9 +175,9 @@ namespace quoin
   bool CompositeReturnMap::within_cap(const CompositeFlow &flow) const
   {
     // The cap itself needs a root or an exponential: only near it.
-    const double load = law.cap_load(flow.sigma, flow.tau);
-    return load <= law.lowest_cap_load()
-           || load <= square(law.cap(crushing_start));
+    const double load = law.cap.load(flow.sigma, flow.tau);
+    return load <= law.cap.lowest_load()
+           || load <= square(law.cap.limit(crushing_start));
   }
 
   bool CompositeReturnMap::iterate(CompositeFlow &flow, const bool opens,
@@ -287,7 +287,7 @@ namespace quoin
   {
     CompositeFlow flow = loosened(sigma, tau);
     // The cap itself needs a root or an exponential: only near it.
-    if (law.cap_load(flow.sigma, flow.tau) <= law.lowest_cap_load())
+    if (law.cap.load(flow.sigma, flow.tau) <= law.cap.lowest_load())
       return flow;
     double high = 1., f_high = overload(flow);
     if (!(f_high > 0.))
@@ -298,7 +298,7 @@ namespace quoin
       relax(flow, sigma, tau, share);
       return overload(flow);
     };
-    const double limit = law.cap(crushing_start);
+    const double limit = law.cap.limit(crushing_start);
     double low = limit / std::sqrt(f_high + limit * limit), f_low = f(low);
     while (f_low > 0. && low > 1e-200)
     {
@@ -318,7 +318,7 @@ namespace quoin
         = law.dilation > 0. && flow.slip > 0.
               ? law.normal_stiffness * free_dilation(flow.bond) * flow.slip
               : 0.;
-    const double centre = -0.5 * law.cap_offset / law.cap_normal;
+    const double centre = -0.5 * law.cap.offset / law.cap.normal;
     const double before = share * sigma + (1. - share) * centre;
     const double taken  = share * widening;
     if (before >= taken)
@@ -333,12 +333,12 @@ namespace quoin
     flow.crushing = crushing_start;
     if (share == 1.)
       return;
-    const double ratio = law.shear_stiffness * law.cap_shear
-                         / (law.normal_stiffness * law.cap_normal);
+    const double ratio = law.shear_stiffness * law.cap.shear
+                         / (law.normal_stiffness * law.cap.normal);
     flow.tau = tau * share / (share + ratio * (1. - share));
-    flow.cap = (1. / share - 1.) / (2. * law.normal_stiffness * law.cap_normal);
-    const double normal = 2. * law.cap_normal * flow.sigma + law.cap_offset;
-    const double shear  = 2. * law.cap_shear * flow.tau;
+    flow.cap = (1. / share - 1.) / (2. * law.normal_stiffness * law.cap.normal);
+    const double normal = 2. * law.cap.normal * flow.sigma + law.cap.offset;
+    const double shear  = 2. * law.cap.shear * flow.tau;
     flow.crushing       = crushing_start
                     + flow.cap * std::sqrt(normal * normal + shear * shear);
   }
@@ -361,8 +361,8 @@ namespace quoin
 
   double CompositeReturnMap::overload(const CompositeFlow &flow) const
   {
-    const double limit = law.cap(flow.crushing);
-    return law.cap_load(flow.sigma, flow.tau) - limit * limit;
+    const double limit = law.cap.limit(flow.crushing);
+    return law.cap.load(flow.sigma, flow.tau) - limit * limit;
   }
 
   double CompositeReturnMap::free_dilation(const double bond) const

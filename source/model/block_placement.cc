@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/blocks/cell_states.h>
 #include <quoin/model/block_placement.h>
 
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace quoin
         return;
       const auto &[begin, end] = nodes.blocks().parts[part].cells;
       for (unsigned int c = begin; c < end; ++c)
-        model.blocks().forget_history(c, history);
+        forget_history(model.blocks(), c, history);
     }
   } // namespace
 
@@ -73,7 +74,7 @@ namespace quoin
                           const State<2> &state)
   {
     const JointNodes<2> &face
-        = model.nodes().faces().joints[model.joints().segment(segment).face];
+        = model.nodes().faces().joints[model.joints().segments()[segment].face];
     return state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]);
   }
 

@@ -244,8 +244,7 @@ namespace quoin
     {
       matched_joints.prepare(state);
       if (!face_stress.empty())
-        matched_joints.initialise(face_stress, state,
-                                  state.template get<JointHistory>());
+        initialise_joints(matched_joints, face_stress, state);
     }
     if (std::find(absent_group.begin(), absent_group.end(), true)
         == absent_group.end())
@@ -254,9 +253,9 @@ namespace quoin
       state.block_marks.push_back(absent_group[group] ? block_mark::absent
                                                       : block_mark::present);
     if constexpr (dim == 2)
-      for (unsigned int i = 0; i < matched_joints.n_segments(); ++i)
+      for (unsigned int i = 0; i < matched_joints.segments().size(); ++i)
         if (is_at_absent_block(*this, i, state))
-          matched_joints.detach(i, state.template get<JointHistory>());
+          detach_joint(i, state.template get<JointHistory>());
     return state;
   }
   template class Model<2>;

@@ -122,10 +122,10 @@ namespace quoin
   {
     const MatchedJoints &joints = model.joints();
     std::vector<std::array<unsigned int, 2>> tied;
-    for (unsigned int i = 0; i < joints.n_segments(); ++i)
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
       if (!state.get<JointHistory>().handed_over[i])
         tied.push_back(
-            model.nodes().faces().joints[joints.segment(i).face].blocks);
+            model.nodes().faces().joints[joints.segments()[i].face].blocks);
     std::sort(tied.begin(), tied.end());
     tied.erase(std::unique(tied.begin(), tied.end()), tied.end());
 

@@ -3,6 +3,7 @@
 
 // How a Model<2> changes between stages.
 
+#include <quoin/blocks/cell_states.h>
 #include <quoin/model/model.h>
 
 #include <algorithm>
@@ -64,12 +65,13 @@ namespace quoin
       const unsigned int m
           = properties.material_of_group[node_map.cells().group[c]];
       const MohrCoulomb *law = laws[m] ? &*laws[m] : nullptr;
-      const auto before      = block_forces.stress_of_strain(
-               state.nodes.data(), plastic, c, block_forces.cell_stiffness(c),
-               block_forces.cell_law(c));
-      const auto after = block_forces.stress_of_strain(
-          state.nodes.data(), plastic, c, stiffness[m], law);
-      const auto bears = block_forces.initial_stress(c);
+      const auto before
+          = stress_of_strain(block_forces, state.nodes.data(), plastic, c,
+                             block_forces.cell_data().stiffness_of(c),
+                             block_forces.cell_data().law_of(c));
+      const auto after = stress_of_strain(block_forces, state.nodes.data(),
+                                          plastic, c, stiffness[m], law);
+      const auto bears = block_forces.cell_data().initial_stress_of(c);
       if (law)
         for (unsigned int k = 0; k < 4; ++k)
           plastic.cells[c].stress[k] = bears[k] + before[k];
@@ -82,7 +84,6 @@ namespace quoin
         initial[4 * c + k] = bears[k] + before[k] - after[k];
     }
     set_properties(properties, state.get<ConstructionState>());
-    matched_joints.keep_tractions(state.nodes.data(),
-                                  state.get<JointHistory>());
+    keep_joint_tractions(matched_joints, state);
   }
 } // namespace quoin

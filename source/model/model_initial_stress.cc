@@ -93,7 +93,7 @@ namespace quoin
     }
     // The points' forces become those of a traction that is linear along the
     // face. Simpson's rule on quadratic edges gives them already.
-    for (MatchedJoints::FaceStress &face : face_stress)
+    for (JointFaceStress &face : face_stress)
       for (unsigned int i = 0; i < 3 && !node_map.table().is_quadratic; ++i)
       {
         const double third = (face[1][i] - face[0][i]) / 3.;

@@ -31,7 +31,8 @@ namespace quoin
     bool joints_may_fail(const Model<dim> &model)
     {
       if constexpr (dim == 2)
-        return model.joints().can_fail()
+        return std::any_of(model.joints().laws().begin(),
+                           model.joints().laws().end(), can_fail)
                || model.parameters().large_displacements;
       return false;
     }

@@ -41,9 +41,9 @@ namespace quoin
       }
 
       List &segments = result.own[JointHistory::slice_name];
-      for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+      for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
         segments.push_back(
-            nodes.faces().joints[model.joints().segment(i).face].number);
+            nodes.faces().joints[model.joints().segments()[i].face].number);
     }
   } // namespace
 

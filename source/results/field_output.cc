@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/blocks/cell_states.h>
+#include <quoin/contact/law_fields.h>
 #include <quoin/results/field_output.h>
 #include <quoin/tdbem/tangential_stress.h>
 
@@ -16,7 +18,7 @@ namespace quoin
     const auto &plastic       = state.template get<PlasticHistory>();
     decltype(fields.stress) stress;
     decltype(fields.strain) strain;
-    model.blocks().stresses(state.nodes.data(), plastic, stress, strain);
+    cell_stresses(model.blocks(), state.nodes.data(), plastic, stress, strain);
     stress.resize(nodes.cells().size()); // those of rigid blocks are zero
     strain.resize(nodes.cells().size());
     std::vector<std::int32_t> number(nodes.n_local(), -1);
@@ -52,7 +54,7 @@ namespace quoin
           fields.cells.back()[k] = number[nodes.cells().nodes[own][k]];
         fields.stress.push_back(stress[own]);
         fields.strain.push_back(strain[own]);
-        if (model.blocks().is_plastic())
+        if (model.blocks().cell_data().is_plastic())
         {
           const bool is_rigid = own >= model.nodes().cells().n_deformable;
           fields.yielding.push_back(is_rigid ? 0 : plastic.yielding[own]);
@@ -69,16 +71,16 @@ namespace quoin
   {
     JointFields fields;
     const JointHistory &history = state.get<JointHistory>();
-    for (const std::string &name : model.joints().field_names())
+    for (const std::string &name : law_field_names(model.joints()))
       fields.of_laws.push_back({ name, {} });
-    for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
     {
-      const auto &segment = model.joints().segment(i);
+      const auto &segment = model.joints().segments()[i];
       // A joint between two ranks is written by the rank of its lower side.
       if (!model.nodes().faces().joints[segment.face].is_own[0]
           || history.handed_over[i])
         continue;
-      const auto gaps = model.joints().gaps(state.nodes.data(), i);
+      const auto gaps = joint_gaps(segment, state.nodes.data());
       fields.joint_set.push_back(segment.set);
       for (unsigned int k = 0; k < 2; ++k)
       {
@@ -94,7 +96,7 @@ namespace quoin
         fields.normal_traction.push_back(history.normal_traction[p]);
         fields.shear_traction.push_back(history.shear_traction[p]);
         for (auto &[name, values] : fields.of_laws)
-          values.push_back(model.joints().field(name, p, history));
+          values.push_back(law_field(model.joints(), name, p, history));
         fields.state.push_back(history.state[p]);
       }
     }
@@ -174,16 +176,16 @@ namespace quoin
     const double n_cells             = model.nodes().cells().size();
     double bytes
         = of_files + of_node * model.nodes().n_owned() + of_cell * n_cells;
-    if (model.blocks().is_plastic())
+    if (model.blocks().cell_data().is_plastic())
       bytes += of_plastic_cell * n_cells;
     if constexpr (dim == 2)
     {
       const double of_joint_point
-          = 2 * 3 * 8 + 4 * 8 + 1 + 8 * model.joints().field_names().size();
+          = 2 * 3 * 8 + 4 * 8 + 1 + 8 * law_field_names(model.joints()).size();
       constexpr double of_joint = 1 + 4 + 8 + 2 * 4 + 4 + 1;
       const auto &faces         = model.nodes().faces().joints;
-      for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
-        if (faces[model.joints().segment(i).face].is_own[0])
+      for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
+        if (faces[model.joints().segments()[i].face].is_own[0])
           bytes += of_joint + 2. * of_joint_point;
     }
     return dealii::Utilities::MPI::sum(bytes, model.nodes().communicator());

@@ -7,6 +7,8 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/blocks/triangle.h>
+#include <quoin/blocks/cell_states.h>
+#include <quoin/contact/law_fields.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/results/block_output.h>
 
@@ -200,9 +202,10 @@ namespace quoin
                                Nearest<2> &nearest)
     {
       const NodeMap<2> &nodes = model.nodes();
-      for (unsigned int i = 0; i < model.joints().n_segments(); ++i)
+      for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
       {
-        const auto &face = nodes.faces().joints[model.joints().segment(i).face];
+        const auto &face
+            = nodes.faces().joints[model.joints().segments()[i].face];
         if (!curve.empty() && nodes.table().face_names[face.name] != curve)
           continue;
         for (unsigned int k = 0; k < 2; ++k)
@@ -388,9 +391,9 @@ namespace quoin
     {
       if (probe.entity >= model.nodes().cells().n_deformable)
         return 0.;
-      const auto stress = model.blocks().cell_stress(
-          state.nodes.data(), state.template get<PlasticHistory>(),
-          probe.entity);
+      const auto stress
+          = cell_stress(model.blocks(), state.nodes.data(),
+                        state.template get<PlasticHistory>(), probe.entity);
       if (wanted.quantity == HistoryQuantity::principal_stress)
         return principal_stress(stress).value[wanted.component];
       // Index from the order xx, yy, xy, zz, xz, yz.
@@ -420,10 +423,11 @@ namespace quoin
                                    const State<2> &state) const
   {
     if (probe.entity >= model.nodes().cells().n_deformable
-        || !model.blocks().cell_law(probe.entity))
+        || !model.blocks().cell_data().law_of(probe.entity))
       return 0.;
-    const PlasticPoint point = model.blocks().cell_history(
-        state.nodes.data(), state.get<PlasticHistory>(), probe.entity);
+    const PlasticPoint point
+        = cell_history(model.blocks(), state.nodes.data(),
+                       state.get<PlasticHistory>(), probe.entity);
     return probe.parameters.component == 0 ? point.state : point.plastic_shear;
   }
 
@@ -435,15 +439,16 @@ namespace quoin
     const unsigned int component = probe.parameters.component;
     const JointHistory &history  = state.get<JointHistory>();
     if (component < 2)
-      return model.joints().gaps(state.nodes.data(), p / 2)[p % 2][component];
+      return joint_gaps(model.joints().segments()[p / 2],
+                        state.nodes.data())[p % 2][component];
     if (component == 2)
       return history.normal_traction[p];
     if (component == 3)
       return history.shear_traction[p];
     if (component == 4)
       return static_cast<double>(history.state[p]);
-    return model.joints().field(component == 5 ? "damage" : "crushing", p,
-                                history);
+    return law_field(model.joints(), component == 5 ? "damage" : "crushing", p,
+                     history);
   }
 
   template <int dim>

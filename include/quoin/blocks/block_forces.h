@@ -60,6 +60,35 @@ namespace quoin
      * lanes are not.
      */
     bool quadratic = false;
+
+    const PlaneStiffness &stiffness_of(const unsigned int cell) const
+    {
+      return stiffness[cell_stiffness.empty() ? 0 : cell_stiffness[cell]];
+    }
+
+    /** Stress xx, yy, xy, zz of a cell without strain [Pa]. */
+    std::array<double, 4> initial_stress_of(const unsigned int cell) const
+    {
+      return initial_stress.empty() ? std::array<double, 4>{}
+                                    : initial_stress[cell];
+    }
+
+    /** Whether any cell has a yield law. */
+    bool is_plastic() const
+    {
+      return std::any_of(laws.begin(), laws.end(),
+                         [](const auto &law) { return law.has_value(); });
+    }
+
+    /** Yield law of cells of one stiffness; null: elastic. */
+    const MohrCoulomb *law(const unsigned int s) const
+    {
+      return laws.empty() || !laws[s] ? nullptr : &*laws[s];
+    }
+    const MohrCoulomb *law_of(const unsigned int cell) const
+    {
+      return law(cell_stiffness.empty() ? 0 : cell_stiffness[cell]);
+    }
   };
 
   /** Division of the kernel's work; the defaults suit usual caches. */
@@ -143,10 +172,7 @@ namespace quoin
     void prepare(State<2> &state) const override;
     void add_forces(const StepContext &step, State<2> &state,
                     const NodeForces<2> &forces) override;
-    double stored_energy(const State<2> &state) const override
-    {
-      return strain_energy(state.nodes.data(), state.get<PlasticHistory>());
-    }
+    double stored_energy(const State<2> &state) const override;
 
     void linearise(State<2> &state, bool with_stiffness,
                    const TakeElement<2> &take) const override;
@@ -155,6 +181,12 @@ namespace quoin
     void add_stiffness_bound(
         const State<2> &state, const NodeRatio &ratio,
         std::vector<NodeStiffness<2>> &stiffness) const override;
+
+    /** What prepare() was given; cell_states.h has what follows from it. */
+    const BlockForcesData<2> &cell_data() const
+    {
+      return data;
+    }
 
     unsigned int n_tiles() const
     {
@@ -172,23 +204,12 @@ namespace quoin
       return tiles[tile].cells;
     }
 
-    /** Internal variables of cells without strain; empty: no cell yields. */
-    PlasticHistory initial_history() const;
-
-    /** Resets @p cell to initial_history(), if any cell yields. */
-    void forget_history(unsigned int cell, PlasticHistory &history) const;
-
     /**
      * Adds the internal forces of a tile's cells. Updates @p history for the
      * current positions and returns the energy that this dissipates [J].
      */
     double add_forces(unsigned int tile, const NodeRecord<2> *nodes,
                       PlasticHistory &history, NodeVector<2> *force) const;
-
-    unsigned int n_cells() const
-    {
-      return data.cells.size();
-    }
 
     /**
      * As add_forces() for one cell, with the derivative consistent with the
@@ -211,85 +232,6 @@ namespace quoin
     void add_viscous_forces(unsigned int tile, const NodeRecord<2> *nodes,
                             const NodeVector<2> *velocity, double beta,
                             NodeVector<2> *force) const;
-
-    /** add_forces() cell by cell, as a reference for the strips. */
-    double add_forces_by_cell(unsigned int tile, const NodeRecord<2> *nodes,
-                              PlasticHistory &history,
-                              NodeVector<2> *force) const;
-
-    /** add_viscous_forces() cell by cell. */
-    void add_viscous_forces_by_cell(unsigned int tile,
-                                    const NodeRecord<2> *nodes,
-                                    const NodeVector<2> *velocity, double beta,
-                                    NodeVector<2> *force) const;
-
-    /**
-     * Energy of all cells with the plastic strain of @p history [J]; minus
-     * its gradient are the forces. With initial stress it counts from the
-     * undeformed state and may be negative.
-     */
-    double strain_energy(const NodeRecord<2> *nodes,
-                         const PlasticHistory &history) const;
-
-    /**
-     * Stress xx, yy, xy, zz [Pa] and, if asked for, strain xx, yy, xy of a cell
-     * in the fixed frame: R S R^T and R e R^T. The initial stress is part of
-     * the stress. A cell that yields has the stress of its @p history updated
-     * for the positions.
-     */
-    std::array<double, 4> cell_stress(const NodeRecord<2> *nodes,
-                                      const PlasticHistory &history,
-                                      std::size_t cell,
-                                      PlaneTensor *strain = nullptr) const;
-
-    /**
-     * Stress xx, yy, xy, zz [Pa] in the rotating frame by the strain of a cell
-     * less the plastic one of its @p history, with any @p stiffness and law
-     * (null: elastic). With those of the cell plus initial_stress() it is the
-     * cell's stress, if the history is up to date.
-     */
-    std::array<double, 4> stress_of_strain(const NodeRecord<2> *nodes,
-                                           const PlasticHistory &history,
-                                           std::size_t cell,
-                                           const PlaneStiffness &stiffness,
-                                           const MohrCoulomb *law) const;
-
-    /** Stress xx, yy, xy, zz of a cell without strain [Pa]. */
-    std::array<double, 4> initial_stress(const unsigned int cell) const
-    {
-      return data.initial_stress.empty() ? std::array<double, 4>{}
-                                         : data.initial_stress[cell];
-    }
-
-    /** cell_stress() of all cells. */
-    void stresses(const NodeRecord<2> *nodes, const PlasticHistory &history,
-                  std::vector<std::array<double, 4>> &stress,
-                  std::vector<PlaneTensor> &strain) const;
-
-    const PlaneStiffness &cell_stiffness(const unsigned int cell) const
-    {
-      return data
-          .stiffness[data.cell_stiffness.empty() ? 0
-                                                 : data.cell_stiffness[cell]];
-    }
-
-    /** Whether any cell has a yield law. */
-    bool is_plastic() const
-    {
-      return std::any_of(data.laws.begin(), data.laws.end(),
-                         [](const auto &law) { return law.has_value(); });
-    }
-
-    /** Yield law of a cell; null: elastic. */
-    const MohrCoulomb *cell_law(const unsigned int cell) const
-    {
-      return law(data.cell_stiffness.empty() ? 0 : data.cell_stiffness[cell]);
-    }
-
-    /** Internal variables of a cell that yields, updated for the positions. */
-    PlasticPoint cell_history(const NodeRecord<2> *nodes,
-                              const PlasticHistory &history,
-                              unsigned int cell) const;
 
   private:
     /** Strips of equal stiffness that go through the lanes together. */
@@ -329,36 +271,6 @@ namespace quoin
                                      const NodeRecord<2> *nodes,
                                      const NodeVector<2> *velocity, double beta,
                                      NodeVector<2> *force) const;
-
-    const MohrCoulomb *law(const unsigned int stiffness) const
-    {
-      return data.laws.empty() || !data.laws[stiffness]
-                 ? nullptr
-                 : &*data.laws[stiffness];
-    }
-
-    /** Nodes of a cell, the gradients of their shape functions at its point
-        [1/m] and the area that the point counts for [m^2]. */
-    struct CellPoint
-    {
-      unsigned int n_nodes;
-      std::array<unsigned int, 6> nodes;
-      std::array<std::array<double, 2>, 6> gradients;
-      double area;
-
-      /** Displacement gradient [[11, 12], [21, 22]]. */
-      std::array<double, 4>
-      displacement_gradient(const NodeRecord<2> *records) const;
-    };
-    CellPoint cell_point(const NodeRecord<2> *nodes, unsigned int cell) const;
-
-    /** Strain in the rotating frame, and area if it is asked for. */
-    CorotatedStrain cell_strain(const NodeRecord<2> *nodes, std::size_t cell,
-                                double *area = nullptr) const;
-
-    /** Updates @p history for @p strain; returns the dissipation [J/m^3]. */
-    double update_cell(std::size_t cell, const PlaneTensor &strain,
-                       PlasticHistory &history) const;
 
     BlockForcesData<2> data;
     unsigned int n_lanes = 0;

@@ -29,6 +29,22 @@ namespace quoin
     /** Stress of each cell at zero strain [Pa]; it turns with the cell.
         Empty: none. */
     AlignedArray<SpaceTensor> initial_stress;
+
+    const SpaceStiffness &stiffness_of(const unsigned int cell) const
+    {
+      return stiffness[cell_stiffness.empty() ? 0 : cell_stiffness[cell]];
+    }
+
+    /** Stress of a cell without strain [Pa]. */
+    SpaceTensor initial_stress_of(const unsigned int cell) const
+    {
+      return initial_stress.empty() ? SpaceTensor{} : initial_stress[cell];
+    }
+
+    bool is_plastic() const
+    {
+      return false;
+    }
   };
 
   /**
@@ -45,10 +61,6 @@ namespace quoin
   class BlockForces<3> : public ForceOperator<3>
   {
   public:
-    /** Stresses and strains: 11, 22, 33, 12, 13, 23. */
-    using Stress = SpaceTensor;
-    using Strain = SpaceTensor;
-
     void prepare(const BlockForcesData<3> &data,
                  const BlockForcesOptions &options = BlockForcesOptions());
 
@@ -60,10 +72,7 @@ namespace quoin
     void prepare(State<3> &state) const override;
     void add_forces(const StepContext &step, State<3> &state,
                     const NodeForces<3> &forces) override;
-    double stored_energy(const State<3> &state) const override
-    {
-      return strain_energy(state.nodes.data(), state.get<PlasticHistory>());
-    }
+    double stored_energy(const State<3> &state) const override;
 
     void linearise(State<3> &state, bool with_stiffness,
                    const TakeElement<3> &take) const override;
@@ -72,6 +81,11 @@ namespace quoin
     void add_stiffness_bound(
         const State<3> &state, const NodeRatio &ratio,
         std::vector<NodeStiffness<3>> &stiffness) const override;
+
+    const BlockForcesData<3> &cell_data() const
+    {
+      return data;
+    }
 
     unsigned int n_tiles() const
     {
@@ -89,30 +103,9 @@ namespace quoin
       return tiles[tile].cells;
     }
 
-    unsigned int n_cells() const
-    {
-      return data.cells.size();
-    }
-
-    /** Empty history: no cell yields. */
-    PlasticHistory initial_history() const
-    {
-      return {};
-    }
-
-    bool is_plastic() const
-    {
-      return false;
-    }
-
     /** Adds the internal forces of a tile's cells; returns 0 [J]. */
     double add_forces(unsigned int tile, const NodeRecord<3> *nodes,
                       PlasticHistory &history, NodeVector<3> *force) const;
-
-    /** add_forces() cell by cell, as a reference for the lanes. */
-    double add_forces_by_cell(unsigned int tile, const NodeRecord<3> *nodes,
-                              PlasticHistory &history,
-                              NodeVector<3> *force) const;
 
     /**
      * Adds the forces of stiffness-proportional damping, cell by cell: those
@@ -135,44 +128,6 @@ namespace quoin
     {
       return 0.;
     }
-
-    /** Energy of all cells [J]; minus its gradient are the forces. With
-        initial stress it counts from the undeformed state and may be
-        negative. */
-    double strain_energy(const NodeRecord<3> *nodes,
-                         const PlasticHistory &history) const;
-
-    /** Stress [Pa] and, if asked for, strain of a cell in the fixed frame,
-        R S R^T and R e R^T, with the initial stress. */
-    Stress cell_stress(const NodeRecord<3> *nodes,
-                       const PlasticHistory &history, std::size_t cell,
-                       Strain *strain = nullptr) const;
-
-    /** cell_stress() of all cells. */
-    void stresses(const NodeRecord<3> *nodes, const PlasticHistory &history,
-                  std::vector<Stress> &stress,
-                  std::vector<Strain> &strain) const;
-
-    /** Stress of a cell without strain [Pa]. */
-    Stress initial_stress(const unsigned int cell) const
-    {
-      return data.initial_stress.empty() ? Stress{} : data.initial_stress[cell];
-    }
-
-    const SpaceStiffness &cell_stiffness(const unsigned int cell) const
-    {
-      return data
-          .stiffness[data.cell_stiffness.empty() ? 0
-                                                 : data.cell_stiffness[cell]];
-    }
-
-    /**
-     * The first cell that is inverted, also in the reference configuration;
-     * n_cells() if there is none. A stress of the order of Young's modulus can
-     * invert a cell: its forces are finite and push it back, but results are
-     * meaningless from then on.
-     */
-    unsigned int first_inverted_cell(const NodeRecord<3> *nodes) const;
 
   private:
     /** Cells of equal stiffness whose nodes are copied together. */
@@ -206,19 +161,6 @@ namespace quoin
     template <int lanes>
     void add_forces_in_lanes(const Tile &tile, const NodeRecord<3> *nodes,
                              NodeVector<3> *force) const;
-
-    /** Geometry, rotation and strain of one cell. */
-    struct CellMotion
-    {
-      Tetrahedron<OneLane> geometry;
-      PolarDecomposition<OneLane> polar;
-    };
-    CellMotion cell_motion(const NodeRecord<3> *nodes, std::size_t cell) const;
-
-    /** Adds the forces of a first Piola-Kirchhoff stress R T [Pa]. */
-    void add_cell_forces(std::size_t cell, const Tetrahedron<OneLane> &geometry,
-                         const double (&R)[3][3], const double (&T)[3][3],
-                         NodeVector<3> *force) const;
 
     BlockForcesData<3> data;
     unsigned int n_lanes = 0;

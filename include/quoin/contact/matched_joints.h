@@ -10,8 +10,6 @@
 #include <quoin/mesh/node_map.h>
 
 #include <array>
-#include <functional>
-#include <string>
 #include <variant>
 #include <vector>
 
@@ -56,6 +54,20 @@ namespace quoin
     }
   };
 
+  /** A joint face of this rank. */
+  struct JointSegment
+  {
+    std::array<unsigned int, 2> lower, upper; /**< local nodes */
+    std::array<double, 2> area;               /**< of each point [m^2] */
+    float share; /**< of the energy that this rank counts */
+    unsigned int set;
+    unsigned int face; /**< into LocalFaces::joints */
+  };
+
+  /** Opening and slip [m] of both points of @p segment. */
+  std::array<std::array<double, 2>, 2> joint_gaps(const JointSegment &segment,
+                                                  const NodeRecord<2> *nodes);
+
   /**
    * The zero-thickness joints between coincident edges of two blocks, or of
    * the two lips of a crack.
@@ -95,64 +107,34 @@ namespace quoin
     void add_forces(const StepContext &step, State<2> &state,
                     const NodeForces<2> &forces) override;
 
-    double stored_energy(const State<2> &state) const override
-    {
-      return stored_energy(state.nodes.data(), state.get<JointHistory>());
-    }
+    /** Recoverable energy [J] of this rank's share of the joints. */
+    double stored_energy(const State<2> &state) const override;
 
-    unsigned int n_segments() const
+    void add_stiffness_bound(
+        const State<2> &state, const NodeRatio &ratio,
+        std::vector<NodeStiffness<2>> &stiffness) const override;
+
+    const std::vector<JointSegment> &segments() const
     {
-      return segments.size();
+      return all_segments;
     }
     unsigned int n_points() const
     {
-      return 2 * segments.size();
+      return 2 * all_segments.size();
     }
 
-    /** Whether a joint of any rank may open or slip. */
-    bool can_fail() const;
-
-    /** Stress xx, yy, xy [Pa] for both points of a joint face. */
-    using FaceStress = std::array<std::array<double, 3>, 2>;
-
-    /** Intact points, free of traction. */
-    JointHistory make_history() const;
-
-    /** Sets the tractions that balance an initial stress at rest. */
-    void initialise(const std::vector<FaceStress> &face_stress,
-                    const State<2> &state, JointHistory &history) const;
-
-    /** Points, of all ranks, whose tractions exceed their strength. */
-    double n_beyond_strength(const JointHistory &history,
-                             MPI_Comm communicator) const;
-
-    // For blocks that are taken away or placed, and for other laws.
-
-    /** Adds the forces of segment @p i by the tractions of @p history. */
-    void add_traction_forces(unsigned int i, const NodeRecord<2> *nodes,
-                             const JointHistory &history,
-                             NodeVector<2> *force) const;
-
-    /** Segment @p i is no joint from now on: a side of it is not there. */
-    void detach(unsigned int i, JointHistory &history) const;
-
-    /** Segment @p i is an intact joint, free of traction where it is now. */
-    void begin_anew(unsigned int i, const NodeRecord<2> *nodes,
-                    JointHistory &history) const;
+    /** The law of each set. */
+    const std::vector<JointLaw> &laws() const
+    {
+      return all_laws;
+    }
 
     /**
      * Joints follow the laws of @p sets from now on, of which there are as
      * many as before, each of its kind. Their tractions jump unless
-     * keep_tractions() moves the offsets too.
+     * keep_joint_tractions() moves the offsets too.
      */
     void set_laws(const std::vector<JointSetParameters> &sets);
-
-    /**
-     * Inelastic opening and slip of @p history become those with which the
-     * tractions it has are the law's at the gaps in @p nodes.
-     */
-    void keep_tractions(const NodeRecord<2> *nodes,
-                        JointHistory &history) const;
 
     /**
      * Brings the histories to the positions in @p nodes, adds the joint
@@ -195,71 +177,15 @@ namespace quoin
      */
     double excess(unsigned int point, const JointHistory &history) const;
 
-    /** Recoverable energy [J] of this rank's share of the joints. */
-    double stored_energy(const NodeRecord<2> *nodes,
-                         const JointHistory &history) const;
-
-    void add_stiffness_bound(
-        const State<2> &state, const NodeRatio &ratio,
-        std::vector<NodeStiffness<2>> &stiffness) const override;
-
-    struct Segment
-    {
-      std::array<unsigned int, 2> lower, upper; /**< local nodes */
-      std::array<double, 2> area;               /**< of each point [m^2] */
-      float share; /**< of the energy that this rank counts */
-      unsigned int set;
-      unsigned int face; /**< into LocalFaces::joints */
-    };
-
-    const Segment &segment(const unsigned int i) const
-    {
-      return segments[i];
-    }
-
-    /** Opening and slip [m] of both points of segment @p i. */
-    std::array<std::array<double, 2>, 2> gaps(const NodeRecord<2> *nodes,
-                                              unsigned int i) const;
-
-    const JointLaw &law(const unsigned int set) const
-    {
-      return laws[set];
-    }
-
-    /** Names of the fields for results that laws of the sets have. */
-    std::vector<std::string> field_names() const;
-
-    /** The field @p name at entry @p point of @p history; 0 if the law there
-        has none. */
-    double field(const std::string &name, unsigned int point,
-                 const JointHistory &history) const;
-
   private:
-    struct Frame
-    {
-      double normal[2];
-      double tangent[2];
-    };
-    static Frame frame(const Segment &segment, const NodeRecord<2> *nodes);
-    static std::array<double, 2> gap(const Segment &segment, const Frame &frame,
-                                     const NodeRecord<2> *nodes,
-                                     unsigned int k);
-
-    /** Calls @p use with the law of a set, of its own type. */
-    template <typename Use>
-    void with_law(const unsigned int set, const Use &use) const
-    {
-      std::visit(use, laws[set]);
-    }
-
     /** add_forces() of a set. */
     template <typename Law>
     void add_set_forces(unsigned int set, const Law &law,
                         const NodeRecord<2> *nodes, JointHistory &history,
                         EnergyAccounts &energy, NodeVector<2> *force) const;
 
-    std::vector<Segment> segments;       /**< sorted by set */
-    std::vector<JointLaw> laws;          /**< of each set */
+    std::vector<JointSegment> all_segments; /**< sorted by set */
+    std::vector<JointLaw> all_laws;
     std::vector<unsigned int> set_begin; /**< first segment of each set */
   };
 } // namespace quoin

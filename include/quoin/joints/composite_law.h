@@ -45,6 +45,44 @@ namespace quoin
     }
   };
 
+  /** The elliptic cap of a composite law, on which masonry crushes. */
+  struct CompositeCap
+  {
+    /** fm [Pa]; infinite: no cap */
+    double compression        = std::numeric_limits<double>::infinity();
+    double compression_energy = 0.; /**< Gfc [J/m^2] */
+    double peak_crushing      = 0.; /**< k3 at fm, kp [m] */
+    double normal             = 1.; /**< Cnn */
+    double shear              = 9.; /**< Css */
+    double offset             = 0.; /**< Cn [Pa] */
+
+    /** cap(k3) [Pa] and its slope [Pa/m] at @p crushing [m]. */
+    double limit(double crushing, double &slope) const;
+    double limit(const double crushing) const
+    {
+      double slope;
+      return limit(crushing, slope);
+    }
+
+    /** k3 where the cap has come down to fm/2, km [m]. */
+    double middle_crushing() const
+    {
+      return 75. / 67. * compression_energy / compression + peak_crushing;
+    }
+
+    /** Below this the cap is never reached [Pa^2]. */
+    double lowest_load() const
+    {
+      return compression * compression / 49.;
+    }
+
+    /** What the square of the cap is held against [Pa^2]. */
+    double load(const double sigma, const double tau) const
+    {
+      return (normal * sigma + offset) * sigma + shear * tau * tau;
+    }
+  };
+
   /**
    * The composite interface law for masonry joints of @cite LourencoRots1997
    * and @cite Lourenco1996: tension cut-off, Coulomb friction and an elliptic
@@ -103,12 +141,7 @@ namespace quoin
     double dilation_pressure = infinity; /**< where it ends, sigma_u [Pa] */
     double dilation_decay    = 0.;       /**< with k2, delta [1/m] */
 
-    double compression        = infinity; /**< fm [Pa]; infinite: no cap */
-    double compression_energy = 0.;       /**< Gfc [J/m^2] */
-    double peak_crushing      = 0.;       /**< k3 at fm, kp [m] */
-    double cap_normal         = 1.;       /**< Cnn */
-    double cap_shear          = 9.;       /**< Css */
-    double cap_offset         = 0.;       /**< Cn [Pa] */
+    CompositeCap cap;
 
     bool cracks_close = false;
 
@@ -159,15 +192,6 @@ namespace quoin
       return { { { "damage", [](const Here &p) { return 1. - p.bond; } },
                  { "crushing", [](const Here &p) { return p.crushing; } } } };
     }
-
-    /**
-     * Whether no mode can snap back: GfI kn > ft0^2, GfII ks > c0^2 and kn
-     * above the steepest slope of the cap. Otherwise the law drops at
-     * failure however small the step; it stays defined, but dissipates other
-     * than the fracture energy. No length comes in. Shear allows for friction
-     * that softens at the normal traction @p sigma [Pa].
-     */
-    bool softens_gently(double sigma = 0.) const;
 
     /** Brings @p point to @p opening and @p slip [m], overwriting it. */
     template <int dim>
@@ -241,33 +265,16 @@ namespace quoin
     {
       return residual_friction + (friction - residual_friction) * bond;
     }
-
-    /** cap(k3) [Pa] and its slope [Pa/m] at @p crushing [m]. */
-    double cap(double crushing, double &slope) const;
-    double cap(const double crushing) const
-    {
-      double slope;
-      return cap(crushing, slope);
-    }
-
-    /** k3 where the cap has come down to fm/2, km [m]. */
-    double middle_crushing() const
-    {
-      return 75. / 67. * compression_energy / compression + peak_crushing;
-    }
-
-    /** Below this the cap is never reached [Pa^2]. */
-    double lowest_cap_load() const
-    {
-      return compression * compression / 49.;
-    }
-
-    /** What the square of the cap is held against [Pa^2]. */
-    double cap_load(const double sigma, const double tau) const
-    {
-      return (cap_normal * sigma + cap_offset) * sigma + cap_shear * tau * tau;
-    }
   };
+
+  /**
+   * Whether no mode of @p law can snap back: GfI kn > ft0^2, GfII ks > c0^2 and
+   * kn above the steepest slope of the cap. Otherwise the law drops at
+   * failure however small the step; it stays defined, but dissipates other
+   * than the fracture energy. No length comes in. Shear allows for friction
+   * that softens at the normal traction @p sigma [Pa].
+   */
+  bool softens_gently(const CompositeLaw &law, double sigma = 0.);
 
   template <int dim>
   inline bool CompositeLaw::update_elastic(CompositePoint<dim> &point,
@@ -277,16 +284,16 @@ namespace quoin
     const double sigma  = normal_stiffness * (opening - point.plastic_opening);
     const Slip<dim> tau = shear_stiffness * (slip - point.plastic_slip);
     const double size   = magnitude(tau);
-    const double load   = cap_load(sigma, size);
+    const double load   = cap.load(sigma, size);
     if (sigma < 0. && point.crack_opening > 0.)
       return false;
     if (!(sigma <= tension * point.bond
           && size <= cohesion * point.bond - sigma * friction_at(point.bond)))
       return false;
     // The cap itself needs a root or an exponential: only near it.
-    if (!(load <= lowest_cap_load()))
+    if (!(load <= cap.lowest_load()))
     {
-      const double limit = cap(point.crushing);
+      const double limit = cap.limit(point.crushing);
       if (!(load <= limit * limit))
         return false;
     }

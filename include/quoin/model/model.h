@@ -7,7 +7,7 @@
 #include <quoin/model/construction_state.h>
 #include <quoin/operators/state.h>
 #include <quoin/contact/contact_parameters.h>
-#include <quoin/contact/matched_joints.h>
+#include <quoin/contact/joint_changes.h>
 #include <quoin/blocks/block_cells.h>
 #include <quoin/blocks/stable_time_step.h>
 #include <quoin/blocks/rigid_blocks.h>
@@ -155,8 +155,8 @@ namespace quoin
     ModelProperties now;
     std::vector<bool> absent_group; /**< of physical surfaces, at the start */
     std::vector<double> node_mass;
-    std::vector<std::array<double, 4>> cell_stress;     /**< or empty */
-    std::vector<MatchedJoints::FaceStress> face_stress; /**< or empty */
+    std::vector<std::array<double, 4>> cell_stress; /**< or empty */
+    std::vector<JointFaceStress> face_stress;       /**< or empty */
     BlockForces<dim> block_forces;
     RigidBlocks rigid;
     MatchedJoints matched_joints;

@@ -3,6 +3,8 @@
 
 #include "tetrahedron_blocks.h"
 
+#include <quoin/blocks/cell_states.h>
+
 #include <gtest/gtest.h>
 
 #include <numeric>
@@ -101,9 +103,9 @@ TEST(BlockForces3, SmallStrainsKeepTheirDigits)
   }
   BlockForces<3> blocks;
   blocks.prepare(mesh.data);
-  for (unsigned int k = 0; k < blocks.n_cells(); ++k)
+  for (unsigned int k = 0; k < blocks.cell_data().cells.size(); ++k)
   {
-    const SpaceTensor s = blocks.cell_stress(mesh.nodes.data(), {}, k);
+    const SpaceTensor s = cell_stress(blocks, mesh.nodes.data(), {}, k);
     EXPECT_NEAR(s[0], 30., 30. * 1e-8);
     for (unsigned int i = 1; i < 6; ++i)
       EXPECT_NEAR(s[i], 0., 30. * 1e-8);
@@ -133,8 +135,8 @@ TEST(BlockForces3, UniformStrainPatch)
       const Matrix3d sigma   = R * S * R.transpose();
       const double tolerance = 1e-13 * stone.young;
       std::vector<SpaceTensor> stress, strain;
-      blocks.stresses(mesh.nodes.data(), {}, stress, strain);
-      for (unsigned int k = 0; k < blocks.n_cells(); ++k)
+      cell_stresses(blocks, mesh.nodes.data(), {}, stress, strain);
+      for (unsigned int k = 0; k < blocks.cell_data().cells.size(); ++k)
       {
         EXPECT_LT((matrix(stress[k]) - sigma).cwiseAbs().maxCoeff(), tolerance);
         EXPECT_LT(
@@ -222,7 +224,7 @@ TEST(BlockForces3, NothingToDo)
   BlockForces<3> blocks;
   blocks.prepare(data);
   EXPECT_EQ(blocks.n_tiles(), 0u);
-  EXPECT_EQ(blocks.n_cells(), 0u);
+  EXPECT_EQ(blocks.cell_data().cells.size(), 0u);
 }
 
 TEST(BlockForces3, CellsMayHaveNodesBehindThoseOfAllBlocks)
@@ -312,7 +314,7 @@ TEST(BlockForces3, AreMinusTheGradientOfTheEnergy)
         const auto energy   = [&](const double at)
         {
           u = before + at;
-          return blocks.strain_energy(mesh.nodes.data(), {});
+          return strain_energy(blocks, mesh.nodes.data(), {});
         };
         const double slope = (8. * (energy(h) - energy(-h))
                               - (energy(2. * h) - energy(-2. * h)))
@@ -367,7 +369,7 @@ TEST(BlockForces3, InitialStressTurnsWithTheBlock)
   for (unsigned int i = 0; i < after.size(); ++i)
     EXPECT_LT((vector(after[i].v) - R * vector(before[i].v)).norm(),
               1e-4); // of 1e5 N
-  EXPECT_LT((matrix(blocks.cell_stress(mesh.nodes.data(), {}, 17))
+  EXPECT_LT((matrix(cell_stress(blocks, mesh.nodes.data(), {}, 17))
              - R * s * R.transpose())
                 .norm(),
             1e-3);
@@ -428,7 +430,7 @@ TEST(BlockForces3, StiffnessIsTheDerivativeOfTheForces)
     Eigen::MatrixXd K    = Eigen::MatrixXd::Zero(n, n);
     Eigen::VectorXd sum  = Eigen::VectorXd::Zero(n);
     PlasticHistory none;
-    for (unsigned int k = 0; k < blocks.n_cells(); ++k)
+    for (unsigned int k = 0; k < blocks.cell_data().cells.size(); ++k)
     {
       CellLinearisation cell;
       ASSERT_TRUE(blocks.linearise(k, mesh.nodes.data(), none, cell));
@@ -476,17 +478,19 @@ TEST(BlockForces3, InvertedCellsAreFound)
   BlockForces<3> blocks;
   blocks.prepare(mesh.data);
   mesh.displace(rotation(3., { 1., 2., 3. }));
-  EXPECT_EQ(blocks.first_inverted_cell(mesh.nodes.data()), blocks.n_cells());
+  EXPECT_EQ(first_inverted_cell(blocks, mesh.nodes.data()),
+            blocks.cell_data().cells.size());
 
   // A corner pushed through its cell: the forces push it back.
   mesh.displace(Matrix3d::Identity());
   mesh.nodes[0].u[0] = mesh.nodes[0].u[1] = mesh.nodes[0].u[2] = 0.6;
-  EXPECT_LT(blocks.first_inverted_cell(mesh.nodes.data()), blocks.n_cells());
+  EXPECT_LT(first_inverted_cell(blocks, mesh.nodes.data()),
+            blocks.cell_data().cells.size());
   const Forces3 force = mesh.forces(blocks);
   EXPECT_LT(force[0].v[0] + force[0].v[1] + force[0].v[2], 0.);
 
   std::swap(mesh.data.cells[5][0], mesh.data.cells[5][1]);
   blocks.prepare(mesh.data);
   mesh.displace(Matrix3d::Identity());
-  EXPECT_EQ(blocks.first_inverted_cell(mesh.nodes.data()), 5u);
+  EXPECT_EQ(first_inverted_cell(blocks, mesh.nodes.data()), 5u);
 }

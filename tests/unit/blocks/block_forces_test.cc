@@ -3,7 +3,7 @@
 
 #include "random_blocks.h"
 
-#include <quoin/blocks/block_forces.h>
+#include <quoin/blocks/cell_states.h>
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ namespace
     PlasticHistory none;
     Forces force(mesh.nodes.size(), NodeVector<2>{ { 0., 0. } });
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
-      blocks.add_forces_by_cell(tile, mesh.nodes.data(), none, force.data());
+      add_forces_by_cell(blocks, tile, mesh.nodes.data(), none, force.data());
     return force;
   }
 
@@ -42,8 +42,8 @@ namespace
     Forces force(mesh.nodes.size(), NodeVector<2>{ { 0., 0. } });
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
       if (by_cell)
-        blocks.add_viscous_forces_by_cell(tile, mesh.nodes.data(),
-                                          velocity.data(), beta, force.data());
+        add_viscous_forces_by_cell(blocks, tile, mesh.nodes.data(),
+                                   velocity.data(), beta, force.data());
       else
         blocks.add_viscous_forces(tile, mesh.nodes.data(), velocity.data(),
                                   beta, force.data());
@@ -137,7 +137,7 @@ TEST(BlockForces, SmallStrainsKeepTheirDigits)
   blocks.prepare(mesh.data);
   std::vector<std::array<double, 4>> stress;
   std::vector<PlaneTensor> strain;
-  blocks.stresses(mesh.nodes.data(), {}, stress, strain);
+  cell_stresses(blocks, mesh.nodes.data(), {}, stress, strain);
   for (const auto &s : stress)
   {
     EXPECT_NEAR(s[0], 30., 30. * 1e-9);
@@ -194,7 +194,7 @@ TEST(BlockForces, UniformStrainPatch)
     }
     std::vector<std::array<double, 4>> stress;
     std::vector<PlaneTensor> strain;
-    blocks.stresses(mesh.nodes.data(), {}, stress, strain);
+    cell_stresses(blocks, mesh.nodes.data(), {}, stress, strain);
     const double szz = assumption == PlaneAssumption::plane_strain
                            ? stone.poisson * (sxx + syy)
                            : 0.;
@@ -294,7 +294,7 @@ TEST(BlockForces, NothingToDo)
   BlockForces<2> blocks;
   blocks.prepare(data);
   EXPECT_EQ(blocks.n_tiles(), 0u);
-  EXPECT_EQ(blocks.strain_energy(nullptr, {}), 0.);
+  EXPECT_EQ(strain_energy(blocks, nullptr, {}), 0.);
 }
 
 TEST(BlockForces, AreMinusTheGradientOfTheEnergy)
@@ -319,9 +319,9 @@ TEST(BlockForces, AreMinusTheGradientOfTheEnergy)
         double &u         = mesh.nodes[i].u[d];
         const double u0   = u;
         u                 = u0 + du;
-        const double up   = blocks.strain_energy(mesh.nodes.data(), {});
+        const double up   = strain_energy(blocks, mesh.nodes.data(), {});
         u                 = u0 - du;
-        const double down = blocks.strain_energy(mesh.nodes.data(), {});
+        const double down = strain_energy(blocks, mesh.nodes.data(), {});
         u                 = u0;
         EXPECT_NEAR(force[i].v[d], -(up - down) / (2. * du),
                     2e-7 * largest(force));
@@ -380,7 +380,7 @@ TEST(BlockForces, InitialStressTurnsWithTheBlock)
   blocks.prepare(mesh.data);
   std::vector<std::array<double, 4>> stress;
   std::vector<PlaneTensor> strain;
-  blocks.stresses(mesh.nodes.data(), {}, stress, strain);
+  cell_stresses(blocks, mesh.nodes.data(), {}, stress, strain);
   const double c = std::cos(angle), s = std::sin(angle);
   for (const auto &sigma : stress)
   {

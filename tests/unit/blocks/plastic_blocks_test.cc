@@ -6,7 +6,7 @@
 #include "random_blocks.h"
 #include "../model/test_models.h"
 
-#include <quoin/blocks/block_forces.h>
+#include <quoin/blocks/cell_states.h>
 
 #include <gtest/gtest.h>
 
@@ -54,8 +54,8 @@ namespace
     double dissipated = 0.;
     force.assign(mesh.nodes.size(), NodeVector<2>{});
     for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
-      dissipated += by_cell ? blocks.add_forces_by_cell(tile, mesh.nodes.data(),
-                                                        history, force.data())
+      dissipated += by_cell ? add_forces_by_cell(
+                        blocks, tile, mesh.nodes.data(), history, force.data())
                             : blocks.add_forces(tile, mesh.nodes.data(),
                                                 history, force.data());
     return dissipated;
@@ -101,7 +101,7 @@ TEST(PlasticBlocks, StripsAgreeWithSingleCells)
         options.max_run_cells = 100;
         BlockForces<2> blocks;
         blocks.prepare(mesh.data, options);
-        PlasticHistory a = blocks.initial_history(), b = a;
+        PlasticHistory a = initial_history(blocks), b = a;
         Forces force_a, force_b;
         unsigned int n_yielded = 0;
         for (unsigned int step = 0; step < 5; ++step)
@@ -140,17 +140,17 @@ TEST(PlasticBlocks, BelowTheirStrengthTheyAreElastic)
     blocks.prepare(mesh.data);
     mesh.data.laws.clear();
     elastic.prepare(mesh.data);
-    PlasticHistory history = blocks.initial_history(), none;
+    PlasticHistory history = initial_history(blocks), none;
     Forces force, wanted;
     EXPECT_EQ(add_forces(blocks, mesh, history, force), 0.);
     add_forces(elastic, mesh, none, wanted);
     EXPECT_LT(largest_difference(force, wanted), 1e-9 * largest(wanted));
-    EXPECT_NEAR(blocks.strain_energy(mesh.nodes.data(), history),
-                elastic.strain_energy(mesh.nodes.data(), none),
-                1e-12 * elastic.strain_energy(mesh.nodes.data(), none));
+    EXPECT_NEAR(strain_energy(blocks, mesh.nodes.data(), history),
+                strain_energy(elastic, mesh.nodes.data(), none),
+                1e-12 * strain_energy(elastic, mesh.nodes.data(), none));
     EXPECT_TRUE(std::all_of(history.yielding.begin(), history.yielding.end(),
                             [](const auto s) { return s == 0; }));
-    EXPECT_TRUE(elastic.initial_history().cells.empty());
+    EXPECT_TRUE(initial_history(elastic).cells.empty());
   }
 }
 
@@ -162,13 +162,13 @@ TEST(PlasticBlocks, WorkIsStoredOrDissipated)
     add_modest_stress(mesh, plane);
     BlockForces<2> blocks;
     blocks.prepare(mesh.data);
-    PlasticHistory history = blocks.initial_history();
+    PlasticHistory history = initial_history(blocks);
 
     RandomBlocks aim = mesh;
     aim.deform(1e-3, 0.02);
     Forces before, after;
     double lost          = add_forces(blocks, mesh, history, before);
-    const double at_0    = blocks.strain_energy(mesh.nodes.data(), history);
+    const double at_0    = strain_energy(blocks, mesh.nodes.data(), history);
     double work          = 0.;
     const unsigned int n = 4000;
     for (unsigned int step = 1; step <= n; ++step)
@@ -190,9 +190,9 @@ TEST(PlasticBlocks, WorkIsStoredOrDissipated)
       before = after;
     }
     const double stored
-        = blocks.strain_energy(mesh.nodes.data(), history) - at_0;
+        = strain_energy(blocks, mesh.nodes.data(), history) - at_0;
     // What the first call dissipated belongs to the initial stress.
-    PlasticHistory start = blocks.initial_history();
+    PlasticHistory start = initial_history(blocks);
     for (NodeRecord<2> &node : mesh.nodes)
       node.u[0] = node.u[1] = 0.;
     lost -= blocks.update(mesh.nodes.data(), start);
@@ -206,12 +206,12 @@ TEST(PlasticBlocks, TurnWithoutYielding)
   RandomBlocks mesh = assorted_blocks(PlaneAssumption::plane_strain);
   BlockForces<2> blocks;
   blocks.prepare(mesh.data);
-  PlasticHistory history = blocks.initial_history();
+  PlasticHistory history = initial_history(blocks);
   Forces force;
   mesh.deform(1e-3, 0.);
   add_forces(blocks, mesh, history, force);
   const auto flowed   = history.shear;
-  const double energy = blocks.strain_energy(mesh.nodes.data(), history);
+  const double energy = strain_energy(blocks, mesh.nodes.data(), history);
   // The same shape turned: x -> R x
   const double c = std::cos(0.7), s = std::sin(0.7);
   for (NodeRecord<2> &node : mesh.nodes)
@@ -223,7 +223,7 @@ TEST(PlasticBlocks, TurnWithoutYielding)
   Forces turned;
   const double lost = add_forces(blocks, mesh, history, turned);
   EXPECT_NEAR(lost, 0., 1e-9 * energy);
-  EXPECT_NEAR(blocks.strain_energy(mesh.nodes.data(), history), energy,
+  EXPECT_NEAR(strain_energy(blocks, mesh.nodes.data(), history), energy,
               1e-9 * energy);
   for (std::size_t k = 0; k < flowed.size(); ++k)
     EXPECT_NEAR(history.shear[k], flowed[k], 1e-12);
@@ -285,8 +285,8 @@ namespace
       double error = 0.;
       for (unsigned int c = 0; c < mesh.n_cells(); ++c)
       {
-        const auto s = run->model.blocks().cell_stress(
-            run->state.nodes.data(), run->state.get<PlasticHistory>(), c);
+        const auto s = cell_stress(run->model.blocks(), run->state.nodes.data(),
+                                   run->state.get<PlasticHistory>(), c);
         for (unsigned int i = 0; i < 4; ++i)
           error = std::max(error, std::abs(s[i] - wanted[i]));
       }
@@ -338,7 +338,7 @@ namespace
       mesh.data.laws.resize(1);
       mesh.data.laws[0].emplace(rock, strength, plane);
       blocks.prepare(mesh.data);
-      history = blocks.initial_history();
+      history = initial_history(blocks);
     }
 
     void strain(const double xx, const double yy, const double shear)
@@ -355,7 +355,7 @@ namespace
 
     std::array<double, 4> stress(const unsigned int cell) const
     {
-      return blocks.cell_stress(mesh.nodes.data(), history, cell);
+      return cell_stress(blocks, mesh.nodes.data(), history, cell);
     }
   };
 } // namespace

@@ -6,6 +6,8 @@
 
 #include "tangent_checks.h"
 
+#include <quoin/blocks/cell_states.h>
+
 #include <gtest/gtest.h>
 
 using namespace quoin;
@@ -140,7 +142,7 @@ TEST(QuadraticTangent, QuadraticFieldsAreIntegratedExactly)
     const Integrals want = integrate(mesh, field);
     EXPECT_LT(largest_difference(force, want.force),
               2e-8 * largest(want.force));
-    EXPECT_NEAR(blocks.strain_energy(mesh.nodes.data(), none), want.energy,
+    EXPECT_NEAR(strain_energy(blocks, mesh.nodes.data(), none), want.energy,
                 2e-8 * want.energy);
 
     // At the centroids of the four cells, the inner one's too.
@@ -152,9 +154,9 @@ TEST(QuadraticTangent, QuadraticFieldsAreIntegratedExactly)
         x += mesh.nodes[node].X[0] / 3.;
         y += mesh.nodes[node].X[1] / 3.;
       }
-      const PlaneTensor want
-          = elastic_stress(blocks.cell_stiffness(c), field.strain(x, y));
-      const auto stress = blocks.cell_stress(mesh.nodes.data(), none, c);
+      const PlaneTensor want = elastic_stress(
+          blocks.cell_data().stiffness_of(c), field.strain(x, y));
+      const auto stress = cell_stress(blocks, mesh.nodes.data(), none, c);
       for (unsigned int i = 0; i < 3; ++i)
         EXPECT_NEAR(stress[i], want[i], 1e-6);
     }

@@ -82,7 +82,7 @@ namespace quoin::tangent_test
     if (stiffness)
       stiffness->assign(force.size(), Vector(force.size(), 0.));
     CellLinearisation cell;
-    for (unsigned int c = 0; c < blocks.n_cells(); ++c)
+    for (unsigned int c = 0; c < blocks.cell_data().cells.size(); ++c)
     {
       if (!blocks.linearise(c, nodes.data(), history, cell))
         continue;

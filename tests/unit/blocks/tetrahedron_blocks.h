@@ -5,7 +5,7 @@
 #define quoin_tests_tetrahedron_blocks_h
 
 #include <quoin/base/eigen_core.h>
-#include <quoin/blocks/block_forces_3d.h>
+#include <quoin/blocks/cell_states.h>
 #include <quoin/blocks/node_update.h>
 #include <quoin/blocks/stable_time_step.h>
 
@@ -176,7 +176,7 @@ namespace quoin::test
       PlasticHistory none;
       for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
         if (by_cell)
-          blocks.add_forces_by_cell(tile, nodes.data(), none, force.data());
+          add_forces_by_cell(blocks, tile, nodes.data(), force.data());
         else
           blocks.add_forces(tile, nodes.data(), none, force.data());
       return force;

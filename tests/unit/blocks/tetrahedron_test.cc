@@ -142,7 +142,7 @@ TEST(Tetrahedron, LargestFrequencyOfOneElement)
     mesh.data.stiffness = { space_stiffness(material) };
     BlockForces<3> blocks;
     blocks.prepare(mesh.data);
-    for (unsigned int k = 0; k < blocks.n_cells(); ++k)
+    for (unsigned int k = 0; k < blocks.cell_data().cells.size(); ++k)
     {
       CellLinearisation cell;
       PlasticHistory none;

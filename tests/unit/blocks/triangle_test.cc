@@ -4,6 +4,7 @@
 #include "random_blocks.h"
 
 #include <quoin/blocks/triangle.h>
+#include <quoin/blocks/cell_states.h>
 
 #include <gtest/gtest.h>
 
@@ -42,7 +43,7 @@ namespace
       AlignedArray<NodeVector<2>> force(mesh.nodes.size(), NodeVector<2>{});
       PlasticHistory none;
       for (unsigned int tile = 0; tile < blocks.n_tiles(); ++tile)
-        blocks.add_forces_by_cell(tile, x.nodes.data(), none, force.data());
+        add_forces_by_cell(blocks, tile, x.nodes.data(), none, force.data());
       double before = 0., after = 0.;
       for (std::size_t i = 0; i < force.size(); ++i)
         for (unsigned int d = 0; d < 2; ++d)

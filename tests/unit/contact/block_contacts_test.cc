@@ -369,7 +369,7 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
       for (unsigned int p = 0; p < scene.joints.n_points(); ++p)
       {
         // The history of point k of a segment goes on in its pair.
-        const auto &segment = scene.joints.segment(p / 2);
+        const auto &segment = scene.joints.segments()[p / 2];
         const auto &face
             = scene.contacts->contact_edges().joint_edges(segment.face).edges;
         for (const ContactPair &pair : scene.state.get<ContactState>().pairs)
@@ -403,13 +403,9 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
       for (unsigned int d = 0; d < 3; ++d)
         EXPECT_NEAR(general[d], before[d], 2e-3 * full)
             << "component " << d << ", angle " << angle;
-      EXPECT_NEAR(
-          scene.contacts->stored_energy(scene.state),
-          scene.joints.stored_energy(scene.state.nodes.data(),
-                                     matched.get<JointHistory>()),
-          2e-3
-              * scene.joints.stored_energy(scene.state.nodes.data(),
-                                           matched.get<JointHistory>()));
+      EXPECT_NEAR(scene.contacts->stored_energy(scene.state),
+                  scene.joints.stored_energy(matched),
+                  2e-3 * scene.joints.stored_energy(matched));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "../joints/composite_walk.h"
 #include "../joints/rock_walk.h"
 
+#include <quoin/contact/law_fields.h>
 #include <quoin/contact/matched_joints.h>
 
 #include <map>
@@ -32,7 +33,9 @@ namespace
       BlockMesh<2> mesh;
       make_stack(mesh, 1, 1);
       joints.prepare(TestNodes(mesh), { set }, thickness);
-      history = joints.make_history();
+      State<2> state;
+      joints.prepare(state);
+      history = state.get<JointHistory>();
       for (const auto &p : mesh.vertices)
         nodes.push_back({ { p[0], p[1] }, { 0., 0. } });
     }
@@ -50,7 +53,7 @@ namespace
       for (unsigned int k = 0; k < 2; ++k)
       {
         const auto &[opening, slip] = gaps[k];
-        double *u                   = nodes[joints.segment(0).upper[k]].u;
+        double *u                   = nodes[joints.segments()[0].upper[k]].u;
         u[0] += c * slip - s * opening;
         u[1] += s * slip + c * opening;
       }
@@ -126,8 +129,8 @@ namespace
   {
     const auto result = joint.linearise(joint.nodes);
     // By the elastic stiffness, as a branch may have none.
-    const double area  = joint.joints.segment(0).area[0];
-    const double scale = area * elastic_stiffness(joint.joints.law(0));
+    const double area  = joint.joints.segments()[0].area[0];
+    const double scale = area * elastic_stiffness(joint.joints.laws()[0]);
     for (unsigned int j = 0; j < 8; ++j)
     {
       const Ends slopes = differences(joint, j, h);
@@ -251,10 +254,10 @@ TEST(JointTangent, CompositeJointsInAllBranches)
       Joint joint(joint_of(law));
       const double size = seed % 2 == 0 ? 2e-5 : 1.2e-4;
       walk(joint, seed, 20, size, size, 1e-12 + 1e-6 * size, errors, visits);
-      bond
-          = std::min(bond, 1. - joint.joints.field("damage", 0, joint.history));
-      crushing = std::max(crushing,
-                          joint.joints.field("crushing", 0, joint.history));
+      bond     = std::min(bond,
+                          1. - law_field(joint.joints, "damage", 0, joint.history));
+      crushing = std::max(
+          crushing, law_field(joint.joints, "crushing", 0, joint.history));
     }
     EXPECT_LT(errors.stiffness, 1e-4);
     EXPECT_LT(errors.gradient, 1e-4);
@@ -341,10 +344,10 @@ TEST(JointTangent, ForcesAreThoseOfTheExplicitSolver)
         EXPECT_NEAR(end.shear_traction[p], joint.history.shear_traction[p],
                     1e-3);
       }
-      for (const std::string &name : joint.joints.field_names())
+      for (const std::string &name : law_field_names(joint.joints))
         for (unsigned int p = 0; p < 2; ++p)
-          EXPECT_NEAR(joint.joints.field(name, p, end),
-                      joint.joints.field(name, p, joint.history),
+          EXPECT_NEAR(law_field(joint.joints, name, p, end),
+                      law_field(joint.joints, name, p, joint.history),
                       name == "damage" ? 1e-9 : 1e-15);
     }
   }

@@ -4,7 +4,7 @@
 #include "../model/test_models.h"
 #include "../joints/rock_walk.h"
 
-#include <quoin/contact/matched_joints.h>
+#include <quoin/contact/joint_changes.h>
 
 using namespace quoin;
 using namespace quoin::test;
@@ -106,13 +106,13 @@ TEST(MatchedJoints, TributaryAreasSumToTheJoint)
   for (const double angle : { 0., 50. * degree })
   {
     const Stack stack(3, angle);
-    ASSERT_EQ(stack.joints.n_segments(), 3U);
+    ASSERT_EQ(stack.joints.segments().size(), 3U);
     ASSERT_EQ(stack.joints.n_points(), 6U);
     double area = 0.;
     for (unsigned int i = 0; i < 3; ++i)
     {
-      EXPECT_EQ(stack.joints.segment(i).share, 1.f);
-      for (const double a : stack.joints.segment(i).area)
+      EXPECT_EQ(stack.joints.segments()[i].share, 1.f);
+      for (const double a : stack.joints.segments()[i].area)
       {
         EXPECT_NEAR(a, 0.5 * thickness, 1e-15);
         area += a;
@@ -125,12 +125,12 @@ TEST(MatchedJoints, TributaryAreasSumToTheJoint)
 TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
 {
   Stack stack(3, 50. * degree, elastic_joint(kn, ks), true);
-  ASSERT_EQ(stack.joints.n_segments(), 6U);
+  ASSERT_EQ(stack.joints.segments().size(), 6U);
   double area = 0.;
   for (unsigned int i = 0; i < 6; ++i)
     for (unsigned int k = 0; k < 2; ++k)
     {
-      const auto &segment = stack.joints.segment(i);
+      const auto &segment = stack.joints.segments()[i];
       const bool middle   = stack.nodes->is_midside(segment.lower[k]);
       EXPECT_NEAR(segment.area[k], (middle ? 1. / 3. : 1. / 6.) * thickness,
                   1e-15);
@@ -164,9 +164,8 @@ TEST(MatchedJoints, QuadraticEdgesHaveTheWeightsOfSimpsonsRule)
   const double unit = kn * turn * thickness;
   EXPECT_NEAR(force, 4.5 * unit, 1e-6 * unit);
   EXPECT_NEAR(moment, 9. * unit, 1e-6 * unit);
-  EXPECT_NEAR(stack.joints.stored_energy(stack.state.nodes.data(),
-                                         stack.state.get<JointHistory>()),
-              4.5 * turn * unit, 1e-6 * turn * unit);
+  EXPECT_NEAR(stack.joints.stored_energy(stack.state), 4.5 * turn * unit,
+              1e-6 * turn * unit);
 
   // At the rate of this motion dampers of the joint's stiffness give the same
   // force; that of each node has its own area.
@@ -202,7 +201,8 @@ TEST(MatchedJoints, UniformOpeningAndSlip)
   const double slip = 2e-4, opening = 5e-4, area = 2. * thickness;
   stack.move_upper(slip, opening);
   for (unsigned int i = 0; i < 2; ++i)
-    for (const auto &[o, s] : stack.joints.gaps(stack.state.nodes.data(), i))
+    for (const auto &[o, s] :
+         joint_gaps(stack.joints.segments()[i], stack.state.nodes.data()))
     {
       EXPECT_NEAR(o, opening, 1e-18);
       EXPECT_NEAR(s, slip, 1e-18);
@@ -226,8 +226,7 @@ TEST(MatchedJoints, UniformOpeningAndSlip)
       EXPECT_NEAR(stack.force[v].v[0], share * area * ks * slip, 1e-6);
       EXPECT_NEAR(stack.force[v].v[1], share * area * kn * opening, 1e-6);
     }
-  EXPECT_NEAR(stack.joints.stored_energy(stack.state.nodes.data(),
-                                         stack.state.get<JointHistory>()),
+  EXPECT_NEAR(stack.joints.stored_energy(stack.state),
               0.5 * area * (kn * opening * opening + ks * slip * slip), 1e-9);
 }
 
@@ -250,7 +249,8 @@ TEST(MatchedJoints, SlipOfAHeadJoint)
   // The block on the right is the upper one; it slips when it moves down.
   Stack stack(1, -90. * degree);
   stack.move_upper(5e-4, -2e-4);
-  const auto gaps = stack.joints.gaps(stack.state.nodes.data(), 0);
+  const auto gaps
+      = joint_gaps(stack.joints.segments()[0], stack.state.nodes.data());
   for (const auto &[opening, slip] : gaps)
   {
     EXPECT_NEAR(opening, 5e-4, 1e-15);
@@ -270,7 +270,8 @@ TEST(MatchedJoints, TheFrameTurnsWithTheBlocks)
     node.u[1] = s * x + c * y - y - 0.2;
   }
   for (unsigned int i = 0; i < 2; ++i)
-    for (const auto &gap : stack.joints.gaps(stack.state.nodes.data(), i))
+    for (const auto &gap :
+         joint_gaps(stack.joints.segments()[i], stack.state.nodes.data()))
     {
       EXPECT_NEAR(gap[0], 0., 1e-15);
       EXPECT_NEAR(gap[1], 0., 1e-15);
@@ -299,7 +300,8 @@ TEST(MatchedJoints, TheFrameIsTheMeanOfBothSides)
     node.u[1] = std::sin(angle) * x + (std::cos(angle) - 1.) * y;
   }
   // Half the angle lies on either side, so the gap is normal to the frame.
-  const auto gaps = stack.joints.gaps(stack.state.nodes.data(), 0);
+  const auto gaps
+      = joint_gaps(stack.joints.segments()[0], stack.state.nodes.data());
   for (const auto &[opening, slip] : gaps)
   {
     EXPECT_NEAR(std::abs(opening), std::sin(0.5 * angle), 1e-15);
@@ -314,10 +316,9 @@ TEST(MatchedJoints, InitialStressBecomesTraction)
   for (const double angle : { 0., 30. * degree, -60. * degree })
   {
     Stack stack(2, angle);
-    const MatchedJoints::FaceStress uniform
+    const JointFaceStress uniform
         = { { { { xx, yy, xy } }, { { xx, yy, xy } } } };
-    stack.joints.initialise({ uniform, uniform }, stack.state,
-                            stack.state.get<JointHistory>());
+    initialise_joints(stack.joints, { uniform, uniform }, stack.state);
     // The normal of a joint turned by the angle, and the tangent.
     const double n[2]        = { -std::sin(angle), std::cos(angle) };
     const double t[2]        = { n[1], -n[0] };
@@ -346,10 +347,9 @@ TEST(MatchedJoints, InitialStressOfRockJoints)
   for (const JointSetParameters &set : { rough, yielding })
   {
     Stack stack(2, 0., set);
-    const MatchedJoints::FaceStress uniform
+    const JointFaceStress uniform
         = { { { { xx, yy, xy } }, { { xx, yy, xy } } } };
-    stack.joints.initialise({ uniform, uniform }, stack.state,
-                            stack.state.get<JointHistory>());
+    initialise_joints(stack.joints, { uniform, uniform }, stack.state);
     stack.find_forces();
     const double area = 2. * thickness;
     stack.expect_on_lower(area * xy, area * yy, 1e-3);
@@ -380,13 +380,11 @@ TEST(MatchedJoints, RockJointsAreBeyondTheirStrengthIfTheyCannotHold)
       JointSetParameters set = elastic_joint(kn, ks);
       set.law                = law;
       Stack stack(2, 0., set);
-      const MatchedJoints::FaceStress uniform
-          = { { { { 0., -2e6, ratio * 2e6 } },
-                { { 0., -2e6, ratio * 2e6 } } } };
-      stack.joints.initialise({ uniform, uniform }, stack.state,
-                              stack.state.get<JointHistory>());
-      EXPECT_EQ(stack.joints.n_beyond_strength(stack.state.get<JointHistory>(),
-                                               MPI_COMM_SELF),
+      const JointFaceStress uniform = { { { { 0., -2e6, ratio * 2e6 } },
+                                          { { 0., -2e6, ratio * 2e6 } } } };
+      initialise_joints(stack.joints, { uniform, uniform }, stack.state);
+      EXPECT_EQ(n_beyond_strength(stack.joints, stack.state.get<JointHistory>(),
+                                  MPI_COMM_SELF),
                 n_beyond)
           << ratio;
     }
@@ -429,7 +427,7 @@ TEST(MatchedJoints, BoundIsExactForTwoMassesAndASpring)
 
   const double n[2]  = { -std::sin(angle), std::cos(angle) };
   const double t[2]  = { n[1], -n[0] };
-  const auto segment = stack.joints.segment(0);
+  const auto segment = stack.joints.segments()[0];
   for (unsigned int k = 0; k < 2; ++k)
   {
     const unsigned int a = segment.lower[k], b = segment.upper[k];
@@ -525,7 +523,7 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   MatchedJoints joints;
   joints.prepare(TestNodes(mesh), { elastic_joint(kn, ks, "crack") },
                  thickness);
-  const auto segment     = joints.segment(0);
+  const auto segment     = joints.segments()[0];
   const unsigned int tip = segment.lower[0] == segment.upper[0] ? 0 : 1;
   ASSERT_EQ(segment.lower[tip], segment.upper[tip]);
   ASSERT_NE(segment.lower[1 - tip], segment.upper[1 - tip]);
@@ -535,14 +533,14 @@ TEST(MatchedJoints, CrackTipsAreHarmless)
   for (const auto &p : mesh.vertices)
     state.nodes.push_back({ { p[0], p[1] }, { 0.01 * p[0], -0.02 * p[1] } });
   state.nodes[segment.upper[1 - tip]].u[1] += 1e-4;
-  joints.initialise({ { { { { 2e5, 3e5, 1e5 } }, { { 2e5, 3e5, 1e5 } } } } },
-                    state, state.get<JointHistory>());
+  initialise_joints(
+      joints, { { { { { 2e5, 3e5, 1e5 } }, { { 2e5, 3e5, 1e5 } } } } }, state);
 
   AlignedArray<NodeVector<2>> force(n, NodeVector<2>{ { 0., 0. } });
   EnergyAccounts energy;
   joints.add_forces(state.nodes.data(), state.get<JointHistory>(), energy,
                     force.data());
-  const auto gaps = joints.gaps(state.nodes.data(), 0);
+  const auto gaps = joint_gaps(joints.segments()[0], state.nodes.data());
   EXPECT_EQ(gaps[tip][0], 0.);
   EXPECT_EQ(gaps[tip][1], 0.);
   EXPECT_NEAR(force[segment.lower[tip]].v[0], 0., 1e-9);
@@ -628,7 +626,7 @@ TEST(MatchedJoints, UnnamedJointsHaveAWordOfTheirOwn)
   const TestNodes nodes(mesh);
   MatchedJoints joints;
   joints.prepare(nodes, { elastic_joint(kn, ks, "unnamed") }, 1.);
-  EXPECT_EQ(joints.n_segments(), 1U);
+  EXPECT_EQ(joints.segments().size(), 1U);
   expect_input_error([&] { joints.prepare(nodes, {}, 1.); },
                      { "'unnamed'", "'lower'", "'upper'" });
 }

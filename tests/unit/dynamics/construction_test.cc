@@ -212,13 +212,17 @@ TEST(Construction, ChangedPropertiesKeepStressAndEnergy)
         EXPECT_NEAR(after[i].v[d], before[i].v[d], 1e-10 * largest(before));
 
     // the new stiffness from there on
-    const double stiff
-        = run.model.blocks().cell_stiffness(run.nodes->cells().size() - 1).c33;
+    const double stiff = run.model.blocks()
+                             .cell_data()
+                             .stiffness_of(run.nodes->cells().size() - 1)
+                             .c33;
     EXPECT_DOUBLE_EQ(stiff, 3e9 / 2.6);
     construction.restart();
-    EXPECT_DOUBLE_EQ(
-        run.model.blocks().cell_stiffness(run.nodes->cells().size() - 1).c33,
-        1e10 / 2.4);
+    EXPECT_DOUBLE_EQ(run.model.blocks()
+                         .cell_data()
+                         .stiffness_of(run.nodes->cells().size() - 1)
+                         .c33,
+                     1e10 / 2.4);
   }
   parameters.initial_stresses.clear();
   TestRun run(mesh, parameters, {});

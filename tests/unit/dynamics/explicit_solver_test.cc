@@ -4,6 +4,7 @@
 #include "../model/test_models.h"
 
 #include <quoin/base/exceptions.h>
+#include <quoin/blocks/cell_states.h>
 #include <quoin/dynamics/state_checks.h>
 
 using namespace quoin;
@@ -298,7 +299,7 @@ TEST(ExplicitSolver, ReactionInTheStaticLimit)
               1e-6 * stiffness * u);
   EXPECT_LT(run.state.unbalanced_ratio, 1e-8);
   const auto stress
-      = run.model.blocks().cell_stress(run.state.nodes.data(), {}, 3);
+      = cell_stress(run.model.blocks(), run.state.nodes.data(), {}, 3);
   EXPECT_NEAR(stress[1], stiffness * u / A, 1e-6 * stiffness * u);
   EXPECT_NEAR(stress[0], 0., 1e-6 * stiffness * u);
   const double strain = stiffness * u / A / E;

@@ -6,6 +6,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/rigid_blocks.h>
+#include <quoin/blocks/cell_states.h>
 #include <quoin/mesh/block_numbering.h>
 
 #include <cstring>
@@ -530,7 +531,7 @@ TEST(RigidBlocks, PatchWithDeformableBlocks)
   for (unsigned int c = 0; c < 8; ++c)
   {
     const auto stress
-        = run.model.blocks().cell_stress(run.state.nodes.data(), {}, c);
+        = cell_stress(run.model.blocks(), run.state.nodes.data(), {}, c);
     EXPECT_NEAR(stress[0], 0., 1e-2);
     EXPECT_NEAR(stress[1], -1e5, 1e-2);
     EXPECT_NEAR(stress[2], 0., 1e-2);

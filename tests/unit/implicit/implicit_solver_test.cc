@@ -4,6 +4,7 @@
 #include "implicit_run.h"
 
 #include <quoin/base/exceptions.h>
+#include <quoin/blocks/cell_states.h>
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/mesh/crossed_triangles.h>
 #include <quoin/operators/archive.h>
@@ -170,7 +171,7 @@ TEST(ImplicitSolver, UniformStressIsExact)
     for (unsigned int c = 0; c < run.nodes->cells().size(); ++c)
     {
       const auto stress
-          = run.model.blocks().cell_stress(run.state.nodes.data(), {}, c);
+          = cell_stress(run.model.blocks(), run.state.nodes.data(), {}, c);
       EXPECT_NEAR(stress[0], sx, 1e-9 * sx);
       EXPECT_NEAR(stress[1], sy, 1e-9 * sx);
       EXPECT_NEAR(stress[2], 0., 1e-9 * sx);

@@ -113,21 +113,23 @@ TEST(CompositeLaw, TensionAndShearSoftenTogether)
 TEST(CompositeLaw, CompressionCurve)
 {
   const CompositeLaw law = wall();
-  const double km        = law.middle_crushing();
+  const double km        = law.cap.middle_crushing();
   EXPECT_NEAR(km, 75. / 67. * 5000. / 10.5e6 + 0.09e-3, 1e-12);
-  EXPECT_DOUBLE_EQ(law.cap(0.), 3.5e6);
-  EXPECT_DOUBLE_EQ(law.cap(0.09e-3), 10.5e6);
-  EXPECT_DOUBLE_EQ(law.cap(km), 5.25e6);
-  EXPECT_DOUBLE_EQ(law.cap(1.), 1.5e6);
+  EXPECT_DOUBLE_EQ(law.cap.limit(0.), 3.5e6);
+  EXPECT_DOUBLE_EQ(law.cap.limit(0.09e-3), 10.5e6);
+  EXPECT_DOUBLE_EQ(law.cap.limit(km), 5.25e6);
+  EXPECT_DOUBLE_EQ(law.cap.limit(1.), 1.5e6);
   // The slope is the derivative, continuous at km.
   for (const double k : { 1e-5, 8e-5, 1e-4, 5e-4, 1e-3 })
   {
     double slope;
-    law.cap(k, slope);
-    EXPECT_NEAR(slope, (law.cap(k + 1e-9) - law.cap(k - 1e-9)) / 2e-9,
+    law.cap.limit(k, slope);
+    EXPECT_NEAR(slope,
+                (law.cap.limit(k + 1e-9) - law.cap.limit(k - 1e-9)) / 2e-9,
                 1e-6 * std::abs(slope) + 1e3);
   }
-  EXPECT_NEAR(law.cap(km - 1e-9) - 5.25e6, 5.25e6 - law.cap(km + 1e-9), 1e-2);
+  EXPECT_NEAR(law.cap.limit(km - 1e-9) - 5.25e6,
+              5.25e6 - law.cap.limit(km + 1e-9), 1e-2);
 
   // The update follows it: k3 is the plastic closing.
   Walk walk = begin(law);
@@ -138,7 +140,7 @@ TEST(CompositeLaw, CompressionCurve)
     EXPECT_NEAR(k, -walk.point.plastic_opening, 1e-15);
     if (k > 0.)
     {
-      EXPECT_NEAR(walk.point.normal_traction, -law.cap(k), 1e-9 * 10.5e6);
+      EXPECT_NEAR(walk.point.normal_traction, -law.cap.limit(k), 1e-9 * 10.5e6);
     }
   }
   EXPECT_NEAR(walk.point.normal_traction, -1.5e6, 0.02e6);
@@ -156,8 +158,8 @@ TEST(CompositeLaw, ShearAddsToCrushing)
   Walk walk        = begin(law);
   walk.go(0., 2e-4, 100);
   EXPECT_NEAR(walk.point.normal_traction, 0., 1e-3);
-  EXPECT_NEAR(walk.point.shear_traction, law.cap(walk.point.crushing) / 3.,
-              1e-3);
+  EXPECT_NEAR(walk.point.shear_traction,
+              law.cap.limit(walk.point.crushing) / 3., 1e-3);
   EXPECT_NEAR(walk.point.plastic_slip, walk.point.crushing, 1e-15);
 }
 
@@ -165,10 +167,10 @@ TEST(CompositeLaw, DilationLiftsTheJoint)
 {
   // Free to rise under pressure it rises at tan(psi0) (1 - p/sigma_u), less
   // and less; above sigma_u it does not.
-  CompositeLaw law   = wall();
-  law.dilation       = 0.4;
-  law.dilation_decay = 2000.;
-  law.compression    = CompositeLaw::infinity;
+  CompositeLaw law    = wall();
+  law.dilation        = 0.4;
+  law.dilation_decay  = 2000.;
+  law.cap.compression = CompositeLaw::infinity;
   for (const double pressure : { 0.2e6, 0.75e6, 1.4e6, 2e6 })
   {
     law.dilation_pressure = 1.5e6;
@@ -299,7 +301,7 @@ TEST(CompositeLaw, WithoutSofteningOrCapOrTension)
 {
   CompositeLaw law   = wall();
   law.tension_energy = law.shear_energy = CompositeLaw::infinity;
-  law.compression                       = CompositeLaw::infinity;
+  law.cap.compression                   = CompositeLaw::infinity;
   CompositePoint<2> point;
   law.update(point, 1., 0.);
   EXPECT_NEAR(point.normal_traction, 0.25e6, 1e-6);
@@ -310,7 +312,7 @@ TEST(CompositeLaw, WithoutSofteningOrCapOrTension)
   law.update(point, -1., 1.);
   EXPECT_NEAR(point.normal_traction, -82e9 * (1. + point.plastic_opening), 1.);
   EXPECT_EQ(point.crushing, 0.);
-  EXPECT_TRUE(law.softens_gently());
+  EXPECT_TRUE(softens_gently(law));
 
   // No tension, but cohesion that opening does not take.
   law.tension = 0.;

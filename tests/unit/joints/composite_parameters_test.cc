@@ -56,12 +56,12 @@ TEST(CompositeParameters, ReadsAll)
   EXPECT_NEAR(law.dilation, 0.36397, 1e-5);
   EXPECT_EQ(law.dilation_pressure, 1.3e6);
   EXPECT_EQ(law.dilation_decay, 1500.);
-  EXPECT_EQ(law.compression, 10.5e6);
-  EXPECT_EQ(law.compression_energy, 5000.);
-  EXPECT_EQ(law.peak_crushing, 0.09e-3);
-  EXPECT_EQ(law.cap_shear, 4.);
-  EXPECT_EQ(law.cap_normal, 2.);
-  EXPECT_EQ(law.cap_offset, 1e5);
+  EXPECT_EQ(law.cap.compression, 10.5e6);
+  EXPECT_EQ(law.cap.compression_energy, 5000.);
+  EXPECT_EQ(law.cap.peak_crushing, 0.09e-3);
+  EXPECT_EQ(law.cap.shear, 4.);
+  EXPECT_EQ(law.cap.normal, 2.);
+  EXPECT_EQ(law.cap.offset, 1e5);
 }
 
 TEST(CompositeParameters, NoneIsInfinite)
@@ -73,7 +73,7 @@ TEST(CompositeParameters, NoneIsInfinite)
   EXPECT_EQ(law.tension_energy, CompositeLaw::infinity);
   EXPECT_EQ(law.shear_energy, CompositeLaw::infinity);
   EXPECT_EQ(law.dilation_pressure, CompositeLaw::infinity);
-  EXPECT_EQ(law.compression, CompositeLaw::infinity);
+  EXPECT_EQ(law.cap.compression, CompositeLaw::infinity);
   EXPECT_EQ(law.residual_friction, law.friction);
 }
 

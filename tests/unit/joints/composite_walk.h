@@ -18,17 +18,17 @@ namespace quoin
     inline CompositeLaw wall()
     {
       CompositeLaw law;
-      law.normal_stiffness   = 82e9;
-      law.shear_stiffness    = 36e9;
-      law.tension            = 0.25e6;
-      law.tension_energy     = 18.;
-      law.cohesion           = 0.35e6;
-      law.shear_energy       = 125.;
-      law.friction           = 0.75;
-      law.residual_friction  = 0.75;
-      law.compression        = 10.5e6;
-      law.compression_energy = 5000.;
-      law.peak_crushing      = 0.09e-3;
+      law.normal_stiffness       = 82e9;
+      law.shear_stiffness        = 36e9;
+      law.tension                = 0.25e6;
+      law.tension_energy         = 18.;
+      law.cohesion               = 0.35e6;
+      law.shear_energy           = 125.;
+      law.friction               = 0.75;
+      law.residual_friction      = 0.75;
+      law.cap.compression        = 10.5e6;
+      law.cap.compression_energy = 5000.;
+      law.cap.peak_crushing      = 0.09e-3;
       return law;
     }
 
@@ -40,7 +40,7 @@ namespace quoin
       law.dilation_pressure = 1.5e6;
       law.dilation_decay    = 2000.;
       law.residual_friction = 0.6;
-      law.cap_offset        = 0.5e6;
+      law.cap.offset        = 0.5e6;
       return law;
     }
 
@@ -66,11 +66,11 @@ namespace quoin
     inline double cap_excess(const CompositeLaw &law,
                              const CompositePoint<2> &point)
     {
-      if (std::isinf(law.compression))
+      if (std::isinf(law.cap.compression))
         return -1.;
       const double load
-          = law.cap_load(point.normal_traction, point.shear_traction);
-      return std::sqrt(std::max(0., load)) - law.cap(point.crushing);
+          = law.cap.load(point.normal_traction, point.shear_traction);
+      return std::sqrt(std::max(0., load)) - law.cap.limit(point.crushing);
     }
 
     /** Moves a point and keeps the books, by the trapezoidal rule. */

@@ -59,7 +59,7 @@ TEST(StrengthReduction, CompositeJointKeepsItsEnergiesAndItsCap)
   EXPECT_DOUBLE_EQ(weak.dilation, 0.6 / factor);
   EXPECT_EQ(weak.tension_energy, strong.tension_energy);
   EXPECT_EQ(weak.shear_energy, strong.shear_energy);
-  EXPECT_EQ(weak.compression, strong.compression);
+  EXPECT_EQ(weak.cap.compression, strong.cap.compression);
   EXPECT_EQ(weak.normal_stiffness, strong.normal_stiffness);
 }
 

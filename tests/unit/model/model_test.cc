@@ -3,6 +3,7 @@
 
 #include "test_models.h"
 
+#include <quoin/blocks/cell_states.h>
 #include <quoin/model/material_waves.h>
 
 using namespace quoin;
@@ -146,7 +147,7 @@ TEST(Model, InitialStressOfAGroupAndWithDepth)
     for (const unsigned int v : mesh.cells[c])
       y += mesh.vertices[v][1] / 3.;
     const bool upper  = mesh.block_of_cell(c) == 1;
-    const auto stress = model.blocks().cell_stress(state.nodes.data(), {}, c);
+    const auto stress = cell_stress(model.blocks(), state.nodes.data(), {}, c);
     EXPECT_NEAR(stress[0], upper ? -5e5 : 0., 1e-6);
     EXPECT_NEAR(stress[1], -1e6 + 3e5 * y, 1e-6);
     EXPECT_NEAR(stress[2], upper ? 1e5 : 0., 1e-6);
@@ -183,8 +184,8 @@ TEST(Model, InitialStressOutOfThePlane)
     const double wanted
         = mesh.block_of_cell(c) == 1 ? elastic - 7e5 + 2e5 * y : elastic;
     EXPECT_NEAR(state.get<PlasticHistory>().cells[c].stress[3], wanted, 1e-6);
-    EXPECT_NEAR(model.blocks().cell_stress(state.nodes.data(),
-                                           state.get<PlasticHistory>(), c)[3],
+    EXPECT_NEAR(cell_stress(model.blocks(), state.nodes.data(),
+                            state.get<PlasticHistory>(), c)[3],
                 wanted, 1e-6);
   }
   parameters.plane = PlaneAssumption::plane_stress;

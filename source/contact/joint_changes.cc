@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// How MatchedJoints begin: under stress, anew, or with other laws.
-
-#include <quoin/contact/matched_joints.h>
+#include <quoin/contact/joint_changes.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,7 +14,15 @@ namespace quoin
 {
   namespace
   {
-    /** keep_tractions() of point @p p, whose opening and slip are @p gap. */
+    /** Calls @p use with the law of @p segment, of its own type. */
+    template <typename Use>
+    void with_law(const MatchedJoints &joints, const JointSegment &segment,
+                  const Use &use)
+    {
+      std::visit(use, joints.laws()[segment.set]);
+    }
+
+    /** keep_joint_tractions() of point @p p, with opening and slip @p gap. */
     template <typename Law>
     void keep_traction(const Law &law, const std::array<double, 2> &gap,
                        JointHistory &history, const unsigned int p)
@@ -36,39 +42,24 @@ namespace quoin
     }
   } // namespace
 
-  JointHistory MatchedJoints::make_history() const
+  void initialise_joints(const MatchedJoints &joints,
+                         const std::vector<JointFaceStress> &face_stress,
+                         State<2> &state)
   {
-    unsigned int most = 0;
-    for (const JointLaw &law : laws)
-      most = std::max(most, n_internal(law));
-    JointHistory history;
-    history.resize(n_points(), most);
-    for (unsigned int i = 0; i < segments.size(); ++i)
-      with_law(segments[i].set,
-               [&](const auto &law)
-               {
-                 for (const unsigned int p : { 2 * i, 2 * i + 1 })
-                   write_point(PointOf<decltype(law)>(), history, p);
-               });
-    return history;
-  }
-
-  void MatchedJoints::initialise(const std::vector<FaceStress> &face_stress,
-                                 const State<2> &state,
-                                 JointHistory &history) const
-  {
-    for (unsigned int i = 0; i < segments.size(); ++i)
+    JointHistory &history = state.get<JointHistory>();
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
     {
-      const Frame local = frame(segments[i], state.nodes.data());
+      const JointSegment &segment = joints.segments()[i];
+      const JointFrame local      = joint_frame(segment, state.nodes.data());
       const double *n = local.normal, *s = local.tangent;
       for (unsigned int k = 0; k < 2; ++k)
       {
-        const auto &[xx, yy, xy] = face_stress[segments[i].face][k];
+        const auto &[xx, yy, xy] = face_stress[segment.face][k];
         const double traction[2]
             = { xx * n[0] + xy * n[1], xy * n[0] + yy * n[1] };
         const double normal = traction[0] * n[0] + traction[1] * n[1];
         const double shear  = traction[0] * s[0] + traction[1] * s[1];
-        with_law(segments[i].set,
+        with_law(joints, segment,
                  [&](const auto &law)
                  {
                    auto point = read_point(law, history, 2 * i + k);
@@ -79,28 +70,28 @@ namespace quoin
     }
   }
 
-  double MatchedJoints::n_beyond_strength(const JointHistory &history,
-                                          const MPI_Comm communicator) const
+  double n_beyond_strength(const MatchedJoints &joints,
+                           const JointHistory &history,
+                           const MPI_Comm communicator)
   {
     double n = 0.;
-    for (unsigned int i = 0; i < segments.size(); ++i)
-      with_law(segments[i].set,
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
+      with_law(joints, joints.segments()[i],
                [&](const auto &law)
                {
                  for (const unsigned int p : { 2 * i, 2 * i + 1 })
                    if (!law.holds(read_point(law, history, p)))
-                     n += segments[i].share;
+                     n += joints.segments()[i].share;
                });
     return dealii::Utilities::MPI::sum(n, communicator);
   }
 
-  void MatchedJoints::add_traction_forces(const unsigned int i,
-                                          const NodeRecord<2> *nodes,
-                                          const JointHistory &history,
-                                          NodeVector<2> *force) const
+  void add_traction_forces(const MatchedJoints &joints, const unsigned int i,
+                           const State<2> &state, NodeVector<2> *force)
   {
-    const Segment &segment = segments[i];
-    const Frame local      = frame(segment, nodes);
+    const JointHistory &history = state.get<JointHistory>();
+    const JointSegment &segment = joints.segments()[i];
+    const JointFrame local      = joint_frame(segment, state.nodes.data());
     for (unsigned int k = 0; k < 2; ++k)
       for (unsigned int d = 0; d < 2; ++d)
       {
@@ -113,7 +104,7 @@ namespace quoin
       }
   }
 
-  void MatchedJoints::detach(const unsigned int i, JointHistory &history) const
+  void detach_joint(const unsigned int i, JointHistory &history)
   {
     history.handed_over[i] = 1;
     for (const unsigned int p : { 2 * i, 2 * i + 1 })
@@ -123,13 +114,14 @@ namespace quoin
     }
   }
 
-  void MatchedJoints::begin_anew(const unsigned int i,
-                                 const NodeRecord<2> *nodes,
-                                 JointHistory &history) const
+  void begin_joint_anew(const MatchedJoints &joints, const unsigned int i,
+                        State<2> &state)
   {
-    history.handed_over[i] = 0;
-    const auto gap         = gaps(nodes, i);
-    with_law(segments[i].set,
+    const JointSegment &segment = joints.segments()[i];
+    JointHistory &history       = state.get<JointHistory>();
+    history.handed_over[i]      = 0;
+    const auto gap              = joint_gaps(segment, state.nodes.data());
+    with_law(joints, segment,
              [&](const auto &law)
              {
                for (unsigned int k = 0; k < 2; ++k)
@@ -142,22 +134,16 @@ namespace quoin
              });
   }
 
-  void MatchedJoints::set_laws(const std::vector<JointSetParameters> &sets)
+  void keep_joint_tractions(const MatchedJoints &joints, State<2> &state)
   {
-    laws.clear();
-    for (const auto &set : sets)
-      laws.push_back(set.law);
-  }
-
-  void MatchedJoints::keep_tractions(const NodeRecord<2> *nodes,
-                                     JointHistory &history) const
-  {
-    for (unsigned int i = 0; i < segments.size(); ++i)
+    JointHistory &history = state.get<JointHistory>();
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
     {
       if (history.handed_over[i])
         continue;
-      const auto gap = gaps(nodes, i);
-      with_law(segments[i].set,
+      const JointSegment &segment = joints.segments()[i];
+      const auto gap              = joint_gaps(segment, state.nodes.data());
+      with_law(joints, segment,
                [&](const auto &law)
                {
                  for (unsigned int k = 0; k < 2; ++k)

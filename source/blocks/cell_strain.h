@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_source_blocks_cell_strain_h
+#define quoin_source_blocks_cell_strain_h
+
+#include <quoin/blocks/block_forces_3d.h>
+
+// Geometry and strain of single cells.
+
+namespace quoin
+{
+  /** Nodes of a triangle, the gradients of their shape functions at its point
+      [1/m] and the area that the point counts for [m^2]. */
+  struct CellPoint
+  {
+    unsigned int n_nodes;
+    std::array<unsigned int, 6> nodes;
+    std::array<std::array<double, 2>, 6> gradients;
+    double area;
+
+    /** Displacement gradient [[11, 12], [21, 22]]. */
+    std::array<double, 4>
+    displacement_gradient(const NodeRecord<2> *records) const;
+  };
+  CellPoint cell_point(const BlockForcesData<2> &data,
+                       const NodeRecord<2> *nodes, unsigned int cell);
+
+  /** Strain in the rotating frame, and area if it is asked for. */
+  CorotatedStrain cell_strain(const BlockForcesData<2> &data,
+                              const NodeRecord<2> *nodes, std::size_t cell,
+                              double *area = nullptr);
+
+  /** Updates @p history for @p strain; returns the dissipation [J/m^3]. */
+  double update_cell(const BlockForcesData<2> &data, std::size_t cell,
+                     const PlaneTensor &strain, PlasticHistory &history);
+
+  /** Geometry, rotation and strain of a tetrahedron. */
+  struct CellMotion
+  {
+    Tetrahedron<OneLane> geometry;
+    PolarDecomposition<OneLane> polar;
+  };
+  CellMotion cell_motion(const BlockForcesData<3> &data,
+                         const NodeRecord<3> *nodes, std::size_t cell);
+
+  /** Adds the forces of a first Piola-Kirchhoff stress R T [Pa]. */
+  void add_cell_forces(const BlockForcesData<3> &data, std::size_t cell,
+                       const Tetrahedron<OneLane> &geometry,
+                       const double (&R)[3][3], const double (&T)[3][3],
+                       NodeVector<3> *force);
+} // namespace quoin
+
+#endif
