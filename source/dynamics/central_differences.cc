@@ -114,7 +114,7 @@ namespace quoin
       force_phases.push_back(clock.phase(each->kind()));
     constraint_phases.clear();
     for (const MotionConstraint<dim> *constraint : constraints)
-      constraint_phases.push_back(clock.phase(constraint->phase()));
+      constraint_phases.push_back(clock.phase(constraint->traits().phase));
   }
 
   template <int dim>
@@ -145,7 +145,7 @@ namespace quoin
         positions.push_back(std::lower_bound(moved.begin(), moved.end(), node)
                             - moved.begin());
         for (unsigned int d = 0; d < dim; ++d)
-          if (constraint->moves_all() || constraint->holds()[d])
+          if (constraint->traits().moves(d))
             captured[positions.back()].owner[d] = constraint;
       }
       constraint->bind(std::move(positions));
@@ -483,7 +483,8 @@ namespace quoin
       for (unsigned int d = 0; d < dim; ++d)
         if (!node.owner[d])
           free.v[d] = node.force.v[d];
-        else if (node.owner[d]->holds()[d] || node.owner[d]->is_rigid_body())
+        else if (node.owner[d]->traits().holds[d]
+                 || node.owner[d]->traits().is_rigid_body())
           reaction.v[d] = node.force.v[d];
         else
         {
@@ -499,7 +500,8 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_DOUBLE, MPI_SUM,
                   exchange.communicator());
     for (const MotionConstraint<dim> *constraint : constraints)
-      all[1] += constraint->unbalanced();
+      if (const RigidMotion<dim> *body = constraint->rigid_motion())
+        all[1] += body->unbalanced();
     return all[0] > 0. ? all[1] / all[0] : 0.;
   }
 

@@ -69,7 +69,7 @@ namespace quoin
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
     for (MotionConstraint<dim> *constraint : acting.constraints)
-      if (constraint->is_rigid_body())
+      if (constraint->traits().is_rigid_body())
       {
         double inertia = 0., spin = 0.;
         for (unsigned int b = 0; b < rigid.n_blocks(); ++b)

@@ -69,10 +69,10 @@ namespace quoin
     std::vector<std::array<const LoadComponent *, 2>> owner(
         n, { { nullptr, nullptr } });
     for (const MotionConstraint<2> *constraint : constraints)
-      if (constraint->kind() == MotionKind::prescribed)
+      if (constraint->traits().kind == MotionKind::prescribed)
         for (const unsigned int node : constraint->nodes())
           for (unsigned int d = 0; d < 2; ++d)
-            if (constraint->holds()[d])
+            if (constraint->traits().holds[d])
               owner[node][d] = &(*constraint->parts())[d];
     for (unsigned int node = 0; node < n; ++node)
       for (unsigned int d = 0; d < 2; ++d)
@@ -91,14 +91,14 @@ namespace quoin
     for (const MotionConstraint<2> *constraint : constraints)
     {
       const MotionConstraint<2> *platen = constraint;
-      if (!platen->is_rigid_body())
+      if (!platen->traits().is_rigid_body())
         continue;
       const PlatenState &now = state.get<PlatenState>(platen->name());
       RigidBody body;
       body.platen      = platen;
       body.rigid_block = -1;
       body.nodes       = platen->nodes();
-      body.given       = platen->holds();
+      body.given       = platen->traits().holds;
       body.counts = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
       std::copy(now.centre, now.centre + 2, body.centre);
       for (unsigned int i = 0; i < body.nodes.size(); ++i)

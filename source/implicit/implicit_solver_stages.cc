@@ -363,7 +363,7 @@ namespace quoin
                        { return constraint->name() == load; });
     if (found == acting.constraints.end() || balance.force.empty())
       return result;
-    if ((*found)->is_rigid_body())
+    if ((*found)->traits().is_rigid_body())
     {
       const auto forces
           = body_forces(dof_map->bodies(), balance.force, communicator);
@@ -376,7 +376,7 @@ namespace quoin
     }
     if (*found == far.elastostatic)
       result = balance.far_field_force;
-    else if ((*found)->kind() == MotionKind::prescribed)
+    else if ((*found)->traits().kind == MotionKind::prescribed)
       for (const DofMap::Prescribed &given : dof_map->prescribed())
       {
         if (given.part != &(*(*found)->parts())[given.component])

@@ -29,7 +29,7 @@ namespace quoin
     for (const RigidBody &body : bodies)
       if (body.platen)
       {
-        const double *d = body.platen->rigid_displacement(state);
+        const double *d = body.platen->rigid_motion()->displacement(state);
         result.bodies.push_back({ { d[0], d[1], d[2] } });
       }
       else
