@@ -29,6 +29,61 @@ namespace quoin
   } // namespace
 
   template <int dim>
+  StepContext step_context(const State<dim> &state,
+                           const StageParameters &stage, const double dt)
+  {
+    const double in_stage = state.load_time;
+    const double advance  = state.load_rate * dt;
+    StepContext result;
+    result.dt                = dt;
+    result.dt_before         = state.previous_time_step;
+    result.dt_velocity       = 0.5 * (dt + state.previous_time_step);
+    result.load_rate         = state.load_rate;
+    result.begin             = { in_stage, state.stage_start + in_stage };
+    result.middle            = { in_stage + 0.5 * advance,
+                                 state.stage_start + in_stage + 0.5 * advance };
+    result.stiffness_damping = stage.stiffness_coefficient;
+    result.end = { in_stage + advance, state.stage_start + in_stage + advance };
+    result.local_damping = stage.local_coefficient;
+    result.mass_damping  = stage.damping == DampingType::adaptive
+                               ? state.adaptive_damping
+                               : stage.mass_coefficient;
+    return result;
+  }
+
+  template <int dim>
+  double
+  kinetic_energy(const NodeMap<dim> &nodes, const std::vector<double> &mass,
+                 const AlignedArray<NodeVector<dim>> &before,
+                 const AlignedArray<NodeVector<dim>> &after, const double share)
+  {
+    double kinetic = 0.;
+    for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double v = before[i].v[d];
+        kinetic += 0.5 * mass[i] * v * (v + share * (after[i].v[d] - v));
+      }
+    return kinetic;
+  }
+
+  template <int dim>
+  double squared_change(const NodeMap<dim> &nodes,
+                        const std::vector<double> &mass,
+                        const AlignedArray<NodeVector<dim>> &before,
+                        const AlignedArray<NodeVector<dim>> &after)
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double change = after[i].v[d] - before[i].v[d];
+        sum += mass[i] * change * change;
+      }
+    return sum;
+  }
+
+  template <int dim>
   CentralDifferences<dim>::CentralDifferences(const NodeMap<dim> &nodes,
                                               const BlockForces<dim> &blocks,
                                               PhaseClock &clock)
@@ -42,12 +97,6 @@ namespace quoin
   }
 
   // -- a stage ---------------------------------------------------------------
-
-  template <int dim>
-  void CentralDifferences<dim>::set_mass(const std::vector<double> &mass)
-  {
-    node_mass = mass;
-  }
 
   template <int dim>
   void CentralDifferences<dim>::set_operators(
@@ -65,11 +114,12 @@ namespace quoin
       force_phases.push_back(clock.phase(each->kind()));
     constraint_phases.clear();
     for (const MotionConstraint<dim> *constraint : constraints)
-      constraint_phases.push_back(clock.phase(constraint->phase()));
+      constraint_phases.push_back(clock.phase(constraint->traits().phase));
   }
 
   template <int dim>
-  void CentralDifferences<dim>::capture_nodes(const std::vector<bool> &absent)
+  void CentralDifferences<dim>::capture_nodes(const std::vector<double> &mass,
+                                              const std::vector<bool> &absent)
   {
     std::vector<unsigned int> moved;
     for (const MotionConstraint<dim> *constraint : constraints)
@@ -83,7 +133,7 @@ namespace quoin
     for (unsigned int c = 0; c < moved.size(); ++c)
     {
       captured[c].node = moved[c];
-      captured[c].mass = node_mass[moved[c]];
+      captured[c].mass = mass[moved[c]];
     }
     for (MotionConstraint<dim> *constraint : constraints)
     {
@@ -95,7 +145,7 @@ namespace quoin
         positions.push_back(std::lower_bound(moved.begin(), moved.end(), node)
                             - moved.begin());
         for (unsigned int d = 0; d < dim; ++d)
-          if (constraint->moves_all() || constraint->holds()[d])
+          if (constraint->traits().moves(d))
             captured[positions.back()].owner[d] = constraint;
       }
       constraint->bind(std::move(positions));
@@ -126,10 +176,10 @@ namespace quoin
     captured_begin.push_back(first_at(nodes.n_deformable_nodes()));
 
     held.clear();
-    moving_mass = node_mass;
-    inverse_mass.resize(node_mass.size());
-    for (unsigned int i = 0; i < node_mass.size(); ++i)
-      inverse_mass[i] = 1. / node_mass[i];
+    moving_mass = mass;
+    inverse_mass.resize(mass.size());
+    for (unsigned int i = 0; i < mass.size(); ++i)
+      inverse_mass[i] = 1. / mass[i];
     for (const unsigned int node : moved)
       moving_mass[node] = inverse_mass[node] = 0.;
   }
@@ -142,29 +192,6 @@ namespace quoin
     held.erase(std::unique(held.begin(), held.end()), held.end());
     for (const unsigned int node : nodes)
       moving_mass[node] = inverse_mass[node] = 0.;
-  }
-
-  template <int dim>
-  StepContext CentralDifferences<dim>::context(const State<dim> &state,
-                                               const double dt) const
-  {
-    const double in_stage = state.load_time;
-    const double advance  = state.load_rate * dt;
-    StepContext result;
-    result.dt                = dt;
-    result.dt_before         = state.previous_time_step;
-    result.dt_velocity       = 0.5 * (dt + state.previous_time_step);
-    result.load_rate         = state.load_rate;
-    result.begin             = { in_stage, state.stage_start + in_stage };
-    result.middle            = { in_stage + 0.5 * advance,
-                                 state.stage_start + in_stage + 0.5 * advance };
-    result.stiffness_damping = stage.stiffness_coefficient;
-    result.end = { in_stage + advance, state.stage_start + in_stage + advance };
-    result.local_damping = stage.local_coefficient;
-    result.mass_damping  = stage.damping == DampingType::adaptive
-                               ? state.adaptive_damping
-                               : stage.mass_coefficient;
-    return result;
   }
 
   // -- the parts of a step ---------------------------------------------------
@@ -188,9 +215,12 @@ namespace quoin
   void CentralDifferences<dim>::add_forces(State<dim> &state,
                                            const StepContext &context)
   {
+    const NodeForces<dim> sum{ force.data(), has_viscous_forces()
+                                                 ? viscous_force.data()
+                                                 : nullptr };
     for (std::size_t i = 0; i < forces.size(); ++i)
     {
-      forces[i]->add_forces(context, state, node_forces());
+      forces[i]->add_forces(context, state, sum);
       state.energy.external
           += 0.5 * context.dt_before
              * forces[i]->external_power(context.begin, state.velocity.data());
@@ -405,10 +435,12 @@ namespace quoin
   }
 
   template <int dim>
-  void CentralDifferences<dim>::capture_rigid_blocks(const State<dim> &state)
+  NodeForces<dim>
+  CentralDifferences<dim>::capture_rigid_blocks(const State<dim> &state)
   {
     for (unsigned int c = captured_begin.back(); c < captured.size(); ++c)
       capture(captured[c], state);
+    return { force.data(), viscous_force.data() };
   }
 
   template <int dim>
@@ -426,38 +458,7 @@ namespace quoin
       adapt_damping(state, context, sums.damping);
   }
 
-  // -- sums and energies of a step ---------------------------------------
-
-  template <int dim>
-  double
-  CentralDifferences<dim>::kinetic_energy(const State<dim> &state,
-                                          const StepContext &context) const
-  {
-    // 1/2 m v- v+, or the same half work on from v- if the step changed.
-    const double part = context.dt_before / context.dt_velocity;
-    double kinetic    = 0.;
-    for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double before = velocity_before[i].v[d];
-        kinetic += 0.5 * node_mass[i] * before
-                   * (before + part * (state.velocity[i].v[d] - before));
-      }
-    return kinetic;
-  }
-
-  template <int dim>
-  double CentralDifferences<dim>::squared_change(const State<dim> &state) const
-  {
-    double sum = 0.;
-    for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
-      for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double change = state.velocity[i].v[d] - velocity_before[i].v[d];
-        sum += node_mass[i] * change * change;
-      }
-    return sum;
-  }
+  // -- sums of a step ----------------------------------------------------
 
   template <int dim>
   double CentralDifferences<dim>::stored_energy(const State<dim> &state) const
@@ -482,7 +483,8 @@ namespace quoin
       for (unsigned int d = 0; d < dim; ++d)
         if (!node.owner[d])
           free.v[d] = node.force.v[d];
-        else if (node.owner[d]->holds()[d] || node.owner[d]->is_rigid_body())
+        else if (node.owner[d]->traits().holds[d]
+                 || node.owner[d]->traits().is_rigid_body())
           reaction.v[d] = node.force.v[d];
         else
         {
@@ -498,10 +500,31 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, all, 2, MPI_DOUBLE, MPI_SUM,
                   exchange.communicator());
     for (const MotionConstraint<dim> *constraint : constraints)
-      all[1] += constraint->unbalanced();
+      if (const RigidMotion<dim> *body = constraint->rigid_motion())
+        all[1] += body->unbalanced();
     return all[0] > 0. ? all[1] / all[0] : 0.;
   }
 
   template class CentralDifferences<2>;
   template class CentralDifferences<3>;
+  template StepContext step_context(const State<2> &, const StageParameters &,
+                                    double);
+  template double kinetic_energy(const NodeMap<2> &,
+                                 const std::vector<double> &,
+                                 const AlignedArray<NodeVector<2>> &,
+                                 const AlignedArray<NodeVector<2>> &, double);
+  template double squared_change(const NodeMap<2> &,
+                                 const std::vector<double> &,
+                                 const AlignedArray<NodeVector<2>> &,
+                                 const AlignedArray<NodeVector<2>> &);
+  template StepContext step_context(const State<3> &, const StageParameters &,
+                                    double);
+  template double kinetic_energy(const NodeMap<3> &,
+                                 const std::vector<double> &,
+                                 const AlignedArray<NodeVector<3>> &,
+                                 const AlignedArray<NodeVector<3>> &, double);
+  template double squared_change(const NodeMap<3> &,
+                                 const std::vector<double> &,
+                                 const AlignedArray<NodeVector<3>> &,
+                                 const AlignedArray<NodeVector<3>> &);
 } // namespace quoin

@@ -34,9 +34,9 @@ namespace quoin
       std::unique_ptr<FarField> far_field,
       std::unique_ptr<StaticFarField> static_field)
     : Solver<dim>(model, loads, std::move(far_field), std::move(static_field)),
-      stepper(model.nodes(), model.blocks(), time_shares), all_stages(stages)
+      stepper(model.nodes(), model.blocks(), time_shares),
+      node_mass(model.mass()), all_stages(stages)
   {
-    stepper.set_mass(model.mass());
     if constexpr (dim == 2)
     {
       if (model.parameters().contact.has_box)
@@ -62,7 +62,7 @@ namespace quoin
     Requests requests = wanted;
     if (stage.slows_loads() && requests.balance)
       requests.energies = true;
-    const StepContext context = stepper.context(state, time_step);
+    const StepContext context = step_context(state, stage, time_step);
     const bool step_changes   = context.dt_before != context.dt;
     time_shares.begin_step();
     state.energy += state.pending;
@@ -79,8 +79,8 @@ namespace quoin
         = requests.energies ? stored_energies(state) : StoredEnergies();
     if (requests.energies || step_changes)
     {
-      stepper.keep_velocities(state);
-      rigid_before = state.template get<RigidBlockStates>();
+      velocity_before = state.velocity;
+      rigid_before    = state.template get<RigidBlockStates>();
     }
     StepSums sums;
     if (requests.balance)
@@ -126,12 +126,17 @@ namespace quoin
   {
     stepper.book_work(state, context, sums);
     if (requests.energies)
+    {
+      // 1/2 m v- v+, or the same half work on from v- if the step changed.
+      const double share = context.dt_before / context.dt_velocity;
       this->find_energies(state, stored.strain, stored.joint,
-                          stepper.kinetic_energy(state, context)
+                          kinetic_energy(model.nodes(), node_mass,
+                                         velocity_before, state.velocity, share)
                               + model.rigid_blocks().kinetic_energy(
                                   rigid_stage, rigid_before,
                                   state.template get<RigidBlockStates>(),
-                                  context.dt_before / context.dt_velocity));
+                                  share));
+    }
     if (context.dt_before != context.dt)
       account_for_new_step(state, context);
     if (requests.balance)
@@ -155,7 +160,8 @@ namespace quoin
         = (context.dt_before * context.dt_before - context.dt * context.dt)
           / (8. * context.dt_velocity * context.dt_velocity);
     state.pending.external += factor
-                              * (stepper.squared_change(state)
+                              * (squared_change(model.nodes(), node_mass,
+                                                velocity_before, state.velocity)
                                  + model.rigid_blocks().squared_change(
                                      rigid_stage, rigid_before,
                                      state.template get<RigidBlockStates>()));
@@ -196,7 +202,7 @@ namespace quoin
       {
         state.template get<ContactState>().next_check
             = -1; // search nothing to look
-        const StepContext context = stepper.context(state, time_step);
+        const StepContext context = step_context(state, stage, time_step);
         block_contacts->update(context, state);
         block_contacts->add_forces(context, state, { unused.data(), nullptr });
       }
@@ -214,10 +220,9 @@ namespace quoin
                                                const StepContext &context,
                                                StepSums &sums)
   {
-    stepper.capture_rigid_blocks(state);
-    const RigidBlockWork work = model.rigid_blocks().advance(
-        context, rigid_stage, stepper.node_forces().force,
-        stepper.viscous_forces(), state);
+    const NodeForces<2> forces = stepper.capture_rigid_blocks(state);
+    const RigidBlockWork work  = model.rigid_blocks().advance(
+         context, rigid_stage, forces.force, forces.viscous, state);
     sums.damping += work.damping;
     sums.unbalanced += work.unbalanced;
     time_shares.lap(rigid_phase);

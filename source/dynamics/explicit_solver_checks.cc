@@ -92,16 +92,16 @@ namespace quoin
     // half step. Loads and damping will not, as the block is removed; the cells
     // change strain and kinetic energy by the same amount, so both are taken as
     // after that half step.
-    const double dt                 = state.previous_time_step;
-    const RigidBlocks &rigid        = model.rigid_blocks();
-    const auto rigid_0              = state.template get<RigidBlockStates>();
-    double energy                   = 0.;
-    NodeVector<dim> *force          = stepper.node_forces().force;
-    const std::vector<double> &mass = stepper.mass();
+    const double dt          = state.previous_time_step;
+    const RigidBlocks &rigid = model.rigid_blocks();
+    const auto rigid_0       = state.template get<RigidBlockStates>();
+    double energy            = 0.;
+    AlignedArray<NodeVector<dim>> force(state.nodes.size(), NodeVector<dim>{});
     for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
       model.blocks().add_forces(tile, state.nodes.data(),
-                                state.template get<PlasticHistory>(), force);
-    model.nodes().exchange().add_to_owners(force);
+                                state.template get<PlasticHistory>(),
+                                force.data());
+    model.nodes().exchange().add_to_owners(force.data());
     for (const unsigned int block : blocks)
     {
       const auto nodes    = owned_nodes(model, block);
@@ -111,7 +111,7 @@ namespace quoin
         {
           double &v = state.velocity[i].v[d];
           if (!is_rigid)
-            energy += 0.5 * (mass[i] * v + dt * force[i].v[d]) * v;
+            energy += 0.5 * (node_mass[i] * v + dt * force[i].v[d]) * v;
           v = 0.;
         }
       if (is_rigid && !nodes.empty())
@@ -120,7 +120,6 @@ namespace quoin
                 .velocity,
             3, 0.);
     }
-    std::fill_n(force, state.nodes.size(), NodeVector<dim>{});
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
     return energy + rigid.kinetic_energy(rigid_stage, rigid_0, rigid_0, 1.)
            - rigid.kinetic_energy(rigid_stage,

@@ -28,7 +28,7 @@ namespace quoin
           state.template get<RigidBlockStates>(), 1.);
       for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
         for (const double v : state.velocity[i].v)
-          energy += 0.5 * stepper.mass()[i] * v * v;
+          energy += 0.5 * node_mass[i] * v * v;
       return energy;
     };
 
@@ -57,7 +57,7 @@ namespace quoin
       scaled += mass[i];
     }
     added_mass = sum(scaled) / sum(own) - 1.;
-    stepper.set_mass(mass);
+    node_mass  = mass;
     // A change of the mass of moving nodes is external work.
     state.energy.external += kinetic() - before;
 
@@ -69,7 +69,7 @@ namespace quoin
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
     for (MotionConstraint<dim> *constraint : acting.constraints)
-      if (constraint->is_rigid_body())
+      if (constraint->traits().is_rigid_body())
       {
         double inertia = 0., spin = 0.;
         for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
@@ -117,7 +117,7 @@ namespace quoin
   void ExplicitSolver<dim>::collect_constrained_nodes(const State<dim> &state)
   {
     // Nodes of absent blocks do not move with constraints.
-    stepper.capture_nodes(absent_nodes(model, state));
+    stepper.capture_nodes(node_mass, absent_nodes(model, state));
     this->refuse_shared_platens();
     if constexpr (dim == 2)
       rigid_stage.held = this->find_held_blocks();

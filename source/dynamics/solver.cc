@@ -138,16 +138,16 @@ namespace quoin
 
     for (const auto &constraint : all_constraints)
       if (names_load(stage, constraint->name())
-          && !constraint->companion().empty()
-          && !names_load(stage, constraint->companion()))
+          && !constraint->traits().companion.empty()
+          && !names_load(stage, constraint->traits().companion))
         throw InputError(
             "section 'Stages/" + stage.name + "': 'Loads' names '"
             + constraint->name() + "', whose columns stand on the base '"
-            + constraint->companion() + "', but not that. Add it.");
+            + constraint->traits().companion + "', but not that. Add it.");
 
     if (stage.slows_loads())
       for (const auto &constraint : all_constraints)
-        if (constraint->kind() == MotionKind::absorbing
+        if (constraint->traits().kind == MotionKind::absorbing
             && acts_in(*constraint, stage))
           throw InputError("section 'Stages/" + stage.name
                            + "': 'Kinetic energy limit' slows loads down, "
@@ -162,7 +162,7 @@ namespace quoin
         acting.constraints.push_back(constraint.get());
     std::stable_sort(acting.constraints.begin(), acting.constraints.end(),
                      [](const auto *a, const auto *b)
-                     { return a->kind() < b->kind(); });
+                     { return a->traits().kind < b->traits().kind; });
     refuse_absent_nodes(state);
     acting.nodal.clear();
     for (NodalLoad<dim> &load : all_loads)
@@ -205,7 +205,7 @@ namespace quoin
     const auto absent = absent_nodes(model, state);
     for (const MotionConstraint<dim> *constraint : acting.constraints)
     {
-      if (constraint->kind() == MotionKind::prescribed)
+      if (constraint->traits().kind == MotionKind::prescribed)
         continue;
       unsigned int first = NodeMap<dim>::none;
       for (const unsigned int node : constraint->nodes())
@@ -242,7 +242,7 @@ namespace quoin
         const auto last = std::lower_bound(first, nodes.end(), block.end);
         if (first == last)
           continue;
-        if (constraint->is_rigid_body()
+        if (constraint->traits().is_rigid_body()
             && last - first == block.end - block.begin)
           held[b] = true;
         else if (wrong == none)
@@ -267,7 +267,8 @@ namespace quoin
     for (const MotionConstraint<dim> *a : acting.constraints)
       for (const MotionConstraint<dim> *b : acting.constraints)
       {
-        if (a == b || !a->is_rigid_body() || !b->is_rigid_body())
+        if (a == b || !a->traits().is_rigid_body()
+            || !b->traits().is_rigid_body())
           continue;
         std::vector<unsigned int> shared;
         std::set_intersection(a->nodes().begin(), a->nodes().end(),
@@ -289,8 +290,9 @@ namespace quoin
   template <int dim>
   void Solver<dim>::save(State<dim> &state) const
   {
-    for (const auto &constraint : all_constraints)
-      constraint->save(state);
+    if constexpr (dim == 2)
+      if (far.elastodynamic)
+        far.elastodynamic->save(state);
   }
 
   template <int dim>
@@ -365,7 +367,7 @@ namespace quoin
       if (constraint->name() == load && constraint.get() != idle)
       {
         auto values = constraint->resultant();
-        if (!constraint->is_rigid_body())
+        if (!constraint->traits().is_rigid_body())
           MPI_Allreduce(MPI_IN_PLACE, values.data(), 3, MPI_DOUBLE, MPI_SUM,
                         communicator);
         return values;

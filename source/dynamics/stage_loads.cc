@@ -10,6 +10,18 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** Values of the functions of time of @p constraint; 0 without them. */
+    template <int dim>
+    std::array<double, 3> values_of(const MotionConstraint<dim> &constraint,
+                                    const TimePoint &time)
+    {
+      return constraint.parts() ? component_values(*constraint.parts(), time)
+                                : std::array<double, 3>{};
+    }
+  } // namespace
+
   template <int dim>
   std::vector<std::array<double, 4>>
   StageLoads<dim>::values(const double stage_start,
@@ -21,7 +33,7 @@ namespace quoin
       result.push_back(load->amplitude(time));
     for (const MotionConstraint<dim> *constraint : constraints)
     {
-      const auto [x, y, rotation] = constraint->values(time);
+      const auto [x, y, rotation] = values_of(*constraint, time);
       result.push_back({ x, y, rotation, 0. });
     }
     return result;
@@ -49,7 +61,9 @@ namespace quoin
   void StageLoads<dim>::check_start(const State<dim> &state) const
   {
     for (const MotionConstraint<dim> *constraint : constraints)
-      constraint->check_start({ 0., state.time });
+      if (constraint->parts())
+        check_no_jump<dim>(*constraint->parts(), { 0., state.time },
+                           constraint->name());
   }
 
   template <int dim>
@@ -72,7 +86,7 @@ namespace quoin
     for (const NodalLoad<dim> *load : nodal)
       check(load->amplitude(time), load->name());
     for (const MotionConstraint<dim> *constraint : constraints)
-      check(constraint->values(time), constraint->name());
+      check(values_of(*constraint, time), constraint->name());
   }
 
   template <int dim>

@@ -52,8 +52,9 @@ namespace quoin
           dealii::Utilities::MPI::this_mpi_process(node_map.communicator())
           == 0)
   {
-    load_name = name;
-    node_list = transfer.nodes();
+    load_name        = name;
+    own_traits.phase = "far field";
+    node_list        = transfer.nodes();
     for (const unsigned int element : problem.interface)
       for (const unsigned int d : { 0U, 1U })
         unknowns.push_back(2 * element + d);

@@ -32,6 +32,8 @@ namespace quoin
           == 0)
   {
     load_name                           = name;
+    own_traits.supports                 = true;
+    own_traits.phase                    = "far field";
     node_list                           = transfer.nodes();
     std::vector<bool> traction_is_given = domain.traction_is_given;
     traction_is_given.resize(domain.boundary.n_unknowns(), true);

@@ -16,12 +16,6 @@ namespace quoin
 {
   namespace
   {
-    bool is_driven(const LoadComponent &component)
-    {
-      return component.quantity == LoadQuantity::velocity
-             || component.quantity == LoadQuantity::displacement;
-    }
-
     /** Halves [a, b] up to @p depth times where the function has a kink. */
     double integral(const std::function<double(double)> &function,
                     const double a, const double b, const unsigned int depth)
@@ -36,14 +30,6 @@ namespace quoin
       const double middle = 0.5 * (a + b);
       return integral(function, a, middle, depth - 1)
              + integral(function, middle, b, depth - 1);
-    }
-
-    void sum(std::vector<std::array<double, 3>> &values, const unsigned int n,
-             const MPI_Comm communicator)
-    {
-      if (n > 0)
-        MPI_Allreduce(MPI_IN_PLACE, values.data(), 3 * n, MPI_DOUBLE, MPI_SUM,
-                      communicator);
     }
   } // namespace
 
@@ -83,10 +69,10 @@ namespace quoin
     std::vector<std::array<const LoadComponent *, 2>> owner(
         n, { { nullptr, nullptr } });
     for (const MotionConstraint<2> *constraint : constraints)
-      if (constraint->kind() == MotionKind::prescribed)
+      if (constraint->traits().kind == MotionKind::prescribed)
         for (const unsigned int node : constraint->nodes())
           for (unsigned int d = 0; d < 2; ++d)
-            if (constraint->holds()[d])
+            if (constraint->traits().holds[d])
               owner[node][d] = &(*constraint->parts())[d];
     for (unsigned int node = 0; node < n; ++node)
       for (unsigned int d = 0; d < 2; ++d)
@@ -95,7 +81,7 @@ namespace quoin
           prescribed_list.push_back({ node, d, owner[node][d] });
         ties[node].given[d] = owner[node][d] || absent[node];
       }
-    update_constraints(configuration(state), state.load_time);
+    update_constraints(configuration_of(body_list, state), state.load_time);
   }
 
   void
@@ -105,14 +91,14 @@ namespace quoin
     for (const MotionConstraint<2> *constraint : constraints)
     {
       const MotionConstraint<2> *platen = constraint;
-      if (!platen->is_rigid_body())
+      if (!platen->traits().is_rigid_body())
         continue;
       const PlatenState &now = state.get<PlatenState>(platen->name());
       RigidBody body;
       body.platen      = platen;
       body.rigid_block = -1;
       body.nodes       = platen->nodes();
-      body.given       = platen->holds();
+      body.given       = platen->traits().holds;
       body.counts = dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
       std::copy(now.centre, now.centre + 2, body.centre);
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
@@ -196,50 +182,6 @@ namespace quoin
       has_bodies = true;
     }
     relevant_dofs.compress();
-  }
-
-  Configuration DofMap::configuration(const State<2> &state) const
-  {
-    Configuration result;
-    result.nodes     = state.nodes;
-    result.load_time = state.load_time;
-    result.released  = state.get<ImplicitState>().released;
-    for (const RigidBody &body : body_list)
-      if (body.platen)
-      {
-        const double *d = body.platen->rigid_displacement(state);
-        result.bodies.push_back({ { d[0], d[1], d[2] } });
-      }
-      else
-      {
-        const RigidBlockState &block
-            = state.get<RigidBlockStates>()[body.rigid_block];
-        result.bodies.push_back({ { block.displacement[0],
-                                    block.displacement[1], block.rotation } });
-      }
-    return result;
-  }
-
-  void DofMap::write(const Configuration &configuration, State<2> &state) const
-  {
-    state.nodes                         = configuration.nodes;
-    state.load_time                     = configuration.load_time;
-    state.get<ImplicitState>().released = configuration.released;
-    for (unsigned int b = 0; b < body_list.size(); ++b)
-    {
-      const auto &d = configuration.bodies[b];
-      if (body_list[b].platen)
-        std::copy(
-            d.begin(), d.end(),
-            state.get<PlatenState>(body_list[b].platen->name()).displacement);
-      else
-      {
-        RigidBlockState &block
-            = state.get<RigidBlockStates>()[body_list[b].rigid_block];
-        std::copy(d.begin(), d.begin() + 2, block.displacement);
-        block.rotation = d[2];
-      }
-    }
   }
 
   void DofMap::update_arms(const Configuration &configuration)
@@ -328,41 +270,20 @@ namespace quoin
           += given_change(*p.part, before, load_time, stage_start);
 
     // All ranks have the platens; the first one solves for their motion.
-    std::vector<std::array<double, 3>> changes(body_list.size(),
-                                               { { 0., 0., 0. } });
+    BodyValues changes(body_list.size(), { { 0., 0., 0. } });
     for (unsigned int b = 0; b < body_list.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
         if (body_list[b].counts && !body_list[b].given[d])
           changes[b][d] = share * increment(body_list[b].first + d);
-    sum(changes, n_platens, communicator);
+    sum_of_platens(body_list, changes, communicator);
     for (unsigned int b = 0; b < body_list.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
         configuration.bodies[b][d]
             += body_list[b].given[d]
                    ? given_motion(body_list[b], d, before, load_time)
                    : changes[b][d];
-    place(configuration);
+    place_nodes(body_list, configuration);
     model.nodes().exchange().update_ghosts(configuration.nodes.data());
-  }
-
-  void DofMap::place(Configuration &configuration) const
-  {
-    for (unsigned int b = 0; b < body_list.size(); ++b)
-    {
-      const RigidBody &body = body_list[b];
-      const auto &d         = configuration.bodies[b];
-      const double c = std::cos(d[2]), s = std::sin(d[2]);
-      for (unsigned int i = 0; i < body.nodes.size(); ++i)
-      {
-        NodeRecord<2> &node = configuration.nodes[body.nodes[i]];
-        const auto [x, y]   = body.arms[i];
-        // Terms that nearly cancel are summed first, to keep digits.
-        node.u[0]
-            = body.centre[0] + x - node.X[0] + d[0] + (c - 1.) * x - s * y;
-        node.u[1]
-            = body.centre[1] + y - node.X[1] + d[1] + s * x + (c - 1.) * y;
-      }
-    }
   }
 
   void DofMap::add_forces(const AlignedArray<NodeVector<2>> &force,
@@ -372,46 +293,5 @@ namespace quoin
     affine.distribute_local_to_global(values,
                                       values + 2 * model.nodes().n_owned(),
                                       node_dofs.begin(), right_hand_side);
-  }
-
-  void DofMap::add_body_forces(const std::vector<std::array<double, 3>> &force,
-                               Vector &right_hand_side) const
-  {
-    for (unsigned int b = 0; b < body_list.size(); ++b)
-      for (unsigned int d = 0; d < 3; ++d)
-        if (body_list[b].counts && !body_list[b].given[d])
-          right_hand_side(body_list[b].first + d) += force[b][d];
-  }
-
-  std::vector<std::array<double, 3>>
-  DofMap::body_forces(const AlignedArray<NodeVector<2>> &force) const
-  {
-    std::vector<std::array<double, 3>> result(body_list.size(),
-                                              { { 0., 0., 0. } });
-    for (unsigned int b = 0; b < body_list.size(); ++b)
-      for (unsigned int i = 0; i < body_list[b].nodes.size(); ++i)
-      {
-        const double *f = force[body_list[b].nodes[i]].v;
-        const auto &arm = body_list[b].present_arms[i];
-        result[b][0] += f[0];
-        result[b][1] += f[1];
-        result[b][2] += arm[0] * f[1] - arm[1] * f[0];
-      }
-    sum(result, n_platens, communicator);
-    return result;
-  }
-
-  std::vector<std::array<double, 3>>
-  DofMap::drives(const double load_time) const
-  {
-    std::vector<std::array<double, 3>> result(body_list.size(),
-                                              { { 0., 0., 0. } });
-    for (unsigned int b = 0; b < body_list.size(); ++b)
-      for (unsigned int d = 0; d < 3; ++d)
-        if (body_list[b].platen
-            && !is_driven((*body_list[b].platen->parts())[d]))
-          result[b][d] = (*body_list[b].platen->parts())[d].value(
-              { load_time, stage_start + load_time });
-    return result;
   }
 } // namespace quoin

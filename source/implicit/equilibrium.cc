@@ -103,7 +103,7 @@ namespace quoin
     unsigned int held[2] = { 0, 0 };
     for (const DofMap::Prescribed &given : dof_map.prescribed())
       held[given.component] = 1;
-    for (const DofMap::RigidBody &body : dof_map.bodies())
+    for (const RigidBody &body : dof_map.bodies())
       for (unsigned int d = 0; d < 2; ++d)
         if (body.given[d])
           held[d] = 1;
@@ -258,7 +258,7 @@ namespace quoin
   void Equilibrium::add_turning(const AlignedArray<NodeVector<2>> &force)
   {
     // The arms turn with the body: r x f changes by -r . f per radian.
-    for (const DofMap::RigidBody &body : dof_map.bodies())
+    for (const RigidBody &body : dof_map.bodies())
     {
       if (body.given[2])
         continue;
@@ -318,7 +318,9 @@ namespace quoin
     const double left = 1. - configuration.released;
     const auto &now   = committed.get<ImplicitState>();
     const auto &held  = now.held;
-    balance.drives    = dof_map.drives(configuration.load_time);
+    balance.drives    = body_loads(
+           dof_map.bodies(),
+           { configuration.load_time, stage_start + configuration.load_time });
     balance.held.assign(dof_map.bodies().size(), { { 0., 0., 0. } });
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
@@ -331,7 +333,7 @@ namespace quoin
     if (!held.empty())
       for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
         for (unsigned int d = 0; d < 3; ++d)
-          balance.held[b][d] = left * dof_map.held_force(now, b, d);
+          balance.held[b][d] = left * held_force(dof_map.bodies(), now, b, d);
     find_ratio(joint_force, balance);
   }
 
@@ -365,10 +367,10 @@ namespace quoin
       sums[0] += norm(free);
       sums[1] += norm(given);
     }
-    const auto bodies = dof_map.body_forces(total);
+    const auto bodies = body_forces(dof_map.bodies(), total, communicator);
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
-      const DofMap::RigidBody &body = dof_map.bodies()[b];
+      const RigidBody &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
       double size = 0.;
@@ -431,14 +433,18 @@ namespace quoin
       for (unsigned int d = 0; d < 2; ++d)
         change[i].v[d] -= balance.external[i].v[d]
                           + (held.empty() ? 0. : freed * held[2 * i + d]);
-    auto drives = dof_map.drives(advance.load_time);
+    auto drives
+        = body_loads(dof_map.bodies(),
+                     { advance.load_time, stage_start + advance.load_time });
     for (unsigned int b = 0; b < drives.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
         drives[b][d]
             -= balance.drives[b][d]
-               + (held.empty() ? 0. : freed * dof_map.held_force(now, b, d));
+               + (held.empty()
+                      ? 0.
+                      : freed * held_force(dof_map.bodies(), now, b, d));
     dof_map.add_forces(change, slopes.by_advance);
-    dof_map.add_body_forces(drives, slopes.by_advance);
+    add_body_forces(dof_map.bodies(), drives, slopes.by_advance);
     slopes.by_advance.compress(dealii::VectorOperation::add);
   }
 
@@ -447,7 +453,7 @@ namespace quoin
     // Rows of constrained degrees of freedom are those of the unit matrix,
     // scaled to keep the condition number.
     const double size
-        = matrix.frobenius_norm() / std::sqrt(double(dof_map.n_dofs()));
+        = matrix.frobenius_norm() / std::sqrt(double(dof_map.owned().size()));
     for (const Index row : dof_map.owned())
       if (matrix.diag_element(row) == 0.)
         matrix.set(row, row, size > 0. ? size : 1.);

@@ -49,8 +49,8 @@ namespace quoin
     residual = 0.;
     dof_map->add_forces(balance.force, residual);
     dof_map->add_forces(balance.drag, residual);
-    dof_map->add_body_forces(balance.drives, residual);
-    dof_map->add_body_forces(balance.held, residual);
+    add_body_forces(dof_map->bodies(), balance.drives, residual);
+    add_body_forces(dof_map->bodies(), balance.held, residual);
     residual.compress(dealii::VectorOperation::add);
     bool is_solved = false;
     time_shares.measure(solver_phase,
@@ -184,11 +184,12 @@ namespace quoin
 
   void ImplicitSolver::try_iteration(const State<2> &state)
   {
-    const Configuration configuration = dof_map->configuration(state);
-    const Target target               = choose_target(state);
-    double share                      = 0.;
-    advance.load_time                 = target.load_time;
-    advance.released                  = target.released;
+    const Configuration configuration
+        = configuration_of(dof_map->bodies(), state);
+    const Target target = choose_target(state);
+    double share        = 0.;
+    advance.load_time   = target.load_time;
+    advance.released    = target.released;
     equilibrium->linearise(state, configuration, broken, advance, balance,
                            slopes);
     find_correction(target, configuration, true, share);
@@ -217,7 +218,7 @@ namespace quoin
                                                 const Target &target,
                                                 Configuration &configuration)
   {
-    configuration = dof_map->configuration(state);
+    configuration = configuration_of(dof_map->bodies(), state);
     broken.assign(model.joints().n_points(), 0);
     iteration  = 0;
     last_share = 1.;

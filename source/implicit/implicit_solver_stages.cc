@@ -232,12 +232,12 @@ namespace quoin
       Equilibrium without(model, *dof_map, previous ? before : acting.nodal,
                           path_sets, stage_start, nullptr);
       without.set_release(acting.release);
-      without.find_forces(state, dof_map->configuration(state), broken,
-                          balance);
+      without.find_forces(state, configuration_of(dof_map->bodies(), state),
+                          broken, balance);
       far.elastostatic->hold(balance.force.data(), state);
     }
-    equilibrium->find_forces(state, dof_map->configuration(state), broken,
-                             balance);
+    equilibrium->find_forces(state, configuration_of(dof_map->bodies(), state),
+                             broken, balance);
     if (balance.ratio() <= parameters.force_ratio)
       return;
     now.released               = 0.;
@@ -247,12 +247,13 @@ namespace quoin
       for (unsigned int d = 0; d < 2; ++d)
         now.held.push_back(dof_map->is_free(i, d) ? -balance.force[i].v[d]
                                                   : 0.);
-    const auto forces = dof_map->body_forces(balance.force);
+    const auto forces
+        = body_forces(dof_map->bodies(), balance.force, communicator);
     now.held_blocks.resize(3 * std::size_t(model.rigid_blocks().n_blocks()));
     for (unsigned int b = 0; b < forces.size(); ++b)
       for (unsigned int d = 0; d < 3; ++d)
       {
-        const DofMap::RigidBody &body = dof_map->bodies()[b];
+        const RigidBody &body = dof_map->bodies()[b];
         const double held
             = body.given[d] ? 0. : -forces[b][d] - balance.drives[b][d];
         if (body.platen)
@@ -270,7 +271,7 @@ namespace quoin
     state.energy += done;
     const double went = std::abs(configuration.load_time - state.load_time);
 
-    dof_map->write(configuration, state);
+    write_configuration(dof_map->bodies(), configuration, state);
     state.copy_slices(balance.state);
     RigidBlockStage rigid;
     rigid.held = held_blocks;
@@ -327,12 +328,14 @@ namespace quoin
               += state.get<StaticFarFieldState>().held[2 * k + d]
                  * (configuration.nodes[node].u[d] - state.nodes[node].u[d]);
         }
-    const Configuration before = dof_map->configuration(state);
-    const auto forces_0        = dof_map->body_forces(start.force);
-    const auto forces_1        = dof_map->body_forces(balance.force);
+    const Configuration before = configuration_of(dof_map->bodies(), state);
+    const auto forces_0
+        = body_forces(dof_map->bodies(), start.force, communicator);
+    const auto forces_1
+        = body_forces(dof_map->bodies(), balance.force, communicator);
     for (unsigned int b = 0; b < before.bodies.size(); ++b)
     {
-      const DofMap::RigidBody &body = dof_map->bodies()[b];
+      const RigidBody &body = dof_map->bodies()[b];
       if (!body.counts)
         continue;
       for (unsigned int d = 0; d < 3; ++d)
@@ -356,9 +359,10 @@ namespace quoin
                        { return constraint->name() == load; });
     if (found == acting.constraints.end() || balance.force.empty())
       return result;
-    if ((*found)->is_rigid_body())
+    if ((*found)->traits().is_rigid_body())
     {
-      const auto forces = dof_map->body_forces(balance.force);
+      const auto forces
+          = body_forces(dof_map->bodies(), balance.force, communicator);
       for (unsigned int b = 0; b < forces.size(); ++b)
         if (dof_map->bodies()[b].platen == *found)
           for (unsigned int d = 0; d < 3; ++d)
@@ -368,7 +372,7 @@ namespace quoin
     }
     if (*found == far.elastostatic)
       result = balance.far_field_force;
-    else if ((*found)->kind() == MotionKind::prescribed)
+    else if ((*found)->traits().kind == MotionKind::prescribed)
       for (const DofMap::Prescribed &given : dof_map->prescribed())
       {
         if (given.part != &(*(*found)->parts())[given.component])
@@ -414,10 +418,11 @@ namespace quoin
       if (!dof_map->is_in_body(i))
         compare(i, std::sqrt(square));
     }
-    const auto forces = dof_map->body_forces(balance.force);
+    const auto forces
+        = body_forces(dof_map->bodies(), balance.force, communicator);
     for (unsigned int b = 0; b < forces.size(); ++b)
       for (unsigned int d = 0; d < 2; ++d)
-        if (const DofMap::RigidBody &body = dof_map->bodies()[b];
+        if (const RigidBody &body = dof_map->bodies()[b];
             !body.given[d] && !body.nodes.empty())
           compare(body.nodes.front(),
                   std::abs(forces[b][d] + balance.drives[b][d]

@@ -24,7 +24,7 @@ namespace quoin
     : model(model), dof_map(dof_map),
       direct(type == LinearSolverType::direct
              || (type == LinearSolverType::automatic
-                 && dof_map.n_dofs() <= largest_direct)),
+                 && dof_map.owned().size() <= largest_direct)),
       control(most_iterations, 0.)
   {
   }
@@ -103,7 +103,7 @@ namespace quoin
     }
     for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
     {
-      const DofMap::RigidBody &body = dof_map.bodies()[b];
+      const RigidBody &body = dof_map.bodies()[b];
       if (!body.counts)
         continue;
       const auto &d      = configuration.bodies[b];

@@ -31,7 +31,8 @@ namespace quoin
                                        const FreeFieldGround &ground,
                                        const FreeFieldBase &given)
   {
-    load_name = parameters.name;
+    load_name            = parameters.name;
+    own_traits.companion = given.load.name;
     const auto faces
         = faces_of_curves(node_map, parameters.boundaries, load_name);
     node_list = nodes_of_faces(node_map, faces);

@@ -47,7 +47,9 @@ namespace quoin
   Platen::Platen(const LoadParameters &parameters, const NodeMap<2> &node_map)
     : components(parameters.components), communicator(node_map.communicator())
   {
-    load_name = parameters.name;
+    load_name        = parameters.name;
+    own_traits.kind  = MotionKind::rigid_body;
+    own_traits.holds = { { driven(0), driven(1), driven(2) } };
     node_list
         = parameters.groups.empty()
               ? nodes_of_faces(
@@ -258,8 +260,4 @@ namespace quoin
     }
   }
 
-  std::array<bool, 3> Platen::holds() const
-  {
-    return { { driven(0), driven(1), driven(2) } };
-  }
 } // namespace quoin

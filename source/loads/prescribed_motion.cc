@@ -28,7 +28,10 @@ namespace quoin
                                           const NodeMap<dim> &node_map)
     : components(parameters.components)
   {
-    this->load_name = parameters.name;
+    this->load_name       = parameters.name;
+    this->own_traits.kind = MotionKind::prescribed;
+    for (unsigned int d = 0; d < dim; ++d)
+      this->own_traits.holds[d] = components[d].quantity != LoadQuantity::free;
     this->node_list = nodes_of_faces(
         node_map,
         faces_of_curves(node_map, parameters.boundaries, parameters.name));
@@ -88,15 +91,6 @@ namespace quoin
         this->last_resultant[2]
             += moment_of(reaction, before, state.nodes[before.node]);
     }
-  }
-
-  template <int dim>
-  std::array<bool, 3> PrescribedMotion<dim>::holds() const
-  {
-    std::array<bool, 3> result{};
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = components[d].quantity != LoadQuantity::free;
-    return result;
   }
 
   template class PrescribedMotion<2>;

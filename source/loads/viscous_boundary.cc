@@ -230,7 +230,7 @@ namespace quoin
                                 const std::vector<CapturedNode<dim>> &captured,
                                 State<dim> &state)
   {
-    const auto [vn, vs, unused] = values(step.begin);
+    const auto [vn, vs, unused] = component_values(components, step.begin);
     ViscousBoundaryState<dim> &own
         = state.template get<ViscousBoundaryState<dim>>(this->load_name);
     if (!own.active)
@@ -246,7 +246,7 @@ namespace quoin
                                 const std::vector<CapturedNode<dim>> &captured,
                                 State<dim> &state)
   {
-    const auto [vn, vs, unused] = values(step.begin);
+    const auto [vn, vs, unused] = component_values(components, step.begin);
     const ViscousBoundaryState<dim> &own
         = state.template get<ViscousBoundaryState<dim>>(this->load_name);
     this->last_resultant = {};

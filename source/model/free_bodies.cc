@@ -136,9 +136,9 @@ namespace quoin
         const auto holds = held_by(*constraint, with_drag);
         // A platen free to rotate restrains its centre alone, which lies within
         // its nodes, with one row for each prescribed component.
-        if (!constraint->is_rigid_body() || holds[2])
+        if (!constraint->traits().is_rigid_body() || holds[2])
           add_nodes(*constraint, holds);
-        if (constraint->is_rigid_body())
+        if (constraint->traits().is_rigid_body())
           add_platen(*constraint, holds);
       }
       dealii::Utilities::MPI::sum(entries, nodes.communicator(), entries);
@@ -153,10 +153,10 @@ namespace quoin
                          const bool with_drag) const
     {
       const bool drags
-          = with_drag && constraint.kind() == MotionKind::absorbing;
-      if (constraint.supports() || drags)
+          = with_drag && constraint.traits().kind == MotionKind::absorbing;
+      if (constraint.traits().supports || drags)
         return { { true, true, dim == 3 } };
-      return constraint.holds();
+      return constraint.traits().holds;
     }
 
     template <int dim>
@@ -262,7 +262,7 @@ namespace quoin
       std::vector<double> sums(n * n_blocks, 0.);
       if constexpr (dim == 2)
         for (const MotionConstraint<2> *constraint : constraints)
-          if (constraint->is_rigid_body())
+          if (constraint->traits().is_rigid_body())
             add_platen(*constraint, time, model, bodies, force, sums);
       for (unsigned int i = 0; i < exchange.n_owned(); ++i)
       {

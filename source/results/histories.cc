@@ -318,7 +318,7 @@ namespace quoin
                          "viscous boundary. These are: "
                        + known_names(constraints, &MotionConstraint<dim>::name)
                        + ".");
-    if ((*found)->is_rigid_body())
+    if ((*found)->traits().is_rigid_body())
       probe.platen = found->get();
     if (wanted.quantity != HistoryQuantity::reaction && !probe.platen)
       throw InputError(section + "'Load = " + wanted.load
@@ -520,7 +520,7 @@ namespace quoin
                       == HistoryQuantity::platen_displacement)
       {
         const unsigned int d = probe.parameters.component;
-        row[1 + i]           = probe.platen->rigid_displacement(state)[d]
+        row[1 + i] = probe.platen->rigid_motion()->displacement(state)[d]
                      / (d == 2 ? constants::degree : 1.);
       }
     }

@@ -23,6 +23,29 @@ namespace quoin
     double unbalanced = 0.; /**< [N] */
   };
 
+  /** The context of a step of @p dt [s] from @p state in @p stage. */
+  template <int dim>
+  StepContext step_context(const State<dim> &state,
+                           const StageParameters &stage, double dt);
+
+  /**
+   * Kinetic energy [J] of the nodes of deformable blocks on this rank,
+   * 1/2 v m w, where w is @p share of the way from the velocities @p before to
+   * those of @p after [m/s]; @p mass of nodes [kg].
+   */
+  template <int dim>
+  double
+  kinetic_energy(const NodeMap<dim> &nodes, const std::vector<double> &mass,
+                 const AlignedArray<NodeVector<dim>> &before,
+                 const AlignedArray<NodeVector<dim>> &after, double share);
+
+  /** Sum over these nodes of mass times squared change of velocity [J]. */
+  template <int dim>
+  double squared_change(const NodeMap<dim> &nodes,
+                        const std::vector<double> &mass,
+                        const AlignedArray<NodeVector<dim>> &before,
+                        const AlignedArray<NodeVector<dim>> &after);
+
   /**
    * Steps of the nodes of deformable blocks by central differences with
    * velocities at half steps (@cite JinWangZhang1998, Eqs. 4-5): forces of
@@ -42,22 +65,19 @@ namespace quoin
 
     // For a stage, in this order.
 
-    /** Sets the masses of the local nodes, with mass scaling [kg]. */
-    void set_mass(const std::vector<double> &mass);
     /** Sets operators, in order of action, and the damping of @p stage;
         @p begun: those of @p forces that did not act in the previous stage. */
     void set_operators(const std::vector<ForceOperator<dim> *> &forces,
                        const std::vector<ForceOperator<dim> *> &begun,
                        const std::vector<MotionConstraint<dim> *> &constraints,
                        const StageParameters &stage);
-    /** Finds the nodes that constraints move, but for those that are @p absent
-        (local nodes), which stay where they are. */
-    void capture_nodes(const std::vector<bool> &absent);
+    /** Takes the masses of the local nodes, with mass scaling [kg], and finds
+        the nodes that constraints move, but for those that are @p absent (local
+        nodes), which stay where they are. */
+    void capture_nodes(const std::vector<double> &mass,
+                       const std::vector<bool> &absent);
     /** Makes @p nodes keep their velocity; no force acts on them. */
     void hold(const std::vector<unsigned int> &nodes);
-
-    /** The context of a step of @p dt [s] from @p state. */
-    StepContext context(const State<dim> &state, double dt) const;
 
     // The parts of a step.
 
@@ -65,11 +85,6 @@ namespace quoin
     void update_neighbours(State<dim> &state, const StepContext &context);
     /** Adds forces of operators and books their last work. Collective. */
     void add_forces(State<dim> &state, const StepContext &context);
-    /** Copies the velocities for kinetic_energy() and squared_change(). */
-    void keep_velocities(const State<dim> &state)
-    {
-      velocity_before = state.velocity;
-    }
     /** Adds the forces of blocks tile by tile and moves the nodes that no other
         rank shares, while forces on shared nodes are exchanged; @p balance:
         also sums the unbalanced forces. */
@@ -78,8 +93,9 @@ namespace quoin
     /** Moves the nodes of blocks that lie on several ranks. Collective. */
     void advance_shared_nodes(State<dim> &state, const StepContext &context,
                               bool balance, StepSums &sums);
-    /** Captures the constrained nodes of rigid blocks. */
-    void capture_rigid_blocks(const State<dim> &state);
+    /** Captures the constrained nodes of rigid blocks; returns the forces on
+        all local nodes, for RigidBlocks::advance(). */
+    NodeForces<dim> capture_rigid_blocks(const State<dim> &state);
     /** Collective. */
     void move_constrained_nodes(State<dim> &state, const StepContext &context);
     /** Books the work of operators and damping until the middle of the step.
@@ -89,37 +105,16 @@ namespace quoin
     /** Collective. */
     void exchange_positions(State<dim> &state);
 
-    // Sums and energies of a step.
+    // Sums of a step.
 
     /** Sum of the forces of operators on this rank's nodes [N], after
         add_forces(). Collective. */
     double applied_force() const;
-    /** Kinetic energy of the nodes of this rank at the time of the step [J],
-        from velocities before and after it. */
-    double kinetic_energy(const State<dim> &state,
-                          const StepContext &context) const;
-    /** Sum of mass times squared change of velocity in the step [J]. */
-    double squared_change(const State<dim> &state) const;
     /** Ratio of unbalanced to applied force, of all ranks [-]. Collective. */
     double unbalanced_ratio(const State<dim> &state, const StepContext &context,
                             StepSums sums) const;
     /** Recoverable energy of operators, of this rank [J]. */
     double stored_energy(const State<dim> &state) const;
-
-    /** Forces on the local nodes [N]; zero after a step. */
-    NodeForces<dim> node_forces()
-    {
-      return { force.data(),
-               has_viscous_forces() ? viscous_force.data() : nullptr };
-    }
-    NodeVector<dim> *viscous_forces()
-    {
-      return viscous_force.data();
-    }
-    const std::vector<double> &mass() const
-    {
-      return node_mass;
-    }
 
   private:
     bool has_viscous_forces() const
@@ -162,7 +157,6 @@ namespace quoin
     std::vector<unsigned int> tiles;
     unsigned int n_tiles_at_others = 0; /**< tiles that have shared nodes */
 
-    std::vector<double> node_mass;    /**< local nodes [kg] */
     std::vector<double> moving_mass;  /**< zero at constrained nodes [kg] */
     std::vector<double> inverse_mass; /**< zero at constrained nodes [1/kg] */
     std::vector<unsigned int> held;   /**< ascending */
@@ -171,9 +165,8 @@ namespace quoin
     /** First entry of each tile, of shared nodes, and of rigid blocks. */
     std::vector<unsigned int> captured_begin;
 
-    AlignedArray<NodeVector<dim>> force;
-    AlignedArray<NodeVector<dim>> viscous_force;
-    AlignedArray<NodeVector<dim>> velocity_before;
+    /** On the local nodes [N]; zero after a step. */
+    AlignedArray<NodeVector<dim>> force, viscous_force;
     OwnerSum<NodeVector<dim>> force_sum, viscous_sum;
   };
 } // namespace quoin

@@ -173,6 +173,7 @@ namespace quoin
     std::unique_ptr<BlockContacts> block_contacts;
 
     CentralDifferences<dim> stepper;
+    std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
     double critical_step = 0.;
     double added_mass    = 0.;
     double time_step     = 0.;
@@ -184,6 +185,8 @@ namespace quoin
     std::vector<bool> moved_blocks; /**< of this rank, moved by loads */
     std::vector<BlockOutside> blocks_outside;
 
+    /** Velocities before the step, when they are needed. */
+    AlignedArray<NodeVector<dim>> velocity_before;
     std::vector<RigidBlockState> rigid_before;
     PlasticHistory plastic_now; /**< when energies are requested */
 

@@ -201,28 +201,17 @@ namespace quoin
     Eigen::VectorXd velocity(const State<2> &state) const;
     Eigen::VectorXd traction(const State<2> &state) const;
 
-    MotionKind kind() const override
-    {
-      return MotionKind::absorbing;
-    }
-    const char *phase() const override
-    {
-      return "far field";
-    }
     void prepare(State<2> &state) const override;
     void begin_stage(State<2> &state, bool continues) override;
     void resume_stage(const State<2> &state) override;
-    void save(State<2> &state) const override;
+    /** Called before a checkpoint: completes the state. */
+    void save(State<2> &state) const;
     void correct(const StepContext &step,
                  const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
     void account(const StepContext &step,
                  const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
-    std::array<double, 3> values(const TimePoint &) const override
-    {
-      return {};
-    }
 
   private:
     using SparseMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;

@@ -95,14 +95,6 @@ namespace quoin
     /** Collective. */
     NodalStiffness nodal_stiffness(const NodeExchange &exchange) const;
 
-    MotionKind kind() const override
-    {
-      return MotionKind::absorbing;
-    }
-    const char *phase() const override
-    {
-      return "far field";
-    }
     void prepare(State<2> &state) const override;
     void begin_stage(State<2> &state, bool continues) override;
     void resume_stage(const State<2> &state) override;
@@ -112,14 +104,6 @@ namespace quoin
     void account(const StepContext &step,
                  const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
-    std::array<double, 3> values(const TimePoint &) const override
-    {
-      return {};
-    }
-    bool supports() const override
-    {
-      return true;
-    }
 
   private:
     void start(const std::vector<CapturedNode<2>> &captured, State<2> &state);

@@ -4,7 +4,7 @@
 #ifndef quoin_implicit_dof_map_h
 #define quoin_implicit_dof_map_h
 
-#include <quoin/implicit/implicit_state.h>
+#include <quoin/implicit/rigid_bodies.h>
 #include <quoin/operators/state.h>
 #include <quoin/model/model.h>
 #include <quoin/loads/load_parameters.h>
@@ -20,16 +20,6 @@
 
 namespace quoin
 {
-  /** A configuration of the model: State without internal variables. */
-  struct Configuration
-  {
-    AlignedArray<NodeRecord<2>> nodes;
-    /** x, y [m] and rotation [rad] of each of DofMap::bodies(). */
-    std::vector<std::array<double, 3>> bodies;
-    double load_time = 0.; /**< in the stage [s] */
-    double released  = 1.; /**< released share of the held forces [-] */
-  };
-
   /**
    * The degrees of freedom of a stage in equilibrium and their constraints.
    *
@@ -50,19 +40,6 @@ namespace quoin
     using Vector      = dealii::TrilinosWrappers::MPI::Vector;
     using Constraints = dealii::AffineConstraints<double>;
 
-    struct RigidBody
-    {
-      const MotionConstraint<2> *platen; /**< null: a rigid block */
-      unsigned int rigid_block;
-      double centre[2];                /**< centre at zero displacement [m] */
-      std::array<bool, 3> given;       /**< prescribed by functions of time */
-      Index first;                     /**< of its degrees of freedom */
-      std::vector<unsigned int> nodes; /**< owned ones */
-      std::vector<std::array<double, 2>> arms;         /**< unrotated [m] */
-      std::vector<std::array<double, 2>> present_arms; /**< rotated [m] */
-      bool counts; /**< whether this rank books its work and equations */
-    };
-
     /** A component of a node prescribed by a PrescribedMotion. */
     struct Prescribed
     {
@@ -79,7 +56,7 @@ namespace quoin
            const std::vector<MotionConstraint<2> *> &constraints,
            const std::vector<bool> &held, const State<2> &state);
 
-    const std::vector<RigidBody> &bodies() const
+    const RigidBodies &bodies() const
     {
       return body_list;
     }
@@ -95,10 +72,6 @@ namespace quoin
     const dealii::IndexSet &relevant() const
     {
       return relevant_dofs;
-    }
-    Index n_dofs() const
-    {
-      return owned_dofs.size();
     }
     /** Degree of freedom of component @p d of a local node. */
     Index dof(const unsigned int node, const unsigned int d) const
@@ -134,10 +107,6 @@ namespace quoin
       return ties[node].body != dealii::numbers::invalid_dof_index;
     }
 
-    Configuration configuration(const State<2> &state) const;
-    /** Writes the motion of nodes, platens and rigid blocks, but no times. */
-    void write(const Configuration &configuration, State<2> &state) const;
-
     /** Updates the present arms of bodies' nodes for @p configuration. */
     void update_arms(const Configuration &configuration);
 
@@ -162,27 +131,6 @@ namespace quoin
     void add_forces(const AlignedArray<NodeVector<2>> &force,
                     Vector &right_hand_side) const;
 
-    /** Component @p d of the force that @p state, which has held forces, holds
-        on body @p b [N, N m]. */
-    double held_force(const ImplicitState &state, const unsigned int b,
-                      const unsigned int d) const
-    {
-      const RigidBody &body = body_list[b];
-      return body.platen ? state.held_platens[3 * b + d]
-                         : state.held_blocks[3 * body.rigid_block + d];
-    }
-
-    /** Adds forces and moments on bodies, on each rank that counts them. */
-    void add_body_forces(const std::vector<std::array<double, 3>> &force,
-                         Vector &right_hand_side) const;
-
-    /** Force and moment of @p force on the nodes of each body; collective. */
-    std::vector<std::array<double, 3>>
-    body_forces(const AlignedArray<NodeVector<2>> &force) const;
-
-    /** Loads on bodies [N, N m]; zero for prescribed components. */
-    std::vector<std::array<double, 3>> drives(double load_time) const;
-
   private:
     /** Constraint of a local node, received from its owner. */
     struct Tie
@@ -196,7 +144,6 @@ namespace quoin
                      const State<2> &state);
     void add_rigid_blocks(const std::vector<bool> &held);
     void number();
-    void place(Configuration &configuration) const;
     /** Increment of component @p d of a driven body [m or rad]. */
     double given_motion(const RigidBody &body, unsigned int d, double from,
                         double to) const;
@@ -204,7 +151,7 @@ namespace quoin
     const Model<2> &model;
     MPI_Comm communicator;
     const double stage_start;
-    std::vector<RigidBody> body_list; /**< platens first, on all ranks */
+    RigidBodies body_list;
     unsigned int n_platens = 0;
     std::vector<Prescribed> prescribed_list;
     std::vector<bool> absent; /**< of local nodes */

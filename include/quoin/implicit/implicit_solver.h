@@ -135,7 +135,7 @@ namespace quoin
     }
     DofMap::Index n_unknowns() const
     {
-      return dof_map ? dof_map->n_dofs() : 0;
+      return dof_map ? dof_map->owned().size() : 0;
     }
     /** Whether the linear solver of the stage is the direct one. */
     bool is_direct() const

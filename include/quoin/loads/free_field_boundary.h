@@ -84,10 +84,6 @@ namespace quoin
                       const NodeMap<2> &node_map, const FreeFieldGround &ground,
                       const FreeFieldBase &base);
 
-    MotionKind kind() const override
-    {
-      return MotionKind::absorbing;
-    }
     void prepare(State<2> &state) const override;
     void begin_stage(State<2> &state, bool continues) override;
     void correct(const StepContext &step,
@@ -96,14 +92,6 @@ namespace quoin
     void account(const StepContext &step,
                  const std::vector<CapturedNode<2>> &captured,
                  State<2> &state) override;
-    std::array<double, 3> values(const TimePoint &) const override
-    {
-      return {};
-    }
-    std::string companion() const override
-    {
-      return base.name;
-    }
     double largest_eigenvalue() const override;
 
     /** Heights of the column's nodes, ascending [m]. */

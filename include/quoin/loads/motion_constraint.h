@@ -61,6 +61,44 @@ namespace quoin
     rigid_body  /**< all nodes together; its results are those of all ranks */
   };
 
+  /** What a constraint is, in all stages. */
+  struct ConstraintTraits
+  {
+    MotionKind kind = MotionKind::absorbing;
+    /** Which of x, y and, for platens, rotation it prescribes. */
+    std::array<bool, 3> holds{};
+    /** Whether a stiffness resists motion of its nodes, prescribed or not. */
+    bool supports = false;
+    /** Name under which its wall time is reported. */
+    const char *phase = "loads";
+    /** The load without which it cannot act in a stage; empty: none. */
+    std::string companion;
+
+    bool is_rigid_body() const
+    {
+      return kind == MotionKind::rigid_body;
+    }
+    /** Whether it determines component @p d of the motion of its nodes. */
+    bool moves(const unsigned int d) const
+    {
+      return kind != MotionKind::prescribed || holds[d];
+    }
+  };
+
+  /** What a constraint that is a rigid body has beside. */
+  template <int dim>
+  class RigidMotion
+  {
+  public:
+    /** Displacement x, y [m] and rotation [rad] since it first acted. */
+    virtual const double *displacement(const State<dim> &state) const = 0;
+    /** Unbalanced force [N] of its degrees of freedom. */
+    virtual double unbalanced() const = 0;
+
+  protected:
+    ~RigidMotion() = default;
+  };
+
   /**
    * Prescribes or modifies the motion of nodes. The solver advances all nodes
    * as if free; then correct() overwrites velocity and displacement of the
@@ -72,12 +110,9 @@ namespace quoin
   public:
     virtual ~MotionConstraint() = default;
 
-    virtual MotionKind kind() const = 0;
-
-    /** Name under which its wall time is reported. */
-    virtual const char *phase() const
+    const ConstraintTraits &traits() const
     {
-      return "loads";
+      return own_traits;
     }
 
     /** Local nodes that this rank owns, ascending. */
@@ -103,30 +138,11 @@ namespace quoin
       captured_positions = std::move(positions);
     }
 
-    /** Values of its functions of time, to find whether they are constant. */
-    virtual std::array<double, 3> values(const TimePoint &time) const = 0;
-
     /** The functions of time by which it drives or loads its nodes; null: none.
      */
     virtual const std::array<LoadComponent, 3> *parts() const
     {
       return nullptr;
-    }
-
-    /**
-     * Throws an InputError if a displacement is not zero at the start of the
-     * stage, which would be a jump.
-     */
-    virtual void check_start(const TimePoint &time) const
-    {
-      if (parts())
-        check_no_jump<dim>(*parts(), time, load_name);
-    }
-
-    /** The load without which it cannot act in a stage; empty: none. */
-    virtual std::string companion() const
-    {
-      return {};
     }
 
     /** Largest omega^2 of its own degrees of freedom [1/s^2]. */
@@ -163,11 +179,6 @@ namespace quoin
     {
     }
 
-    /** Called before a checkpoint: completes the state. */
-    virtual void save(State<dim> &) const
-    {
-    }
-
     virtual void correct(const StepContext &step,
                          const std::vector<CapturedNode<dim>> &captured,
                          State<dim> &state)
@@ -188,43 +199,14 @@ namespace quoin
       return last_resultant;
     }
 
-    /** Displacement x, y [m] and rotation [rad] of a rigid body since it first
-        acted; null: not a rigid body. */
-    virtual const double *rigid_displacement(const State<dim> &) const
+    /** Null: not a rigid body. */
+    virtual const RigidMotion<dim> *rigid_motion() const
     {
       return nullptr;
     }
 
-    /** Whether it moves all components of its nodes, prescribed or not. */
-    bool moves_all() const
-    {
-      return kind() != MotionKind::prescribed;
-    }
-
-    bool is_rigid_body() const
-    {
-      return kind() == MotionKind::rigid_body;
-    }
-
-    /** Unbalanced force [N] of the degrees of freedom of a rigid body. */
-    virtual double unbalanced() const
-    {
-      return 0.;
-    }
-
-    /** Which of x, y and, for platens, rotation it prescribes. */
-    virtual std::array<bool, 3> holds() const
-    {
-      return {};
-    }
-
-    /** Whether a stiffness resists motion of its nodes, prescribed or not. */
-    virtual bool supports() const
-    {
-      return false;
-    }
-
   protected:
+    ConstraintTraits own_traits;
     std::string load_name;
     std::vector<unsigned int> node_list;
     std::vector<unsigned int> captured_positions;

@@ -40,15 +40,11 @@ namespace quoin
    * degrees of freedom is driven (velocity or displacement), loaded (force or
    * moment) or free. Its mass is that of its nodes.
    */
-  class Platen : public MotionConstraint<2>
+  class Platen : public MotionConstraint<2>, public RigidMotion<2>
   {
   public:
     Platen(const LoadParameters &parameters, const NodeMap<2> &node_map);
 
-    MotionKind kind() const override
-    {
-      return MotionKind::rigid_body;
-    }
     void prepare(State<2> &state) const override;
     void set_mass(const std::vector<double> &mass, double extra_inertia = 0.,
                   double extra_spin = 0.) override;
@@ -70,15 +66,14 @@ namespace quoin
     {
       return &components;
     }
-    const double *rigid_displacement(const State<2> &state) const override
+    const RigidMotion<2> *rigid_motion() const override
+    {
+      return this;
+    }
+    const double *displacement(const State<2> &state) const override
     {
       return state.get<PlatenState>(load_name).displacement;
     }
-    std::array<double, 3> values(const TimePoint &time) const override
-    {
-      return component_values(components, time);
-    }
-    std::array<bool, 3> holds() const override;
 
   private:
     bool driven(const unsigned int freedom) const

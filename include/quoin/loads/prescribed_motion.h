@@ -18,10 +18,6 @@ namespace quoin
     PrescribedMotion(const LoadParameters &parameters,
                      const NodeMap<dim> &node_map);
 
-    MotionKind kind() const override
-    {
-      return MotionKind::prescribed;
-    }
     void correct(const StepContext &step,
                  const std::vector<CapturedNode<dim>> &captured,
                  State<dim> &state) override;
@@ -32,11 +28,6 @@ namespace quoin
     {
       return &components;
     }
-    std::array<double, 3> values(const TimePoint &time) const override
-    {
-      return component_values(components, time);
-    }
-    std::array<bool, 3> holds() const override;
 
   private:
     std::array<LoadComponent, 3> components;

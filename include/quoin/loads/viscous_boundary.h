@@ -131,10 +131,6 @@ namespace quoin
                     const NodeMap<dim> &node_map,
                     const std::vector<Impedance> &impedance, double thickness);
 
-    MotionKind kind() const override
-    {
-      return MotionKind::absorbing;
-    }
     void prepare(State<dim> &state) const override;
     void begin_stage(State<dim> &state, bool continues) override;
     void correct(const StepContext &step,
@@ -143,9 +139,9 @@ namespace quoin
     void account(const StepContext &step,
                  const std::vector<CapturedNode<dim>> &captured,
                  State<dim> &state) override;
-    std::array<double, 3> values(const TimePoint &time) const override
+    const std::array<LoadComponent, 3> *parts() const override
     {
-      return component_values(components, time);
+      return &components;
     }
 
   private:

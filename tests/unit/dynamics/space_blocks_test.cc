@@ -44,6 +44,8 @@ namespace
     BlockForces<3> forces;
     PhaseClock clock;
     CentralDifferences<3> stepper;
+    const std::vector<double> mass;
+    StageParameters stage;
     State<3> state;
     std::vector<std::unique_ptr<ForceOperator<3>>> loads;
     std::vector<std::unique_ptr<MotionConstraint<3>>> constraints;
@@ -51,7 +53,8 @@ namespace
 
     Box(const Count &n, const double h, const LinearElastic &stone)
       : stone(stone), blocks(made(n, h)), nodes(blocks),
-        stepper(nodes, forces, clock)
+        stepper(nodes, forces, clock),
+        mass(lumped_masses(nodes, { stone.density }))
     {
       BlockForcesData<3> data;
       take_cells(nodes, data);
@@ -65,7 +68,6 @@ namespace
           state.nodes[i].X[d] = nodes.point(i)[d];
       }
       state.velocity.assign(nodes.n_local(), NodeVector<3>{});
-      stepper.set_mass(lumped_masses(nodes, { stone.density }));
 
       std::vector<NodeStiffness<3>> bound(nodes.n_local(), NodeStiffness<3>{});
       forces.add_stiffness_bound(state, {}, bound);
@@ -74,7 +76,7 @@ namespace
       dt = 0.8
            * StableTimeStep<3>::critical(
                dealii::Utilities::MPI::max(
-                   StableTimeStep<3>(bound).largest_eigenvalue(stepper.mass()),
+                   StableTimeStep<3>(bound).largest_eigenvalue(mass),
                    MPI_COMM_WORLD),
                0.);
       state.previous_time_step = dt;
@@ -97,7 +99,6 @@ namespace
       std::vector<MotionConstraint<3> *> moving;
       for (const auto &each : constraints)
         moving.push_back(each.get());
-      StageParameters stage;
       stage.damping = DampingType::none;
       stepper.set_operators(on, {}, moving, stage);
       for (MotionConstraint<3> *constraint : moving)
@@ -105,26 +106,27 @@ namespace
         constraint->prepare(state);
         constraint->begin_stage(state, false);
       }
-      stepper.capture_nodes(std::vector<bool>(nodes.n_local(), false));
+      stepper.capture_nodes(mass, std::vector<bool>(nodes.n_local(), false));
       nodes.exchange().update_ghosts(state.nodes.data());
     }
 
     /** Takes a step; energies are then those before it, of all ranks. */
     void step()
     {
-      const StepContext context = stepper.context(state, dt);
+      const StepContext context = step_context(state, stage, dt);
       state.energy += state.pending;
       state.pending = EnergyAccounts();
       stepper.update_neighbours(state, context);
       stepper.add_forces(state, context);
-      stored = sum(forces.stored_energy(state));
-      stepper.keep_velocities(state);
+      stored                     = sum(forces.stored_energy(state));
+      const auto velocity_before = state.velocity;
       StepSums sums;
       stepper.advance_tiles(state, context, false, sums);
       stepper.advance_shared_nodes(state, context, false, sums);
       stepper.move_constrained_nodes(state, context);
       stepper.book_work(state, context, sums);
-      kinetic = sum(stepper.kinetic_energy(state, context));
+      kinetic = sum(
+          kinetic_energy(nodes, mass, velocity_before, state.velocity, 1.));
       stepper.exchange_positions(state);
       ++state.step;
       ++state.stage_step;
@@ -160,7 +162,7 @@ namespace
                  - 0.5 * dt * state.velocity[i].v[d];
           v[d] = state.velocity[i].v[d];
         }
-        result += stepper.mass()[i] * of(x, v);
+        result += mass[i] * of(x, v);
       }
       return dealii::Utilities::MPI::sum(result, MPI_COMM_WORLD);
     }
@@ -257,8 +259,8 @@ TEST(SpaceBlocks, BarUnderASuddenEndLoad)
     LoadParameters pull = load("pull", LoadType::traction, { "x1" });
     (by_pressure ? pull.pressure : pull.components[0])
         = component(LoadQuantity::force, by_pressure ? "-1e5" : "1e5");
-    box.loads.push_back(std::make_unique<NodalLoad<3>>(pull, box.nodes,
-                                                       box.stepper.mass(), 1.));
+    box.loads.push_back(
+        std::make_unique<NodalLoad<3>>(pull, box.nodes, box.mass, 1.));
     box.begin();
     while (box.state.time < 8. / c)
       box.step();

@@ -17,7 +17,7 @@ namespace
   constexpr auto given_force  = LoadQuantity::force;
   constexpr double degree     = 3.14159265358979323846 / 180.;
 
-  using Values = std::vector<std::array<double, 3>>;
+  using Values = BodyValues;
 
   /** Two blocks: a platen, which drives the lower one, and a rigid block. */
   struct Bodies
@@ -127,7 +127,8 @@ TEST(DofMap, BodiesFollowThroughLargeRotations)
 {
   Bodies run({}, {}, {});
   ASSERT_EQ(run.dof_map->bodies().size(), 2U);
-  Configuration configuration = run.dof_map->configuration(run.state);
+  Configuration configuration
+      = configuration_of(run.dof_map->bodies(), run.state);
   Values total(2, { { 0., 0., 0. } });
   const Values steps[] = { { { 0.2, -0.4, 1.9 }, { -0.3, 0.1, -2.6 } },
                            { { 0.1, 0.3, 2.2 }, { 0.6, 0.2, -4.9 } } };
@@ -141,12 +142,12 @@ TEST(DofMap, BodiesFollowThroughLargeRotations)
     run.expect_rigid(configuration, 1, { { 1.5, 1.5 } }, total[1]);
   }
   // And the state has it all, also from where another step goes on.
-  run.dof_map->write(configuration, run.state);
+  write_configuration(run.dof_map->bodies(), configuration, run.state);
   for (unsigned int d = 0; d < 3; ++d)
   {
     EXPECT_EQ(run.state.get<PlatenState>("beam").displacement[d],
               configuration.bodies[0][d]);
-    EXPECT_EQ(run.dof_map->configuration(run.state).bodies,
+    EXPECT_EQ(configuration_of(run.dof_map->bodies(), run.state).bodies,
               configuration.bodies);
   }
   EXPECT_EQ(run.state.get<RigidBlockStates>()[0].rotation,
@@ -157,7 +158,8 @@ TEST(DofMap, ProjectionIsTheTransposeOfTheMotion)
 {
   // Virtual work: of forces on nodes that move, of their sums on unknowns.
   Bodies run({}, {}, {});
-  Configuration configuration = run.dof_map->configuration(run.state);
+  Configuration configuration
+      = configuration_of(run.dof_map->bodies(), run.state);
   run.dof_map->move(run.vector({ { 0.2, -0.4, 1.9 }, { -0.3, 0.1, -2.6 } }), 1.,
                     0., configuration);
   run.dof_map->update_constraints(configuration, 0.);
@@ -169,7 +171,7 @@ TEST(DofMap, ProjectionIsTheTransposeOfTheMotion)
   const Values others{ { 0.3, -0.8, 0.5 }, { -0.2, 0.4, 0.7 } };
   auto sums = run.vector();
   run.dof_map->add_forces(force, sums);
-  run.dof_map->add_body_forces(others, sums);
+  add_body_forces(run.dof_map->bodies(), others, sums);
   for (unsigned int mode = 0; mode < 6; ++mode)
   {
     Values virtual_motion(2, { { 0., 0., 0. } });
@@ -194,14 +196,15 @@ TEST(DofMap, PlatensMayBeDrivenInPart)
   // Pushed to the right by 0.1 m/s, turned by 30 degrees a second, loaded.
   Bodies run(driven(velocity, "0.1"), driven(given_force, "-4e3*t"),
              driven(displacement, "30*t"));
-  const DofMap::RigidBody &beam = run.dof_map->bodies()[0];
+  const RigidBody &beam = run.dof_map->bodies()[0];
   EXPECT_EQ(beam.given, (std::array<bool, 3>{ { true, false, true } }));
-  EXPECT_EQ(run.dof_map->drives(2.)[0],
+  EXPECT_EQ(body_loads(run.dof_map->bodies(), { 2., 2. })[0],
             (std::array<double, 3>{ { 0., -8e3, 0. } }));
-  EXPECT_EQ(run.dof_map->drives(2.)[1],
+  EXPECT_EQ(body_loads(run.dof_map->bodies(), { 2., 2. })[1],
             (std::array<double, 3>{ { 0., 0., 0. } }));
 
-  Configuration configuration = run.dof_map->configuration(run.state);
+  Configuration configuration
+      = configuration_of(run.dof_map->bodies(), run.state);
   const auto increment = run.vector({ { 9., 0.25, 9. }, { 0., 0., 0. } });
   run.dof_map->move(increment, 1., 3., configuration);
   EXPECT_EQ(configuration.load_time, 3.);
@@ -224,7 +227,7 @@ TEST(DofMap, PlatensMayBeDrivenInPart)
   AlignedArray<NodeVector<2>> force(run.mesh.n_vertices(), { { 1., 1. } });
   auto sums = run.vector();
   run.dof_map->add_forces(force, sums);
-  run.dof_map->add_body_forces(Values(2, { { 1., 1., 1. } }), sums);
+  add_body_forces(run.dof_map->bodies(), Values(2, { { 1., 1., 1. } }), sums);
   EXPECT_EQ(sums(beam.first), 0.);
   EXPECT_EQ(sums(beam.first + 1), 1. + double(beam.nodes.size()));
   EXPECT_EQ(sums(beam.first + 2), 0.);
@@ -242,7 +245,7 @@ TEST(DofMap, TheLastMotionOfANodePrevails)
   PrescribedMotion<2> sides(motion("sides", "sides", "3", ""), nodes);
   const DofMap dof_map(model, { &bottom, &sides }, {}, state);
   EXPECT_EQ(dof_map.prescribed().size(), 3U + 1U + 8U);
-  Configuration configuration = dof_map.configuration(state);
+  Configuration configuration = configuration_of(dof_map.bodies(), state);
   DofMap::Vector ones(dof_map.owned(), MPI_COMM_SELF);
   ones = 1.;
   dof_map.move(ones, 10., 0.5, configuration);

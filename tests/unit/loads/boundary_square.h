@@ -75,9 +75,8 @@ namespace quoin::test
         before.displacement
             = { { state.nodes[node].u[0], state.nodes[node].u[1] } };
         for (unsigned int d = 0; d < 2; ++d)
-          before.owner[d] = constraint.moves_all() || constraint.holds()[d]
-                                ? &constraint
-                                : nullptr;
+          before.owner[d]
+              = constraint.traits().moves(d) ? &constraint : nullptr;
         captured.push_back(before);
       }
       constraint.bind(positions);

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/implicit/rigid_bodies.h>
+#include <quoin/loads/platen.h>
+#include <quoin/blocks/rigid_blocks.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    bool is_driven(const LoadComponent &component)
+    {
+      return component.quantity == LoadQuantity::velocity
+             || component.quantity == LoadQuantity::displacement;
+    }
+  } // namespace
+
+  Configuration configuration_of(const RigidBodies &bodies,
+                                 const State<2> &state)
+  {
+    Configuration result;
+    result.nodes     = state.nodes;
+    result.load_time = state.load_time;
+    result.released  = state.get<ImplicitState>().released;
+    for (const RigidBody &body : bodies)
+      if (body.platen)
+      {
+        const double *d = body.platen->rigid_motion()->displacement(state);
+        result.bodies.push_back({ { d[0], d[1], d[2] } });
+      }
+      else
+      {
+        const RigidBlockState &block
+            = state.get<RigidBlockStates>()[body.rigid_block];
+        result.bodies.push_back({ { block.displacement[0],
+                                    block.displacement[1], block.rotation } });
+      }
+    return result;
+  }
+
+  void write_configuration(const RigidBodies &bodies,
+                           const Configuration &configuration, State<2> &state)
+  {
+    state.nodes                         = configuration.nodes;
+    state.load_time                     = configuration.load_time;
+    state.get<ImplicitState>().released = configuration.released;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      const auto &d = configuration.bodies[b];
+      if (bodies[b].platen)
+        std::copy(
+            d.begin(), d.end(),
+            state.get<PlatenState>(bodies[b].platen->name()).displacement);
+      else
+      {
+        RigidBlockState &block
+            = state.get<RigidBlockStates>()[bodies[b].rigid_block];
+        std::copy(d.begin(), d.begin() + 2, block.displacement);
+        block.rotation = d[2];
+      }
+    }
+  }
+
+  void place_nodes(const RigidBodies &bodies, Configuration &configuration)
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+    {
+      const RigidBody &body = bodies[b];
+      const auto &d         = configuration.bodies[b];
+      const double c = std::cos(d[2]), s = std::sin(d[2]);
+      for (unsigned int i = 0; i < body.nodes.size(); ++i)
+      {
+        NodeRecord<2> &node = configuration.nodes[body.nodes[i]];
+        const auto [x, y]   = body.arms[i];
+        // Terms that nearly cancel are summed first, to keep digits.
+        node.u[0]
+            = body.centre[0] + x - node.X[0] + d[0] + (c - 1.) * x - s * y;
+        node.u[1]
+            = body.centre[1] + y - node.X[1] + d[1] + s * x + (c - 1.) * y;
+      }
+    }
+  }
+
+  void sum_of_platens(const RigidBodies &bodies, BodyValues &values,
+                      const MPI_Comm communicator)
+  {
+    const unsigned int n = std::count_if(bodies.begin(), bodies.end(),
+                                         [](const RigidBody &body)
+                                         { return body.platen != nullptr; });
+    if (n > 0)
+      MPI_Allreduce(MPI_IN_PLACE, values.data(), 3 * n, MPI_DOUBLE, MPI_SUM,
+                    communicator);
+  }
+
+  BodyValues body_forces(const RigidBodies &bodies,
+                         const AlignedArray<NodeVector<2>> &force,
+                         const MPI_Comm communicator)
+  {
+    BodyValues result(bodies.size(), { { 0., 0., 0. } });
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int i = 0; i < bodies[b].nodes.size(); ++i)
+      {
+        const double *f = force[bodies[b].nodes[i]].v;
+        const auto &arm = bodies[b].present_arms[i];
+        result[b][0] += f[0];
+        result[b][1] += f[1];
+        result[b][2] += arm[0] * f[1] - arm[1] * f[0];
+      }
+    sum_of_platens(bodies, result, communicator);
+    return result;
+  }
+
+  BodyValues body_loads(const RigidBodies &bodies, const TimePoint &time)
+  {
+    BodyValues result(bodies.size(), { { 0., 0., 0. } });
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+        if (bodies[b].platen && !is_driven((*bodies[b].platen->parts())[d]))
+          result[b][d] = (*bodies[b].platen->parts())[d].value(time);
+    return result;
+  }
+
+  double held_force(const RigidBodies &bodies, const ImplicitState &state,
+                    const unsigned int b, const unsigned int d)
+  {
+    return bodies[b].platen ? state.held_platens[3 * b + d]
+                            : state.held_blocks[3 * bodies[b].rigid_block + d];
+  }
+
+  void add_body_forces(const RigidBodies &bodies, const BodyValues &force,
+                       dealii::TrilinosWrappers::MPI::Vector &right_hand_side)
+  {
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      for (unsigned int d = 0; d < 3; ++d)
+        if (bodies[b].counts && !bodies[b].given[d])
+          right_hand_side(bodies[b].first + d) += force[b][d];
+  }
+} // namespace quoin
