@@ -9,11 +9,11 @@ Line(1) = {1, 2};
 Line(2) = {2, 3};
 Line(3) = {3, 4};
 Line(4) = {4, 1};
-Transfinite Curve{1, 3} = 1 / h + 1;
-Transfinite Curve{2, 4} = 0.8 / h + 1;
+Transfinite Curve{1, 3} = Round(1 / h) + 1;
+Transfinite Curve{2, 4} = Round(0.8 / h) + 1;
 Curve Loop(1) = {1, 2, 3, 4};
 Plane Surface(1) = {1};
 Transfinite Surface{1} Alternate;
-made[] = Extrude {0, 0, 0.6} { Surface{1}; Layers{0.6 / h}; };
+made[] = Extrude {0, 0, 0.6} { Surface{1}; Layers{Round(0.6 / h)}; };
 
 Physical Volume("block") = {made[1]};

@@ -21,7 +21,7 @@ namespace
     LoadParameters result
         = test::load(name, type, side, quantity, along[0], along[2]);
     result.lateral = component(quantity, along[1]);
-    return result;
+    return result.along_axes<3>();
   }
 
   LoadParameters held(const std::string &side,
