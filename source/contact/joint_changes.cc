@@ -92,16 +92,22 @@ namespace quoin
     const JointHistory &history = state.get<JointHistory>();
     const JointSegment &segment = joints.segments()[i];
     const JointFrame local      = joint_frame(segment, state.nodes.data());
+    double couple               = 0.;
     for (unsigned int k = 0; k < 2; ++k)
+    {
+      const auto [opening, slip]
+          = joint_gap(segment, local, state.nodes.data(), k);
+      const double sigma = segment.area[k] * history.normal_traction[2 * i + k];
+      const double tau   = segment.area[k] * history.shear_traction[2 * i + k];
+      couple += tau * opening - sigma * slip;
       for (unsigned int d = 0; d < 2; ++d)
       {
-        const double f
-            = segment.area[k]
-              * (history.normal_traction[2 * i + k] * local.normal[d]
-                 + history.shear_traction[2 * i + k] * local.tangent[d]);
+        const double f = sigma * local.normal[d] + tau * local.tangent[d];
         force[segment.lower[k]].v[d] += f;
         force[segment.upper[k]].v[d] -= f;
       }
+    }
+    subtract_couple(segment, local, couple, force);
   }
 
   void detach_joint(const unsigned int i, JointHistory &history)

@@ -132,6 +132,7 @@ namespace quoin
     constexpr unsigned int chunk = 32;
     std::array<JointFrame, chunk> frames;
     std::array<std::array<double, 2>, 2 * chunk> gaps;
+    std::array<double, chunk> couples;
 
     const unsigned int end = set_begin[set + 1];
     for (unsigned int begin = set_begin[set]; begin < end; begin += chunk)
@@ -141,6 +142,7 @@ namespace quoin
       {
         const JointSegment &segment = all_segments[begin + j];
         frames[j]                   = joint_frame(segment, nodes);
+        couples[j]                  = 0.;
         for (unsigned int k = 0; k < 2; ++k)
           gaps[2 * j + k] = joint_gap(segment, frames[j], nodes, k);
       }
@@ -157,8 +159,9 @@ namespace quoin
             = advance_joint(law, opening, slip, segment.area[k] * segment.share,
                             history, p, energy);
 
-        const double sigma   = segment.area[k] * point.normal_traction;
-        const double tau     = segment.area[k] * point.shear_traction;
+        const double sigma = segment.area[k] * point.normal_traction;
+        const double tau   = segment.area[k] * point.shear_traction;
+        couples[j / 2] += tau * opening - sigma * slip;
         NodeVector<2> &lower = force[segment.lower[k]];
         NodeVector<2> &upper = force[segment.upper[k]];
         for (unsigned int d = 0; d < 2; ++d)
@@ -168,6 +171,8 @@ namespace quoin
           upper.v[d] -= f;
         }
       }
+      for (unsigned int j = 0; j < n; ++j)
+        subtract_couple(all_segments[begin + j], frames[j], couples[j], force);
     }
   }
 
@@ -227,33 +232,40 @@ namespace quoin
     {
       const JointSegment &segment = all_segments[i];
       const JointFrame local      = joint_frame(segment, nodes);
+      const double turn           = rotation_rate(segment, local, velocity);
+      double couple               = 0.;
       for (unsigned int k = 0; k < 2; ++k)
       {
         const JointState state = history.state[2 * i + k];
         if (state == JointState::slipping || state == JointState::open)
           continue;
-        const double *a = velocity[segment.lower[k]].v;
-        const double *b = velocity[segment.upper[k]].v;
-        const double opening_rate
-            = (b[0] - a[0]) * local.normal[0] + (b[1] - a[1]) * local.normal[1];
+        const double *a            = velocity[segment.lower[k]].v;
+        const double *b            = velocity[segment.upper[k]].v;
+        const auto [opening, slip] = joint_gap(segment, local, nodes, k);
+        const double opening_rate  = (b[0] - a[0]) * local.normal[0]
+                                    + (b[1] - a[1]) * local.normal[1]
+                                    - slip * turn;
         const double slip_rate = (b[0] - a[0]) * local.tangent[0]
-                                 + (b[1] - a[1]) * local.tangent[1];
+                                 + (b[1] - a[1]) * local.tangent[1]
+                                 + opening * turn;
         std::array<double, 2> stiffness;
         std::visit(
             [&](const auto &law) {
               stiffness = law.stiffness_at(history.normal_traction[2 * i + k]);
             },
             all_laws[segment.set]);
-        const double sigma = beta * stiffness[0] * opening_rate;
-        const double tau   = beta * stiffness[1] * slip_rate;
+        const double sigma
+            = segment.area[k] * beta * stiffness[0] * opening_rate;
+        const double tau = segment.area[k] * beta * stiffness[1] * slip_rate;
+        couple += tau * opening - sigma * slip;
         for (unsigned int d = 0; d < 2; ++d)
         {
-          const double f = segment.area[k]
-                           * (sigma * local.normal[d] + tau * local.tangent[d]);
+          const double f = sigma * local.normal[d] + tau * local.tangent[d];
           force[segment.lower[k]].v[d] += f;
           force[segment.upper[k]].v[d] -= f;
         }
       }
+      subtract_couple(segment, local, couple, force);
     }
   }
 

@@ -70,30 +70,32 @@ namespace quoin
       return result;
     }
 
-    /**
-     * How the frame of four nodes turns with their displacements [1/m]:
-     * d phi = (E x dE) / |E|^2, E the sum of both edges.
-     */
-    Row turn_of_frame(const NodeRecord<2> *nodes,
-                      const std::array<unsigned int, 4> &corners)
+    /** How the frame turns with the displacements of its four nodes [1/m]:
+        d phi = (E x dE)/|E|^2, E the sum of both edges. */
+    Row turn_of_frame(const JointFrame &frame)
     {
-      double edge[2] = { 0., 0. };
-      for (unsigned int d = 0; d < 2; ++d)
-        for (const unsigned int side : { 0U, 2U })
-        {
-          const NodeRecord<2> &a = nodes[corners[side]];
-          const NodeRecord<2> &b = nodes[corners[side + 1]];
-          edge[d] += (b.X[d] - a.X[d]) + (b.u[d] - a.u[d]);
-        }
-      const double square = edge[0] * edge[0] + edge[1] * edge[1];
       Row turn;
-      for (unsigned int node = 0; node < 4; ++node)
-      {
-        const double direction = node % 2 == 1 ? 1. : -1.;
-        turn[2 * node]         = -direction * edge[1] / square;
-        turn[2 * node + 1]     = direction * edge[0] / square;
-      }
+      for (unsigned int i = 0; i < 8; ++i)
+        turn[i] = (i / 2 % 2 == 1 ? -1. : 1.) * frame.normal[i % 2]
+                  * frame.inverse_length;
       return turn;
+    }
+
+    /** 1 at the upper node of point @p k, -1 at the lower one, else 0. */
+    double side_of(const unsigned int node, const unsigned int k)
+    {
+      return node == 2 + k ? 1. : node == k ? -1. : 0.;
+    }
+
+    /** The second derivative of phi by components @p i and @p j of its nodes'
+        displacements [1/m^2]. */
+    double second_turn(const JointFrame &frame, const unsigned int i,
+                       const unsigned int j)
+    {
+      const double sign = (i / 2 + j / 2) % 2 == 1 ? -1. : 1.;
+      const double *n = frame.normal, *s = frame.tangent;
+      return -sign * (s[i % 2] * n[j % 2] + n[i % 2] * s[j % 2])
+             * frame.inverse_length * frame.inverse_length;
     }
   } // namespace
 
@@ -138,8 +140,8 @@ namespace quoin
     if (history.handed_over[i])
       return;
 
-    const Row turn
-        = with_stiffness ? turn_of_frame(nodes, result.nodes) : Row();
+    const Row turn = turn_of_frame(local);
+    double couple  = 0.;
     for (unsigned int k = 0; k < 2; ++k)
     {
       const auto local_gap = joint_gap(segment, local, nodes, k);
@@ -158,44 +160,48 @@ namespace quoin
                           * (point.opens * point.plastic_opening
                              + point.slips * point.plastic_slip);
 
-      const double sigma       = history.normal_traction[p];
-      const double tau         = history.shear_traction[p];
-      const unsigned int lower = 2 * k, upper = 4 + 2 * k;
-      for (unsigned int d = 0; d < 2; ++d)
+      const double sigma = area * history.normal_traction[p];
+      const double tau   = area * history.shear_traction[p];
+      // How opening and slip change with the displacements of the nodes.
+      Row by_opening, by_slip;
+      for (unsigned int j = 0; j < 8; ++j)
       {
-        const double traction
-            = sigma * local.normal[d] + tau * local.tangent[d];
-        result.force[lower + d] += area * traction;
-        result.force[upper + d] -= area * traction;
+        const double side = side_of(j / 2, k);
+        by_opening[j]     = side * local.normal[j % 2] - slip * turn[j];
+        by_slip[j]        = side * local.tangent[j % 2] + opening * turn[j];
+        result.force[j] -= sigma * by_opening[j] + tau * by_slip[j];
       }
+      couple += tau * opening - sigma * slip;
       const JointTangent<2> &tangent = point.tangent;
       for (unsigned int j = 0; with_stiffness && j < 8; ++j)
       {
-        const unsigned int d = j % 2;
-        const double side    = j - d == upper ? 1. : j - d == lower ? -1. : 0.;
-        const double d_opening = side * local.normal[d] - slip * turn[j];
-        const double d_slip    = side * local.tangent[d] + opening * turn[j];
-        const double d_sigma
-            = tangent.normal_opening * d_opening + tangent.normal_slip * d_slip;
-        const double d_tau
-            = tangent.shear_opening * d_opening + tangent.shear_slip * d_slip;
-        for (unsigned int e = 0; e < 2; ++e)
+        const double d_sigma = tangent.normal_opening * by_opening[j]
+                               + tangent.normal_slip * by_slip[j];
+        const double d_tau = tangent.shear_opening * by_opening[j]
+                             + tangent.shear_slip * by_slip[j];
+        for (unsigned int i = 0; i < 8; ++i)
         {
-          const double change
-              = area
-                * ((d_sigma + tau * turn[j]) * local.normal[e]
-                   + (d_tau - sigma * turn[j]) * local.tangent[e]);
-          result.stiffness[lower + e][j] -= change;
-          result.stiffness[upper + e][j] += change;
+          const double side = side_of(i / 2, k);
+          result.stiffness[i][j]
+              += area * (d_sigma * by_opening[i] + d_tau * by_slip[i])
+                 + sigma
+                       * (-side * local.tangent[i % 2] * turn[j]
+                          - turn[i] * by_slip[j])
+                 + tau
+                       * (side * local.normal[i % 2] * turn[j]
+                          + turn[i] * by_opening[j]);
         }
         result.inelastic_gradient[j]
             += area
-               * (point.opens * (d_opening - d_sigma / point.stiffness[0])
+               * (point.opens * (by_opening[j] - d_sigma / point.stiffness[0])
                   + point.slips
-                        * (d_slip - d_tau / point.stiffness[1]
+                        * (by_slip[j] - d_tau / point.stiffness[1]
                            - point.slip_by_pressure * d_sigma));
       }
     }
+    for (unsigned int j = 0; with_stiffness && j < 8; ++j)
+      for (unsigned int i = 0; i < 8; ++i)
+        result.stiffness[i][j] += couple * second_turn(local, i, j);
   }
 
   double MatchedJoints::excess(const unsigned int p,

@@ -235,15 +235,15 @@ namespace quoin
     const auto work = [&](const VectorXd &traction, const VectorXd &velocity)
     { return dt * traction.cwiseProduct(area).dot(velocity); };
     const double radiated = work(scattered, mean - incident_velocity);
-    far.radiated += radiated;
-    far.incident += radiated - work(total, mean);
-    far.substep_sum
+    far.ledger.radiated += radiated;
+    far.ledger.incident += radiated - work(total, mean);
+    far.ledger.substeps
         += far.square_sum
            - far.duration * (impedance * mean).cwiseProduct(area).dot(mean);
     const double scale = total.cwiseAbs().maxCoeff();
     if (scale > 0.)
-      far.mismatch
-          = std::max(far.mismatch,
+      far.ledger.mismatch
+          = std::max(far.ledger.mismatch,
                      (total - frozen - impedance * mean).cwiseAbs().maxCoeff()
                          / std::max(scale, frozen.cwiseAbs().maxCoeff()));
 
@@ -252,9 +252,9 @@ namespace quoin
           unknowns, to_eigen(far.traction_sum) / double(substeps) - incident_p);
     else
       marching->finish_step();
-    far.given += marching->p()
-                     .cwiseProduct(outer_area)
-                     .dot(marching->u() - to_eigen(far.displacement));
+    far.ledger.given += marching->p()
+                            .cwiseProduct(outer_area)
+                            .dot(marching->u() - to_eigen(far.displacement));
     far.last_motion = to_vector(motion);
     far.velocity = to_vector((marching->u() - to_eigen(far.displacement)) / dt);
     far.displacement = to_vector(marching->u());
@@ -422,39 +422,21 @@ namespace quoin
       finish_element_step(state);
   }
 
-  FarField::Ledger FarField::ledger(const State<2> &state) const
+  FarField::TotalFields FarField::total_fields(const State<2> &state) const
   {
     const FarFieldState &far = state.get<FarFieldState>();
-    return { far.radiated, far.substep_sum, far.incident, far.given,
-             far.mismatch };
-  }
-
-  VectorXd FarField::displacement(const State<2> &state) const
-  {
-    VectorXd u = to_eigen(state.get<FarFieldState>().displacement);
+    TotalFields fields{ to_eigen(far.displacement), to_eigen(far.velocity),
+                        to_eigen(far.traction) };
+    const auto n_steps = double(far.n_steps);
     if (incident_displacement)
-      u += incident_displacement(double(state.get<FarFieldState>().n_steps)
-                                 * dt);
-    return u;
-  }
-
-  VectorXd FarField::velocity(const State<2> &state) const
-  {
-    VectorXd v         = to_eigen(state.get<FarFieldState>().velocity);
-    const auto n_steps = double(state.get<FarFieldState>().n_steps);
+      fields.displacement += incident_displacement(n_steps * dt);
     if (incident_displacement && n_steps > 0.)
-      v += (incident_displacement(n_steps * dt)
-            - incident_displacement((n_steps - 1.) * dt))
-           / dt;
-    return v;
-  }
-
-  VectorXd FarField::traction(const State<2> &state) const
-  {
-    VectorXd t         = to_eigen(state.get<FarFieldState>().traction);
-    const auto n_steps = double(state.get<FarFieldState>().n_steps);
-    if (incident_displacement && n_steps > 0.)
-      t += incident_traction((n_steps - 1.) * dt, n_steps * dt);
-    return t;
+    {
+      fields.velocity += (incident_displacement(n_steps * dt)
+                          - incident_displacement((n_steps - 1.) * dt))
+                         / dt;
+      fields.traction += incident_traction((n_steps - 1.) * dt, n_steps * dt);
+    }
+    return fields;
   }
 } // namespace quoin

@@ -152,12 +152,12 @@ namespace quoin
   template <>
   void BlockOutputs<2>::write_far_field_row(const State<2> &state)
   {
-    const FarField::Ledger ledger
-        = system.solver->far_fields().elastodynamic->ledger(state);
-    const double taken = ledger.radiated + ledger.given;
-    largest_throughput = std::max(
-        { largest_throughput, std::abs(ledger.radiated), std::abs(ledger.given),
-          system.solver->energies().throughput() });
+    const FarFieldState &far     = state.get<FarFieldState>();
+    const FarFieldLedger &ledger = far.ledger;
+    const double taken           = ledger.radiated + ledger.given;
+    largest_throughput           = std::max(
+                  { largest_throughput, std::abs(ledger.radiated), std::abs(ledger.given),
+                    system.solver->energies().throughput() });
     if (taken < -largest_created_share * largest_throughput)
       throw RunError(
           text_of("the boundary elements have created energy, ", -taken,
@@ -166,10 +166,9 @@ namespace quoin
                   "ratio' or 'Formulation' in section 'Boundary elements' "
                   "until the passivity scan finds nothing, or damp the "
                   "blocks."));
-    far_field_table->add_row(
-        { state.time, double(state.get<FarFieldState>().n_steps),
-          ledger.radiated, ledger.substeps, ledger.incident, ledger.given,
-          ledger.mismatch });
+    far_field_table->add_row({ state.time, double(far.n_steps), ledger.radiated,
+                               ledger.substeps, ledger.incident, ledger.given,
+                               ledger.mismatch });
   }
 
   template <>

@@ -133,8 +133,9 @@ namespace quoin
 
   BoundaryState boundary_state(const FarField &far, const State<2> &state)
   {
+    const FarField::TotalFields fields = far.total_fields(state);
     BoundaryState result{
-      far.displacement(state), far.velocity(state), far.traction(state), {}
+      fields.displacement, fields.velocity, fields.traction, {}
     };
     result.hoop_stress
         = TangentialStress(far.domain().boundary, far.domain().medium)(

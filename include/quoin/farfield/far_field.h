@@ -63,6 +63,22 @@ namespace quoin
     std::function<Eigen::VectorXd(double begin, double end)> given;
   };
 
+  /** Energies of the boundary elements' steps finished so far [J]. */
+  struct FarFieldLedger
+  {
+    /** Work of the scattered tractions on the scattered motion. */
+    double radiated = 0.;
+    /** Energy lost in the block steps of a boundary element step: not negative.
+     */
+    double substeps = 0.;
+    /** Energy from the incident field. */
+    double incident = 0.;
+    /** Work like radiated on the rest of the boundary, by boundary values. */
+    double given = 0.;
+    /** Largest |p - (p_h + Z0 v)| by the largest p: rounding [-]. */
+    double mismatch = 0.;
+  };
+
   /** Boundary elements coupled to the blocks; see FarField. */
   struct FarFieldState
   {
@@ -79,12 +95,7 @@ namespace quoin
     std::vector<double> traction_sum; /**< over block steps [Pa] */
     double duration   = 0.;           /**< of those block steps [s] */
     double square_sum = 0.;           /**< of v Z0 v over block steps [J] */
-    // As FarField::Ledger says.
-    double radiated    = 0.; /**< [J] */
-    double substep_sum = 0.; /**< its substeps [J] */
-    double incident    = 0.; /**< [J] */
-    double given       = 0.; /**< [J] */
-    double mismatch    = 0.; /**< [-] */
+    FarFieldLedger ledger;
     /** Scattered field of all boundary elements in the last step: [m], [m/s],
         [Pa]. */
     std::vector<double> displacement, velocity, traction;
@@ -96,8 +107,9 @@ namespace quoin
       visitor.same(active, n_steps, substep);
       visitor.own(held, 2);
       visitor.same(last_motion, origin, frozen, velocity_sum, traction_sum,
-                   duration, square_sum, radiated, substep_sum, incident, given,
-                   mismatch, displacement, velocity, traction);
+                   duration, square_sum, ledger.radiated, ledger.substeps,
+                   ledger.incident, ledger.given, ledger.mismatch, displacement,
+                   velocity, traction);
       history.visit(visitor);
     }
 
@@ -125,22 +137,6 @@ namespace quoin
   class FarField : public MotionConstraint<2>
   {
   public:
-    /** Energies of the steps finished so far [J]. */
-    struct Ledger
-    {
-      /** Work of the scattered tractions on the scattered motion. */
-      double radiated = 0.;
-      /** Energy lost in the block steps of a boundary element step: not
-       * negative. */
-      double substeps = 0.;
-      /** Energy from the incident field. */
-      double incident = 0.;
-      /** Work like radiated on the rest of the boundary, by boundary values. */
-      double given = 0.;
-      /** Largest |p - (p_h + Z0 v)| by the largest p: rounding. */
-      double mismatch = 0.;
-    };
-
     /**
      * @p faces: of all ranks, along the interface; see faces_of_curves().
      * Throws an InputError that begins with the section.
@@ -194,12 +190,15 @@ namespace quoin
       return *history;
     }
 
-    Ledger ledger(const State<2> &state) const;
-
-    /** Total fields on the boundary after the last step [m], [m/s], [Pa]. */
-    Eigen::VectorXd displacement(const State<2> &state) const;
-    Eigen::VectorXd velocity(const State<2> &state) const;
-    Eigen::VectorXd traction(const State<2> &state) const;
+    /** Total fields on the boundary, two entries per element. */
+    struct TotalFields
+    {
+      Eigen::VectorXd displacement; /**< [m] */
+      Eigen::VectorXd velocity;     /**< mean over the step [m/s] */
+      Eigen::VectorXd traction;     /**< [Pa] */
+    };
+    /** Those after the last step. */
+    TotalFields total_fields(const State<2> &state) const;
 
     void prepare(State<2> &state) const override;
     void begin_stage(State<2> &state, bool continues) override;

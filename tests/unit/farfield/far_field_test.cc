@@ -129,8 +129,9 @@ TEST(FarField, ResistsMotionByTheImpedanceOfWhatIsBeyond)
                     / work,
                 0., 1e-9);
     // The elements' own books say the same.
-    EXPECT_NEAR(block.far->ledger(block.state).radiated / work, 1., 0.05);
-    EXPECT_LT(block.far->ledger(block.state).mismatch, 1e-9);
+    EXPECT_NEAR(block.state.get<FarFieldState>().ledger.radiated / work, 1.,
+                0.05);
+    EXPECT_LT(block.state.get<FarFieldState>().ledger.mismatch, 1e-9);
   }
 }
 
