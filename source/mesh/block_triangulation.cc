@@ -266,6 +266,31 @@ namespace quoin
   } // namespace
 
   template <int dim>
+  void CellTriangulation<dim>::create_triangulation(
+      const dealii::TriangulationDescription::Description<dim, dim>
+          &description)
+  {
+    const auto &ids = description.coarse_cell_index_to_coarse_cell_id;
+    runs.clear();
+    for (unsigned int i = 0; i < ids.size(); ++i)
+      if (i == 0 || ids[i] != ids[i - 1] + 1)
+        runs.emplace_back(ids[i], i);
+    dealii::parallel::fullydistributed::Triangulation<
+        dim>::create_triangulation(description);
+  }
+
+  template <int dim>
+  unsigned int CellTriangulation<dim>::coarse_cell_id_to_coarse_cell_index(
+      const dealii::types::coarse_cell_id id) const
+  {
+    const auto next = std::upper_bound(runs.begin(), runs.end(), id,
+                                       [](const auto value, const auto &run)
+                                       { return value < run.first; });
+    const auto &run = *std::prev(next);
+    return run.second + (id - run.first);
+  }
+
+  template <int dim>
   BlockTriangulation<dim>::BlockTriangulation(
       BlockMesh<dim> &mesh, const std::vector<unsigned int> &rank_of_cell,
       const std::vector<bool> &is_rigid, const MPI_Comm communicator)
@@ -299,6 +324,8 @@ namespace quoin
     cells.create_triangulation(own.description);
   }
 
+  template class CellTriangulation<2>;
+  template class CellTriangulation<3>;
   template class BlockTriangulation<2>;
   template class BlockTriangulation<3>;
 } // namespace quoin

@@ -342,9 +342,7 @@ namespace quoin
       const auto motions_of_body = free_motions<dim>(bodies.gram(b));
       if (motions_of_body.empty())
         continue;
-      const auto [low, high] = box_of_block(model.nodes(), b);
-      found.push_back({ b, 0, low + 0.5 * (high - low),
-                        motions_of_body.size() == n_motions<dim> });
+      found.push_back({ b, 0, {}, motions_of_body.size() == n_motions<dim> });
       motions.push_back(motions_of_body);
     }
     std::vector<bool> is_pushed(found.size(), false);
@@ -360,7 +358,9 @@ namespace quoin
     for (unsigned int i = 0; i < found.size(); ++i)
       if (is_pushed[i])
       {
-        found[i].n_blocks = n_blocks[bodies.body(found[i].block)];
+        found[i].n_blocks      = n_blocks[bodies.body(found[i].block)];
+        const auto [low, high] = box_of_block(model.nodes(), found[i].block);
+        found[i].centre        = low + 0.5 * (high - low);
         result.push_back(found[i]);
       }
     return result;

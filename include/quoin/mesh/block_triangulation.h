@@ -15,6 +15,31 @@
 namespace quoin
 {
   /**
+   * A distributed triangulation that finds the local index of a coarse cell by
+   * bisection among runs of consecutive ids, of which there are few, not among
+   * all ids: deal.II looks up both cells in each comparison of a sort.
+   */
+  template <int dim>
+  class CellTriangulation
+    : public dealii::parallel::fullydistributed::Triangulation<dim>
+  {
+  public:
+    using dealii::parallel::fullydistributed::Triangulation<dim>::Triangulation;
+
+    /** As that of the base, whose coarse cells have ascending ids. */
+    void create_triangulation(
+        const dealii::TriangulationDescription::Description<dim, dim>
+            &description) override;
+
+  private:
+    unsigned int coarse_cell_id_to_coarse_cell_index(
+        dealii::types::coarse_cell_id id) const override;
+
+    /** First id and first index of each run. */
+    std::vector<std::pair<dealii::types::coarse_cell_id, unsigned int>> runs;
+  };
+
+  /**
    * The mesh of record: a distributed triangulation of all blocks, which are
    * its disconnected parts, and the joints between them. Each rank has the
    * cells that it owns and, where a block is distributed over several ranks,
@@ -73,7 +98,7 @@ namespace quoin
     }
 
   private:
-    Triangulation cells;
+    CellTriangulation<dim> cells;
     JointMap<dim> joint_map;
     BlockTable<dim> block_table;
     std::vector<unsigned int> vertices;
