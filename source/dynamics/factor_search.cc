@@ -39,10 +39,14 @@ namespace quoin
                      "which the search for the factor of safety ends; at least "
                      "a millionth of 'Highest factor' [-]");
     entries.nonnegative("Failure displacement", failure_displacement,
-                        "A trial of a factor is unstable when the largest "
-                        "displacement since its start exceeds this and has "
-                        "grown by half or more since half of the time; 0: a "
-                        "thousandth of the model's diagonal [m]");
+                        "A trial of a factor fails when the largest "
+                        "displacement since its start exceeds this and keeps "
+                        "growing, by 1.8 times in each of the last two "
+                        "doublings of the time; 0: ten times the mean "
+                        "displacement by which the loads have deformed blocks "
+                        "and joints, twice their stored energy by the weights "
+                        "and tractions, or a thousandth of the model's "
+                        "diagonal if there are none [m]");
     entries.choice("Reduced strength", reduced,
                    { { "joints and blocks", all },
                      { "joints", joints },
@@ -64,30 +68,79 @@ namespace quoin
                     "would not end. Give a larger one.");
   }
 
+  const char *verdict_text(const Verdict verdict)
+  {
+    switch (verdict)
+    {
+    case Verdict::stable:
+      return "stable";
+    case Verdict::failing:
+      return "failing";
+    default:
+      return "undecided";
+    }
+  }
+
+  std::optional<std::array<double, 2>> FactorSearch::undecided() const
+  {
+    std::optional<std::array<double, 2>> range;
+    for (const SafetyTrial &trial : all_trials)
+      if (trial.verdict == Verdict::undecided && trial.factor > stable
+          && trial.factor < failing)
+        range
+            = range
+                  ? std::array<double, 2>{ std::min((*range)[0], trial.factor),
+                                           std::max((*range)[1], trial.factor) }
+                  : std::array<double, 2>{ trial.factor, trial.factor };
+    return range;
+  }
+
   double FactorSearch::next(const SafetyParameters &parameters) const
   {
     if (all_trials.empty())
       return parameters.first;
+    const auto open = undecided();
     if (stable == 0.)
-      return std::max(parameters.lowest, failing / step);
+      return std::max(parameters.lowest, (open ? (*open)[0] : failing) / step);
     if (std::isinf(failing))
-      return std::min(parameters.highest, stable * step);
-    return 0.5 * (stable + failing);
+      return std::min(parameters.highest, (open ? (*open)[1] : stable) * step);
+    if (!open)
+      return 0.5 * (stable + failing);
+    return (*open)[0] - stable > failing - (*open)[1]
+               ? 0.5 * (stable + (*open)[0])
+               : 0.5 * ((*open)[1] + failing);
   }
 
   void FactorSearch::add(const SafetyTrial &trial)
   {
     all_trials.push_back(trial);
-    if (trial.is_stable)
+    if (trial.verdict == Verdict::stable)
       stable = std::max(stable, trial.factor);
-    else
+    if (trial.verdict == Verdict::failing)
       failing = std::min(failing, trial.factor);
   }
 
   bool FactorSearch::has_ended(const SafetyParameters &parameters) const
   {
-    return (stable > 0. && failing - stable <= parameters.tolerance)
-           || stable >= parameters.highest || failing <= parameters.lowest;
+    if (all_trials.empty())
+      return false;
+    const auto open          = undecided();
+    const double not_stable  = open ? (*open)[0] : failing;
+    const double not_failing = open ? (*open)[1] : stable;
+    if (stable == 0.)
+      return not_stable <= parameters.lowest;
+    if (std::isinf(failing))
+      return not_failing >= parameters.highest;
+    return not_stable - stable <= parameters.tolerance
+           && failing - not_failing <= parameters.tolerance;
+  }
+
+  std::uint64_t FactorSearch::n_steps() const
+  {
+    std::uint64_t n = 0;
+    for (const SafetyTrial &trial : all_trials)
+      n += trial.n_steps;
+    return n;
   }
 
   std::string FactorSearch::table() const
@@ -97,9 +150,33 @@ namespace quoin
     text << "factor [-],stable,decided,steps,unbalanced ratio [-],largest "
             "displacement [m]\n";
     for (const SafetyTrial &trial : all_trials)
-      text << trial.factor << "," << trial.is_stable << "," << trial.is_decided
-           << "," << trial.n_steps << "," << trial.unbalanced_ratio << ","
-           << trial.displacement << "\n";
+      text << trial.factor << "," << (trial.verdict == Verdict::stable) << ","
+           << (trial.verdict != Verdict::undecided) << "," << trial.n_steps
+           << "," << trial.unbalanced_ratio << "," << trial.displacement
+           << "\n";
     return text.str();
+  }
+
+  bool FailureWatch::has_failed(const double time, const double displacement)
+  {
+    times.push_back(time);
+    displacements.push_back(displacement);
+    const double passed = time - start;
+    if (displacement <= limit || passed <= 0. || times[0] - start > passed / 4.)
+      return false;
+    const double half = displacement_at(passed / 2.);
+    return displacement >= growth * half
+           && half >= growth * displacement_at(passed / 4.);
+  }
+
+  double FailureWatch::displacement_at(const double time) const
+  {
+    const auto after
+        = std::lower_bound(times.begin(), times.end(), start + time);
+    const std::size_t i = std::max<std::ptrdiff_t>(1, after - times.begin());
+    const double share
+        = (start + time - times[i - 1]) / (times[i] - times[i - 1]);
+    return displacements[i - 1]
+           + share * (displacements[i] - displacements[i - 1]);
   }
 } // namespace quoin

@@ -75,7 +75,7 @@ namespace quoin
                      "rate of kinetic energy; Rayleigh: alpha and beta. "
                      "Explicit stages that settle need one, or a viscous or "
                      "free-field boundary.");
-      double local_coefficient = 0.8;
+      double local_coefficient = default_local_damping;
       if (entries.reads_if(stage.damping == DampingType::local))
       {
         entries.within("Local damping coefficient", local_coefficient, 0.,
@@ -145,7 +145,7 @@ namespace quoin
       entries.integer("Maximum steps", stage.maximum_steps, 1,
                       "Number of steps after which a stage that has not "
                       "settled ends the run as failed, and a trial of a "
-                      "factor of safety counts as failing [-]");
+                      "factor of safety is undecided [-]");
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;

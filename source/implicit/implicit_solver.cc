@@ -234,14 +234,14 @@ namespace quoin
   ImplicitSolver::choose_target(const State<2> &state) const
   {
     const ImplicitState &now = state.get<ImplicitState>();
+    if (now.jumps)
+      return { now.jump_time, 1., 0. };
     if (now.released < 1.)
     {
       const double next = now.released + now.step;
       return { state.load_time, next > 1. - 1e-9 ? 1. : next, 0. };
     }
     double next = state.load_time + now.step * stage_duration;
-    if (now.jumps)
-      return { now.jump_time, 1., 0. };
     if (now.follows_path)
       return { next, 1., now.path_step };
     if (next > stage_duration * (1. - 1e-9))
@@ -294,7 +294,9 @@ namespace quoin
     ImplicitState &now = state.get<ImplicitState>();
     now.jump_loss += state.energy.damping - before.energy.damping;
     ++now.n_drag;
-    if (now.n_drag >= most_drag_steps || has_gone_far(state))
+    now.drag_time += now.drag_step;
+    // A search for the factor of safety judges by itself how far it goes.
+    if (now.n_drag >= most_drag_steps || (!stage.safety && has_gone_far(state)))
       give_up(state);
     if (iteration <= parameters.wanted_iterations
         && std::abs(balance.path)
@@ -346,11 +348,13 @@ namespace quoin
   bool ImplicitSolver::begin_jump(State<2> &state) const
   {
     ImplicitState &now = state.get<ImplicitState>();
-    if (!parameters.jumps || now.released < 1.)
+    // A search for the factor of safety asks whether the model goes on moving.
+    if (!stage.safety && (!parameters.jumps || now.released < 1.))
       return false;
     now.follows_path = false;
     now.jumps        = true;
     now.n_drag       = 0;
+    now.drag_time    = 0.;
     now.jump_loss    = 0.;
     now.drag_step    = first_drag_step;
     now.jump_time    = std::min(

@@ -321,11 +321,17 @@ namespace quoin
     for (unsigned int i = 0; i < context.searches.size(); ++i)
     {
       const FactorSearch &search = context.searches[i];
+      if (search.trials().empty())
+        continue;
+      nlohmann::json &result
+          = summary["factor of safety"][parameters.stages[i].name];
+      result = { { "stable at", search.highest_stable() },
+                 { "trials", search.trials().size() },
+                 { "trial steps", search.n_steps() } };
       if (std::isfinite(search.lowest_failing()))
-        summary["factor of safety"][parameters.stages[i].name]
-            = { { "stable at", search.highest_stable() },
-                { "failing at", search.lowest_failing() },
-                { "trials", search.trials().size() } };
+        result["failing at"] = search.lowest_failing();
+      if (const auto open = search.undecided())
+        result["undecided"] = *open;
     }
   }
 
@@ -384,7 +390,14 @@ namespace quoin
               ? "."
               : "; blocks that turn or slide far need 'Displacements = large' "
                 "in section 'Contact'.");
-    ClosingLines words{ text_of(state.step, " steps"),
+    const std::uint64_t n_trial_steps = std::accumulate(
+        context.searches.begin(), context.searches.end(), std::uint64_t(0),
+        [](const std::uint64_t n, const FactorSearch &search)
+        { return n + search.n_steps(); });
+    ClosingLines words{ text_of(state.step, " steps",
+                                n_trial_steps > 0 ? text_of(
+                                    " and ", n_trial_steps, " of trials")
+                                                  : ""),
                         text_of(system.implicit_solver
                                     ? text_of(context.iterations, " iterations")
                                     : millions("element updates per second")

@@ -180,9 +180,11 @@ namespace quoin
   template <int dim>
   void BlockSystem<dim>::begin_stage(const unsigned int index,
                                      State<dim> &state,
-                                     const bool time_is_known)
+                                     const bool time_is_known,
+                                     const StageParameters *variant)
   {
-    const StageParameters &stage    = parameters.stages[index];
+    const StageParameters &stage
+        = variant ? *variant : parameters.stages[index];
     const StageParameters *previous = previous_stage(parameters.stages, index);
     try
     {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/number_text.h>
+#include <quoin/model/material_waves.h>
 #include <quoin/problems/block_stage.h>
 #include <quoin/results/atomic_file.h>
 
@@ -11,8 +13,12 @@ namespace quoin
 {
   namespace
   {
-    /** Automatic failure displacement, by the model's diagonal. */
-    constexpr double failure_share = 1e-3;
+    /** Automatic failure displacement, by the mean displacement with which the
+        loads have deformed the model, or by its diagonal. */
+    constexpr double failure_by_loading = 10., failure_by_diagonal = 1e-3;
+    /** Parts in which strengths are reduced, and the least number of steps of
+        each of them. */
+    constexpr unsigned int n_reductions = 20, least_reduction_steps = 100;
 
     class SafetyStage : public BlockStage<2>
     {
@@ -47,8 +53,18 @@ namespace quoin
       /** Sets the strengths of the start of the stage, divided by @p factor. */
       void set_strength(double factor);
       SafetyTrial try_factor(double factor);
-      void come_to_rest(SafetyTrial &trial);
+      /** Begins the stage, damped as @p variant of it, with the state before.
+       */
+      void begin_trial(const StageParameters &variant);
+      void come_to_rest(const StageParameters &variant, SafetyTrial &trial);
       void find_equilibrium(SafetyTrial &trial);
+      /** Time in which strengths are reduced [s]. */
+      double reduction_time() const;
+      /** Whether a failure may come from joints that chatter under adaptive
+          damping, so that a trial with local damping must confirm it. */
+      bool needs_confirmation() const;
+      /** Displacement beyond which a trial may fail [m]; collective. */
+      double failure_displacement() const;
       /** Largest one since the start of the stage [m]; collective. */
       double largest_displacement() const;
 
@@ -60,16 +76,12 @@ namespace quoin
 
     Stage::Checkpoint SafetyStage::take_step()
     {
-      system.begin_stage(index, state);
-      set_strength(search.next(safety));
       const SafetyTrial trial = try_factor(search.next(safety));
       log.message("stage ", stage.name, ": factor ", trial.factor, " is ",
-                  trial.is_stable    ? "stable"
-                  : trial.is_decided ? "failing"
-                                     : "undecided and counts as failing",
-                  " after ", trial.n_steps, " steps, largest displacement ",
-                  trial.displacement, " m");
-      if (!trial.is_stable && trial.factor < search.lowest_failing())
+                  verdict_text(trial.verdict), " after ", trial.n_steps,
+                  " steps, largest displacement ", trial.displacement, " m");
+      if (trial.verdict == Verdict::failing
+          && trial.factor < search.lowest_failing())
         outputs.write_mechanism(state, base, trial.factor);
       search.add(trial);
       state = base;
@@ -92,70 +104,128 @@ namespace quoin
       system.set_properties(weak, state);
     }
 
+    void SafetyStage::begin_trial(const StageParameters &variant)
+    {
+      state = base;
+      system.set_properties(strong, state);
+      system.begin_stage(index, state, false, &variant);
+    }
+
     SafetyTrial SafetyStage::try_factor(const double factor)
     {
       SafetyTrial trial;
       trial.factor = factor;
+      begin_trial(stage);
       context.run.progress.start(figures());
       if (system.implicit_solver)
         find_equilibrium(trial);
       else
-        try
-        {
-          come_to_rest(trial);
-        }
-        catch (const ModelFailure &error)
-        {
-          log.message("stage ", stage.name, ": factor ", factor, ": ",
-                      error.what());
-        }
-        catch (const RunError &error)
-        {
-          throw RunError("stage '" + stage.name + "': " + error.what());
-        }
+        come_to_rest(stage, trial);
+      if (trial.verdict != Verdict::stable && needs_confirmation())
+      {
+        log.message("stage ", stage.name, ": factor ", factor, " is ",
+                    verdict_text(trial.verdict),
+                    " under adaptive damping, which chattering joints may "
+                    "mislead; it is tried again with local damping");
+        StageParameters local   = stage;
+        local.damping           = DampingType::local;
+        local.local_coefficient = default_local_damping;
+        trial.n_steps += state.stage_step;
+        begin_trial(local);
+        come_to_rest(local, trial);
+      }
       context.run.progress.finish(figures());
-      trial.n_steps          = state.stage_step;
+      trial.n_steps += state.stage_step;
       trial.unbalanced_ratio = state.unbalanced_ratio;
       trial.displacement     = largest_displacement();
       context.n_done += trial.n_steps;
       return trial;
     }
 
-    void SafetyStage::come_to_rest(SafetyTrial &trial)
+    bool SafetyStage::needs_confirmation() const
+    {
+      return system.explicit_solver && stage.damping == DampingType::adaptive
+             && (system.nodes->faces().n_global_joints > 0
+                 || system.solver->contacts());
+    }
+
+    double SafetyStage::reduction_time() const
+    {
+      const double slowest = slowest_shear_wave(*system.model);
+      const double passage
+          = std::isfinite(slowest)
+                ? 2. * system.nodes->table().diagonal() / slowest
+                      * std::sqrt(1.
+                                  + system.explicit_solver->added_mass_share())
+                : 0.;
+      return std::max(passage, n_reductions * least_reduction_steps
+                                   * system.explicit_solver->get_time_step());
+    }
+
+    void SafetyStage::come_to_rest(const StageParameters &variant,
+                                   SafetyTrial &trial)
     {
       ExplicitSolver<2> &solver = *system.explicit_solver;
-      FailureWatch watch(safety.failure_displacement > 0.
-                             ? safety.failure_displacement
-                             : failure_share
-                                   * system.nodes->table().diagonal());
-      context.steps.choose(stage);
-      for (;;)
+      context.steps.choose(variant);
+      // A sudden loss of strength would make the model overshoot.
+      const double start = state.time, duration = reduction_time();
+      const double limit = failure_displacement();
+      FailureWatch watch(limit, start + duration);
+      unsigned int reduced = 0;
+      trial.verdict        = Verdict::undecided;
+      try
       {
-        ExplicitSolver<2>::Requests requests;
-        requests.balance
-            = state.stage_step % ExplicitSolver<2>::balance_interval == 0;
-        solver.step(state, requests);
-        if (!requests.balance)
-          continue;
-        solver.check_finite(state);
-        // A block that leaves the box is unstable, even if the rest is not. It
-        // is back at the start of the next trial: no warning.
-        if (!solver.take_blocks_outside().empty())
-          return;
-        trial.is_stable = has_settled();
-        if (trial.is_stable || watch.has_failed(largest_displacement()))
-          return;
-        trial.is_decided = state.stage_step < stage.maximum_steps;
-        if (!trial.is_decided)
-          return;
-        if (context.run.progress.due())
-          context.run.progress.update(figures());
+        for (;;)
+        {
+          const double share = (state.time - start) / duration;
+          if (reduced < n_reductions && share >= double(reduced) / n_reductions)
+          {
+            ++reduced;
+            set_strength(
+                std::pow(trial.factor, double(reduced) / n_reductions));
+          }
+          ExplicitSolver<2>::Requests requests;
+          requests.balance
+              = state.stage_step % ExplicitSolver<2>::balance_interval == 0;
+          solver.step(state, requests);
+          if (!requests.balance)
+            continue;
+          solver.check_finite(state);
+          // A block that leaves the box has failed, even if the rest has not.
+          // It is back at the start of the next trial: no warning.
+          if (!solver.take_blocks_outside().empty()
+              || watch.has_failed(state.time, largest_displacement()))
+            trial.verdict = Verdict::failing;
+          else if (share >= 1. && has_settled())
+            trial.verdict = Verdict::stable;
+          if (trial.verdict != Verdict::undecided
+              || state.stage_step >= stage.maximum_steps)
+            return;
+          if (context.run.progress.due())
+            context.run.progress.update(figures());
+        }
+      }
+      catch (const ModelFailure &error)
+      {
+        log.message("stage ", stage.name, ": factor ", trial.factor, ": ",
+                    error.what());
+        if (largest_displacement() > limit)
+          trial.verdict = Verdict::failing;
+      }
+      catch (const RunError &error)
+      {
+        throw RunError("stage '" + stage.name + "': " + error.what());
       }
     }
 
     void SafetyStage::find_equilibrium(SafetyTrial &trial)
     {
       ImplicitSolver &solver = *system.implicit_solver;
+      set_strength(trial.factor);
+      solver.begin_stage(stage, previous_stage(system.parameters.stages, index),
+                         state);
+      FailureWatch watch(failure_displacement(), 0.);
+      trial.verdict = Verdict::undecided;
       try
       {
         while (!solver.has_ended(state))
@@ -163,16 +233,46 @@ namespace quoin
           solver.step(state);
           outputs.write_iterations();
           solver.record().jumps.clear();
+          const ImplicitState &now = state.get<ImplicitState>();
+          if (now.jumps
+              && watch.has_failed(now.drag_time, largest_displacement()))
+          {
+            trial.verdict = Verdict::failing;
+            return;
+          }
           if (context.run.progress.due())
             context.run.progress.update(figures());
         }
-        trial.is_stable = true;
+        trial.verdict = Verdict::stable;
       }
       catch (const ModelFailure &)
       {
         outputs.write_iterations();
         solver.record().jumps.clear();
       }
+    }
+
+    double SafetyStage::failure_displacement() const
+    {
+      if (safety.failure_displacement > 0.)
+        return safety.failure_displacement;
+      const Model<2> &model = *system.model;
+      double energy         = model.blocks().stored_energy(base)
+                      + model.joints().stored_energy(base);
+      if (const BlockContacts *contacts = system.solver->contacts())
+        energy += contacts->stored_energy(base);
+      AlignedArray<NodeVector<2>> forces(base.nodes.size(), NodeVector<2>());
+      for (const NodalLoad<2> *load : system.solver->stage_loads().nodal)
+        load->add_forces({ 0., base.time }, forces.data());
+      model.nodes().exchange().add_to_owners(forces.data());
+      double force = 0.;
+      for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
+        force += std::hypot(forces[i].v[0], forces[i].v[1]);
+      energy = dealii::Utilities::MPI::sum(energy, context.run.communicator);
+      force  = dealii::Utilities::MPI::sum(force, context.run.communicator);
+      return force > 0. && energy > 0.
+                 ? failure_by_loading * 2. * energy / force
+                 : failure_by_diagonal * system.nodes->table().diagonal();
     }
 
     double SafetyStage::largest_displacement() const
@@ -191,16 +291,29 @@ namespace quoin
     {
       const double stable     = search.highest_stable();
       const double failing    = search.lowest_failing();
+      const auto open         = search.undecided();
       const std::string begin = "stage " + stage.name + ": ";
-      if (stable == 0.)
+      if (open)
+        log.warning(begin, "factors from ", (*open)[0], " to ", (*open)[1],
+                    " are undecided: the model neither came to rest nor kept "
+                    "moving. Raise 'Maximum steps', or 'Failure displacement' "
+                    "if blocks settle far. Until then the factor of safety is ",
+                    stable == 0. ? "not known to be above any" : "at least ",
+                    stable == 0. ? std::string() : text_of(stable));
+      if (stable == 0. && !open)
         log.warning(begin, "even the lowest factor, ", failing,
                     ", fails: the model has no equilibrium under these loads");
-      else if (std::isinf(failing))
+      else if (std::isinf(failing) && !open)
         log.warning(begin, "even the highest factor, ", stable,
                     ", is stable: the model may have no mechanism");
-      else
+      else if (!open)
         log.message(begin, "factor of safety ", 0.5 * (stable + failing),
                     ", stable at ", stable, ", failing at ", failing);
+      else if (stable > 0. && std::isfinite(failing))
+        log.message(begin, "factor of safety between ", stable,
+                    ", stable, and ", failing, ", failing");
+      log.message(begin, search.trials().size(), " trials of ",
+                  search.n_steps(), " steps in all");
       if (system.explicit_solver)
         system.explicit_solver->restore_masses(
             *previous_stage(system.parameters.stages, index), state);

@@ -37,9 +37,7 @@ def joint_faces(output):
 
 
 def quasi_static(output, histories):
-    """What every slow run must show. The energy of matched joints is off by
-    traction times slip times the angle by which they turn (theory.md, "Energy
-    balance"), some 1e-3 where joints slip by millimetres."""
+    """What every slow run must show."""
     return {
         "kinetic energy share": float(
             np.max(histories["kinetic"][histories["displacement"] != 0])),

@@ -4,8 +4,10 @@
 #ifndef quoin_dynamics_factor_search_h
 #define quoin_dynamics_factor_search_h
 
+#include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,7 @@ namespace quoin
     double lowest    = 0.1;  /**< [-] */
     double highest   = 10.;  /**< [-] */
     double tolerance = 0.01; /**< of the bracket [-] */
-    /** Displacement beyond which a trial may be unstable [m]; 0: automatic. */
+    /** Displacement beyond which a trial may fail [m]; 0: automatic. */
     double failure_displacement = 0.;
     bool reduces_blocks         = true;
     bool reduces_joints         = true;
@@ -29,12 +31,22 @@ namespace quoin
     void enter(ParameterEntries &entries);
   };
 
+  /** What a trial has shown of its factor. */
+  enum class Verdict : std::uint8_t
+  {
+    undecided, /**< neither of the others within the steps allowed */
+    stable,    /**< the model came to rest */
+    failing    /**< it keeps moving */
+  };
+
+  /** "stable", "failing" or "undecided". */
+  const char *verdict_text(Verdict verdict);
+
   /** Outcome of a trial, with the strength divided by a factor. */
   struct SafetyTrial
   {
-    double factor           = 0.;    /**< [-] */
-    bool is_stable          = false; /**< the model came to rest */
-    bool is_decided         = true;  /**< false: neither at rest nor unstable */
+    double factor           = 0.; /**< [-] */
+    Verdict verdict         = Verdict::undecided;
     std::uint64_t n_steps   = 0;
     double unbalanced_ratio = 0.; /**< at its end [-] */
     double displacement     = 0.; /**< largest since its start [m] */
@@ -42,14 +54,14 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &factor &is_stable &is_decided &n_steps &unbalanced_ratio
-          &displacement;
+      archive &factor &verdict &n_steps &unbalanced_ratio &displacement;
     }
   };
 
   /**
    * Search for the factor at which a model fails: factors grow or fall by 1.25
-   * until one is stable and a larger one is not, then bisection.
+   * until one is stable and a larger one fails, then bisection. Undecided
+   * factors are kept between the two: both sides of them are searched.
    */
   class FactorSearch
   {
@@ -63,15 +75,19 @@ namespace quoin
     {
       return stable;
     }
-    /** Lowest unstable factor; infinite: none. */
+    /** Lowest failing factor above it; infinite: none. */
     double lowest_failing() const
     {
       return failing;
     }
+    /** Lowest and highest undecided factor between them, if any. */
+    std::optional<std::array<double, 2>> undecided() const;
     const std::vector<SafetyTrial> &trials() const
     {
       return all_trials;
     }
+    /** Number of steps of all trials. */
+    std::uint64_t n_steps() const;
 
     /** The trials as a table (CSV). */
     std::string table() const;
@@ -88,31 +104,30 @@ namespace quoin
   };
 
   /**
-   * Whether a trial is unstable: its largest displacement exceeds a limit and
-   * is at least 1.5 times that at half of the time passed. At constant velocity
-   * this ratio is two, at constant acceleration four; it tends to one as the
-   * model comes to rest.
+   * Whether a trial fails: its largest displacement exceeds a limit, and it
+   * keeps moving, by 1.8 times in each of the last two doublings of the time.
+   * At constant velocity this ratio is two, at constant acceleration four; it
+   * tends to one as the model comes to rest. The time may be a pseudo-time.
    */
   class FailureWatch
   {
   public:
-    explicit FailureWatch(const double limit) : limit(limit)
+    /** @p limit [m]; @p start: the time from which others count. */
+    FailureWatch(const double limit, const double start)
+      : limit(limit), start(start)
     {
     }
 
-    /** Takes the @p displacement [m] after the next of equal intervals. */
-    bool has_failed(const double displacement)
-    {
-      displacements.push_back(displacement);
-      return displacement > limit
-             && displacement
-                    >= growth * displacements[(displacements.size() - 1) / 2];
-    }
+    /** Takes the largest @p displacement [m] at a @p time later than before. */
+    bool has_failed(double time, double displacement);
 
   private:
-    static constexpr double growth = 1.5;
-    const double limit; /**< [m] */
-    std::vector<double> displacements;
+    /** The displacement at @p time since the start, interpolated [m]. */
+    double displacement_at(double time) const;
+
+    static constexpr double growth = 1.8;
+    const double limit, start;
+    std::vector<double> times, displacements;
   };
 } // namespace quoin
 

@@ -24,6 +24,9 @@ namespace quoin
     rayleigh
   };
 
+  /** Default share of the unbalanced force that local damping opposes. */
+  constexpr double default_local_damping = 0.8;
+
   enum class StageEnd
   {
     time,

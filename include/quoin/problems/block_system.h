@@ -36,11 +36,13 @@ namespace quoin
 
     /**
      * Model and solver begin stage @p index with @p state. If @p time_is_known,
-     * its start time, loads must not begin with a jump. Throws an InputError,
-     * or a RunError once steps have been taken.
+     * its start time, loads must not begin with a jump. @p variant: the stage
+     * with other damping, or null. Throws an InputError, or a RunError once
+     * steps have been taken.
      */
     void begin_stage(unsigned int index, State<dim> &state,
-                     bool time_is_known = true);
+                     bool time_is_known             = true,
+                     const StageParameters *variant = nullptr);
     /** Model and solver continue within stage @p index. */
     void resume_stage(unsigned int index, State<dim> &state);
     /** Restores model and solver as after stage @p index - 1. */

@@ -11,15 +11,19 @@ using namespace quoin;
 
 namespace
 {
-  /** Searches in a model that is stable below @p limit. */
-  FactorSearch searched(const SafetyParameters &parameters, const double limit)
+  /** Searches in a model that is stable below @p limit and fails from
+      @p first_failing on. */
+  FactorSearch searched(const SafetyParameters &parameters, const double limit,
+                        const double first_failing = 0.)
   {
     FactorSearch search;
     while (!search.has_ended(parameters) && search.trials().size() < 1000)
     {
       SafetyTrial trial;
-      trial.factor    = search.next(parameters);
-      trial.is_stable = trial.factor < limit;
+      trial.factor  = search.next(parameters);
+      trial.verdict = trial.factor < limit           ? Verdict::stable
+                      : trial.factor < first_failing ? Verdict::undecided
+                                                     : Verdict::failing;
       search.add(trial);
     }
     return search;
@@ -54,24 +58,65 @@ TEST(FactorSearch, NoStableFactorIsNoneOfTheBracket)
   EXPECT_GE(search.trials().size(), 4U);
 }
 
+TEST(FactorSearch, FindsBothEndsOfWhatIsUndecided)
+{
+  for (const double first : { 1.2, 3.1, 20. })
+  {
+    const FactorSearch search = searched({}, 1.1, first);
+    ASSERT_TRUE(search.undecided());
+    const auto [low, high] = *search.undecided();
+    EXPECT_LT(search.highest_stable(), 1.1);
+    EXPECT_LE(low - search.highest_stable(), 0.01);
+    if (first > 10.)
+      EXPECT_EQ(high, 10.);
+    else
+      EXPECT_LE(search.lowest_failing() - high, 0.01);
+    EXPECT_LT(search.trials().size(), 30U);
+  }
+  const FactorSearch nothing = searched({}, 0., 20.);
+  EXPECT_EQ(nothing.highest_stable(), 0.);
+  EXPECT_TRUE(std::isinf(nothing.lowest_failing()));
+}
+
+TEST(FactorSearch, UndecidedFactorsBelowAStableOneAreForgotten)
+{
+  FactorSearch search;
+  search.add({ 1., Verdict::undecided, 10 });
+  search.add({ 1.25, Verdict::stable, 20 });
+  EXPECT_FALSE(search.undecided());
+  EXPECT_EQ(search.n_steps(), 30U);
+}
+
 TEST(FailureWatch, WhatSlowsDownHasNotFailed)
 {
-  // 5 (1 - exp(-i/3)) is above the limit when i > 11, where it was 4.3 or more
-  // at half the time, though 1.4 at first.
-  FailureWatch settles(4.9);
+  // 5 (1 - exp(-t/3)) is above the limit from t = 6.9 on, where it was 3.4 at
+  // half the time.
+  FailureWatch settles(4.5, 0.);
   for (unsigned int i = 1; i <= 100; ++i)
-    EXPECT_FALSE(settles.has_failed(5. * (1. - std::exp(-1. / 3. * i))));
+    EXPECT_FALSE(settles.has_failed(i, 5. * (1. - std::exp(-1. / 3. * i))));
 }
 
 TEST(FailureWatch, WhatGoesOnMovingHasFailed)
 {
-  FailureWatch slides(1.), settles(1.);
-  bool has_failed = false;
-  for (unsigned int i = 1; i <= 100; ++i)
+  // Times may be far apart; those before the start do not count.
+  for (const double step : { 0.01, 0.1, 1. })
   {
-    has_failed = has_failed || slides.has_failed(0.1 * i);
-    EXPECT_FALSE(settles.has_failed(5. - 1. / i));
-    EXPECT_FALSE(i <= 10 && has_failed) << "within the limit";
+    FailureWatch slides(1., 2.), settles(1., 2.);
+    bool has_failed = false;
+    for (double t = 2.1; t <= 40.; t += step * (1. + t))
+    {
+      has_failed = has_failed || slides.has_failed(t, 0.1 * (t - 2.));
+      EXPECT_FALSE(settles.has_failed(t, 5. - 1. / t));
+      EXPECT_FALSE(t <= 12. && has_failed) << "within the limit";
+    }
+    EXPECT_TRUE(has_failed);
   }
-  EXPECT_TRUE(has_failed);
+}
+
+TEST(FailureWatch, OneDoublingIsNotEnough)
+{
+  // At rest until t = 10, then at constant speed: not known before t = 40.
+  FailureWatch starts(1., 0.);
+  for (double t = 0.5; t < 39.; t += 0.5)
+    EXPECT_EQ(starts.has_failed(t, 1.5 + std::max(0., t - 10.)), false) << t;
 }

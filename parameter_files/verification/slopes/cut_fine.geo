@@ -1,0 +1,3 @@
+// The vertical cut with quadrangles of half the size.
+h = 0.03125;
+Include "cut.geo";
