@@ -99,16 +99,19 @@ namespace quoin
   {
     if (all_trials.empty())
       return parameters.first;
-    const auto open = undecided();
-    if (stable == 0.)
-      return std::max(parameters.lowest, (open ? (*open)[0] : failing) / step);
-    if (std::isinf(failing))
-      return std::min(parameters.highest, (open ? (*open)[1] : stable) * step);
+    const auto open          = undecided();
+    const double not_stable  = open ? (*open)[0] : failing;
+    const double not_failing = open ? (*open)[1] : stable;
+    if (stable == 0. && not_stable > parameters.lowest)
+      return std::max(parameters.lowest, not_stable / step);
+    if (std::isinf(failing) && not_failing < parameters.highest)
+      return std::min(parameters.highest, not_failing * step);
     if (!open)
       return 0.5 * (stable + failing);
-    return (*open)[0] - stable > failing - (*open)[1]
-               ? 0.5 * (stable + (*open)[0])
-               : 0.5 * ((*open)[1] + failing);
+    const bool is_low
+        = std::isinf(failing)
+          || (stable > 0. && not_stable - stable > failing - not_failing);
+    return is_low ? 0.5 * (stable + (*open)[0]) : 0.5 * ((*open)[1] + failing);
   }
 
   void FactorSearch::add(const SafetyTrial &trial)
@@ -127,12 +130,15 @@ namespace quoin
     const auto open          = undecided();
     const double not_stable  = open ? (*open)[0] : failing;
     const double not_failing = open ? (*open)[1] : stable;
-    if (stable == 0.)
-      return not_stable <= parameters.lowest;
-    if (std::isinf(failing))
-      return not_failing >= parameters.highest;
-    return not_stable - stable <= parameters.tolerance
-           && failing - not_failing <= parameters.tolerance;
+    if (stable == 0. && not_stable > parameters.lowest)
+      return false;
+    if (std::isinf(failing) && not_failing < parameters.highest)
+      return false;
+    // An end of the range that was not found needs no bracket.
+    return (stable == 0. || (std::isinf(failing) && !open)
+            || not_stable - stable <= parameters.tolerance)
+           && (std::isinf(failing) || (stable == 0. && !open)
+               || failing - not_failing <= parameters.tolerance);
   }
 
   std::uint64_t FactorSearch::n_steps() const

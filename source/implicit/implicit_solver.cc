@@ -271,11 +271,14 @@ namespace quoin
             = (stage_duration - state.load_time) / stage_duration;
         continue;
       }
-      // Also in a jump joints must not yield too far in one step.
-      const double flowed
-          = std::abs(balance.path) / parameters.largest_path_step;
-      if (outcome == Outcome::converged
-          && (!state.get<ImplicitState>().jumps || flowed <= most_flow))
+      // Also in a jump joints must not yield too far in one step. A load step
+      // may find an equilibrium far away, where blocks have slid until their
+      // tilt holds them: it is none of the path that the loads follow.
+      const double most
+          = state.get<ImplicitState>().jumps
+                ? most_flow * parameters.largest_path_step
+                : collapse_share * model.nodes().table().diagonal();
+      if (outcome == Outcome::converged && std::abs(balance.path) <= most)
         break;
       ++done.n_cuts;
       if (!cut_step(state))

@@ -112,11 +112,3 @@ TEST(FailureWatch, WhatGoesOnMovingHasFailed)
     EXPECT_TRUE(has_failed);
   }
 }
-
-TEST(FailureWatch, OneDoublingIsNotEnough)
-{
-  // At rest until t = 10, then at constant speed: not known before t = 40.
-  FailureWatch starts(1., 0.);
-  for (double t = 0.5; t < 39.; t += 0.5)
-    EXPECT_EQ(starts.has_failed(t, 1.5 + std::max(0., t - 10.)), false) << t;
-}

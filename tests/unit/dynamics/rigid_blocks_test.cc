@@ -386,7 +386,8 @@ TEST(RigidBlocks, AccountsBalanceWithAnyDamping)
 TEST(RigidBlocks, AccountsBalanceOfALoadedPlaten)
 {
   // Larger motions, because those of a platen are rounded to 1e-16 m; what is
-  // left is proportional to them.
+  // left is proportional to them: the forces of joints that turn are not
+  // linear, so that the trapezoidal rule is off by the third order of a step.
   BlockMesh<2> mesh;
   make_three(mesh, 2);
   for (const DampingType damping : { DampingType::none, DampingType::local })
@@ -398,7 +399,7 @@ TEST(RigidBlocks, AccountsBalanceOfALoadedPlaten)
                  component(given_force, "-100*cos(400*t)"),
                  component(given_force, "100")) });
     run.begin(stage_with({ "below", "press" }, damping));
-    EXPECT_LT(residual_of_steps(run, 1000), 1e-6);
+    EXPECT_LT(residual_of_steps(run, 1000), 3e-6);
     EXPECT_GT(run.solver.energies().accounts.external, 0.);
   }
 }

@@ -284,7 +284,7 @@ TEST(ImplicitSolver, ACollapseResumedWithinItsJumpEndsTheSame)
   };
   Sliding whole(true), other(true);
   ImplicitRun &run = *whole.run;
-  while (run.state.get<ImplicitState>().n_drag < 3)
+  while (run.state.get<ImplicitState>().n_drag < 1)
     run.solver.step(run.state);
   run.solver.save(run.state);
   other.run->state = run.state;
