@@ -408,14 +408,14 @@ TEST(ModelBox, CellsInsideOutAreFound)
     }
     TestRun run(mesh, parameters, {});
     run.begin(stage_with({}), 0.1);
-    check_cells(run.model, run.state);
+    check_cells(run.model, run.state, {});
     // Turned and stretched is no harm.
     for (NodeRecord<2> &node : run.state.nodes)
     {
       node.u[0] = -1.2 * node.X[1] - node.X[0];
       node.u[1] = 0.8 * node.X[0] - node.X[1];
     }
-    check_cells(run.model, run.state);
+    check_cells(run.model, run.state, {});
     for (NodeRecord<2> &node : run.state.nodes)
       node.u[0] = node.u[1] = 0.;
     run.step(1);
