@@ -104,6 +104,8 @@ namespace quoin
       const double dt = solver.get_time_step();
       const bool balance
           = state.stage_step % ExplicitSolver<dim>::balance_interval == 0;
+      if (balance && stage.end == StageEnd::static_ratio)
+        look_for_lost_blocks();
       if (outputs.fields_are_due(state.time, dt))
         outputs.write_fields(state);
 
@@ -130,8 +132,6 @@ namespace quoin
         this->write_row();
       }
       over = over || condition_ends_here();
-      if (balance && !over && stage.end == StageEnd::static_ratio)
-        look_for_lost_blocks();
       if (balance || over)
         outputs.check_tables();
       return state.stage_step % CheckpointClock::steps_between_looks == 0
