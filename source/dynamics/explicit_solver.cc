@@ -143,7 +143,7 @@ namespace quoin
     {
       state.unbalanced_ratio = stepper.unbalanced_ratio(state, context, sums);
       this->check_finite(state);
-      check_cells(model, state);
+      check_cells(model, state, stage.loads);
     }
     time_shares.lap(energy_phase);
   }

@@ -74,8 +74,8 @@ namespace quoin
           if (std::isnan(end))
             subsection.fail("Start time",
                             "cannot be kept, because the stage before "
-                            "ends when it has settled. Use 'previous "
-                            "end'.");
+                            "ends when it has settled or a condition is met. "
+                            "Use 'previous end'.");
           if (std::abs(stage.start_time - end) > 1e-9 * (1. + end))
             subsection.fail(
                 "Start time",
@@ -83,7 +83,7 @@ namespace quoin
                         stage.start_time < end ? "overlap" : "leave a gap",
                         ". Use 'previous end' or change the durations."));
         }
-        end = stage.end == StageEnd::time
+        end = stage.end == StageEnd::time && stage.end_conditions.empty()
                   ? end + stage.duration
                   : std::numeric_limits<double>::quiet_NaN();
       }

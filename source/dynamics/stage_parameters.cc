@@ -5,7 +5,11 @@
 #include <quoin/base/parameter_entries.h>
 #include <quoin/dynamics/stage_parameters.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <boost/algorithm/string/join.hpp>
+
+#include <regex>
 
 namespace quoin
 {
@@ -105,6 +109,30 @@ namespace quoin
                          "[s]");
     }
 
+    /** Reads "outcome: expression; expression". */
+    std::vector<EndCondition> end_conditions(const ParameterSection &section)
+    {
+      // An expression has a colon only after a question mark.
+      static const std::regex named("([A-Za-z][\\w -]*):(.*)");
+      const std::string entry = "End conditions";
+      std::vector<EndCondition> result;
+      for (const std::string &part :
+           dealii::Utilities::split_string_list(section.text(entry), ';'))
+      {
+        EndCondition condition{ "condition met", part };
+        std::smatch parts;
+        if (std::regex_match(part, parts, named))
+          condition = { dealii::Utilities::trim(parts[1]),
+                        dealii::Utilities::trim(parts[2]) };
+        if (condition.expression.empty())
+          section.fail(entry, "has an empty condition. Give comparisons such "
+                              "as abs(displacement) > 0.02, with a ';' between "
+                              "two of them.");
+        result.push_back(condition);
+      }
+      return result;
+    }
+
     void enter_end(ParameterEntries &entries, StageParameters &stage)
     {
       entries.choice("End", stage.end,
@@ -138,6 +166,18 @@ namespace quoin
                             "at least; it lasts in any case until its loads "
                             "have come to rest [s]");
       }
+      entries.other(
+          "End conditions", "",
+          "Comparisons of histories, separated by ';', each with the name of "
+          "its outcome before a colon if one is wanted, such as 'collapsed: "
+          "abs(displacement) > 0.02; softened: force < 0.8*peak_force': the "
+          "first one that is met where a row of histories.csv is written ends "
+          "the stage, and the next one begins; empty: none. Names are those "
+          "of 'Histories', where _ stands for what is no letter or digit, "
+          "'time' [s], and 'peak_' before a name for the largest magnitude of "
+          "that history so far in the stage.",
+          [&](const ParameterSection &from)
+          { stage.end_conditions = end_conditions(from); });
       entries.number_or("previous end", -1., "Start time", stage.start_time,
                         "Time at which the stage is meant to begin, as a "
                         "check, or 'previous end' [s]");
@@ -183,6 +223,11 @@ namespace quoin
           section->fail(name, "does not go with 'End = factor of safety', "
                               "which leaves the model as it was. Use a stage "
                               "of its own before it.");
+      if (!stage.end_conditions.empty())
+        section->fail("End conditions",
+                      "does not go with 'End = factor of safety', whose trials "
+                      "write no histories. Give 'Failure displacement', or "
+                      "leave this empty.");
     }
   } // namespace
 
@@ -226,6 +271,9 @@ namespace quoin
           + end_text(*this, is_implicit);
     if (!is_implicit)
       text += "; " + damping_text(*this);
+    for (const EndCondition &condition : end_conditions)
+      text += "; ends as '" + condition.outcome + "' where "
+              + condition.expression;
     if (!excavate.empty())
       text += "; excavates " + join(excavate, ", ");
     if (!fill.empty())

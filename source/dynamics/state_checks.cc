@@ -2,11 +2,14 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/state_checks.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 namespace quoin
@@ -28,28 +31,124 @@ namespace quoin
     return dealii::Utilities::MPI::max(largest, nodes.communicator());
   }
 
+  namespace
+  {
+    /** Height of a cell by its longest edge below which its shape is a likely
+        reason that it fails [-]; 0.87 of an equilateral triangle. */
+    constexpr double thin = 0.1;
+
+    template <int dim>
+    struct InvertedCell
+    {
+      dealii::Point<dim> before, now; /**< its centroid [m] */
+      unsigned int block;             /**< of the whole mesh */
+      double shape; /**< smallest height by longest edge, in the mesh [-] */
+    };
+
+    template <int dim>
+    using Corners = std::array<dealii::Point<dim>, dim + 1>;
+
+    /** Twice the area or six times the volume, positive in valid cells. */
+    template <int dim>
+    double size_of(const Corners<dim> &corners)
+    {
+      dealii::Tensor<2, dim> edges;
+      for (unsigned int k = 0; k < dim; ++k)
+        edges[k] = corners[k + 1] - corners[0];
+      return determinant(edges);
+    }
+
+    /** The corners of a local cell in the mesh, or displaced by @p state. */
+    template <int dim>
+    Corners<dim> corners_of(const NodeMap<dim> &nodes, const State<dim> &state,
+                            const unsigned int cell, const bool displaced)
+    {
+      Corners<dim> result;
+      for (unsigned int k = 0; k <= dim; ++k)
+      {
+        const auto &[X, u] = state.nodes[nodes.cells().nodes[cell][k]];
+        for (unsigned int d = 0; d < dim; ++d)
+          result[k][d] = X[d] + (displaced ? u[d] : 0.);
+      }
+      return result;
+    }
+
+    template <int dim>
+    dealii::Point<dim> centre_of(const Corners<dim> &corners)
+    {
+      dealii::Point<dim> result;
+      for (const auto &corner : corners)
+        result += corner / (dim + 1.);
+      return result;
+    }
+
+    /** Smallest height of a cell by its longest edge. */
+    template <int dim>
+    double shape_of(const Corners<dim> &corners)
+    {
+      double longest = 0., largest_face = 0.;
+      for (unsigned int k = 0; k <= dim; ++k)
+      {
+        // Twice the area of the face opposite to corner k, or its length.
+        std::array<dealii::Tensor<1, dim>, dim - 1> edges;
+        const auto &origin = corners[k == 0 ? 1 : 0];
+        unsigned int n     = 0;
+        for (unsigned int l = k == 0 ? 2 : 1; l <= dim; ++l)
+          if (l != k)
+            edges[n++] = corners[l] - origin;
+        double face = edges[0].norm();
+        if constexpr (dim == 3)
+          face = cross_product_3d(edges[0], edges[1]).norm();
+        largest_face = std::max(largest_face, face);
+        for (unsigned int l = 0; l < k; ++l)
+          longest = std::max(longest, corners[k].distance(corners[l]));
+      }
+      return size_of<dim>(corners) / (largest_face * longest);
+    }
+
+    /** What is likely to have inverted @p cell, and what to do. */
+    template <int dim>
+    std::string causes(const InvertedCell<dim> &cell, const State<dim> &state,
+                       const bool small, const std::vector<std::string> &loads)
+    {
+      std::ostringstream text;
+      if (cell.shape < thin)
+        text << "In the mesh its smallest height is only " << 100. * cell.shape
+             << " % of its longest edge: the mesh is the likely cause. Refine "
+                "it there, or leave out short edges and sharp corners of the "
+                "geometry.";
+      else if (state.step == 0)
+        text << "Nothing has moved yet but by 'Initial motion', whose "
+                "displacements turn it over: give smaller ones.";
+      else
+        text << "Its shape in the mesh is good: it has been crushed, and the "
+                "loads of this stage are "
+             << known_names(loads)
+             << ". If the model collapses there, and may, end the stage before "
+                "by 'End conditions' on a history of its motion. If not, the "
+                "usual causes are a load or an impact that crushes the block "
+                "(check the units of the load, 'Density' and 'Young's "
+                "modulus'), cells too large for the load that acts (refine "
+                "the mesh there), too little damping, joints or contacts so "
+                "soft that blocks run into each other (raise 'Normal "
+                "stiffness'), or a time step too long (lower 'Share of "
+                "critical time step')"
+             << (small ? ", or blocks that slide far or turn, which needs "
+                         "'Displacements = large' in section 'Contact'."
+                       : ".");
+      return text.str();
+    }
+  } // namespace
+
   template <int dim>
-  void check_cells(const Model<dim> &model, const State<dim> &state)
+  void check_cells(const Model<dim> &model, const State<dim> &state,
+                   const std::vector<std::string> &loads)
   {
     const NodeMap<dim> &nodes   = model.nodes();
     const MPI_Comm communicator = nodes.communicator();
-    // Twice the area or six times the volume, positive in valid cells.
-    const auto size = [&](const unsigned int cell)
-    {
-      const auto &corners = nodes.cells().nodes[cell];
-      dealii::Tensor<2, dim> edges;
-      for (unsigned int k = 0; k < dim; ++k)
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          const NodeRecord<dim> &from = state.nodes[corners[0]],
-                                &to   = state.nodes[corners[k + 1]];
-          edges[k][d] = to.X[d] - from.X[d] + (to.u[d] - from.u[d]);
-        }
-      return determinant(edges);
-    };
-    const unsigned int n = nodes.cells().n_deformable;
-    unsigned int bad     = 0;
-    while (bad < n && size(bad) > 0.)
+    const unsigned int n        = nodes.cells().n_deformable;
+    unsigned int bad            = 0;
+    while (bad < n && size_of<dim>(corners_of(nodes, state, bad, true)) > 0.)
       ++bad;
     const unsigned int n_ranks
         = dealii::Utilities::MPI::n_mpi_processes(communicator);
@@ -61,21 +160,13 @@ namespace quoin
       return;
 
     // The rank that has the cell tells where it was and is now.
-    struct
-    {
-      dealii::Point<dim> before, now;
-      unsigned int block;
-    } cell{};
+    InvertedCell<dim> cell{};
     if (bad < n)
     {
-      cell.block = nodes.blocks().block_of_cell(bad);
-      for (const unsigned int node : nodes.cells().nodes[bad])
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          const auto &[X, u] = state.nodes[node];
-          cell.before[d] += X[d] / (dim + 1);
-          cell.now[d] += (X[d] + u[d]) / (dim + 1);
-        }
+      const auto before = corners_of(nodes, state, bad, false);
+      cell              = { centre_of<dim>(before),
+                            centre_of<dim>(corners_of(nodes, state, bad, true)),
+                            nodes.blocks().block_of_cell(bad), shape_of<dim>(before) };
     }
     MPI_Bcast(&cell, sizeof(cell), MPI_BYTE, teller, communicator);
     std::ostringstream message;
@@ -83,21 +174,56 @@ namespace quoin
             << " has turned inside out; it was at " << point_text(cell.before)
             << " m and is now at " << point_text(cell.now)
             << " m, found at time " << state.time << " s, step " << state.step
-            << ". The usual causes are a load or an impact that crushes the "
-               "block (check the units of the load, "
-               "'Density' and 'Young's modulus'), a cell that is thin where "
-               "the load acts (refine the mesh there), joints or contacts so "
-               "soft that blocks run into each other (raise 'Normal "
-               "stiffness'), or a time step too long (lower 'Share of "
-               "critical time step')"
-            << (dim == 3 || model.parameters().large_displacements
-                    ? ""
-                    : ", or blocks that slide far or turn, which needs "
-                      "'Displacements = large' in section 'Contact'")
-            << ". The last checkpoint is kept.";
+            << ". "
+            << causes(cell, state,
+                      dim == 2 && !model.parameters().large_displacements,
+                      loads)
+            << " The last checkpoint is kept.";
     throw ModelFailure(message.str());
   }
 
-  template void check_cells(const Model<2> &, const State<2> &);
-  template void check_cells(const Model<3> &, const State<3> &);
+  template <int dim>
+  FarthestNode<dim> farthest_node(const Model<dim> &model,
+                                  const State<dim> &state)
+  {
+    const NodeMap<dim> &nodes   = model.nodes();
+    const MPI_Comm communicator = nodes.communicator();
+    FarthestNode<dim> farthest;
+    double largest = -1.; // squared [m^2]
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+    {
+      double square = 0.;
+      for (const double u : state.nodes[i].u)
+        square += u * u;
+      if (square <= largest || state.is_absent(nodes.block_of_node(i)))
+        continue;
+      largest        = square;
+      farthest.block = nodes.block_of_node(i);
+      farthest.speed = 0.;
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        const auto &[X, u] = state.nodes[i];
+        farthest.before[d] = X[d];
+        farthest.now[d]    = X[d] + u[d];
+        farthest.speed += state.velocity[i].v[d] * u[d];
+      }
+    }
+    farthest.distance = std::sqrt(std::max(largest, 0.));
+    if (farthest.distance > 0.)
+      farthest.speed /= farthest.distance;
+    const double most     = dealii::Utilities::MPI::max(largest, communicator);
+    const unsigned teller = dealii::Utilities::MPI::min(
+        largest == most ? dealii::Utilities::MPI::this_mpi_process(communicator)
+                        : std::numeric_limits<unsigned int>::max(),
+        communicator);
+    MPI_Bcast(&farthest, sizeof(farthest), MPI_BYTE, int(teller), communicator);
+    return farthest;
+  }
+
+  template void check_cells(const Model<2> &, const State<2> &,
+                            const std::vector<std::string> &);
+  template void check_cells(const Model<3> &, const State<3> &,
+                            const std::vector<std::string> &);
+  template FarthestNode<2> farthest_node(const Model<2> &, const State<2> &);
+  template FarthestNode<3> farthest_node(const Model<3> &, const State<3> &);
 } // namespace quoin

@@ -97,10 +97,10 @@ namespace quoin
     for (unsigned int b = 0; b < n; ++b)
       if (outside[b] && (marks[b] == 0 || !stays[b]))
       {
-        found.push_back({ b, { { 0., 0. } }, state.time, !stays[b] });
+        found.push_back({ b, {}, {}, state.time, !stays[b] });
         marks[b] = stays[b] ? block_mark::left_box : block_mark::removed;
       }
-    find_positions(found, state);
+    find_motions(found, state);
     if (parameters.outside == Outside::stop && !found.empty())
     {
       const BlockOutside &first = found.front();
@@ -144,20 +144,27 @@ namespace quoin
     }
   }
 
-  void ModelBox::find_positions(std::vector<BlockOutside> &found,
-                                const State<2> &state) const
+  void ModelBox::find_motions(std::vector<BlockOutside> &found,
+                              const State<2> &state) const
   {
-    std::vector<double> sums(3 * found.size(), 0.);
+    // Positions, velocities and how many nodes there are.
+    std::vector<double> sums(5 * found.size(), 0.);
     for (unsigned int k = 0; k < found.size(); ++k)
       for (const unsigned int i : owned_nodes(model, found[k].block))
       {
         for (unsigned int d = 0; d < 2; ++d)
-          sums[3 * k + d] += state.nodes[i].X[d] + state.nodes[i].u[d];
-        ++sums[3 * k + 2];
+        {
+          sums[5 * k + d] += state.nodes[i].X[d] + state.nodes[i].u[d];
+          sums[5 * k + 2 + d] += state.velocity[i].v[d];
+        }
+        ++sums[5 * k + 4];
       }
     dealii::Utilities::MPI::sum(sums, model.nodes().communicator(), sums);
     for (unsigned int k = 0; k < found.size(); ++k)
       for (unsigned int d = 0; d < 2; ++d)
-        found[k].position[d] = sums[3 * k + d] / sums[3 * k + 2];
+      {
+        found[k].position[d] = sums[5 * k + d] / sums[5 * k + 4];
+        found[k].velocity[d] = sums[5 * k + 2 + d] / sums[5 * k + 4];
+      }
   }
 } // namespace quoin

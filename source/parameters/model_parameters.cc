@@ -4,6 +4,7 @@
 #include <quoin/base/named_sections.h>
 #include <quoin/dynamics/construction.h>
 #include <quoin/parameters/model_parameters.h>
+#include <quoin/results/history_conditions.h>
 
 #include <algorithm>
 
@@ -92,6 +93,17 @@ namespace quoin
       }
     }
 
+    /** Checks the conditions on histories by which stages end. */
+    void check_end_conditions(const ParameterSection &top,
+                              const Parameters &parameters)
+    {
+      const ParameterSection section(top, "Stages");
+      for (const StageParameters &stage : parameters.stages)
+        ParameterSection(section, stage.name)
+            .made("End conditions", [&]()
+                  { return end_conditions(stage, parameters.histories); });
+    }
+
     /** Refuses sections of one kind of model in a file of the other. */
     void refuse_names(const ParameterSection &top, const std::string &name,
                       const std::string &model)
@@ -155,6 +167,7 @@ namespace quoin
         = read_stages(top, parameters.loads, parameters.is_implicit);
     parameters.model.absent_groups = groups_placed_later(parameters.stages);
     check_coupled_histories(top, parameters);
+    check_end_conditions(top, parameters);
     parameters.implicit
         = ImplicitParameters::read(ParameterSection(top, "Implicit"));
     if (parameters.is_implicit && !parameters.boundary.waves.empty())

@@ -74,6 +74,11 @@ namespace quoin
           "far_field.csv",
           { "time [s]", "steps [-]", "radiated [J]", "substeps [J]",
             "incident [J]", "given [J]", "mismatch [-]" });
+    if (system.parameters.model.contact.has_box)
+      outside_table = &run.tables.add("blocks_outside.csv",
+                                      { "time [s]", "block [-]", "x [m]",
+                                        "y [m]", "velocity x [m/s]",
+                                        "velocity y [m/s]", "deleted [-]" });
     if (system.implicit_solver)
       convergence_table = &run.tables.add(
           "convergence.csv", { "step [-]", "attempt [-]", "iteration [-]",
@@ -116,13 +121,15 @@ namespace quoin
   }
 
   template <int dim>
-  void BlockOutputs<dim>::write_row(const State<dim> &state)
+  std::vector<double> BlockOutputs<dim>::write_row(const State<dim> &state)
   {
-    measured([&]() { add_rows(state); });
+    std::vector<double> row;
+    measured([&]() { row = add_rows(state); });
+    return row;
   }
 
   template <int dim>
-  void BlockOutputs<dim>::add_rows(const State<dim> &state)
+  std::vector<double> BlockOutputs<dim>::add_rows(const State<dim> &state)
   {
     const auto row = histories.after_step(state);
     write_energies(row.front());
@@ -130,6 +137,7 @@ namespace quoin
     if constexpr (dim == 2)
       if (far_field_table)
         write_far_field_row(state);
+    return row;
   }
 
   template <int dim>
@@ -169,6 +177,17 @@ namespace quoin
     far_field_table->add_row({ state.time, double(far.n_steps), ledger.radiated,
                                ledger.substeps, ledger.incident, ledger.given,
                                ledger.mismatch });
+  }
+
+  template <int dim>
+  std::vector<std::string>
+  BlockOutputs<dim>::write_block_outside(const BlockOutside &block)
+  {
+    outside_table->add_row({ block.time, double(block.block), block.position[0],
+                             block.position[1], block.velocity[0],
+                             block.velocity[1], block.removed ? 1. : 0. });
+    return block.removed ? histories.names_in(block.block)
+                         : std::vector<std::string>();
   }
 
   template <>

@@ -125,7 +125,7 @@ namespace quoin
       context.steps.choose(stage);
       run.log.message(step_text(context, stage));
       advise_about_stage(i, begun);
-      time_is_known &= stage.end == StageEnd::time && !stage.slows_loads();
+      time_is_known &= stage.duration_is_known();
       if (time_is_known)
         begun.time += double(context.steps.n_steps())
                       * system.explicit_solver->get_time_step();
@@ -190,7 +190,11 @@ namespace quoin
   void BlockProblem<dim>::complete_state()
   {
     system.solver->check_finite(state);
-    check_cells(*system.model, state);
+    check_cells(*system.model, state,
+                parameters
+                    .stages[std::min<std::size_t>(state.stage,
+                                                  parameters.stages.size() - 1)]
+                    .loads);
     system.solver->save(state);
   }
 
@@ -199,7 +203,8 @@ namespace quoin
   void BlockProblem<dim>::archive_all(Archive &archive, State<dim> &archived)
   {
     archive &archived &context.outputs &context.iterations &context
-        .cuts &context.searches;
+        .cuts &context.searches &context.outcomes &context.peaks &context
+        .displaced;
   }
 
   template <int dim>
@@ -273,6 +278,7 @@ namespace quoin
                        { "iterations", context.iterations },
                        { "cut steps", context.cuts } });
     summarise_searches(summary);
+    summarise_outcomes(summary);
     summarise_time(summary, seconds);
     if (parameters.model.contact.has_box)
     {
@@ -333,6 +339,29 @@ namespace quoin
       if (const auto open = search.undecided())
         result["undecided"] = *open;
     }
+  }
+
+  template <int dim>
+  void BlockProblem<dim>::summarise_outcomes(nlohmann::json &summary) const
+  {
+    for (unsigned int i = 0; i < context.outcomes.size(); ++i)
+    {
+      const StageOutcome &ended = context.outcomes[i];
+      if (ended.outcome.empty())
+        continue;
+      nlohmann::json &stage = summary["stages"][parameters.stages[i].name];
+      stage                 = { { "outcome", ended.outcome },
+                                { "time [s]", ended.time },
+                                { "step", ended.step } };
+      if (!ended.condition.empty())
+        stage["condition"] = ended.condition;
+    }
+    if (!context.failure.empty())
+      summary["stages"][parameters.stages[state.stage].name]
+          = { { "outcome", "failed" },
+              { "reason", context.failure },
+              { "time [s]", state.time },
+              { "step", state.step } };
   }
 
   template <>

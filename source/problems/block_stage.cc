@@ -11,7 +11,8 @@ namespace quoin
                                   MeshData<dim> mesh, const RunContext &run)
     : run(run), system(parameters, std::move(mesh), run.communicator),
       steps(system, run.log), outputs(system, run),
-      state(system.initial_state()), searches(parameters.stages.size())
+      state(system.initial_state()), searches(parameters.stages.size()),
+      outcomes(parameters.stages.size())
   {
   }
 
@@ -28,7 +29,8 @@ namespace quoin
                               const unsigned int index)
     : context(context), system(context.system), outputs(context.outputs),
       log(context.run.log), index(index),
-      stage(system.parameters.stages[index]), state(context.state)
+      stage(system.parameters.stages[index]), state(context.state),
+      conditions(end_conditions(stage, system.parameters.histories))
   {
   }
 
@@ -37,10 +39,65 @@ namespace quoin
   {
     finish();
     system.solver->check_finite(state);
-    check_cells(*system.model, state);
+    check_cells(*system.model, state, stage.loads);
     warn_of_slip();
+    keep_unreleased_forces();
+    note_outcome();
     ++state.stage;
     outputs.write_fields(state);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::write_row()
+  {
+    std::vector<double> row = outputs.write_row(state);
+    if (conditions.empty() || is_to_end())
+      return;
+    // One rank decides for all, whatever their sums are rounded to.
+    MPI_Bcast(row.data(), int(row.size()), MPI_DOUBLE, 0,
+              context.run.communicator);
+    const std::size_t met = conditions.find_met(row, context.peaks);
+    if (met == stage.end_conditions.size())
+      return;
+    const EndCondition &condition = stage.end_conditions[met];
+    context.outcomes[index]
+        = { condition.outcome, condition.expression, row.front(), state.step };
+  }
+
+  template <int dim>
+  void BlockStage<dim>::fail(const std::string &why)
+  {
+    context.failure = why;
+    outputs.write_fields(state);
+    throw FailedStep("stage '" + stage.name + "': " + why);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::keep_unreleased_forces()
+  {
+    if (context.outcomes[index].condition.empty())
+      return;
+    const double share
+        = system.solver->stage_loads().release.share(state.load_time);
+    for (HeldForces &item : state.template get<ConstructionState>().held)
+      item.left_at_end += (1. - share) * (item.left - item.left_at_end);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::note_outcome()
+  {
+    context.peaks.clear();
+    StageOutcome &ended = context.outcomes[index];
+    if (ended.outcome.empty())
+      ended = { stage.safety                  ? "factor of safety"
+                : stage.end == StageEnd::time ? "time over"
+                                              : "at rest",
+                "", state.time, state.step };
+    log.message("stage ", stage.name, ": ", ended.outcome,
+                ended.condition.empty()
+                    ? ""
+                    : ", condition '" + ended.condition + "' met",
+                " at time ", ended.time, " s, step ", ended.step);
   }
 
   template <int dim>

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/known_names.h>
+#include <quoin/base/point_text.h>
+#include <quoin/dynamics/state_checks.h>
 #include <quoin/problems/block_stage.h>
 #include <quoin/results/checkpoint_clock.h>
 
@@ -8,6 +11,10 @@ namespace quoin
 {
   namespace
   {
+    /** Share of its mean speed in the stage below which a block has nearly
+        stopped [-]. */
+    constexpr double slow = 0.1;
+
     template <int dim>
     class ExplicitStage : public BlockStage<dim>
     {
@@ -20,6 +27,7 @@ namespace quoin
       void begin() override
       {
         system.begin_stage(index, state);
+        context.displaced = farthest_node(*system.model, state).distance;
         prepare();
       }
       void resume() override
@@ -60,6 +68,11 @@ namespace quoin
       bool time_is_over() const;
       /** Throws a RunError if the stage has taken too many steps. */
       bool ends_here(bool balance) const;
+      /** Whether a condition ends the stage here: boundary elements finish
+          their step. */
+      bool condition_ends_here() const;
+      /** Fails if a block of a static stage moves on and on. */
+      void look_for_lost_blocks();
       void report_blocks_outside();
 
       ExplicitSolver<dim> &solver;
@@ -71,7 +84,18 @@ namespace quoin
     {
       context.steps.choose(stage);
       solver.discard_saved(state);
-      over = stage.end == StageEnd::time && time_is_over();
+      over = (stage.end == StageEnd::time && time_is_over())
+             || condition_ends_here();
+    }
+
+    template <int dim>
+    bool ExplicitStage<dim>::condition_ends_here() const
+    {
+      if constexpr (dim == 2)
+        if (solver.far_fields().elastodynamic_acts
+            && state.template get<FarFieldState>().substep > 0)
+          return false;
+      return this->is_to_end();
     }
 
     template <int dim>
@@ -80,6 +104,8 @@ namespace quoin
       const double dt = solver.get_time_step();
       const bool balance
           = state.stage_step % ExplicitSolver<dim>::balance_interval == 0;
+      if (balance && stage.end == StageEnd::static_ratio)
+        look_for_lost_blocks();
       if (outputs.fields_are_due(state.time, dt))
         outputs.write_fields(state);
 
@@ -103,8 +129,9 @@ namespace quoin
       if (row_is_due || over)
       {
         solver.check_finite(state);
-        outputs.write_row(state);
+        this->write_row();
       }
+      over = over || condition_ends_here();
       if (balance || over)
         outputs.check_tables();
       return state.stage_step % CheckpointClock::steps_between_looks == 0
@@ -164,11 +191,36 @@ namespace quoin
     }
 
     template <int dim>
+    void ExplicitStage<dim>::look_for_lost_blocks()
+    {
+      const FarthestNode<dim> lost = farthest_node(*system.model, state);
+      const double diagonal        = system.nodes->table().diagonal();
+      // It was displaced by no more than the farthest one was.
+      const double moved = lost.distance - context.displaced;
+      if (moved <= diagonal
+          || lost.speed * (state.time - state.stage_start) < slow * moved)
+        return;
+      this->fail(text_of(
+          "block ", lost.block, ", from ", point_text(lost.before), " m to ",
+          point_text(lost.now), " m, has moved by ", moved,
+          " m or more since the stage began, farther than the diagonal of the "
+          "model, ",
+          diagonal, " m, and moves on at ", lost.speed, " m/s, found at time ",
+          state.time, " s, step ", state.step,
+          ": the stage will not come to rest. Check the supports, and the "
+          "units and signs of the loads; a model that may collapse needs 'End "
+          "conditions', and blocks that may fall a 'Box' in section 'Contact' "
+          "and 'Outside the box = delete'."));
+    }
+
+    template <int dim>
     void ExplicitStage<dim>::report_blocks_outside()
     {
       const bool removes = system.parameters.model.contact.outside
                            == ContactParameters::Outside::remove;
       for (const BlockOutside &block : solver.take_blocks_outside())
+      {
+        const auto lost = outputs.write_block_outside(block);
         log.warning("block ", block.block, ", at (", block.position[0], ", ",
                     block.position[1], ") m, has left the box at time ",
                     block.time, " s",
@@ -176,7 +228,11 @@ namespace quoin
                     : removes
                         ? "; it stays in the model, because a load moves it or "
                           "joints tie it to a block that stays"
-                        : "");
+                        : "",
+                    lost.empty() ? ""
+                                 : ": histories in it are 'nan' from now on: "
+                                       + known_names(lost));
+      }
     }
   } // namespace
 

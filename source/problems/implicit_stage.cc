@@ -19,7 +19,7 @@ namespace quoin
       {
         system.begin_stage(index, state);
         if (state.step == 0)
-          write_row();
+          add_row();
       }
       void resume() override
       {
@@ -27,7 +27,7 @@ namespace quoin
       }
       bool has_ended() const override
       {
-        return solver.has_ended(state);
+        return is_to_end() || solver.has_ended(state);
       }
       Checkpoint take_step() override;
       ProgressFigures figures() const override
@@ -39,7 +39,7 @@ namespace quoin
       /** Takes the solver's step and counts its iterations. */
       void step();
       void advance();
-      void write_row();
+      void add_row();
 
       ImplicitSolver &solver;
     };
@@ -54,8 +54,7 @@ namespace quoin
       {
         // The last equilibrium is written.
         outputs.write_iterations();
-        outputs.write_fields(state);
-        throw FailedStep("stage '" + stage.name + "': " + error.what());
+        fail(error.what());
       }
       return Checkpoint::possible;
     }
@@ -97,17 +96,17 @@ namespace quoin
       // row only at their end.
       const ImplicitState &now = state.get<ImplicitState>();
       if (now.released == 1. && !now.jumps)
-        write_row();
+        add_row();
       outputs.check_tables();
       if (state.time > before
           && outputs.fields_are_due(state.time, state.time - before))
         outputs.write_fields(state);
     }
 
-    void ImplicitStage::write_row()
+    void ImplicitStage::add_row()
     {
       outputs.before_row(state);
-      outputs.write_row(state);
+      write_row();
     }
   } // namespace
 

@@ -228,7 +228,8 @@ namespace quoin
                             const BoundaryGeometry &geometry,
                             const BoundaryElementParameters &boundaries,
                             const std::vector<bool> &absent_in_the_end)
-    : model(model), solver(solver), communicator(model.nodes().communicator()),
+    : n_columns(parameters.size()), model(model), solver(solver),
+      communicator(model.nodes().communicator()),
       absent_in_the_end(absent_in_the_end)
   {
     std::vector<HistoryParameters> boundary_probes;
@@ -242,6 +243,9 @@ namespace quoin
       if (history.is_of_boundary())
         boundary_probes.push_back(history);
     }
+    for (unsigned int i = 0; i < n_columns; ++i)
+      if (probes[i].parameters.is_of_two_points())
+        add_ends(i);
     row.resize(1 + probes.size());
     if (!boundary_probes.empty())
       of_boundary = std::make_unique<BoundaryHistories>(
@@ -252,10 +256,68 @@ namespace quoin
   std::vector<std::string> Histories<dim>::column_names() const
   {
     std::vector<std::string> names = { "time [s]" };
-    for (const Probe &probe : probes)
-      names.push_back(probe.parameters.name + " [" + probe.parameters.unit
-                      + "]");
+    for (unsigned int i = 0; i < n_columns; ++i)
+      names.push_back(probes[i].parameters.name + " ["
+                      + probes[i].parameters.unit + "]");
     return names;
+  }
+
+  template <int dim>
+  std::vector<std::string>
+  Histories<dim>::names_in(const unsigned int block) const
+  {
+    std::vector<unsigned int> is_in;
+    for (const Probe &probe : probes)
+    {
+      const auto blocks = blocks_of(probe);
+      is_in.push_back(std::count(blocks.begin(), blocks.end(), block) > 0);
+    }
+    dealii::Utilities::MPI::max(is_in, communicator, is_in);
+    std::vector<std::string> names;
+    for (unsigned int i = 0; i < probes.size(); ++i)
+      if (const std::string &name = probes[i].parameters.name;
+          is_in[i] && !is_among(name, names))
+        names.push_back(name);
+    return names;
+  }
+
+  template <int dim>
+  void Histories<dim>::add_ends(const unsigned int column)
+  {
+    const HistoryParameters wanted = probes[column].parameters;
+    probes[column].ends            = probes.size();
+    for (const auto &point : { wanted.point, wanted.other_point })
+      for (unsigned int d = 0; d < dim; ++d)
+      {
+        Probe end;
+        end.parameters.name      = wanted.name;
+        end.parameters.component = d;
+        end.parameters.point     = point;
+        locate(end);
+        end.coordinate = dealii::Utilities::MPI::sum(
+            end.here ? model.nodes().point(end.entity)[d] : 0., communicator);
+        probes.push_back(end);
+      }
+  }
+
+  template <int dim>
+  double Histories<dim>::value_of_two(const Probe &probe,
+                                      const double *values) const
+  {
+    dealii::Tensor<1, dim> before, change;
+    for (unsigned int d = 0; d < dim; ++d)
+    {
+      const unsigned int first = probe.ends + d, second = first + dim;
+      before[d] = probes[second].coordinate - probes[first].coordinate;
+      change[d] = values[second] - values[first];
+    }
+    const dealii::Tensor<1, dim> now = before + change;
+    if (probe.parameters.quantity == HistoryQuantity::relative_displacement)
+      return change[probe.parameters.component];
+    if (probe.parameters.quantity == HistoryQuantity::distance_change)
+      return now.norm() - before.norm();
+    return std::atan2(before[0] * now[1] - before[1] * now[0], before * now)
+           / constants::degree;
   }
 
   template <int dim>
@@ -289,13 +351,24 @@ namespace quoin
     case HistoryQuantity::unbalanced_ratio: // of the whole model
     case HistoryQuantity::kinetic_share:
     case HistoryQuantity::contacts:
+    case HistoryQuantity::open_joints:
     case HistoryQuantity::load_time:
     case HistoryQuantity::loading_rate:
+    case HistoryQuantity::relative_displacement: // see add_ends()
+    case HistoryQuantity::tilt:
+    case HistoryQuantity::distance_change:
     case HistoryQuantity::boundary_displacement: // see BoundaryHistories
     case HistoryQuantity::boundary_velocity:
     case HistoryQuantity::boundary_traction:
     case HistoryQuantity::boundary_hoop_stress:
     case HistoryQuantity::boundary_force:
+      return;
+    case HistoryQuantity::blocks_outside:
+      if (!model.parameters().contact.has_box)
+        throw InputError("section 'Histories/" + wanted.name
+                         + "': 'Quantity = blocks outside' counts those that "
+                           "have left a box, and there is none. Give 'Box' in "
+                           "section 'Contact'.");
       return;
     }
     probe.entity = nearest.entity;
@@ -378,7 +451,14 @@ namespace quoin
                                      const State<dim> &state) const
   {
     const HistoryParameters &wanted = probe.parameters;
-    if (is_absent(probe, state))
+    bool is_absent                  = false;
+    for (const unsigned int block : blocks_of(probe))
+    {
+      is_absent = is_absent || state.is_absent(block);
+      if (is_absent && state.block_marks[block] == block_mark::removed)
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    if (is_absent)
       return 0.;
     switch (wanted.quantity)
     {
@@ -451,27 +531,45 @@ namespace quoin
                      history);
   }
 
-  template <int dim>
-  bool Histories<dim>::is_absent(const Probe &probe,
-                                 const State<dim> &state) const
+  template <>
+  double Histories<2>::open_length(const State<2> &state) const
   {
+    const auto &segments        = model.joints().segments();
+    const JointHistory &history = state.get<JointHistory>();
+    double length               = 0.;
+    for (unsigned int i = 0; i < segments.size(); ++i)
+      if (!history.handed_over[i] && !is_at_absent_block(model, i, state))
+        for (unsigned int k = 0; k < 2; ++k)
+          if (history.state[2 * i + k] == JointState::open)
+            length += segments[i].area[k] * segments[i].share;
+    return length / model.parameters().thickness;
+  }
+
+  template <int dim>
+  std::vector<unsigned int> Histories<dim>::blocks_of(const Probe &probe) const
+  {
+    if (!probe.here)
+      return {};
     switch (probe.parameters.quantity)
     {
     case HistoryQuantity::displacement:
     case HistoryQuantity::velocity:
-      return state.is_absent(model.nodes().block_of_node(probe.entity));
+      return { model.nodes().block_of_node(probe.entity) };
     case HistoryQuantity::stress:
     case HistoryQuantity::principal_stress:
     case HistoryQuantity::yielding:
     case HistoryQuantity::rotation:
-      return state.is_absent(
-          model.nodes().blocks().block_of_cell(probe.entity));
+      return { model.nodes().blocks().block_of_cell(probe.entity) };
     case HistoryQuantity::joint:
       if constexpr (dim == 2)
-        return is_at_absent_block(model, probe.entity / 2, state);
-      return false;
+      {
+        const auto &segment = model.joints().segments()[probe.entity / 2];
+        const auto &blocks  = model.nodes().faces().joints[segment.face].blocks;
+        return { blocks.begin(), blocks.end() };
+      }
+      return {};
     default:
-      return false;
+      return {};
     }
   }
 
@@ -510,6 +608,11 @@ namespace quoin
     std::fill(row.begin(), row.end(), 0.);
     row[0]     = state.time;
     load_clock = { state.load_time, state.load_rate };
+    n_outside  = double(std::count_if(
+         state.block_marks.begin(), state.block_marks.end(),
+         [](const std::uint8_t mark) {
+          return mark == block_mark::left_box || mark == block_mark::removed;
+        }));
     for (unsigned int i = 0; i < probes.size(); ++i)
     {
       const Probe &probe = probes[i];
@@ -540,11 +643,15 @@ namespace quoin
           && probe.parameters.component >= 2)
         row[1 + i] = point_value(probe, state);
     }
-    for (unsigned int i = 0; i < probes.size(); ++i)
+    for (unsigned int i = 0; i < n_columns; ++i)
       if (probes[i].parameters.quantity == HistoryQuantity::contacts
           && solver.contacts())
         row[1 + i]
             = solver.contacts()->n_touching(state.template get<ContactState>());
+    if constexpr (dim == 2)
+      for (unsigned int i = 0; i < n_columns; ++i)
+        if (probes[i].parameters.quantity == HistoryQuantity::open_joints)
+          row[1 + i] = open_length(state);
     const double time          = row[0];
     std::vector<double> result = row;
     // All ranks have platen displacements, one rank has a point.
@@ -555,7 +662,7 @@ namespace quoin
     MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPI_DOUBLE,
                   MPI_SUM, communicator);
     result[0] = time;
-    for (unsigned int i = 0; i < probes.size(); ++i)
+    for (unsigned int i = 0; i < n_columns; ++i)
     {
       const HistoryParameters &wanted = probes[i].parameters;
       if (wanted.quantity == HistoryQuantity::reaction
@@ -570,7 +677,12 @@ namespace quoin
       else if (wanted.quantity == HistoryQuantity::kinetic_share)
         result[1 + i] = solver.energies().kinetic
                         / std::max(solver.energies().throughput(), 1e-300);
+      else if (wanted.quantity == HistoryQuantity::blocks_outside)
+        result[1 + i] = n_outside;
+      else if (wanted.is_of_two_points())
+        result[1 + i] = value_of_two(probes[i], result.data() + 1);
     }
+    result.resize(1 + n_columns);
     if constexpr (dim == 2)
       if (of_boundary && state.template get<FarFieldState>().active)
         add_boundary_values(state, result);
@@ -589,7 +701,7 @@ namespace quoin
     fields.displacement += since * fields.velocity;
     const std::vector<double> values = of_boundary->row(0., fields);
     unsigned int next                = 1;
-    for (unsigned int i = 0; i < probes.size(); ++i)
+    for (unsigned int i = 0; i < n_columns; ++i)
       if (probes[i].parameters.is_of_boundary())
         result[1 + i] = values[next++];
   }

@@ -33,6 +33,11 @@ namespace quoin
         { "velocity x", { Q::velocity, 0, "m/s", 0 } },
         { "velocity y", { Q::velocity, 1, "m/s", 0 } },
         { "velocity z", { Q::velocity, 2, "m/s", 3 } },
+        { "relative displacement x", { Q::relative_displacement, 0, "m", 0 } },
+        { "relative displacement y", { Q::relative_displacement, 1, "m", 0 } },
+        { "relative displacement z", { Q::relative_displacement, 2, "m", 3 } },
+        { "tilt", { Q::tilt, 0, "deg" } },
+        { "distance change", { Q::distance_change, 0, "m", 0 } },
         { "stress xx", { Q::stress, 0, "Pa", 0 } },
         { "stress yy", { Q::stress, 1, "Pa", 0 } },
         { "stress xy", { Q::stress, 2, "Pa", 0 } },
@@ -68,6 +73,8 @@ namespace quoin
         { "load time", { Q::load_time, 0, "s", 0 } },
         { "loading rate", { Q::loading_rate, 0, "-", 0 } },
         { "contacts", { Q::contacts, 0, "-" } },
+        { "blocks outside", { Q::blocks_outside, 0, "-" } },
+        { "open joints", { Q::open_joints, 0, "m" } },
         { "boundary displacement x", { Q::boundary_displacement, 0, "m" } },
         { "boundary displacement y", { Q::boundary_displacement, 1, "m" } },
         { "boundary velocity x", { Q::boundary_velocity, 0, "m/s" } },
@@ -100,10 +107,20 @@ namespace quoin
           "tensile strength and cohesion that a composite law has lost, 'joint "
           "crushing' the plastic displacement on its cap; 'contacts' the "
           "number of points that press on each other, matched joints apart; "
+          "'blocks outside' that of blocks that have left the 'Box' of section "
+          "'Contact', deleted ones among them; 'open joints' the length of "
+          "the joints that have failed in tension or are open, matched ones; "
+          "'relative displacement x' that of 'Second point' less that of "
+          "'Point', 'distance change' how much farther from each other they "
+          "are than at the start, 'tilt' the angle by which the line from "
+          "'Point' to 'Second point' has turned, from -180 to 180, "
+          "anticlockwise; "
           "'rotation' is that of the nearest rigid block, full turns counted, "
           "or of the nearest cell, from -180 to 180, anticlockwise. Rigid "
-          "blocks have no stress: it is written as 0. Quantities of a "
-          "'boundary' are for boundary elements: velocities and tractions are "
+          "blocks have no stress: it is written as 0. In a block that has been "
+          "deleted all is 'nan', in one that is excavated or not placed yet 0. "
+          "Quantities of a 'boundary' are for boundary elements: velocities "
+          "and tractions are "
           "the means of their last step that is over; 0 before the first stage "
           "with 'End = time' that they act in. With 'Model = boundary "
           "elements' displacements and velocities are those in the domain. "
@@ -115,6 +132,17 @@ namespace quoin
       history.unit      = kind.unit;
       history.word      = quantity;
       history.dimension = kind.dimension;
+      const auto read_point
+          = [&](const ParameterSection &from, const std::string &name,
+                std::array<double, 3> &point)
+      {
+        const bool has_z = from.list(name).size() == 3;
+        if (has_z)
+          point = from.numbers<3>(name);
+        else
+          std::copy_n(from.numbers<2>(name).begin(), 2, point.begin());
+        return has_z;
+      };
       entries.other("Point", "0, 0",
                     "x, y and, in three dimensions, z of the point whose "
                     "nearest node, cell or joint "
@@ -123,15 +151,28 @@ namespace quoin
                     "which the moment is taken. Of nodes at one place: that "
                     "of the block in which the point is, else of the lower "
                     "or left block [m]",
-                    [&](const ParameterSection &from)
-                    {
-                      history.point_has_z = from.list("Point").size() == 3;
-                      if (history.point_has_z)
-                        history.point = from.numbers<3>("Point");
-                      else
-                        std::copy_n(from.numbers<2>("Point").begin(), 2,
-                                    history.point.begin());
+                    [&](const ParameterSection &from) {
+                      history.point_has_z
+                          = read_point(from, "Point", history.point);
                     });
+      if (entries.reads_if(history.is_of_two_points()))
+        entries.other(
+            "Second point", "",
+            "The other point of quantities of two points, with as many "
+            "coordinates as 'Point' [m]",
+            [&](const ParameterSection &from)
+            {
+              if (from.text("Second point").empty())
+                from.fail("Second point", "must be given: the quantity is one "
+                                          "of two points.");
+              if (read_point(from, "Second point", history.other_point)
+                  != history.point_has_z)
+                from.fail("Second point",
+                          "must have as many coordinates as 'Point'.");
+              if (history.other_point == history.point)
+                from.fail("Second point", "is 'Point' itself. Give another "
+                                          "point.");
+            });
       entries.text("Load", history.load,
                    "Load whose reaction or platen is recorded.");
       entries.text("Curve", history.curve,
@@ -166,6 +207,7 @@ namespace quoin
                        + ". Name another quantity.");
     const bool has_point = quantity == HistoryQuantity::displacement
                            || quantity == HistoryQuantity::velocity
+                           || is_of_two_points()
                            || quantity == HistoryQuantity::stress
                            || quantity == HistoryQuantity::principal_stress;
     if (point_has_z != (dim == 3) && (has_point || point_has_z))

@@ -48,6 +48,21 @@ def energy_residual(case, folder, output, histories):
     return {"energy residual": residual_of(energies(output))}
 
 
+def outcomes(case, folder, output, histories):
+    """Times at which the stages ended, each with the outcome of the case; and
+    the residual of the energy balance."""
+    with open(os.path.join(output, "summary.json")) as stream:
+        stages = json.load(stream)["stages"]
+    errors = energy_residual(case, folder, output, histories)
+    for name, (outcome, time) in case["outcomes"].items():
+        found = stages.get(name, {})
+        if found.get("outcome") != outcome:
+            raise Failure("stage %s ended as '%s', not '%s'"
+                          % (name, found.get("outcome"), outcome))
+        errors["time of " + name] = abs(found["time [s]"] / time - 1)
+    return errors
+
+
 def initial_energy(case, folder, output, histories):
     """The energy of the pulse f(x) that is put in at the start, half of it
     strain: rho c^2 times the integral of f'^2; and the residual."""
@@ -893,7 +908,8 @@ def excavated_hole(case, folder, output, histories):
     path = os.path.join(output, "blocks.pvd")
     stress = case.get("stress", [exact.SXX, exact.SYY])
     errors = {}
-    for (time, _), share in zip(vtu.read_pvd(path), (0.5, 1.0)):
+    for (time, _), share in zip(vtu.read_pvd(path),
+                                case.get("shares", (0.5, 1.0))):
         grid = vtu.read_at(path, time)
         x, u = grid.points, grid.point_data["displacement"][:, :2]
         radius = np.hypot(x[:, 0], x[:, 1])

@@ -67,6 +67,11 @@ CASES = {
         os.path.join(common.MASONRY, "tue_walls", "j4d.prm"),
         ["Solver=implicit", "Output/Checkpoint interval=0.05",
          "Output/Field interval=5e-3", "Stages/push/Duration=0.02"], 2, 1),
+    # stages that end on conditions, one of them on a peak
+    "conditions": (os.path.join(common.VERIFICATION, "stage_conditions",
+                                "case.prm"),
+                   ["Output/Checkpoint interval=0.02",
+                    "Time stepping/Share of critical time step=0.02"], 1, 3),
     # contacts searched, handed over and taken up in between
     "sled": (common.SLED, ["Output/Checkpoint interval=0.02",
                            "Output/Field interval=2e-3"], 1, 4),

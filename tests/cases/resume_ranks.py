@@ -46,6 +46,7 @@ CASES = {
     "rigid": of_ranks("rigid", ALL),
     "yielding": of_ranks("yielding", UP),
     "yielding, divided": (SALENCON, SOON, ALL),
+    "conditions": of_ranks("conditions", UP),
     "sled": of_ranks("sled", ALL),
     "wall": (on_ranks.WALL, ["Stages/settle/End=time",
                              "Stages/settle/Duration=2e-3",

@@ -80,6 +80,13 @@ class Moments(Says):
         self.assertEqual(self.when("peak", -self.value), 3.)
         self.assertEqual(self.when("end"), 4.)
 
+    def test_of_a_block_that_is_deleted(self):
+        gone = np.where(self.time < 2.5, self.value, np.nan)
+        self.assertEqual(self.when("peak", gone), 1.)
+        self.assertEqual(self.when("end", gone), 2.)
+        self.assertAlmostEqual(self.when(1.5, gone), 0.75)
+        self.says(["never reaches 3", "from 0 to 2"], self.when, 3., gone)
+
     def test_a_step_short_of_the_value(self):
         self.assertEqual(self.when(4.001), 3.)
         self.says(["never reaches 4.1", "from 0 to 4"], self.when, 4.1)
@@ -316,6 +323,20 @@ class Pictures(unittest.TestCase):
                      "--label", "a", "--label", "b")
         self.refuses("two numbers or two csv files", "plot", "--x",
                      "displacement", "--y", "force", "--band", "13", "no.csv")
+
+    def test_plot_of_a_block_that_is_deleted(self):
+        gone = os.path.join(self.folder.name, "gone")
+        os.makedirs(gone, exist_ok=True)
+        with open(os.path.join(self.output, "histories.csv")) as file:
+            rows = [line.strip().split(",") for line in file]
+        column = [name.split(" [")[0] for name in rows[0]].index("force")
+        for row in rows[len(rows) // 2:]:
+            row[column] = "nan"
+        with open(os.path.join(gone, "histories.csv"), "w") as file:
+            file.writelines(",".join(row) + "\n" for row in rows)
+        self.draws("plot", gone, "--spec",
+                   os.path.join(SMALL_WALL, "plot.json"), "--peak",
+                   "--label", "stands", "--label", "falls")
 
     def test_band_of_curves(self):
         paths = [os.path.join(self.folder.name, name)

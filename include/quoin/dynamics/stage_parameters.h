@@ -33,6 +33,13 @@ namespace quoin
     static_ratio
   };
 
+  /** A condition on histories by which a stage ends: see HistoryConditions. */
+  struct EndCondition
+  {
+    std::string outcome; /**< how the stage has ended if it is met */
+    std::string expression;
+  };
+
   /** One stage of a run: a subsection of 'Stages'. */
   struct StageParameters
   {
@@ -43,7 +50,8 @@ namespace quoin
     double static_ratio         = 1e-6;
     double minimum_duration     = 0.; /**< of a static stage [s] */
     std::uint64_t maximum_steps = 0;
-    double start_time           = -1.; /**< [s]; -1: previous end */
+    double start_time           = -1.;        /**< [s]; -1: previous end */
+    std::vector<EndCondition> end_conditions; /**< besides 'End' */
 
     DampingType damping          = DampingType::none;
     double local_coefficient     = 0.;
@@ -79,6 +87,12 @@ namespace quoin
     bool slows_loads() const
     {
       return kinetic_limit > 0.;
+    }
+
+    /** Whether the stage lasts as long as 'Duration' says. */
+    bool duration_is_known() const
+    {
+      return end == StageEnd::time && !slows_loads() && end_conditions.empty();
     }
 
     /** Whether the stage computes waves, not equilibria. */

@@ -6,11 +6,35 @@
 
 #include <quoin/model/model.h>
 
+#include <string>
+#include <vector>
+
 namespace quoin
 {
-  /** Throws a ModelFailure if a cell is inverted; collective. */
+  /**
+   * Throws a ModelFailure if a cell is inverted, which tells whether its mesh
+   * or the @p loads, those that act in the stage, are the likely cause.
+   * Collective.
+   */
   template <int dim>
-  void check_cells(const Model<dim> &model, const State<dim> &state);
+  void check_cells(const Model<dim> &model, const State<dim> &state,
+                   const std::vector<std::string> &loads);
+
+  /** The node of present blocks that has moved farthest. */
+  template <int dim>
+  struct FarthestNode
+  {
+    double distance = 0.; /**< [m] */
+    /** Velocity along the displacement, positive: it moves on [m/s]. */
+    double speed       = 0.;
+    unsigned int block = 0;         /**< of the whole mesh */
+    dealii::Point<dim> before, now; /**< [m] */
+  };
+
+  /** Collective. */
+  template <int dim>
+  FarthestNode<dim> farthest_node(const Model<dim> &model,
+                                  const State<dim> &state);
 
   /**
    * The largest slip of a matched joint that bears pressure, by the length of

@@ -16,6 +16,7 @@ namespace quoin
   {
     unsigned int block;             /**< of the whole mesh */
     std::array<double, 2> position; /**< mean of its nodes now [m] */
+    std::array<double, 2> velocity; /**< mean of its nodes [m/s] */
     double time;                    /**< when it was found [s] */
     bool removed;                   /**< or only reported */
   };
@@ -49,8 +50,8 @@ namespace quoin
     /** Marks the blocks tied to one that stays as staying. */
     void spread_along_joints(std::vector<std::uint8_t> &stays,
                              const State<2> &state) const;
-    void find_positions(std::vector<BlockOutside> &found,
-                        const State<2> &state) const;
+    void find_motions(std::vector<BlockOutside> &found,
+                      const State<2> &state) const;
 
     const Model<2> &model;
     const ContactParameters &parameters;

@@ -46,9 +46,13 @@ namespace quoin
     }
     /**
      * Writes rows of histories, energies and far field for the time before the
-     * last step. Throws a RunError if boundary elements have created energy.
+     * last step; returns that of histories. Throws a RunError if boundary
+     * elements have created energy.
      */
-    void write_row(const State<dim> &state);
+    std::vector<double> write_row(const State<dim> &state);
+    /** Writes a row of blocks_outside.csv; returns the histories that are of
+        the @p block and so have no value any more if it is deleted. */
+    std::vector<std::string> write_block_outside(const BlockOutside &block);
     /** Writes rows of convergence.csv for iterations since the last call. */
     void write_iterations();
 
@@ -85,7 +89,7 @@ namespace quoin
       PhaseClock &clock = system.solver->time_spent();
       clock.measure(clock.phase("output"), task);
     }
-    void add_rows(const State<dim> &state);
+    std::vector<double> add_rows(const State<dim> &state);
     void write_generated_geometry() const;
     void write_energies(double time);
     void write_far_field_row(const State<dim> &state);
@@ -96,7 +100,8 @@ namespace quoin
     Histories<dim> histories;
     const TimeControl row_times, field_times;
     RootTable &history_table, &energy_table;
-    RootTable *far_field_table = nullptr, *convergence_table = nullptr;
+    RootTable *far_field_table = nullptr, *convergence_table = nullptr,
+              *outside_table = nullptr;
     ModelOutput<dim> fields;
     BoundaryOutput boundary;
 

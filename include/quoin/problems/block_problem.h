@@ -41,6 +41,7 @@ namespace quoin
         @p begun. */
     void advise_about_stage(unsigned int index, const State<dim> &begun) const;
     void summarise_searches(nlohmann::json &summary) const;
+    void summarise_outcomes(nlohmann::json &summary) const;
     /** Adds the share of each phase in the time. Collective. */
     void summarise_time(nlohmann::json &summary, double seconds) const;
     void summarise_contacts(nlohmann::json &summary, double seconds) const;

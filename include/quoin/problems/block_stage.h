@@ -6,6 +6,7 @@
 
 #include <quoin/problems/block_outputs.h>
 #include <quoin/problems/stage_steps.h>
+#include <quoin/results/history_conditions.h>
 
 #include <cstdint>
 #include <memory>
@@ -13,6 +14,21 @@
 
 namespace quoin
 {
+  /** How and when a stage ended. */
+  struct StageOutcome
+  {
+    std::string outcome;     /**< empty: it has not ended */
+    std::string condition;   /**< that was met, or empty */
+    double time        = 0.; /**< [s] */
+    std::uint64_t step = 0;  /**< of the run */
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &outcome &condition &time &step;
+    }
+  };
+
   /** Data of the stages of a problem of blocks. */
   template <int dim>
   struct BlockContext
@@ -27,9 +43,13 @@ namespace quoin
     BlockOutputs<dim> outputs;
     State<dim> state;
     std::vector<FactorSearch> searches; /**< of each stage, most unused */
-    std::uint64_t n_done     = 0;       /**< steps of this process */
-    std::uint64_t iterations = 0;       /**< of the implicit solver */
-    std::uint64_t cuts       = 0;       /**< of steps of the implicit solver */
+    std::vector<StageOutcome> outcomes; /**< of each stage */
+    std::vector<double> peaks; /**< of histories: see HistoryConditions */
+    double displaced = 0.;     /**< largest one where the stage began [m] */
+    std::string failure; /**< why the last stage failed; empty: it did not */
+    std::uint64_t n_done     = 0; /**< steps of this process */
+    std::uint64_t iterations = 0; /**< of the implicit solver */
+    std::uint64_t cuts       = 0; /**< of steps of the implicit solver */
 
     /** Residual of the energy balance, by the energy throughput [-]. */
     double energy_residual() const;
@@ -50,6 +70,15 @@ namespace quoin
     virtual void finish()
     {
     }
+    /** Writes a row and looks whether a condition ends the stage. */
+    void write_row();
+    /** Whether a condition has been met. */
+    bool is_to_end() const
+    {
+      return !context.outcomes[index].outcome.empty();
+    }
+    /** Writes the fields and throws a FailedStep. */
+    [[noreturn]] void fail(const std::string &why);
     /** Progress, with the completed @p fraction of the stage, or -1. */
     ProgressFigures figures_at(double fraction) const;
     /** Share of the loads of an implicit stage that has been reached [-]. */
@@ -70,6 +99,13 @@ namespace quoin
 
   private:
     void warn_of_slip() const;
+    /** Keeps and reports how the stage has ended. */
+    void note_outcome();
+    /** Forces of excavated blocks that a stage has not released when a
+        condition ends it stay. */
+    void keep_unreleased_forces();
+
+    const HistoryConditions conditions; /**< by which the stage ends */
   };
 
   /** A stage of the explicit solver that ends by time or at rest. */

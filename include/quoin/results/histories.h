@@ -20,9 +20,10 @@ namespace quoin
   /**
    * Samples the quantities of histories.csv at the time of a step: before it
    * those that the step overwrites, after it those that it computes. Point
-   * quantities are those of the nearest node, cell or joint point, zero at
-   * absent blocks. Those of boundary elements are of their last completed step,
-   * with displacements extrapolated by its velocities.
+   * quantities are those of the nearest node, cell or joint point: zero in
+   * blocks that are excavated or not placed yet, NaN in deleted ones, and so
+   * are those of two points. Those of boundary elements are of their last
+   * completed step, with displacements extrapolated by its velocities.
    */
   template <int dim>
   class Histories
@@ -43,6 +44,9 @@ namespace quoin
     /** "time [s]" and "name [unit]" of each column. */
     std::vector<std::string> column_names() const;
 
+    /** The histories of points in @p block; collective. */
+    std::vector<std::string> names_in(unsigned int block) const;
+
     /** Whether a row needs the unbalanced ratio of its own step. */
     bool need_balance() const;
 
@@ -55,19 +59,28 @@ namespace quoin
     struct Probe
     {
       HistoryParameters parameters;
-      unsigned int entity                 = 0; /**< node, cell or joint point */
-      bool here                           = false;
+      unsigned int entity = 0; /**< node, cell or joint point */
+      bool here           = false;
+      double coordinate   = 0.; /**< of an end's node in the mesh [m] */
+      unsigned int ends   = 0;  /**< of two points: the first one's probe */
       const MotionConstraint<dim> *platen = nullptr;
     };
 
     void locate(Probe &probe) const;
+    /** Adds probes of the displacements of both points of a @p column. */
+    void add_ends(unsigned int column);
+    /** The value of a quantity of two points, from the displacements of both in
+        @p values, those of probes. */
+    double value_of_two(const Probe &probe, const double *values) const;
+    /** Length of open joints that this rank counts [m]. */
+    double open_length(const State<2> &state) const;
     /** Finds the load whose reaction or motion @p probe records. */
     void find_load(Probe &probe) const;
     /** Finds the rank of the nearest point; @p key: that of this rank. */
     void find_owner(Probe &probe, const std::array<double, dim + 2> &key) const;
     double point_value(const Probe &probe, const State<dim> &state) const;
-    /** Whether the block of @p probe is absent. */
-    bool is_absent(const Probe &probe, const State<dim> &state) const;
+    /** The blocks at the point of @p probe, which is on this rank. */
+    std::vector<unsigned int> blocks_of(const Probe &probe) const;
     double joint_value(const Probe &probe, const State<2> &state) const;
     double yield_value(const Probe &probe, const State<2> &state) const;
     /** Adds the columns of boundary elements. */
@@ -76,13 +89,15 @@ namespace quoin
     /** Rotation of a local cell [rad]. */
     double rotation(unsigned int cell, const State<dim> &state) const;
 
-    std::vector<Probe> probes;
+    std::vector<Probe> probes; /**< of the columns, and ends behind them */
+    unsigned int n_columns;
     const Model<dim> &model;
     const Solver<dim> &solver;
     std::unique_ptr<BoundaryHistories> of_boundary; /**< or null */
     MPI_Comm communicator;
     const std::vector<bool> absent_in_the_end; /**< of physical surfaces */
     std::array<double, 2> load_clock{};        /**< time [s] and rate [-] */
+    double n_outside = 0.; /**< blocks that have left the box */
     std::vector<double> row;
   };
 
@@ -90,6 +105,8 @@ namespace quoin
   template <>
   double Histories<2>::joint_value(const Probe &probe,
                                    const State<2> &state) const;
+  template <>
+  double Histories<2>::open_length(const State<2> &state) const;
   template <>
   double Histories<2>::yield_value(const Probe &probe,
                                    const State<2> &state) const;

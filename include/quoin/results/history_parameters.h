@@ -15,6 +15,9 @@ namespace quoin
   {
     displacement,
     velocity,
+    relative_displacement, /**< of two points */
+    tilt,
+    distance_change,
     stress,
     principal_stress,
     yielding,
@@ -28,6 +31,8 @@ namespace quoin
     load_time,
     loading_rate,
     contacts,
+    blocks_outside,
+    open_joints,
     boundary_displacement,
     boundary_traction,
     boundary_velocity,
@@ -46,6 +51,8 @@ namespace quoin
     std::string unit;
     std::array<double, 3> point{}; /**< [m]; z in three dimensions */
     bool point_has_z = false;      /**< z was given */
+    /** Of quantities of two points, the second one [m]. */
+    std::array<double, 3> other_point{};
     std::string load;
     std::string curve;
 
@@ -59,6 +66,14 @@ namespace quoin
     {
       return quantity == HistoryQuantity::displacement
              || quantity == HistoryQuantity::velocity;
+    }
+
+    /** Whether it compares the displacements of two points. */
+    bool is_of_two_points() const
+    {
+      return quantity == HistoryQuantity::relative_displacement
+             || quantity == HistoryQuantity::tilt
+             || quantity == HistoryQuantity::distance_change;
     }
 
     /** Throws an InputError if a model of blocks in @p dim dimensions has no

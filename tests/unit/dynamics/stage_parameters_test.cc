@@ -69,6 +69,25 @@ TEST(StageParameters, StaticStage)
   EXPECT_EQ(stage.scaled_time_step, 1e-4);
 }
 
+TEST(StageParameters, ConditionsThatEndIt)
+{
+  EXPECT_TRUE(read("set Duration = 1\n").end_conditions.empty());
+  EXPECT_TRUE(read("set Duration = 1\n").duration_is_known());
+  const auto stage
+      = read("set Duration = 1\nset End conditions = all fallen: u > 1; "
+             "v < 2 ? w > 1 : w > 2; at-rest : max(a, b) > 3\n");
+  EXPECT_FALSE(stage.duration_is_known());
+  ASSERT_EQ(stage.end_conditions.size(), 3U);
+  EXPECT_EQ(stage.end_conditions[0].outcome, "all fallen");
+  EXPECT_EQ(stage.end_conditions[0].expression, "u > 1");
+  EXPECT_EQ(stage.end_conditions[1].outcome, "condition met");
+  EXPECT_EQ(stage.end_conditions[1].expression, "v < 2 ? w > 1 : w > 2");
+  EXPECT_EQ(stage.end_conditions[2].outcome, "at-rest");
+  EXPECT_EQ(stage.end_conditions[2].expression, "max(a, b) > 3");
+  expect_refused("set Duration = 1\nset End conditions = u > 1;; v > 1\n",
+                 "End conditions = u > 1;; v > 1", "empty condition");
+}
+
 TEST(StageParameters, OnlyTheChosenDampingActs)
 {
   const std::string coefficients

@@ -408,14 +408,14 @@ TEST(ModelBox, CellsInsideOutAreFound)
     }
     TestRun run(mesh, parameters, {});
     run.begin(stage_with({}), 0.1);
-    check_cells(run.model, run.state);
+    check_cells(run.model, run.state, {});
     // Turned and stretched is no harm.
     for (NodeRecord<2> &node : run.state.nodes)
     {
       node.u[0] = -1.2 * node.X[1] - node.X[0];
       node.u[1] = 0.8 * node.X[0] - node.X[1];
     }
-    check_cells(run.model, run.state);
+    check_cells(run.model, run.state, {});
     for (NodeRecord<2> &node : run.state.nodes)
       node.u[0] = node.u[1] = 0.;
     run.step(1);
@@ -425,4 +425,60 @@ TEST(ModelBox, CellsInsideOutAreFound)
                  { "block 0", "inside out", "time", "step 1",
                    "Normal stiffness", "refine", "Share of critical" });
   }
+}
+
+TEST(ModelBox, CellsInsideOutAreOfTheMeshOrOfTheLoads)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}), 0.1);
+  const unsigned int corner = run.node(2., 0.);
+  const auto message        = [&]()
+  {
+    return message_of<ModelFailure>(
+        [&]() {
+          check_cells(run.model, run.state, { "weight", "push" });
+        });
+  };
+  run.state.nodes[corner].u[0] = -1.5;
+  run.state.nodes[corner].u[1] = 1.5;
+  expect_words(message(), { "block 0", "Initial motion" });
+  run.state.nodes[corner].u[0] = run.state.nodes[corner].u[1] = 0.;
+  run.step(1);
+  run.state.nodes[corner].u[0] = -1.5;
+  run.state.nodes[corner].u[1] = 1.5;
+  expect_words(message(), { "block 0", "crushed",
+                            "loads of this stage are "
+                            "weight, push",
+                            "End conditions" });
+  // Halves of squares of 1 m by 0.05 m: heights of 0.05 m on edges of 1 m.
+  for (NodeRecord<2> &node : run.state.nodes)
+    node.X[1] *= 0.05;
+  expect_words(message(), { "block 0", "smallest height is only 4.9",
+                            "% of its longest edge", "the mesh is the" });
+}
+
+TEST(ModelBox, TheNodeThatMovedFarthest)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 2, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}), 0.1);
+  EXPECT_EQ(farthest_node(run.model, run.state).distance, 0.);
+  const unsigned int far = run.node(2., 4.), near = run.node(0., 0.);
+  run.state.nodes[near].u[0]   = -4.;
+  run.state.nodes[far].u[0]    = 3.;
+  run.state.nodes[far].u[1]    = -4.;
+  run.state.velocity[far].v[0] = 1.;
+  run.state.velocity[far].v[1] = 2.;
+  const FarthestNode<2> found  = farthest_node(run.model, run.state);
+  EXPECT_EQ(found.block, 1U);
+  EXPECT_DOUBLE_EQ(found.distance, 5.);
+  EXPECT_DOUBLE_EQ(found.speed, -1.);
+  EXPECT_EQ(found.before[1], 4.);
+  EXPECT_EQ(found.now[0], 5.);
+  // What has been deleted is where it was when that happened.
+  run.state.block_marks = { block_mark::present, block_mark::removed };
+  EXPECT_EQ(farthest_node(run.model, run.state).distance, 4.);
 }

@@ -7,6 +7,8 @@
 #include <quoin/results/histories.h>
 #include <quoin/mesh/block_numbering.h>
 
+#include <cmath>
+
 using namespace quoin;
 using namespace quoin::test;
 
@@ -56,4 +58,117 @@ TEST(Histories, AtAJointTheyAreOfOneBlockWhateverTheNumbers)
     EXPECT_EQ(row[3], 0.) << "in the lower block";
     EXPECT_EQ(row[4], 1.);
   }
+}
+
+namespace
+{
+  HistoryParameters history(const HistoryQuantity quantity,
+                            const unsigned int component   = 0,
+                            const std::array<double, 3> &a = {},
+                            const std::array<double, 3> &b = {})
+  {
+    HistoryParameters result;
+    result.name        = "h" + std::to_string(int(quantity));
+    result.quantity    = quantity;
+    result.component   = component;
+    result.point       = a;
+    result.other_point = b;
+    return result;
+  }
+
+  /** A row of @p wanted of @p run. */
+  std::vector<double> row_of(const std::vector<HistoryParameters> &wanted,
+                             TestRun &run)
+  {
+    Histories<2> histories(wanted, run.model, run.solver, BoundaryGeometry(),
+                           BoundaryElementParameters(), { false, false });
+    EXPECT_EQ(histories.column_names().size(), 1 + wanted.size());
+    histories.before_step(run.state);
+    return histories.after_step(run.state);
+  }
+} // namespace
+
+TEST(Histories, QuantitiesOfTwoPointsFollowTheMotionOfBoth)
+{
+  using Q = HistoryQuantity;
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}));
+  // The line from (0, 0) to (3, 4), 5 m, is turned by 30 degrees,
+  // anticlockwise, and becomes 1.2 times as long.
+  const double c = 1.2 * std::sqrt(3.) / 2., s = 1.2 / 2.;
+  for (NodeRecord<2> &node : run.state.nodes)
+  {
+    node.u[0] = c * node.X[0] - s * node.X[1] - node.X[0] + 0.3;
+    node.u[1] = s * node.X[0] + c * node.X[1] - node.X[1] - 7.;
+  }
+  const std::array<double, 3> a = { { 0., 0., 0. } }, b = { { 3., 4., 0. } };
+  const auto row = row_of(
+      { history(Q::relative_displacement, 0, a, b),
+        history(Q::relative_displacement, 1, a, b), history(Q::tilt, 0, a, b),
+        history(Q::distance_change, 0, a, b), history(Q::tilt, 0, b, a),
+        history(Q::displacement, 1, a) },
+      run);
+  ASSERT_EQ(row.size(), 7U);
+  EXPECT_NEAR(row[1], 3. * c - 4. * s - 3., 1e-14);
+  EXPECT_NEAR(row[2], 3. * s + 4. * c - 4., 1e-14);
+  EXPECT_NEAR(row[3], 30., 1e-13);
+  EXPECT_NEAR(row[4], 1., 1e-14);
+  EXPECT_NEAR(row[5], 30., 1e-13);
+  EXPECT_NEAR(row[6], -7., 1e-15);
+}
+
+TEST(Histories, LengthOfOpenJoints)
+{
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}));
+  const auto open = [&]()
+  { return row_of({ history(HistoryQuantity::open_joints) }, run)[1]; };
+  EXPECT_EQ(open(), 0.);
+  // One end of one of three faces of 1 m.
+  auto &states = run.state.get<JointHistory>().state;
+  states[2]    = JointState::open;
+  EXPECT_NEAR(open(), 0.5, 1e-15);
+  states[3] = JointState::open;
+  states[4] = JointState::slipping;
+  EXPECT_NEAR(open(), 1., 1e-15);
+  run.state.get<JointHistory>().handed_over[1] = 1;
+  EXPECT_EQ(open(), 0.);
+}
+
+TEST(Histories, HaveNoValueInADeletedBlock)
+{
+  using Q = HistoryQuantity;
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}));
+  const std::array<double, 3> below = { { 0., 0., 0. } },
+                              above = { { 0., 4., 0. } };
+  const std::vector<HistoryParameters> wanted
+      = { history(Q::velocity, 0, below),
+          history(Q::velocity, 0, above),
+          history(Q::stress, 0, above),
+          history(Q::rotation, 0, above),
+          history(Q::joint, 2, { { 1., 2., 0. } }),
+          history(Q::distance_change, 0, below, above) };
+  for (const double value : row_of(wanted, run))
+    EXPECT_EQ(value, 0.);
+  run.state.block_marks.assign(2, block_mark::present);
+  run.state.block_marks[1] = block_mark::absent;
+  for (unsigned int i = 1; i <= 5; ++i)
+    EXPECT_EQ(row_of(wanted, run)[i], 0.) << "excavated, column " << i;
+  run.state.block_marks[1] = block_mark::removed;
+  const auto row           = row_of(wanted, run);
+  EXPECT_EQ(row[1], 0.);
+  for (unsigned int i = 2; i <= 6; ++i)
+    EXPECT_TRUE(std::isnan(row[i])) << "column " << i;
+
+  Histories<2> histories(wanted, run.model, run.solver, BoundaryGeometry(),
+                         BoundaryElementParameters(), { false, false });
+  EXPECT_EQ(histories.names_in(1).size(), 5U);
+  EXPECT_EQ(histories.names_in(0).size(), 3U) << "with the joint's";
 }
