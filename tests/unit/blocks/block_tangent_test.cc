@@ -210,9 +210,13 @@ TEST(BlockTangent, PlasticStiffnessIsTheDerivativeOfTheForces)
         // The flow is associated with Cauchy's stress, by whose volume the
         // stiffness is not symmetric: to the size of the elastic strains.
         if (dilation == 35. * degree)
+        {
           EXPECT_LT(asymmetry(stiffness), 1e-3);
+        }
         else if (size == 1.)
+        {
           EXPECT_GT(asymmetry(stiffness), 1e-2);
+        }
       }
 }
 
