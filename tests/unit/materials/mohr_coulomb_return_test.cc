@@ -132,12 +132,12 @@ TEST(MohrCoulombReturn, ObeysKoitersRule)
               << " nu " << rock.poisson << " plane " << static_cast<int>(plane)
               << " trial " << trial[0] << " " << trial[1] << " " << trial[3];
           // What the stress lost is the stiffness times the flow, to the size of
-          // the strains, 1e-12.
+          // the strains, up to 1e-11.
           const Vector3 lost = compliance(rock) * (diagonal(trial) - s);
           const int n        = plane == PlaneAssumption::plane_strain ? 3 : 2;
           EXPECT_LT((lost - p).head(n).norm(),
                     1e-12 * p.norm()
-                        + 1e-11 * diagonal(trial).norm() / rock.young);
+                        + 1e-10 * diagonal(trial).norm() / rock.young);
         }
       }
 }
