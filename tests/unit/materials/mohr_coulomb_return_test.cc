@@ -131,8 +131,8 @@ TEST(MohrCoulombReturn, ObeysKoitersRule)
               << strength.dilation_angle / degree << " ft " << strength.tension
               << " nu " << rock.poisson << " plane " << static_cast<int>(plane)
               << " trial " << trial[0] << " " << trial[1] << " " << trial[3];
-          // What the stress lost is the stiffness times the flow, to the size of
-          // the strains, up to 1e-11.
+          // What the stress lost is the stiffness times the flow, to the size
+          // of the strains, up to 1e-11.
           const Vector3 lost = compliance(rock) * (diagonal(trial) - s);
           const int n        = plane == PlaneAssumption::plane_strain ? 3 : 2;
           EXPECT_LT((lost - p).head(n).norm(),
