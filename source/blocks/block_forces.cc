@@ -43,10 +43,13 @@ namespace quoin
       const State<2> &state, const NodeRatio &,
       std::vector<NodeStiffness<2>> &stiffness) const
   {
+    const auto *plastic = state.find<PlasticHistory>();
     for (unsigned int c = 0; c < data.cells.size(); ++c)
     {
       const auto &[i, j, k] = data.cells[c];
-      const Triangle cell(state.nodes[i], state.nodes[j], state.nodes[k]);
+      Triangle cell(state.nodes[i], state.nodes[j], state.nodes[k]);
+      if (plastic && data.law_of(c))
+        cell.flow(plastic->cells[c].inverse_stretch);
       // With a third of its mass at each node; the density cancels out.
       const double share
           = largest_eigenvalue_squared_frequency(cell, data.stiffness_of(c), 1.)
@@ -137,8 +140,9 @@ namespace quoin
     masks.resize(first + n_rows, 0);
     if (!data.initial_stress.empty())
       lane_stress.resize(3 * (first + n_rows) * n_lanes, 0.);
+    // Two more are prefetched.
     if (data.is_plastic())
-      lane_cells.resize((first + n_rows) * n_lanes, tile.cells.begin);
+      lane_cells.resize((first + n_rows + 2) * n_lanes, tile.cells.begin);
 
     for (std::size_t lane = 0; lane < n_lanes; ++lane)
     {

@@ -9,23 +9,43 @@
 
 namespace quoin
 {
-  CorotatedStrain cell_strain(const BlockForcesData<2> &data,
-                              const NodeRecord<2> *nodes,
-                              const std::size_t cell, double *area)
+  namespace
+  {
+    /** Strain of the elastic part of a cell's deformation. */
+    CorotatedStrain elastic_strain(const std::array<double, 4> &gradient,
+                                   const PlasticHistory &history,
+                                   const std::size_t cell)
+    {
+      return CorotatedStrain(
+          stretched_gradient(gradient, history.cells[cell].inverse_stretch));
+    }
+
+    /** First Piola-Kirchhoff stress of the whole deformation [Pa]. */
+    std::array<double, 4> plastic_piola_stress(const CorotatedStrain &strain,
+                                               const PlaneTensor &stress,
+                                               const PlasticCell &cell)
+    {
+      return stretched(piola_stress(strain, { 0., 0., 0. }, stress),
+                       cell.inverse_stretch);
+    }
+  } // namespace
+
+  std::array<double, 4> cell_gradient(const BlockForcesData<2> &data,
+                                      const NodeRecord<2> *nodes,
+                                      const std::size_t cell, double *area)
   {
     if (data.quadratic)
     {
       const CellPoint point = cell_point(data, nodes, cell);
       if (area)
         *area = point.area;
-      return CorotatedStrain(point.displacement_gradient(nodes));
+      return point.displacement_gradient(nodes);
     }
     const auto [a, b, c] = data.cells[cell];
     const Triangle triangle(nodes[a], nodes[b], nodes[c]);
     if (area)
       *area = triangle.area();
-    return CorotatedStrain(
-        triangle.gradient(nodes[a].u, nodes[b].u, nodes[c].u));
+    return triangle.gradient(nodes[a].u, nodes[b].u, nodes[c].u);
   }
 
   PlasticHistory initial_history(const BlockForces<2> &blocks)
@@ -55,14 +75,15 @@ namespace quoin
     std::copy(s.begin(), s.end(), history.cells[cell].stress);
   }
 
-  double update_cell(const BlockForcesData<2> &data, const std::size_t cell,
-                     const PlaneTensor &strain, PlasticHistory &history)
+  PlasticStep update_cell(const BlockForcesData<2> &data,
+                          const std::size_t cell, const PlaneTensor &strain,
+                          PlasticHistory &history)
   {
-    PlasticPoint point      = plastic_point(history, cell);
-    const double dissipated = data.law_of(cell)->update(
+    PlasticPoint point     = plastic_point(history, cell);
+    const PlasticStep step = data.law_of(cell)->update(
         point, strain, data.initial_stress_of(cell));
     set_plastic_point(point, cell, history);
-    return dissipated;
+    return step;
   }
 
   PlasticPoint cell_history(const BlockForces<2> &blocks,
@@ -72,8 +93,10 @@ namespace quoin
   {
     const BlockForcesData<2> &data = blocks.cell_data();
     PlasticPoint point             = plastic_point(history, cell);
-    data.law_of(cell)->update(point, cell_strain(data, nodes, cell).e,
-                              data.initial_stress_of(cell));
+    data.law_of(cell)->update(
+        point,
+        elastic_strain(cell_gradient(data, nodes, cell), history, cell).e,
+        data.initial_stress_of(cell));
     return point;
   }
 
@@ -87,9 +110,12 @@ namespace quoin
       if (data.law_of(k))
       {
         double area;
-        const CorotatedStrain strain = cell_strain(data, nodes, k, &area);
+        const auto gradient = cell_gradient(data, nodes, k, &area);
         dissipated
-            += data.thickness * area * update_cell(data, k, strain.e, history);
+            += data.thickness * area
+               * update_cell(data, k, elastic_strain(gradient, history, k).e,
+                             history)
+                     .dissipated;
       }
     return dissipated;
   }
@@ -105,20 +131,25 @@ namespace quoin
     {
       const auto [a, b, c] = data.cells[k];
       const Triangle triangle(nodes[a], nodes[b], nodes[c]);
-      const CorotatedStrain strain = cell_strain(data, nodes, k);
-      PlaneTensor elastic = elastic_stress(data.stiffness_of(k), strain.e);
-      const auto s        = data.initial_stress_of(k);
-      PlaneTensor turning{ s[0], s[1], s[2] };
+      const auto gradient = cell_gradient(data, nodes, k);
+      std::array<double, 4> P;
       if (data.law_of(k))
       {
-        dissipated += data.thickness * triangle.area()
-                      * update_cell(data, k, strain.e, history);
-        elastic = {};
-        std::copy_n(history.cells[k].stress, 3, turning.begin());
+        const PlasticCell before     = history.cells[k];
+        const CorotatedStrain strain = elastic_strain(gradient, history, k);
+        const PlasticStep step       = update_cell(data, k, strain.e, history);
+        dissipated += data.thickness * triangle.area() * step.dissipated;
+        P = plastic_piola_stress(strain, step.stress, before);
       }
-      add_nodal_forces(triangle, data.thickness,
-                       piola_stress(strain, elastic, turning), force[a],
-                       force[b], force[c]);
+      else
+      {
+        const CorotatedStrain strain(gradient);
+        const auto s = data.initial_stress_of(k);
+        P = piola_stress(strain, elastic_stress(data.stiffness_of(k), strain.e),
+                         { s[0], s[1], s[2] });
+      }
+      add_nodal_forces(triangle, data.thickness, P, force[a], force[b],
+                       force[c]);
     }
     return dissipated;
   }
@@ -135,7 +166,7 @@ namespace quoin
     {
       const auto [a, b, c] = data.cells[k];
       const Triangle triangle(nodes[a], nodes[b], nodes[c]);
-      const CorotatedStrain strain = cell_strain(data, nodes, k);
+      const CorotatedStrain strain(cell_gradient(data, nodes, k));
       const auto L
           = triangle.gradient(velocity[a].v, velocity[b].v, velocity[c].v);
       // sym(R^T L)
@@ -160,24 +191,22 @@ namespace quoin
     for (std::size_t k = 0; k < data.cells.size(); ++k)
     {
       double area;
-      PlaneTensor e                = cell_strain(data, nodes, k, &area).e;
-      const PlaneStiffness &moduli = data.stiffness_of(k);
-      const auto s0                = data.initial_stress_of(k);
-      double density               = 0.;
-      if (const MohrCoulomb *yields = data.law_of(k))
+      const auto gradient       = cell_gradient(data, nodes, k, &area);
+      const auto s0             = data.initial_stress_of(k);
+      const MohrCoulomb *yields = data.law_of(k);
+      double density;
+      if (yields && history.yielding[k] != 0)
+        density = yields->stored_energy(yields->trial_stress(
+                      plastic_point(history, k),
+                      elastic_strain(gradient, history, k).e))
+                  - yields->stored_energy(s0);
+      else
       {
-        const auto &p = history.cells[k].strain;
-        for (unsigned int i = 0; i < 3; ++i)
-          e[i] -= p[i];
-        // Out of the plane the elastic strain is -p_zz.
-        if (yields->plane_assumption() == PlaneAssumption::plane_strain)
-          density
-              = (0.5 * moduli.c11 * p[3] - moduli.c12 * (e[0] + e[1]) - s0[3])
-                * p[3];
+        const PlaneTensor e = CorotatedStrain(gradient).e;
+        const auto s        = elastic_stress(data.stiffness_of(k), e);
+        density = (0.5 * s[0] + s0[0]) * e[0] + (0.5 * s[1] + s0[1]) * e[1]
+                  + 2. * (0.5 * s[2] + s0[2]) * e[2];
       }
-      const auto s = elastic_stress(moduli, e);
-      density += (0.5 * s[0] + s0[0]) * e[0] + (0.5 * s[1] + s0[1]) * e[1]
-                 + 2. * (0.5 * s[2] + s0[2]) * e[2];
       energy += data.thickness * area * density;
     }
     return energy;
@@ -190,12 +219,18 @@ namespace quoin
                                     PlaneTensor *strain_out)
   {
     const BlockForcesData<2> &data = blocks.cell_data();
-    const CorotatedStrain strain   = cell_strain(data, nodes, cell);
+    const auto gradient            = cell_gradient(data, nodes, cell);
+    CorotatedStrain strain(gradient);
     if (strain_out)
       *strain_out = strain.to_global(strain.e);
     std::array<double, 4> s = data.initial_stress_of(cell);
-    if (data.law_of(cell))
-      s = cell_history(blocks, nodes, history, cell).stress;
+    if (const MohrCoulomb *yields = data.law_of(cell))
+    {
+      const PlasticPoint point = cell_history(blocks, nodes, history, cell);
+      strain                   = CorotatedStrain(
+                            stretched_gradient(gradient, point.inverse_stretch));
+      s = yields->cauchy_stress(point, strain.e, s);
+    }
     else
     {
       const auto elastic = elastic_stress(data.stiffness_of(cell), strain.e);
@@ -207,16 +242,49 @@ namespace quoin
     return { in_plane[0], in_plane[1], in_plane[2], s[3] };
   }
 
-  std::array<double, 4>
-  stress_of_strain(const BlockForces<2> &blocks, const NodeRecord<2> *nodes,
-                   const PlasticHistory &history, const std::size_t cell,
-                   const PlaneStiffness &stiffness, const MohrCoulomb *law)
+  std::array<double, 4> stress_of_strain(const BlockForces<2> &blocks,
+                                         const NodeRecord<2> *nodes,
+                                         const std::size_t cell,
+                                         const PlaneStiffness &stiffness)
   {
-    const PlaneTensor e = cell_strain(blocks.cell_data(), nodes, cell).e;
-    if (law)
-      return law->trial_stress(plastic_point(history, cell), e);
-    const auto s = elastic_stress(stiffness, e);
+    const CorotatedStrain strain(
+        cell_gradient(blocks.cell_data(), nodes, cell));
+    const auto s = elastic_stress(stiffness, strain.e);
     return { s[0], s[1], s[2], stiffness.zz_over_sum * (s[0] + s[1]) };
+  }
+
+  std::array<double, 4> turning_stress(const BlockForces<2> &blocks,
+                                       const NodeRecord<2> *nodes,
+                                       const PlasticHistory &history,
+                                       const std::size_t cell)
+  {
+    const BlockForcesData<2> &data = blocks.cell_data();
+    const auto gradient            = cell_gradient(data, nodes, cell);
+    const CorotatedStrain whole(gradient);
+    const PlasticPoint point     = plastic_point(history, cell);
+    const CorotatedStrain strain = elastic_strain(gradient, history, cell);
+    const auto stress            = data.law_of(cell)->trial_stress(
+                   point, strain.e, data.initial_stress_of(cell));
+    const auto P = plastic_piola_stress(
+        strain, { stress[0], stress[1], stress[2] }, history.cells[cell]);
+    // sym(R^T P)
+    const double co = whole.c, si = whole.s;
+    return { co * P[0] + si * P[2], co * P[3] - si * P[1],
+             0.5 * (co * (P[1] + P[2]) + si * (P[3] - P[0])),
+             (1. + point.inverse_stretch[3]) * stress[3] };
+  }
+
+  void take_over_stress(const BlockForces<2> &blocks,
+                        const NodeRecord<2> *nodes, const std::size_t cell,
+                        const MohrCoulomb &law, PlasticHistory &history)
+  {
+    const BlockForcesData<2> &data = blocks.cell_data();
+    PlasticPoint point             = plastic_point(history, cell);
+    law.take_over(
+        point,
+        elastic_strain(cell_gradient(data, nodes, cell), history, cell).e,
+        *data.law_of(cell));
+    set_plastic_point(point, cell, history);
   }
 
   void cell_stresses(const BlockForces<2> &blocks, const NodeRecord<2> *nodes,

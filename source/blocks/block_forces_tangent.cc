@@ -94,11 +94,26 @@ namespace quoin
                                  CellLinearisation &result,
                                  const bool with_stiffness) const
   {
-    const CellPoint point = cell_point(data, nodes, cell);
-    const CorotatedStrain strain(point.displacement_gradient(nodes));
+    CellPoint point           = cell_point(data, nodes, cell);
+    auto gradient             = point.displacement_gradient(nodes);
+    const MohrCoulomb *yields = data.law_of(cell);
+    if (yields)
+    {
+      // The elastic part of the deformation, F (I + Q), is linear in F: another
+      // element with the same forces.
+      const auto &q = history.cells[cell].inverse_stretch;
+      gradient      = stretched_gradient(gradient, q);
+      for (unsigned int i = 0; i < point.n_nodes; ++i)
+      {
+        const auto [x, y] = point.gradients[i];
+        point.gradients[i]
+            = { x + q[0] * x + q[2] * y, y + q[2] * x + q[1] * y };
+      }
+    }
+    const CorotatedStrain strain(gradient);
     if (point.area == 0.)
     {
-      if (data.law_of(cell))
+      if (yields)
         update_cell(data, cell, strain.e, history);
       return false;
     }
@@ -108,13 +123,14 @@ namespace quoin
     PlaneTensor stress;
     PlaneTangent tangent;
     result.dissipated = 0.;
-    if (const MohrCoulomb *yields = data.law_of(cell))
+    if (yields)
     {
       if (with_stiffness)
-        tangent = yields->tangent(yields->trial_stress(
-            plastic_point(history, cell), strain.e, initial));
-      result.dissipated = volume * update_cell(data, cell, strain.e, history);
-      std::copy_n(history.cells[cell].stress, 3, stress.begin());
+        tangent
+            = yields->tangent(plastic_point(history, cell), strain.e, initial);
+      const PlasticStep step = update_cell(data, cell, strain.e, history);
+      result.dissipated      = volume * step.dissipated;
+      stress                 = step.stress;
     }
     else
     {

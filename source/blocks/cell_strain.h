@@ -26,14 +26,14 @@ namespace quoin
   CellPoint cell_point(const BlockForcesData<2> &data,
                        const NodeRecord<2> *nodes, unsigned int cell);
 
-  /** Strain in the rotating frame, and area if it is asked for. */
-  CorotatedStrain cell_strain(const BlockForcesData<2> &data,
-                              const NodeRecord<2> *nodes, std::size_t cell,
-                              double *area = nullptr);
+  /** Displacement gradient of a cell, and area if it is asked for. */
+  std::array<double, 4> cell_gradient(const BlockForcesData<2> &data,
+                                      const NodeRecord<2> *nodes,
+                                      std::size_t cell, double *area = nullptr);
 
-  /** Updates @p history for @p strain; returns the dissipation [J/m^3]. */
-  double update_cell(const BlockForcesData<2> &data, std::size_t cell,
-                     const PlaneTensor &strain, PlasticHistory &history);
+  /** Updates @p history for an elastic strain, see MohrCoulomb::update(). */
+  PlasticStep update_cell(const BlockForcesData<2> &data, std::size_t cell,
+                          const PlaneTensor &strain, PlasticHistory &history);
 
   /** Geometry, rotation and strain of a tetrahedron. */
   struct CellMotion

@@ -184,8 +184,13 @@ namespace quoin
         enter(at, now.e, now.w);
         const Vector<lanes> &e1 = before.e, &e2 = now.e;
         const Gradient<lanes> G(e1, e2, before.w, now.w);
+        take_gradient(G, e1.x * e2.y - e1.y * e2.x, now);
+      }
 
-        const Value det  = e1.x * e2.y - e1.y * e2.x;
+      static QUOIN_INLINE void take_gradient(const Gradient<lanes> &G,
+                                             const Value &det,
+                                             StripStep<lanes> &now)
+      {
         const Value det2 = det + det;
         const Value BB   = G.skew * G.skew;
         L::absolute(det2, now.D2);

@@ -144,6 +144,8 @@ namespace quoin
       state.unbalanced_ratio = stepper.unbalanced_ratio(state, context, sums);
       this->check_finite(state);
       check_cells(model, state, stage.loads);
+      if constexpr (dim == 2)
+        check_time_step(state);
     }
     time_shares.lap(energy_phase);
   }

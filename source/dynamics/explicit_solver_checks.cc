@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// Checks of ExplicitSolver for blocks that have left the box.
+// Checks of ExplicitSolver during a stage: blocks that have left the box, cells
+// that have flowed too far for the step.
 
+#include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/dynamics/explicit_solver.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace quoin
 {
@@ -53,6 +57,37 @@ namespace quoin
     if (std::any_of(found.begin(), found.end(),
                     [](const BlockOutside &block) { return block.removed; }))
       remove_blocks(found, state);
+  }
+
+  template <>
+  void ExplicitSolver<2>::check_time_step(const State<2> &state) const
+  {
+    double flowed = 0.;
+    for (const PlasticCell &cell : state.get<PlasticHistory>().cells)
+      for (unsigned int i = 0; i < 3; ++i)
+        flowed = std::max(flowed, std::abs(cell.inverse_stretch[i]));
+    // The bound takes as long as some steps, and small flow changes it little.
+    if (dealii::Utilities::MPI::max(flowed, communicator) < 0.05)
+      return;
+    const double eigenvalue = model.stability_at(state).largest_eigenvalue(
+        node_mass, rigid_stage.mass_factor);
+    const double critical = StableTimeStep<2>::critical(
+        dealii::Utilities::MPI::max(eigenvalue, communicator),
+        stage.stiffness_coefficient);
+    if (time_step <= critical)
+      return;
+    throw ModelFailure(
+        "plastic flow has deformed cells so much that the critical time step "
+        "has fallen to "
+        + number_text(critical) + " s, below the time step of "
+        + number_text(time_step) + " s, at time " + number_text(state.time)
+        + " s of stage '" + stage.name
+        + "'. Lower 'Share of critical time step' (or 'Time step') in section "
+          "'Time stepping' to "
+        + number_text(0.8 * critical / time_step)
+        + " of what it was, or more if cells will flow on; if few cells have "
+          "flowed so far, at a corner, say, make the mesh coarser there. The "
+          "last checkpoint is kept.");
   }
 
   template <>

@@ -21,7 +21,11 @@ namespace quoin
                            const PlaneAssumption plane_assumption)
     : assumption(plane_assumption),
       stiffness(plane_stiffness(material, assumption)), young(material.young),
-      poisson(material.poisson), n_phi(flow_number(strength.friction_angle)),
+      poisson(material.poisson),
+      thinning(assumption == PlaneAssumption::plane_stress
+                   ? -poisson / (1. - poisson)
+                   : 0.),
+      n_phi(flow_number(strength.friction_angle)),
       n_psi(flow_number(strength.dilation_angle))
   {
     const double cube = 2. * strength.cohesion * std::sqrt(n_phi);
@@ -48,16 +52,16 @@ namespace quoin
     minor_modulus     = both + 2. * shear * (2. * nn + 1.);
   }
 
-  MohrCoulomb::PrincipalStress
-  MohrCoulomb::principal(const std::array<double, 4> &stress) const
+  MohrCoulomb::PrincipalAxes
+  MohrCoulomb::principal(const std::array<double, 4> &tensor) const
   {
-    const double mean = 0.5 * (stress[0] + stress[1]);
-    const double half = 0.5 * (stress[0] - stress[1]);
-    PrincipalStress p;
-    p.radius        = std::sqrt(half * half + stress[2] * stress[2]);
+    const double mean = 0.5 * (tensor[0] + tensor[1]);
+    const double half = 0.5 * (tensor[0] - tensor[1]);
+    PrincipalAxes p;
+    p.radius        = std::sqrt(half * half + tensor[2] * tensor[2]);
     p.cos2          = p.radius > 0. ? half / p.radius : 1.;
-    p.sin2          = p.radius > 0. ? stress[2] / p.radius : 0.;
-    const double zz = stress[3];
+    p.sin2          = p.radius > 0. ? tensor[2] / p.radius : 0.;
+    const double zz = tensor[3];
 
     p.major = 0;
     p.minor = 1;
@@ -247,16 +251,11 @@ namespace quoin
                                  const Principal &end) const
   {
     // What the elastic strain loses.
-    const Principal d{ trial[0] - end[0], trial[1] - end[1],
-                       trial[2] - end[2] };
-    const double side = poisson * (d[0] + d[1] + d[2]);
-    const auto strain
-        = [&](const double s) { return ((1. + poisson) * s - side) / young; };
-    if (assumption == PlaneAssumption::plane_strain)
-      return { strain(d[0]), strain(d[1]), strain(d[2]) };
-    const double major = strain(d[0]);
-    const double minor = strain(d[1]);
-    return { major, minor, plane_stress_thinning(region, major, minor) };
+    Principal strain = inverse_hooke(
+        { trial[0] - end[0], trial[1] - end[1], trial[2] - end[2] });
+    if (assumption == PlaneAssumption::plane_stress)
+      strain[2] = plane_stress_thinning(region, strain[0], strain[1]);
+    return strain;
   }
 
   double MohrCoulomb::plane_stress_thinning(const Region region,
@@ -304,95 +303,5 @@ namespace quoin
     default:
       return yielding::shear_now;
     }
-  }
-
-  double MohrCoulomb::update_yielding(PlasticPoint &point,
-                                      const std::array<double, 4> &trial) const
-  {
-    const PrincipalStress at = principal(trial);
-    const Region where       = region(at.s);
-    const Principal end      = returned(where, at.s, limits);
-    const Principal flowed   = plastic_increment(where, at.s, end);
-
-    const auto in_axes = [&](const Principal &t) -> std::array<double, 4>
-    {
-      const double mean = 0.5 * (t[at.major] + t[at.minor]);
-      const double half = 0.5 * (t[at.major] - t[at.minor]);
-      return { mean + half * at.cos2, mean - half * at.cos2, half * at.sin2,
-               t[at.out] };
-    };
-    const auto stress    = in_axes(end);
-    const auto increment = in_axes(flowed);
-
-    double twice_dissipated = 0.;
-    for (unsigned int i = 0; i < 4; ++i)
-    {
-      twice_dissipated
-          += (i == 2 ? 2. : 1.) * (point.stress[i] + stress[i]) * increment[i];
-      point.plastic_strain[i] += increment[i];
-    }
-    const double mean = (flowed[0] + flowed[1] + flowed[2]) / 3.;
-    double deviator   = 0.;
-    for (const double p : flowed)
-      deviator += (p - mean) * (p - mean);
-    point.plastic_shear += std::sqrt(0.5 * deviator);
-    point.stress = stress;
-    point.state  = past(point.state) | yields_now(where);
-    return 0.5 * twice_dissipated;
-  }
-
-  std::array<std::array<double, 3>, 3>
-  MohrCoulomb::tangent(const std::array<double, 4> &trial) const
-  {
-    const double shear = stiffness.c33;
-    if (is_elastic(trial))
-      return { { { stiffness.c11, stiffness.c12, 0. },
-                 { stiffness.c12, stiffness.c11, 0. },
-                 { 0., 0., shear } } };
-
-    const PrincipalStress at = principal(trial);
-    const Region where       = region(at.s);
-    const auto rate          = [&](const double major, const double minor)
-    {
-      Principal t;
-      t[at.major] = stiffness.c11 * major + stiffness.c12 * minor;
-      t[at.minor] = stiffness.c12 * major + stiffness.c11 * minor;
-      t[at.out]   = assumption == PlaneAssumption::plane_strain
-                        ? stiffness.c12 * (major + minor)
-                        : 0.;
-      return returned(where, t, Limits{});
-    };
-    const Principal by_major = rate(1., 0.), by_minor = rate(0., 1.);
-
-    // Turning of the principal axes: the shear stress between them keeps the
-    // ratio of the principal differences, whose limit is that of the rates.
-    const Principal end     = returned(where, at.s, limits);
-    const Principal opposed = rate(0.5 / shear, -0.5 / shear);
-    const double turning
-        = at.radius > 1e-12 * (std::abs(at.s[at.major]) + limits.strength)
-              ? (end[at.major] - end[at.minor]) / (2. * at.radius)
-              : 0.5 * (opposed[at.major] - opposed[at.minor]);
-
-    const double c = at.cos2, s = at.sin2;
-    // Strain major, minor, and shear between them of a unit xx, yy and 2 xy.
-    const double unit[3][3] = { { 0.5 + 0.5 * c, 0.5 - 0.5 * c, -s },
-                                { 0.5 - 0.5 * c, 0.5 + 0.5 * c, s },
-                                { 0.5 * s, -0.5 * s, c } };
-    std::array<std::array<double, 3>, 3> result;
-    for (unsigned int j = 0; j < 3; ++j)
-    {
-      const auto [e_major, e_minor, e_turn] = unit[j];
-      const double major
-          = by_major[at.major] * e_major + by_minor[at.major] * e_minor;
-      const double minor
-          = by_major[at.minor] * e_major + by_minor[at.minor] * e_minor;
-      const double turn = shear * turning * e_turn;
-      const double mean = 0.5 * (major + minor);
-      const double half = 0.5 * (major - minor);
-      result[0][j]      = mean + half * c - turn * s;
-      result[1][j]      = mean - half * c + turn * s;
-      result[2][j]      = half * s + turn * c;
-    }
-    return result;
   }
 } // namespace quoin

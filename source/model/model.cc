@@ -128,9 +128,8 @@ namespace quoin
   }
 
   template <int dim>
-  void Model<dim>::find_stable_step()
+  StableTimeStep<dim> Model<dim>::stability_at(const State<dim> &state) const
   {
-    const State<dim> state = initial_state();
     std::vector<NodeStiffness<dim>> bound(node_map.n_local(),
                                           NodeStiffness<dim>{});
     block_forces.add_stiffness_bound(state, {}, bound);
@@ -149,8 +148,16 @@ namespace quoin
         rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
     std::fill(bound.begin() + node_map.n_deformable_nodes(), bound.end(),
               NodeStiffness<dim>{});
-    stable_step = std::make_unique<StableTimeStep<dim>>(bound);
-    stable_step->set_rigid_blocks(rigid_bound);
+    StableTimeStep<dim> result(bound);
+    result.set_rigid_blocks(rigid_bound);
+    return result;
+  }
+
+  template <int dim>
+  void Model<dim>::find_stable_step()
+  {
+    stable_step
+        = std::make_unique<StableTimeStep<dim>>(stability_at(initial_state()));
   }
 
   template <>

@@ -64,24 +64,38 @@ namespace quoin
     {
       const unsigned int m
           = properties.material_of_group[node_map.cells().group[c]];
-      const MohrCoulomb *law = laws[m] ? &*laws[m] : nullptr;
-      const auto before
-          = stress_of_strain(block_forces, state.nodes.data(), plastic, c,
-                             block_forces.cell_data().stiffness_of(c),
-                             block_forces.cell_data().law_of(c));
-      const auto after = stress_of_strain(block_forces, state.nodes.data(),
-                                          plastic, c, stiffness[m], law);
-      const auto bears = block_forces.cell_data().initial_stress_of(c);
-      if (law)
+      const MohrCoulomb *law          = laws[m] ? &*laws[m] : nullptr;
+      const BlockForcesData<2> &cells = block_forces.cell_data();
+      const auto *nodes               = state.nodes.data();
+      const auto after = stress_of_strain(block_forces, nodes, c, stiffness[m]);
+      std::array<double, 4> bears;
+      if (cells.law_of(c) && plastic.yielding[c] != 0)
+      {
+        // Its stress has nothing of the initial one any more.
+        if (law && !(cells.stiffness_of(c) == stiffness[m]))
+          take_over_stress(block_forces, nodes, c, *law, plastic);
+        if (law)
+          continue;
+        bears = turning_stress(block_forces, nodes, plastic, c);
+        forget_history(block_forces, c, plastic);
+      }
+      else
+      {
+        bears = cells.initial_stress_of(c);
+        const auto before
+            = stress_of_strain(block_forces, nodes, c, cells.stiffness_of(c));
         for (unsigned int k = 0; k < 4; ++k)
-          plastic.cells[c].stress[k] = bears[k] + before[k];
-      if (before == after)
-        continue;
+          bears[k] += before[k];
+        if (law)
+          std::copy(bears.begin(), bears.end(), plastic.cells[c].stress);
+        if (before == after)
+          continue;
+      }
       if (initial.empty())
         initial = packed_initial_stress();
       initial.resize(4 * node_map.cells().n_deformable, 0.);
       for (unsigned int k = 0; k < 4; ++k)
-        initial[4 * c + k] = bears[k] + before[k] - after[k];
+        initial[4 * c + k] = bears[k] - after[k];
     }
     set_properties(properties, state.get<ConstructionState>());
     keep_joint_tractions(matched_joints, state);

@@ -12,7 +12,7 @@
 namespace quoin
 {
   /**
-   * Energy of all cells with the plastic strain of @p history [J]; minus
+   * Energy of all cells with the plastic stretch of @p history [J]; minus
    * its gradient are the forces. With initial stress it counts from the
    * undeformed state and may be negative.
    */
@@ -25,8 +25,8 @@ namespace quoin
    * Stress [Pa] and, if asked for, strain of a cell in the fixed frame:
    * R S R^T and R e R^T. In the plane the stress is xx, yy, xy, zz, the strain
    * xx, yy, xy; in space both are 11, 22, 33, 12, 13, 23. The initial stress is
-   * part of the stress. A cell that yields has the stress of its @p history
-   * updated for the positions.
+   * part of the stress. A cell with a yield law has Cauchy's stress instead, by
+   * its @p history updated for the positions.
    */
   std::array<double, 4> cell_stress(const BlockForces<2> &blocks,
                                     const NodeRecord<2> *nodes,
@@ -49,15 +49,29 @@ namespace quoin
                      std::vector<SpaceTensor> &strain);
 
   /**
-   * Stress xx, yy, xy, zz [Pa] in the rotating frame by the strain of a cell
-   * less the plastic one of its @p history, with any @p stiffness and law
-   * (null: elastic). With those of the cell plus the initial stress it is the
-   * cell's stress, if the history is up to date.
+   * Stress xx, yy, xy, zz [Pa] in the rotating frame by the strain of a cell,
+   * with any @p stiffness. With that of the cell plus the initial stress it is
+   * the cell's stress, if it has never yielded.
    */
-  std::array<double, 4>
-  stress_of_strain(const BlockForces<2> &blocks, const NodeRecord<2> *nodes,
-                   const PlasticHistory &history, std::size_t cell,
-                   const PlaneStiffness &stiffness, const MohrCoulomb *law);
+  std::array<double, 4> stress_of_strain(const BlockForces<2> &blocks,
+                                         const NodeRecord<2> *nodes,
+                                         std::size_t cell,
+                                         const PlaneStiffness &stiffness);
+
+  /**
+   * The same of a cell with a yield law and a @p history that is up to date,
+   * initial stress included: an elastic cell with this stress has its forces.
+   */
+  std::array<double, 4> turning_stress(const BlockForces<2> &blocks,
+                                       const NodeRecord<2> *nodes,
+                                       const PlasticHistory &history,
+                                       std::size_t cell);
+
+  /** Gives a cell that has yielded the plastic stretch with which another
+      @p law has its stress. */
+  void take_over_stress(const BlockForces<2> &blocks,
+                        const NodeRecord<2> *nodes, std::size_t cell,
+                        const MohrCoulomb &law, PlasticHistory &history);
 
   /** Internal variables of cells without strain; empty: no cell yields. */
   PlasticHistory initial_history(const BlockForces<2> &blocks);

@@ -5,6 +5,7 @@
 #define quoin_blocks_triangle_h
 
 #include <quoin/base/node_vector.h>
+#include <quoin/materials/corotated_strain.h>
 #include <quoin/materials/linear_elastic.h>
 
 #include <array>
@@ -18,21 +19,10 @@
  * F = I + H and the rotation R of its polar decomposition F = R U the strain
  * is Biot's, e = U - I, symmetric and zero for every rigid motion.
  *
- * In two dimensions all follows from four numbers,
- * @f[ T = H_{11} + H_{22}, \quad B = H_{21} - H_{12}, \quad
- *     h_1 = H_{11} - H_{22}, \quad h_2 = H_{12} + H_{21}, @f]
- * @f[ n = \sqrt{(2 + T)^2 + B^2} = \mathrm{tr}\, U, \quad
- *     c = (2 + T) / n, \quad s = B / n, @f]
- * @f[ \mathrm{tr}\, e = n - 2 = \frac{T (4 + T) + B^2}{n + 2}, \quad
- *     e_{11} - e_{22} = c h_1 + s h_2, \quad 2 e_{12} = c h_2 - s h_1 . @f]
- * The quotient for tr e has no cancellation at small strains and no
- * singularity at any angle.
+ * In two dimensions all follows from four numbers, see CorotatedStrain.
  */
 namespace quoin
 {
-  /** Three components of a symmetric tensor: 11, 22, 12. */
-  using PlaneTensor = std::array<double, 3>;
-
   /** Reference geometry of one cell. */
   struct Triangle
   {
@@ -54,6 +44,19 @@ namespace quoin
       return 0.5 * std::abs(det);
     }
 
+    /** Lets (I + @p q) act on the nodal gradients, components 11, 22, 12: those
+        of the elastic part of a deformation after flow. */
+    void flow(const double (&q)[4])
+    {
+      // On edges turned by a right angle, as the gradients are.
+      for (double *e : { e1, e2 })
+      {
+        const double x = e[0], y = e[1];
+        e[0] = x + q[1] * x - q[2] * y;
+        e[1] = y + q[0] * y - q[2] * x;
+      }
+    }
+
     /** Gradient [[11, 12], [21, 22]] of a field given at the nodes. */
     std::array<double, 4> gradient(const double (&a)[2], const double (&b)[2],
                                    const double (&c)[2]) const
@@ -63,41 +66,6 @@ namespace quoin
       return { (bx * e2[1] - cx * e1[1]) / det, (cx * e1[0] - bx * e2[0]) / det,
                (by * e2[1] - cy * e1[1]) / det,
                (cy * e1[0] - by * e2[0]) / det };
-    }
-  };
-
-  /** Rotation and Biot strain of a displacement gradient. */
-  struct CorotatedStrain
-  {
-    double n;      /**< tr U */
-    double c;      /**< cosine of the rotation */
-    double s;      /**< sine of the rotation */
-    PlaneTensor e; /**< in the frame that rotates with the triangle */
-
-    explicit CorotatedStrain(const std::array<double, 4> &H)
-    {
-      const double sum   = H[0] + H[3];
-      const double skew  = H[2] - H[1];
-      const double h1    = H[0] - H[3];
-      const double h2    = H[1] + H[2];
-      n                  = std::sqrt((2. + sum) * (2. + sum) + skew * skew);
-      c                  = (2. + sum) / n;
-      s                  = skew / n;
-      const double trace = (sum * (4. + sum) + skew * skew) / (n + 2.);
-      const double difference = c * h1 + s * h2;
-      e = { 0.5 * (trace + difference), 0.5 * (trace - difference),
-            0.5 * (c * h2 - s * h1) };
-    }
-
-    /** R t R^T: from the rotating frame to the fixed one. */
-    PlaneTensor to_global(const PlaneTensor &t) const
-    {
-      const double mean = 0.5 * (t[0] + t[1]);
-      const double half = 0.5 * (t[0] - t[1]);
-      const double cos2 = c * c - s * s;
-      const double sin2 = 2. * c * s;
-      const double a    = cos2 * half - sin2 * t[2];
-      return { mean + a, mean - a, sin2 * half + cos2 * t[2] };
     }
   };
 

@@ -147,6 +147,9 @@ namespace quoin
     /** Fixes the nodes of removed blocks. */
     void hold_removed_blocks(const State<dim> &state);
     void look_at_box(State<dim> &state);
+    /** Throws a ModelFailure if plastic flow has changed cells so much that the
+        step is no longer stable; collective. */
+    void check_time_step(const State<dim> &state) const;
     /**
      * Leaves blocks at rest and without strain, and books the energy that they
      * had as external work.
@@ -197,6 +200,8 @@ namespace quoin
   // Members that exist in two dimensions only.
   template <>
   void ExplicitSolver<2>::look_at_box(State<2> &state);
+  template <>
+  void ExplicitSolver<2>::check_time_step(const State<2> &state) const;
   template <>
   void ExplicitSolver<2>::remove_blocks(const std::vector<BlockOutside> &found,
                                         State<2> &state);

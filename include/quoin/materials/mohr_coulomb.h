@@ -4,6 +4,7 @@
 #ifndef quoin_materials_mohr_coulomb_h
 #define quoin_materials_mohr_coulomb_h
 
+#include <quoin/materials/corotated_strain.h>
 #include <quoin/materials/plastic_history.h>
 #include <quoin/materials/linear_elastic.h>
 #include <quoin/materials/plane_assumption.h>
@@ -37,29 +38,50 @@ namespace quoin
   } // namespace yielding
 
   /**
-   * One plastic cell: what the law reads and overwrites. Tensors are those of
-   * the frame that rotates with the cell, components xx, yy, xy, zz, the
-   * third that of the tensor (half the engineering shear strain).
+   * One plastic cell: what the law reads and overwrites. With the inverse of
+   * the plastic stretch, symmetric, the elastic part of the deformation is
+   * @f$F_e = F (I + Q) = R_e U_e@f$. Tensors have the components xx, yy, xy,
+   * zz, the third that of the tensor (half the engineering shear strain).
    */
   struct PlasticPoint
   {
-    std::array<double, 4> plastic_strain{};
-    /** [Pa], tension positive; at the start the initial stress. */
+    /** Q [-]; small plastic strains are -Q. zz: of the plastic stretch alone
+        in plane stress, of the elastic one in plane strain, which is the same
+        as the thickness stays. */
+    std::array<double, 4> inverse_stretch{};
+
+    /**
+     * Biot's stress S of F_e in the frame R_e [Pa], tension positive; at the
+     * start the initial stress.
+     */
     std::array<double, 4> stress{};
 
     /**
      * Sum of the increments' $\sqrt{\mathrm{dev}\, \Delta p :
-     * \mathrm{dev}\, \Delta p / 2}$, as in @cite Itasca2019.
+     * \mathrm{dev}\, \Delta p / 2}$, as in @cite Itasca2019, with logarithmic
+     * strains p.
      */
     double plastic_shear = 0.;
-    std::uint8_t state   = 0; /**< bits of yielding */
+    std::uint8_t state   = 0; /**< bits of yielding; 0: has never yielded */
+  };
+
+  /** What MohrCoulomb::update() gives to its caller. */
+  struct PlasticStep
+  {
+    /**
+     * Stress [Pa] that does the work on a change of the elastic Biot strain at
+     * constant Q: piola_stress() of it times (I + Q) is that of the cell.
+     */
+    PlaneTensor stress;
+    double dissipated; /**< [J/m^3] */
   };
 
   inline PlasticPoint plastic_point(const PlasticHistory &history,
                                     const std::size_t cell)
   {
     PlasticPoint point;
-    std::copy_n(history.cells[cell].strain, 4, point.plastic_strain.begin());
+    std::copy_n(history.cells[cell].inverse_stretch, 4,
+                point.inverse_stretch.begin());
     std::copy_n(history.cells[cell].stress, 4, point.stress.begin());
     point.plastic_shear = history.shear[cell];
     point.state         = history.yielding[cell];
@@ -69,7 +91,8 @@ namespace quoin
   inline void set_plastic_point(const PlasticPoint &point,
                                 const std::size_t cell, PlasticHistory &history)
   {
-    std::copy_n(point.plastic_strain.begin(), 4, history.cells[cell].strain);
+    std::copy_n(point.inverse_stretch.begin(), 4,
+                history.cells[cell].inverse_stretch);
     std::copy_n(point.stress.begin(), 4, history.cells[cell].stress);
     history.shear[cell]    = point.plastic_shear;
     history.yielding[cell] = point.state;
@@ -94,11 +117,15 @@ namespace quoin
    * tension; on edges and vertices the sum of the adjoining planes'
    * (@cite Koiter1953).
    *
-   * The stress is @f$\sigma = \sigma_0 + C (e - p)@f$ with the total strain e
-   * and the plastic strain p, so that a cell which never yields is a linear
-   * elastic one. A step is one implicit return (backward Euler), which in
-   * principal stresses is piecewise linear and hence exact
-   * (@cite DeSouzaNeto2008, chapter 8; @cite Clausen2006).
+   * The stresses are Cauchy's. The deformation is F = F_e F_p
+   * (@cite Lee1969); the energy is that of the elastic cell with F_e in the
+   * place of F, by the volume before any deformation, so that a cell which has
+   * never yielded is a linear elastic one. Plastic flow scales the principal
+   * elastic stretches by exp(-dp), dp along the flow at the end of the step
+   * (backward Euler, @cite Simo1992). In principal axes the step is the return
+   * of small strains, which is piecewise linear (@cite DeSouzaNeto2008, chapter
+   * 8; @cite Clausen2006), corrected until it holds for the stresses of the
+   * stretches.
    */
   class MohrCoulomb
   {
@@ -109,45 +136,56 @@ namespace quoin
                 PlaneAssumption assumption);
 
     /**
-     * Brings @p point to the total strain @p strain (xx, yy, xy) under the
-     * @p initial stress [Pa] (xx, yy, xy, zz; in plane stress zz is not
-     * read). Returns what that dissipated [J/m^3], by the trapezoidal rule of
-     * the explicit scheme: (old + new stress)/2 : plastic increment, the exact
-     * difference between the step's trapezoidal work and stored energy. Only
-     * a step that jumps from one side of the elastic domain to the other can
-     * make it negative.
+     * Brings @p point to the elastic Biot strain @p e (U_e - I with the point's
+     * present Q) under the @p initial stress [Pa] (xx, yy, xy, zz; in plane
+     * stress zz is 0), which belongs to a cell that has never yielded:
+     * when it does, its elastic stretch becomes the one that has the present
+     * stress alone. A cell that is inverted is elastic.
+     *
+     * The dissipated energy is the difference between the step's trapezoidal
+     * work and what it stores. Only a step that jumps from one side of the
+     * elastic domain to the other can make it negative.
      */
-    double update(PlasticPoint &point, const std::array<double, 3> &strain,
-                  const std::array<double, 4> &initial = {}) const
-    {
-      const auto trial = trial_stress(point, strain, initial);
-      if (!is_elastic(trial))
-        return update_yielding(point, trial);
-      point.stress = trial;
-      point.state  = past(point.state);
-      return 0.;
-    }
+    PlasticStep update(PlasticPoint &point, const PlaneTensor &e,
+                       const std::array<double, 4> &initial = {}) const;
 
-    /** Stress xx, yy, xy, zz [Pa] if nothing yields on the way to @p strain. */
+    /** Biot's stress xx, yy, xy, zz [Pa] if nothing yields on the way to @p e,
+        see update(). */
     std::array<double, 4>
-    trial_stress(const PlasticPoint &point, const std::array<double, 3> &strain,
+    trial_stress(const PlasticPoint &point, const PlaneTensor &e,
                  const std::array<double, 4> &initial = {}) const
     {
-      const auto &p   = point.plastic_strain;
-      const double xx = strain[0] - p[0];
-      const double yy = strain[1] - p[1];
-      const double xy = strain[2] - p[2];
-      if (assumption == PlaneAssumption::plane_stress)
-        return { stiffness.c11 * xx + stiffness.c12 * yy + initial[0],
-                 stiffness.c12 * xx + stiffness.c11 * yy + initial[1],
-                 2. * stiffness.c33 * xy + initial[2], 0. };
-      return { stiffness.c11 * xx + stiffness.c12 * yy - stiffness.c12 * p[3]
-                   + initial[0],
-               stiffness.c12 * xx + stiffness.c11 * yy - stiffness.c12 * p[3]
-                   + initial[1],
-               2. * stiffness.c33 * xy + initial[2],
-               stiffness.c12 * (xx + yy) - stiffness.c11 * p[3] + initial[3] };
+      const auto &bears = point.state == 0 ? initial : no_stress;
+      const double zz   = assumption == PlaneAssumption::plane_stress
+                              ? 0.
+                              : point.inverse_stretch[3];
+      return { stiffness.c11 * e[0] + stiffness.c12 * (e[1] + zz) + bears[0],
+               stiffness.c12 * (e[0] + zz) + stiffness.c11 * e[1] + bears[1],
+               2. * stiffness.c33 * e[2] + bears[2],
+               assumption == PlaneAssumption::plane_stress
+                   ? 0.
+                   : stiffness.c12 * (e[0] + e[1]) + stiffness.c11 * zz
+                         + bears[3] };
     }
+
+    /** The same as Cauchy's stress, in the frame R_e. */
+    std::array<double, 4>
+    cauchy_stress(const PlasticPoint &point, const PlaneTensor &e,
+                  const std::array<double, 4> &initial = {}) const;
+
+    /**
+     * Gives a point that has yielded, at the elastic strain @p e under another
+     * material, the elastic stretch that has the same stress under this one.
+     */
+    void take_over(PlasticPoint &point, const PlaneTensor &e,
+                   const MohrCoulomb &before) const;
+
+    /**
+     * Elastic energy [J/m^3] of Biot's @p stress by the volume at the start. A
+     * cell that has yielded stores that of its stress less that of its initial
+     * one, and so does one that has not.
+     */
+    double stored_energy(const std::array<double, 4> &stress) const;
 
     YieldFunctions yield_functions(const std::array<double, 4> &stress) const
     {
@@ -165,18 +203,14 @@ namespace quoin
       return f.shear <= 0. && f.tension <= 0.;
     }
 
-    /** update() for a @p trial stress [Pa] that is_elastic() refuses. */
-    double update_yielding(PlasticPoint &point,
-                           const std::array<double, 4> &trial) const;
-
     /**
-     * Derivative [Pa] of the updated stress xx, yy, xy with respect to the
-     * strains xx, yy and 2 xy, at a @p trial stress. Exact for one step of
-     * update(); symmetric if psi = phi. On the border between two regions it
+     * Derivative [Pa] of PlasticStep::stress with respect to the strains xx, yy
+     * and 2 xy at what update() is given. On the border between two regions it
      * is that of one of them.
      */
-    std::array<std::array<double, 3>, 3>
-    tangent(const std::array<double, 4> &trial) const;
+    std::array<PlaneTensor, 3>
+    tangent(const PlasticPoint &point, const PlaneTensor &e,
+            const std::array<double, 4> &initial = {}) const;
 
     /** c / tan(phi) or what was given, whichever is less [Pa]. */
     double tensile_strength() const
@@ -211,6 +245,8 @@ namespace quoin
   private:
     using Principal = std::array<double, 3>;
 
+    static constexpr std::array<double, 4> no_stress{};
+
     /**
      * Where a return ends. Planes, edges and vertices in the sector
      * s1 >= s2 >= s3; 'squeeze' is yielding in shear out of the plane, in
@@ -243,15 +279,40 @@ namespace quoin
     };
 
     /**
-     * A stress by its principal values, in plane strain sorted, in plane
+     * A tensor by its principal values, in plane strain sorted, in plane
      * stress the major and minor one in the plane.
      */
-    struct PrincipalStress
+    struct PrincipalAxes
     {
       Principal s;
       unsigned int major, minor, out; /**< which is which in s */
-      double radius;                  /**< half the in-plane difference [Pa] */
+      double radius;                  /**< half the in-plane difference */
       double cos2, sin2; /**< of twice the angle of the major direction */
+
+      std::array<double, 4> tensor(const Principal &values) const
+      {
+        const double mean = 0.5 * (values[major] + values[minor]);
+        const double half = 0.5 * (values[major] - values[minor]);
+        return { mean + half * cos2, mean - half * cos2, half * sin2,
+                 values[out] };
+      }
+    };
+
+    /** The stress before the return. */
+    struct Trial
+    {
+      std::array<double, 4> biot, kirchhoff; /**< [Pa] */
+      double jacobian; /**< of F: present volume by that at the start */
+    };
+
+    /** A step of flow in principal axes. */
+    struct Flow
+    {
+      Region where;
+      Principal strain;    /**< elastic, Biot's, at the end */
+      Principal kirchhoff; /**< [Pa] */
+      Principal flowed;    /**< logarithmic plastic strain */
+      double jacobian;     /**< at the end */
     };
 
     double shear_function(const double major, const double minor) const
@@ -259,7 +320,51 @@ namespace quoin
       return n_phi * major - minor - limits.strength;
     }
 
-    PrincipalStress principal(const std::array<double, 4> &stress) const;
+    PrincipalAxes principal(const std::array<double, 4> &tensor) const;
+
+    Trial trial(const PlasticPoint &point, const PlaneTensor &e,
+                const std::array<double, 4> &initial) const;
+    bool yields(const Trial &at) const;
+
+    /** Elastic principal strains that have the stress of @p at; its axes. */
+    PrincipalAxes elastic_strain(const PlasticPoint &point,
+                                 const PlaneTensor &e,
+                                 const std::array<double, 4> &initial,
+                                 const Trial &at) const;
+    PrincipalAxes
+    strain_of_kirchhoff(const std::array<double, 4> &kirchhoff) const;
+
+    Flow find_flow(const Principal &trial_strain, double jacobian) const;
+
+    /** update() of a point that yields. */
+    PlasticStep update_yielding(PlasticPoint &point, const PlaneTensor &e,
+                                const std::array<double, 4> &initial,
+                                const Trial &at) const;
+
+    /**
+     * Changes the elastic strain of @p point from @p e to @p strain. Returns
+     * the turn of the frame R_e by it.
+     */
+    CorotatedStrain
+    change_elastic_strain(PlasticPoint &point, const PlaneTensor &e,
+                          const std::array<double, 4> &strain) const;
+
+    /** Derivatives of a flow's Kirchhoff stress, in principal axes. */
+    struct FlowRates
+    {
+      std::array<Principal, 3> by_trial; /**< [i][j]: of i, by trial stress j */
+      Principal by_volume; /**< by the logarithm of the trial's jacobian [Pa] */
+    };
+    FlowRates flow_rates(const Principal &trial_strain, const Flow &step) const;
+
+    Principal hooke(const Principal &strain) const;
+    std::array<double, 4> compliance(const std::array<double, 4> &s) const;
+
+    /** Strain zz of plane stress included. */
+    Principal inverse_hooke(const Principal &stress) const;
+
+    /** @f$\lambda_i S_i@f$ of elastic principal strains [Pa]. */
+    Principal kirchhoff(const Principal &strain) const;
 
     Region region(const Principal &trial) const;
     Region region_plane_strain(const Principal &trial) const;
@@ -276,7 +381,7 @@ namespace quoin
     Principal returned_plane_stress(Region region, const Principal &trial,
                                     const Limits &limits) const;
 
-    /** Plastic strain in the order of PrincipalStress::s. */
+    /** Plastic strain in the order of PrincipalAxes::s. */
     Principal plastic_increment(Region region, const Principal &trial,
                                 const Principal &end) const;
     double plane_stress_thinning(Region region, double major,
@@ -288,6 +393,7 @@ namespace quoin
     PlaneAssumption assumption;
     PlaneStiffness stiffness;
     double young, poisson;
+    double thinning; /**< elastic strain zz by xx + yy; 0 in plane strain */
     double n_phi, n_psi;
     Limits limits;
 

@@ -13,13 +13,13 @@
 namespace quoin
 {
   /**
-   * A cell of a material that yields, in the frame that turns with it:
-   * components xx, yy, xy (the tensor's) and zz. One cache line.
+   * A cell of a material that yields, PlasticPoint's components xx, yy, xy (the
+   * tensor's) and zz. One cache line.
    */
   struct alignas(64) PlasticCell
   {
-    double strain[4]{}; /**< plastic strain [-] */
-    double stress[4]{}; /**< as last computed, tension positive [Pa] */
+    double inverse_stretch[4]{}; /**< inverse plastic stretch less 1 [-] */
+    double stress[4]{};          /**< as last computed, tension positive [Pa] */
   };
 
   /**

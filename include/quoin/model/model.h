@@ -121,6 +121,8 @@ namespace quoin
     {
       return *stable_step;
     }
+    /** The same for the cells as plastic flow has left them; collective. */
+    StableTimeStep<dim> stability_at(const State<dim> &state) const;
     /**
      * Lumped masses of owned nodes and ghosts [kg]; zero at the corners of
      * quadratic triangles.

@@ -115,7 +115,8 @@ TEST(BlockTangent, ForcesAreThoseOfTheLanes)
         EXPECT_EQ(a.yielding, b.yielding);
         for (unsigned int c = 0; c < a.cells.size(); ++c)
           for (unsigned int i = 0; i < 4; ++i)
-            EXPECT_NEAR(a.cells[c].strain[i], b.cells[c].strain[i], 1e-13);
+            EXPECT_NEAR(a.cells[c].inverse_stretch[i],
+                        b.cells[c].inverse_stretch[i], 1e-13);
       }
 }
 
@@ -173,16 +174,18 @@ TEST(BlockTangent, PlasticStiffnessIsTheDerivativeOfTheForces)
 {
   for (const PlaneAssumption plane : both_assumptions)
     for (const bool quadratic : { false, true })
-      for (const double dilation : { 35. * degree, 10. * degree })
+      for (const auto &[dilation, size] :
+           { std::pair(35. * degree, 1.), std::pair(10. * degree, 1.),
+             std::pair(0., 200.) })
       {
         RandomBlocks mesh = plastic_block(plane, quadratic, dilation);
         mesh.add_initial_stress(5e5);
         BlockForces<2> blocks;
         blocks.prepare(mesh.data);
         PlasticHistory history = initial_history(blocks);
-        mesh.deform(1.2e-4, 1.9); // some cells have yielded before
+        mesh.deform(1.2e-4 * size, 1.9); // some cells have yielded before
         linearised(blocks, mesh.nodes, history);
-        mesh.deform(2.5e-4, 2.0);
+        mesh.deform(2.5e-4 * size, 2.0);
         Matrix stiffness;
         PlasticHistory end = history;
         linearised(blocks, mesh.nodes, end, &stiffness);
@@ -195,7 +198,7 @@ TEST(BlockTangent, PlasticStiffnessIsTheDerivativeOfTheForces)
         // Strains change by less than would take a cell past a corner of the
         // yield surface; the seed has none at one.
         const double error
-            = derivative_error(stiffness, mesh.nodes, 1e-9,
+            = derivative_error(stiffness, mesh.nodes, 1e-9 * std::sqrt(size),
                                [&](const auto &nodes)
                                {
                                  PlasticHistory trial = history;
@@ -203,11 +206,17 @@ TEST(BlockTangent, PlasticStiffnessIsTheDerivativeOfTheForces)
                                             ? linearised(blocks, nodes, trial)
                                             : lane_forces(blocks, nodes, trial);
                                });
-        EXPECT_LT(error, 3e-7) << quadratic << " " << dilation;
+        EXPECT_LT(error, 3e-7) << quadratic << " " << dilation << " " << size;
+        // The flow is associated with Cauchy's stress, by whose volume the
+        // stiffness is not symmetric: to the size of the elastic strains.
         if (dilation == 35. * degree)
-          EXPECT_LT(asymmetry(stiffness), 1e-14);
-        else
+        {
+          EXPECT_LT(asymmetry(stiffness), 1e-3);
+        }
+        else if (size == 1.)
+        {
           EXPECT_GT(asymmetry(stiffness), 1e-2);
+        }
       }
 }
 

@@ -15,7 +15,10 @@ using namespace quoin;
 
 namespace
 {
-  constexpr double shear = 2.8e9, bulk = 3.9e9, pressure = 30e6;
+  // A million times as stiff as that rock, for small strains.
+  constexpr double stiffer = 1e6;
+  constexpr double shear = stiffer * 2.8e9, bulk = stiffer * 3.9e9;
+  constexpr double pressure = 30e6;
   constexpr double cohesion = 3.45e6, degree = 0.017453292519943295;
   constexpr double wall = 1., outer = 4.;
 
@@ -56,16 +59,21 @@ namespace
           const double volume = h * middle;
           const double b[2][2]
               = { { -1. / h, 0.5 / middle }, { 1. / h, 0.5 / middle } };
-          const std::array<double, 3> e{ b[0][0] * u[i] + b[1][0] * u[i + 1],
-                                         b[0][1] * u[i] + b[1][1] * u[i + 1],
+          const std::array<double, 3> whole{
+            b[0][0] * u[i] + b[1][0] * u[i + 1],
+            b[0][1] * u[i] + b[1][1] * u[i + 1], 0.
+          };
+          const auto &q = points[i].inverse_stretch;
+          const std::array<double, 3> e{ whole[0] + q[0] + whole[0] * q[0],
+                                         whole[1] + q[1] + whole[1] * q[1],
                                          0. };
-          const auto K = law.tangent(law.trial_stress(points[i], e, initial));
-          law.update(next[i], e, initial);
-          double k[2][2] = {};
+          const auto K      = law.tangent(points[i], e, initial);
+          const auto stress = law.update(next[i], e, initial).stress;
+          double k[2][2]    = {};
           for (int p = 0; p < 2; ++p)
             for (int c = 0; c < 2; ++c)
             {
-              force[i + p] -= volume * b[p][c] * next[i].stress[c];
+              force[i + p] -= volume * b[p][c] * stress[c];
               for (int q = 0; q < 2; ++q)
                 for (int d = 0; d < 2; ++d)
                   k[p][q] += volume * b[p][c] * K[c][d] * b[q][d];
@@ -112,7 +120,8 @@ namespace
       std::size_t i = 0;
       while (r[i + 1] < at)
         ++i;
-      return u[i] + (at - r[i]) / (r[i + 1] - r[i]) * (u[i + 1] - u[i]);
+      return stiffer
+             * (u[i] + (at - r[i]) / (r[i + 1] - r[i]) * (u[i + 1] - u[i]));
     }
 
   private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/materials/mohr_coulomb.h>
+#include "yielding_sample.h"
 
 #include <gtest/gtest.h>
 
@@ -33,48 +33,46 @@ namespace
 
   /**
    * Presses along y to @p shortening in steps while the stress along x is held
-   * at @p side, by Newton's method on the strain xx. Returns the point.
+   * at @p side, by secants on the strain xx. Returns the sample.
    */
-  PlasticPoint compress(const MohrCoulomb &law, const double side,
-                        const double shortening, Strain &e)
+  YieldingSample compress(const MohrCoulomb &law, const double side,
+                          const double shortening)
   {
-    PlasticPoint point;
+    YieldingSample sample{ law };
+    Strain e{};
     constexpr int n_steps = 200;
     for (int step = 0; step <= n_steps; ++step)
     {
-      e[1] = -shortening * step / n_steps;
-      PlasticPoint next;
+      e[1]            = -shortening * step / n_steps;
+      const auto held = sample;
+      double slope = rock.young, last = 0., off = 0.;
       for (int iteration = 0; iteration < 50; ++iteration)
       {
-        next = point;
-        law.update(next, e);
-        const double slope = law.tangent(law.trial_stress(point, e))[0][0];
-        const double off   = side - next.stress[0];
+        sample = held;
+        sample.strain(e);
+        off = side - sample.stress()[0];
         if (std::abs(off) < 1e-9 * cohesion)
           break;
         // On a plateau the elastic stiffness still leads out.
-        e[0] += off / std::max(slope, 1e-3 * rock.young);
+        if (iteration > 0 && last != off)
+          slope = std::max(std::abs(slope * (last - off) / last),
+                           1e-3 * rock.young);
+        last = off;
+        e[0] += off / slope;
       }
-      EXPECT_NEAR(next.stress[0], side, 1e-8 * cohesion);
-      point = next;
+      EXPECT_NEAR(off, 0., 1e-8 * cohesion);
     }
-    return point;
-  }
-
-  double trace(const Stress &t)
-  {
-    return t[0] + t[1] + t[3];
+    return sample;
   }
 } // namespace
 
 TEST(MohrCoulomb, CubeInPlaneStressBearsItsStrength)
 {
-  Strain e{};
-  const auto point
-      = compress(law(10. * degree, 0.5e6, stress_plane), 0., 0.01, e);
-  EXPECT_NEAR(point.stress[1], -cube, 1e-9 * cube);
-  EXPECT_EQ(point.stress[3], 0.);
-  EXPECT_EQ(point.state & yielding::shear_now, yielding::shear_now);
+  const auto sample
+      = compress(law(10. * degree, 0.5e6, stress_plane), 0., 0.01);
+  EXPECT_NEAR(sample.stress()[1], -cube, 1e-8 * cube);
+  EXPECT_EQ(sample.stress()[3], 0.);
+  EXPECT_EQ(sample.point.state & yielding::shear_now, yielding::shear_now);
 }
 
 TEST(MohrCoulomb, ConfinementLine)
@@ -82,26 +80,27 @@ TEST(MohrCoulomb, ConfinementLine)
   // sigma_3 = N sigma_1 - 2 c sqrt(N), with or without stress out of plane.
   for (const double side : { -20e6, -5e6, -1e6, 0. })
   {
-    Strain e{};
-    const auto point = compress(law(0., 0.5e6, strain_plane), side, 0.02, e);
+    const auto sample     = compress(law(0., 0.5e6, strain_plane), side, 0.02);
+    const auto stress     = sample.stress();
     const double strength = n_phi * side - cube;
-    EXPECT_NEAR(point.stress[1], strength, 1e-8 * cube);
-    EXPECT_LE(point.stress[3], side + 1.);
-    EXPECT_GE(point.stress[3], strength - 1.);
-    EXPECT_EQ(point.state & yielding::shear_now, yielding::shear_now);
+    EXPECT_NEAR(stress[1], strength, 1e-7 * cube);
+    EXPECT_LE(stress[3], side + 1.);
+    EXPECT_GE(stress[3], strength - 1.);
+    EXPECT_EQ(sample.point.state & yielding::shear_now, yielding::shear_now);
   }
 }
 
 TEST(MohrCoulomb, OutOfPlaneStressCanBeTheMajorOne)
 {
   // Both in-plane stresses equal: edge sigma_2 = sigma_3.
-  const auto rock_law = law(0., infinity, strain_plane);
-  PlasticPoint point;
-  rock_law.update(point, { -1e-5, -1e-5, 0. }, { -10e6, -10e6, 0., 1.5e6 });
-  EXPECT_GT(point.stress[3], point.stress[0]);
-  EXPECT_NEAR(point.stress[0], point.stress[1], 1e-3);
-  EXPECT_NEAR(rock_law.yield_functions(point.stress).shear, 0., 1e-12 * cube);
-  EXPECT_NE(point.plastic_strain[3], 0.);
+  YieldingSample sample{ law(0., infinity, strain_plane),
+                         { -10e6, -10e6, 0., 1.5e6 } };
+  sample.strain({ -1e-5, -1e-5, 0. });
+  const auto stress = sample.stress();
+  EXPECT_GT(stress[3], stress[0]);
+  EXPECT_NEAR(stress[0], stress[1], 1e-3);
+  EXPECT_NEAR(sample.law.yield_functions(stress).shear, 0., 1e-12 * cube);
+  EXPECT_GT(sample.point.plastic_shear, 0.);
 }
 
 TEST(MohrCoulomb, ElasticStateIsBitwiseLinearElasticity)
@@ -112,7 +111,7 @@ TEST(MohrCoulomb, ElasticStateIsBitwiseLinearElasticity)
     const auto rock_law  = law(0., infinity, plane);
     PlasticPoint point;
     const Strain e{ -3e-5, 2e-5, 1e-5 };
-    EXPECT_EQ(rock_law.update(point, e), 0.);
+    EXPECT_EQ(rock_law.update(point, e).dissipated, 0.);
     EXPECT_EQ(point.state, 0);
     EXPECT_DOUBLE_EQ(point.stress[0],
                      stiffness.c11 * e[0] + stiffness.c12 * e[1]);
@@ -122,8 +121,8 @@ TEST(MohrCoulomb, ElasticStateIsBitwiseLinearElasticity)
     EXPECT_NEAR(point.stress[3],
                 stiffness.zz_over_sum * (point.stress[0] + point.stress[1]),
                 1e-9);
-    for (const double p : point.plastic_strain)
-      EXPECT_EQ(p, 0.);
+    for (const double q : point.inverse_stretch)
+      EXPECT_EQ(q, 0.);
   }
 }
 
@@ -133,32 +132,31 @@ TEST(MohrCoulomb, TensionCutOff)
   const double free_shear = cube / n_phi;
   for (const auto plane : { strain_plane, stress_plane })
   {
-    const auto rock_law = law(10. * degree, ft, plane);
-    PlasticPoint one, two;
-    rock_law.update(one, { 1e-4, -0.25e-4, 0. });
-    EXPECT_DOUBLE_EQ(one.stress[0], ft);
-    EXPECT_LT(one.stress[1], ft);
-    EXPECT_EQ(one.state, yielding::tension_now);
+    YieldingSample one{ law(10. * degree, ft, plane) }, two = one;
+    one.strain({ 1e-4, -0.25e-4, 0. });
+    EXPECT_NEAR(one.stress()[0], ft, 1e-12 * ft);
+    EXPECT_LT(one.stress()[1], ft);
+    EXPECT_EQ(one.point.state, yielding::tension_now);
     // Associated: the opening is along x alone.
-    EXPECT_GT(one.plastic_strain[0], 0.);
-    EXPECT_NEAR(one.plastic_strain[1], 0., 1e-18);
-    EXPECT_NEAR(one.plastic_strain[3], 0., 1e-18);
+    EXPECT_LT(one.point.inverse_stretch[0], -1e-5);
+    EXPECT_NEAR(one.point.inverse_stretch[1], 0., 1e-18);
+    EXPECT_NEAR(one.point.inverse_stretch[3], 0., 1e-18);
 
-    rock_law.update(two, { 2e-4, 1e-4, 0. });
-    EXPECT_DOUBLE_EQ(two.stress[0], ft);
-    EXPECT_DOUBLE_EQ(two.stress[1], ft);
-    EXPECT_NEAR(two.stress[2], 0., 1e-9);
-    EXPECT_EQ(two.state, yielding::tension_now);
+    two.strain({ 2e-4, 1e-4, 0. });
+    EXPECT_NEAR(two.stress()[0], ft, 1e-12 * ft);
+    EXPECT_NEAR(two.stress()[1], ft, 1e-12 * ft);
+    EXPECT_NEAR(two.stress()[2], 0., 1e-9);
+    EXPECT_EQ(two.point.state, yielding::tension_now);
   }
 
   // Without a cut-off a free body shears out of the plane in tension.
-  const auto uncut = law(phi, infinity, stress_plane);
-  PlasticPoint point;
-  uncut.update(point, { 1e-3, 0., 0. });
-  EXPECT_DOUBLE_EQ(point.stress[0], free_shear);
-  EXPECT_EQ(point.state, yielding::shear_now);
-  EXPECT_NEAR(point.plastic_strain[3], -point.plastic_strain[0] / n_phi,
-              1e-12 * point.plastic_strain[0]);
+  YieldingSample uncut{ law(phi, infinity, stress_plane) };
+  uncut.strain({ 1e-3, 0., 0. });
+  EXPECT_NEAR(uncut.stress()[0], free_shear, 1e-12 * free_shear);
+  EXPECT_EQ(uncut.point.state, yielding::shear_now);
+  const double opened = std::log1p(uncut.point.inverse_stretch[0]);
+  EXPECT_NEAR(std::log1p(uncut.point.inverse_stretch[3]), -opened / n_phi,
+              1e-12 * std::abs(opened));
 }
 
 TEST(MohrCoulomb, ApexAndItsLimit)
@@ -171,25 +169,24 @@ TEST(MohrCoulomb, ApexAndItsLimit)
     EXPECT_EQ(law(psi, 10. * apex, strain_plane).tensile_strength(),
               uncut.tensile_strength());
     // All three principal stresses reach the limit.
-    PlasticPoint point;
-    uncut.update(point, { 3e-3, 3.1e-3, 1e-4 });
+    YieldingSample sample{ uncut };
+    sample.strain({ 3e-3, 3.1e-3, 1e-4 });
     for (const int i : { 0, 1, 3 })
-      EXPECT_NEAR(point.stress[i], apex, 1e-12 * apex);
-    EXPECT_NEAR(point.stress[2], 0., 1e-9 * apex);
+      EXPECT_NEAR(sample.stress()[i], apex, 1e-12 * apex);
+    EXPECT_NEAR(sample.stress()[2], 0., 1e-9 * apex);
   }
 }
 
 TEST(MohrCoulomb, VertexOfShearAndTension)
 {
   constexpr double ft = 0.4e6;
-  const auto rock_law = law(5. * degree, ft, strain_plane);
-  PlasticPoint point;
-  rock_law.update(point, { 2e-3, -2e-3, 0. });
-  EXPECT_DOUBLE_EQ(point.stress[0], ft);
-  EXPECT_DOUBLE_EQ(point.stress[1], n_phi * ft - cube);
-  EXPECT_EQ(point.state, yielding::shear_now | yielding::tension_now);
-  rock_law.update(point, { 1.99e-3, -1.99e-3, 0. });
-  EXPECT_EQ(point.state, yielding::shear_past | yielding::tension_past);
+  YieldingSample sample{ law(5. * degree, ft, strain_plane) };
+  sample.strain({ 2e-3, -2e-3, 0. });
+  EXPECT_NEAR(sample.stress()[0], ft, 1e-12 * cube);
+  EXPECT_NEAR(sample.stress()[1], n_phi * ft - cube, 1e-12 * cube);
+  EXPECT_EQ(sample.point.state, yielding::shear_now | yielding::tension_now);
+  sample.strain({ 1.99e-3, -1.99e-3, 0. });
+  EXPECT_EQ(sample.point.state, yielding::shear_past | yielding::tension_past);
 }
 
 TEST(MohrCoulomb, FlowFollowsTheDilationAngle)
@@ -199,35 +196,38 @@ TEST(MohrCoulomb, FlowFollowsTheDilationAngle)
   for (const double psi : { 0., 10. * degree, phi })
     for (const auto plane : { strain_plane, stress_plane })
     {
-      const auto rock_law = law(psi, infinity, plane);
-      PlasticPoint point;
+      YieldingSample sample{ law(psi, infinity, plane) };
       if (plane == strain_plane)
-        rock_law.update(point, { 4e-4, -22e-4, 15e-4 },
-                        { -5e6, -5e6, 0., -12e6 });
+        sample.bear(rock, -5e6, -5e6, -12e6);
+      const auto before = sample.logarithms();
+      if (plane == strain_plane)
+        sample.strain({ 4e-4, -22e-4, 15e-4 });
       else
-        rock_law.update(point, { 3e-4, -3e-4, 1e-5 });
-      ASSERT_EQ(point.state, yielding::shear_now);
-      const auto &p        = point.plastic_strain;
-      const double slipped = std::hypot(p[0] - p[1], 2. * p[2]);
+        sample.strain({ 3e-4, -3e-4, 1e-5 });
+      ASSERT_EQ(sample.point.state & 3, yielding::shear_now);
+      const auto after = sample.logarithms();
+      // The larger one is that of the side which flows less.
+      const double slipped = after[0] - after[1];
       EXPECT_GT(slipped, 1e-5);
-      EXPECT_NEAR(p[0] + p[1] + p[3], std::sin(psi) * slipped, 1e-12 * slipped);
-      EXPECT_NEAR(p[3], 0., 1e-12 * slipped);
+      double volume = 0.;
+      for (int i = 0; i < 3; ++i)
+        volume += before[i] - after[i];
+      EXPECT_NEAR(volume, std::sin(psi) * slipped, 1e-11 * slipped);
+      EXPECT_NEAR(after[2], before[2], 1e-11 * slipped);
       if (psi == 0.)
       {
-        EXPECT_NEAR(point.plastic_shear, 0.5 * slipped, 1e-12 * slipped);
+        EXPECT_NEAR(sample.point.plastic_shear, 0.5 * slipped, 1e-11 * slipped);
       }
     }
   // At a free cube that is squeezed, too, out of the plane.
   for (const double psi : { 0., 10. * degree, phi })
   {
-    const auto rock_law = law(psi, infinity, stress_plane);
-    const double n      = (1. + std::sin(psi)) / (1. - std::sin(psi));
-    PlasticPoint point;
-    rock_law.update(point, { -1e-3, -22e-4, 0. });
-    ASSERT_EQ(point.state, yielding::shear_now);
-    EXPECT_NEAR(point.plastic_strain[3],
-                -n * (point.plastic_strain[0] + point.plastic_strain[1]),
-                1e-15);
+    YieldingSample sample{ law(psi, infinity, stress_plane) };
+    const double n = (1. + std::sin(psi)) / (1. - std::sin(psi));
+    sample.strain({ -1e-3, -22e-4, 0. });
+    ASSERT_EQ(sample.point.state, yielding::shear_now);
+    const auto flowed = sample.logarithms();
+    EXPECT_NEAR(flowed[2], -n * (flowed[0] + flowed[1]), 1e-15);
   }
 }
 
@@ -238,23 +238,23 @@ TEST(MohrCoulomb, TrescaWithoutFriction)
     {
       const MohrCoulomb tresca(rock, { cohesion, 0., 0., ft }, plane);
       EXPECT_EQ(tresca.tensile_strength(), ft);
-      PlasticPoint point;
-      tresca.update(point, { 0., 0., 3e-3 });
-      const auto f = tresca.yield_functions(point.stress);
+      YieldingSample sample{ tresca };
+      sample.strain({ 0., 0., 3e-3 });
+      const auto f = tresca.yield_functions(sample.stress());
       EXPECT_NEAR(f.shear, 0., 1e-12 * cohesion);
       EXPECT_LE(f.tension, 1e-12 * cohesion);
       if (ft == infinity)
       {
-        EXPECT_NEAR(point.stress[2], cohesion, 1e-12 * cohesion);
-        EXPECT_NEAR(trace(point.plastic_strain), 0., 1e-17);
+        EXPECT_NEAR(sample.stress()[2], cohesion, 1e-12 * cohesion);
+        const auto flowed = sample.logarithms();
+        EXPECT_NEAR(flowed[0] + flowed[1] + flowed[2], 0., 1e-17);
       }
       // Any pressure, no more strength.
-      PlasticPoint deep;
-      const Stress pressure{ -1e9, -1e9, 0., -1e9 };
       if (plane == strain_plane)
       {
-        tresca.update(deep, { 0., 0., 3e-3 }, pressure);
-        EXPECT_NEAR(deep.stress[2], cohesion, 1e-6 * cohesion);
+        YieldingSample deep{ tresca, { -1e9, -1e9, 0., -1e9 } };
+        deep.strain({ 0., 0., 3e-3 });
+        EXPECT_NEAR(deep.stress()[2], cohesion, 1e-6 * cohesion);
       }
     }
 }
@@ -264,13 +264,14 @@ TEST(MohrCoulomb, NoStrengthBearsNothing)
   for (const double friction : { 0., phi })
     for (const auto plane : { strain_plane, stress_plane })
     {
-      const MohrCoulomb sand(rock, { 0., friction, 0., infinity }, plane);
-      PlasticPoint point;
-      sand.update(point, { 1e-3, 2e-3, 5e-4 });
+      YieldingSample sand{ MohrCoulomb(rock, { 0., friction, 0., infinity },
+                                       plane) };
+      sand.strain({ 1e-3, 2e-3, 5e-4 });
+      const auto stress = sand.stress();
       if (friction == 0. && plane == strain_plane)
-        EXPECT_NEAR(point.stress[0], point.stress[1], 1e-6);
+        EXPECT_NEAR(stress[0], stress[1], 1e-6);
       else
-        for (const double s : point.stress)
+        for (const double s : stress)
           EXPECT_NEAR(s, 0., 1e-6);
     }
 }
@@ -295,9 +296,10 @@ TEST(MohrCoulomb, TurnsWithItsAxes)
       const Strain e{ strain(random), strain(random), strain(random) };
       const double at = angle(random);
       PlasticPoint here, there;
-      const double lost = rock_law.update(here, e);
-      EXPECT_NEAR(rock_law.update(there, turned(e[0], e[1], e[2], at)), lost,
-                  1e-9 * (1. + lost));
+      const double lost = rock_law.update(here, e).dissipated;
+      EXPECT_NEAR(
+          rock_law.update(there, turned(e[0], e[1], e[2], at)).dissipated, lost,
+          1e-9 * (1. + lost));
       const auto expected
           = turned(here.stress[0], here.stress[1], here.stress[2], at);
       for (int k = 0; k < 3; ++k)
@@ -325,8 +327,7 @@ TEST(MohrCoulomb, TangentIsTheDerivative)
           const Strain e{ strain(random), strain(random), strain(random) };
           const double p = pressure(random);
           const Stress initial{ p, p, 0., p + 4e6 * strain(random) / 2e-3 };
-          const auto K = rock_law.tangent(
-              rock_law.trial_stress(PlasticPoint(), e, initial));
+          const auto K = rock_law.tangent(PlasticPoint(), e, initial);
           double worst = 0., kink = 0.;
           for (int j = 0; j < 3; ++j)
           {
@@ -334,14 +335,16 @@ TEST(MohrCoulomb, TangentIsTheDerivative)
             const double step = j == 2 ? 0.5 * h : h; // of 2 xy
             plus[j] += step;
             minus[j] -= step;
-            PlasticPoint a, b, middle;
-            rock_law.update(a, plus, initial);
-            rock_law.update(b, minus, initial);
-            rock_law.update(middle, e, initial);
+            const auto stress = [&](const Strain &at)
+            {
+              PlasticPoint point;
+              return rock_law.update(point, at, initial).stress;
+            };
+            const auto a = stress(plus), b = stress(minus), middle = stress(e);
             for (int k = 0; k < 3; ++k)
             {
-              const double left  = (middle.stress[k] - b.stress[k]) / h;
-              const double right = (a.stress[k] - middle.stress[k]) / h;
+              const double left  = (middle[k] - b[k]) / h;
+              const double right = (a[k] - middle[k]) / h;
               kink  = std::max(kink, std::abs(left - right) / rock.young);
               worst = std::max(worst, std::abs(0.5 * (left + right) - K[k][j])
                                           / rock.young);
@@ -351,16 +354,15 @@ TEST(MohrCoulomb, TangentIsTheDerivative)
           if (kink > 1e-4)
             continue;
           ++n_checked;
-          n_plastic += rock_law.is_elastic(
-                           rock_law.trial_stress(PlasticPoint(), e, initial))
-                           ? 0
-                           : 1;
+          n_plastic += K[2][2] != plane_stiffness(rock, plane).c33;
           EXPECT_LT(worst, 1e-6);
+          // The flow is associated with Cauchy's stress, the stiffness
+          // symmetric by Kirchhoff's: to the size of the elastic strains.
           if (psi == phi && ft == infinity && plane == strain_plane)
           {
             for (int j = 0; j < 3; ++j)
               for (int k = 0; k < j; ++k)
-                EXPECT_NEAR(K[k][j], K[j][k], 1e-9 * rock.young);
+                EXPECT_NEAR(K[k][j], K[j][k], 1e-2 * rock.young);
           }
         }
         EXPECT_GT(n_checked, 19900);
@@ -372,11 +374,14 @@ TEST(MohrCoulomb, TangentWithEqualPrincipalStresses)
 {
   // Elastic in the plane, yielding out of it: the shear modulus stays. Edge
   // sigma_2 = sigma_3 and two equal tensions: none is left.
-  const double shear  = plane_stiffness(rock, strain_plane).c33;
-  const auto rock_law = law(0., 0.5e6, strain_plane);
-  EXPECT_NEAR(rock_law.tangent({ -1e6, -1e6, 0., 1e6 })[2][2], shear,
-              1e-9 * shear);
-  EXPECT_NEAR(rock_law.tangent({ -9e6, -9e6, 0., 0.4e6 })[2][2], 0.,
-              1e-9 * shear);
-  EXPECT_NEAR(rock_law.tangent({ 1e6, 1e6, 0., 0. })[2][2], 0., 1e-9 * shear);
+  const double shear = plane_stiffness(rock, strain_plane).c33;
+  const auto modulus = [](const double plane, const double zz)
+  {
+    YieldingSample sample{ law(0., 0.5e6, strain_plane) };
+    sample.bear(rock, plane, plane, zz);
+    return sample.law.tangent(sample.point, sample.elastic().e)[2][2];
+  };
+  EXPECT_NEAR(modulus(-1e6, 1e6), shear, 1e-3 * shear);
+  EXPECT_NEAR(modulus(-9e6, 0.4e6), 0., 3e-3 * shear);
+  EXPECT_NEAR(modulus(1e6, 0.), 0., 3e-3 * shear);
 }
