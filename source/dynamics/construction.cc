@@ -16,8 +16,9 @@ namespace quoin
                                   "section 'Stages'"))
   {
     const BlockTable<2> &table = model.nodes().table();
-    for (const StageParameters &stage : stages)
+    for (unsigned int i = 0; i < stages.size(); ++i)
     {
+      const StageParameters &stage = stages[i];
       Step step;
       step.where = "section 'Stages/" + stage.name + "'";
       step.excavate
@@ -27,6 +28,10 @@ namespace quoin
       step.places  = !stage.fill.empty();
       step.release = stage.release;
       step.changes = stage.changes_properties();
+      // A search for the factor of safety leaves the model as it was.
+      const StageParameters *strong
+          = stage.safety ? previous_stage(stages, i) : &stage;
+      step.strength = strong ? strong->strength_factor : 1.;
       check_borders(step, step.excavate, "Excavate");
       check_borders(step, step.fill, "Fill");
       steps.push_back(step);
@@ -47,12 +52,23 @@ namespace quoin
     const auto changed = [&](const unsigned int last)
     {
       return std::any_of(steps.begin(), steps.begin() + last,
-                         [](const Step &step)
-                         { return step.changes || step.places; });
+                         [](const Step &step) {
+                           return step.changes || step.places
+                                  || step.strength != 1.;
+                         });
     };
     if (n != n_begun && (changed(n) || changed(n_begun)))
-      model.set_properties(n == 0 ? at_start : steps[n - 1].properties, state);
+      model.set_properties(properties_after(n), state);
     n_begun = n;
+  }
+
+  ModelProperties Construction::properties_after(const unsigned int n) const
+  {
+    if (n == 0)
+      return at_start;
+    const Step &last = steps[n - 1];
+    return last.strength == 1. ? last.properties
+                               : reduced(last.properties, 1. / last.strength);
   }
 
   void Construction::resume_stage(const unsigned int stage,
@@ -82,9 +98,13 @@ namespace quoin
       if (step.places)
         place(step, state);
       if (step.changes)
-        model.change_properties(step.properties, state);
+        model.change_properties(properties_after(stage + 1), state);
       state.energy.external += stored_energy(state) - before;
     }
+    if (!step.changes
+        && step.strength != (stage == 0 ? 1. : steps[stage - 1].strength))
+      model.set_properties(properties_after(stage + 1),
+                           state.get<ConstructionState>());
     for (HeldForces &item : held)
       item.left_at_end = std::min(item.left, 1. - step.release);
     n_begun = stage + 1;

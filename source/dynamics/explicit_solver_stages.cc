@@ -15,6 +15,12 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** Critical time steps in which forces may change, see quiet_time(). */
+    constexpr double least_quiet_steps = 2000.;
+  } // namespace
+
   template <int dim>
   void ExplicitSolver<dim>::scale_masses(const StageParameters &stage,
                                          State<dim> &state)
@@ -138,16 +144,38 @@ namespace quoin
     if (stage.end == StageEnd::time)
       return stage.duration;
 
-    const double slowest = slowest_shear_wave(model);
-    if (!std::isfinite(slowest))
+    const double passage = passage_time();
+    if (passage == 0.)
       throw InputError("section 'Stages/" + stage.name
                        + "': 'Release duration = automatic' is twice the time "
                          "of a shear wave along the model, but all blocks are "
                          "rigid. Give a time in which forces may be released "
                          "without shaking the blocks.");
+    return passage;
+  }
+
+  template <int dim>
+  double ExplicitSolver<dim>::passage_time() const
+  {
     // Masses that are added slow waves down.
-    return 2. * model.nodes().table().diagonal() / slowest
+    return 2. * model.nodes().table().diagonal() / slowest_shear_wave(model)
            * std::sqrt(1. + added_mass);
+  }
+
+  template <int dim>
+  double ExplicitSolver<dim>::quiet_time() const
+  {
+    return std::max(passage_time(), least_quiet_steps * critical_step);
+  }
+
+  template <int dim>
+  double ExplicitSolver<dim>::automatic_ramp() const
+  {
+    // Weight and initial stress may be in balance from the start.
+    return stage.end == StageEnd::static_ratio
+                   && model.parameters().initial_stresses.empty()
+               ? quiet_time()
+               : 0.;
   }
 
   template <int dim>
@@ -158,6 +186,8 @@ namespace quoin
     this->activate(new_stage, state);
     scale_masses(stage, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
+    this->ramp_gravity(previous, automatic_ramp());
+    set_contact_laws(model.properties().joints);
     prepare(state);
     collect_operators(previous);
     for (const auto &constraint : all_constraints)
@@ -178,13 +208,16 @@ namespace quoin
 
   template <int dim>
   void ExplicitSolver<dim>::resume_stage(const StageParameters &resumed,
+                                         const StageParameters *previous,
                                          State<dim> &state)
   {
     this->activate(resumed, state);
+    set_contact_laws(model.properties().joints);
     collect_operators(nullptr);
     const State<dim> saved = state;
     scale_masses(stage, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
+    this->ramp_gravity(previous, automatic_ramp());
     for (MotionConstraint<dim> *constraint : acting.constraints)
       constraint->resume_stage(state);
     state = saved;
@@ -197,6 +230,7 @@ namespace quoin
                                                const StageParameters *,
                                                State<2> &);
   template void ExplicitSolver<2>::resume_stage(const StageParameters &,
+                                                const StageParameters *,
                                                 State<2> &);
   template void ExplicitSolver<3>::scale_masses(const StageParameters &,
                                                 State<3> &);
@@ -204,5 +238,6 @@ namespace quoin
                                                const StageParameters *,
                                                State<3> &);
   template void ExplicitSolver<3>::resume_stage(const StageParameters &,
+                                                const StageParameters *,
                                                 State<3> &);
 } // namespace quoin

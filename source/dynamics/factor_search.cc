@@ -68,6 +68,14 @@ namespace quoin
                     "would not end. Give a larger one.");
   }
 
+  unsigned int SafetyParameters::least_trials() const
+  {
+    const double bracket = (step - 1.) * first;
+    return 2
+           + (unsigned int)(std::ceil(
+               std::max(0., std::log2(bracket / tolerance))));
+  }
+
   const char *verdict_text(const Verdict verdict)
   {
     switch (verdict)

@@ -2,11 +2,9 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/dynamics/release.h>
-
-#include <deal.II/base/numbers.h>
+#include <quoin/loads/time_function.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace quoin
 {
@@ -39,10 +37,9 @@ namespace quoin
   template <int dim>
   double Release<dim>::share(const double load_time) const
   {
-    if (load_time >= ramp_duration)
-      return 1.;
-    const double t = load_time / ramp_duration;
-    return is_linear ? t : 0.5 * (1. - std::cos(dealii::numbers::PI * t));
+    if (is_linear && load_time < ramp_duration)
+      return load_time / ramp_duration;
+    return half_cosine(load_time, ramp_duration);
   }
 
   template <int dim>

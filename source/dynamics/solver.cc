@@ -178,6 +178,15 @@ namespace quoin
   }
 
   template <int dim>
+  void Solver<dim>::ramp_gravity(const StageParameters *previous,
+                                 const double automatic)
+  {
+    for (NodalLoad<dim> &load : all_loads)
+      load.begin_stage(!previous || !names_load(*previous, load.name()),
+                       automatic);
+  }
+
+  template <int dim>
   bool Solver<dim>::acts_in(const MotionConstraint<dim> &constraint,
                             const StageParameters &any) const
   {

@@ -62,6 +62,12 @@ namespace quoin
                     "Pairs set:other set: joint sets that follow the law "
                     "of another, which may be without curves, from this "
                     "stage on; tractions stay.");
+      entries.positive("Strength factor", stage.strength_factor,
+                       "Cohesion, tensile strength and tangent of the friction "
+                       "angle of all joints and blocks in this stage by those "
+                       "of their parameters, such as 3 for a slope that must "
+                       "come to rest before a factor of safety below 1 can be "
+                       "looked for; tractions and stresses stay [-]");
       if (const ParameterSection *section = entries.read_section())
         check_release(*section, stage);
     }
@@ -223,6 +229,11 @@ namespace quoin
           section->fail(name, "does not go with 'End = factor of safety', "
                               "which leaves the model as it was. Use a stage "
                               "of its own before it.");
+      if (stage.strength_factor != 1.)
+        section->fail("Strength factor",
+                      "does not go with 'End = factor of safety', whose trials "
+                      "divide the strengths of the parameters. Give it to the "
+                      "stage before, or leave it at 1.");
       if (!stage.end_conditions.empty())
         section->fail("End conditions",
                       "does not go with 'End = factor of safety', whose trials "
@@ -278,6 +289,8 @@ namespace quoin
       text += "; excavates " + join(excavate, ", ");
     if (!fill.empty())
       text += "; fills " + join(fill, ", ");
+    if (strength_factor != 1.)
+      text += text_of("; strengths times ", strength_factor);
     for (const auto &[group, material] : materials)
       text += "; " + group + " becomes " + material;
     for (const auto &[set, other] : joint_properties)

@@ -166,6 +166,7 @@ namespace quoin
                                    State<2> &state)
   {
     activate(new_stage, state);
+    ramp_gravity(previous, 0.);
     prepare(state);
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
@@ -186,9 +187,11 @@ namespace quoin
   }
 
   void ImplicitSolver::resume_stage(const StageParameters &resumed,
+                                    const StageParameters *previous,
                                     State<2> &state)
   {
     activate(resumed, state);
+    ramp_gravity(previous, 0.);
     for (MotionConstraint<2> *constraint : acting.constraints)
       constraint->set_mass(model.mass());
     if (state.get<ImplicitState>().jumps)

@@ -202,6 +202,7 @@ namespace quoin
                         { "prescribed motion", "traction", "gravity" } },
                       { "Rotation", "free", { "platen" } },
                       { "Pressure", "free", { "traction" } },
+                      { "Ramp duration", "automatic", { "gravity" } },
                       { "Incident normal velocity", "0", viscous },
                       { "Incident shear velocity", "0", viscous },
                       { "Far field material", "", viscous },
@@ -392,11 +393,24 @@ namespace quoin
                         "'Horizontal' and 'Vertical'; a function of time as "
                         "those [Pa]",
                         plain);
+      if (entries.reads_if(load.type == LoadType::gravity))
+        entries.number_or(
+            "automatic", -1., "Ramp duration", load.ramp_duration,
+            "Gravity: time over which it grows by half a cosine from nothing "
+            "where it begins, by the loads' clock; 0: it is there at once; "
+            "automatic: 0 but in explicit stages with 'End = static ratio' of "
+            "models without initial stress, where it is twice the time of a "
+            "shear wave along the model's diagonal, at least two thousand "
+            "critical time steps [s]");
       const ParameterSection *section = entries.read_section();
       if (section && is_platen
           && load.groups.empty() == load.boundaries.empty())
         section->fail("Group",
                       "and 'Boundary': a platen takes one of the two.");
+      if (section && load.type == LoadType::gravity && load.ramp_duration < 0.
+          && section->text("Ramp duration") != "automatic")
+        section->fail("Ramp duration",
+                      "must be 'automatic' or a time that is not negative.");
     }
 
     void enter_open_boundary(ParameterEntries &entries, LoadParameters &load)

@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/loads/nodal_load.h>
+#include <quoin/loads/time_function.h>
 #include <quoin/mesh/kind_text.h>
 
 #include <algorithm>
@@ -93,7 +94,8 @@ namespace quoin
                             const double thickness)
     : load_name(parameters.name),
       is_gravity(parameters.type == LoadType::gravity),
-      components(parameters.components), pressure(parameters.pressure)
+      components(parameters.components), pressure(parameters.pressure),
+      given_ramp(is_gravity ? parameters.ramp_duration : 0.)
   {
     if (is_gravity)
     {
@@ -139,9 +141,11 @@ namespace quoin
   std::array<double, 4> NodalLoad<dim>::amplitude(const TimePoint &time) const
   {
     const auto [x, y, z] = component_values(components, time);
-    return { x, y, z,
-             pressure.quantity == LoadQuantity::free ? 0.
-                                                     : pressure.value(time) };
+    const double share   = half_cosine(time.stage, ramp_duration);
+    return { share * x, share * y, share * z,
+             pressure.quantity == LoadQuantity::free
+                 ? 0.
+                 : share * pressure.value(time) };
   }
 
   template <int dim>

@@ -78,6 +78,13 @@ namespace quoin
       evaluate = expression;
   }
 
+  double half_cosine(const double time, const double duration)
+  {
+    return time < duration
+               ? 0.5 * (1. - std::cos(constants::pi * time / duration))
+               : 1.;
+  }
+
   bool TimeFunction::is_named(const std::string &text)
   {
     return text.rfind("table ", 0) == 0 || is_signal_text(text);

@@ -21,6 +21,18 @@ namespace quoin
     return result;
   }
 
+  ModelProperties reduced(ModelProperties properties, const double factor,
+                          const bool joints, const bool blocks)
+  {
+    if (joints)
+      for (JointSetParameters &set : properties.joints)
+        set.law = reduced(set.law, factor);
+    if (blocks)
+      for (MaterialParameters &material : properties.materials)
+        material = reduced(material, factor);
+    return properties;
+  }
+
   template <>
   void Model<2>::set_properties(const ModelProperties &properties,
                                 const ConstructionState &construction)

@@ -66,6 +66,8 @@ namespace quoin
         refusals.refuse_if(stage.changes_properties(),
                            section + "'Materials' or 'Joint properties'",
                            "Leave them empty.");
+        refusals.refuse_if(stage.strength_factor != 1.,
+                           section + "'Strength factor'", "Leave it at 1.");
         refusals.refuse_if(bool(stage.safety), section + "a factor of safety",
                            "Take another 'End'.");
       }

@@ -213,14 +213,16 @@ namespace quoin
   void BlockSystem<dim>::resume_stage(const unsigned int index,
                                       State<dim> &state)
   {
+    const StageParameters &stage    = parameters.stages[index];
+    const StageParameters *previous = previous_stage(parameters.stages, index);
     if constexpr (dim == 2)
     {
       construction->resume_stage(index, state);
       if (implicit_solver)
-        implicit_solver->resume_stage(parameters.stages[index], state);
+        implicit_solver->resume_stage(stage, previous, state);
     }
     if (explicit_solver)
-      explicit_solver->resume_stage(parameters.stages[index], state);
+      explicit_solver->resume_stage(stage, previous, state);
   }
 
   template <int dim>

@@ -121,12 +121,22 @@ namespace quoin
           [&]() { take_trial_step(context, stage, start, state); },
           measuring_time / double(parameters.stages.size()),
           system.communicator, period);
-      if (stage.end != StageEnd::time)
+      if (stage.safety)
+      {
+        // Strengths fall in the quiet time, and as long again settles them.
+        const double n_steps
+            = std::ceil(2. * system.explicit_solver->quiet_time()
+                        / system.explicit_solver->get_time_step());
+        const unsigned int n_trials = stage.safety->least_trials();
+        log.message("stage ", stage.name, ": ", n_trials,
+                    " factors or more, each of ", n_steps, " steps or more: ",
+                    seconds_text(n_trials * n_steps * seconds), " or more");
+      }
+      else if (stage.end != StageEnd::time)
         log.message("stage ", stage.name, ": ",
                     seconds_text(many_steps * seconds),
                     " for each 10 000 steps, of which it takes as many as it "
-                    "needs",
-                    stage.safety ? " for each factor" : " to settle");
+                    "needs to settle");
       else
         log.message("stage ", stage.name, ": about ",
                     seconds_text(double(context.steps.n_steps()) * seconds),

@@ -2,12 +2,12 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/number_text.h>
-#include <quoin/model/material_waves.h>
 #include <quoin/problems/block_stage.h>
 #include <quoin/results/atomic_file.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace quoin
 {
@@ -16,9 +16,8 @@ namespace quoin
     /** Automatic failure displacement, by the mean displacement with which the
         loads have deformed the model, or by its diagonal. */
     constexpr double failure_by_loading = 10., failure_by_diagonal = 1e-3;
-    /** Parts in which strengths are reduced, and the least number of steps of
-        each of them. */
-    constexpr unsigned int n_reductions = 20, least_reduction_steps = 100;
+    /** Parts in which strengths are reduced. */
+    constexpr unsigned int n_reductions = 20;
 
     class SafetyStage : public BlockStage<2>
     {
@@ -28,6 +27,9 @@ namespace quoin
           search(context.searches[index]), base(state),
           strong(system.model->properties())
       {
+        if (const StageParameters *previous
+            = previous_stage(system.parameters.stages, index))
+          raised = previous->strength_factor;
       }
 
       void begin() override
@@ -45,21 +47,23 @@ namespace quoin
       Checkpoint take_step() override;
       ProgressFigures figures() const override
       {
-        return figures_at(system.implicit_solver ? load_share() : -1.);
+        ProgressFigures figures = figures_at(-1.);
+        if (!search.has_ended(safety))
+          figures.stage += text_of(", factor ", search.next(safety));
+        return figures;
       }
 
     private:
       void finish() override;
-      /** Sets the strengths of the start of the stage, divided by @p factor. */
-      void set_strength(double factor);
+      /** Sets strengths after @p share of the way from those of the start of
+          the stage to those of the parameters, divided by @p factor. */
+      void set_strength(double factor, double share);
       SafetyTrial try_factor(double factor);
       /** Begins the stage, damped as @p variant of it, with the state before.
        */
       void begin_trial(const StageParameters &variant);
       void come_to_rest(const StageParameters &variant, SafetyTrial &trial);
       void find_equilibrium(SafetyTrial &trial);
-      /** Time in which strengths are reduced [s]. */
-      double reduction_time() const;
       /** Whether a failure may come from joints that chatter under adaptive
           damping, so that a trial with local damping must confirm it. */
       bool needs_confirmation() const;
@@ -71,7 +75,9 @@ namespace quoin
       const SafetyParameters &safety;
       FactorSearch &search;
       const State<2> base;
+      const Energies energies = system.solver->energies(); /**< at its start */
       ModelProperties strong;
+      double raised = 1.; /**< their strength by that of the parameters */
     };
 
     Stage::Checkpoint SafetyStage::take_step()
@@ -86,22 +92,20 @@ namespace quoin
       search.add(trial);
       state = base;
       system.set_properties(strong, state);
+      system.solver->set_energies(energies);
       context.run.on_first_rank(
           [&]()
           { write_text(context.run.output + "/safety.csv", search.table()); });
       return Checkpoint::wanted;
     }
 
-    void SafetyStage::set_strength(const double factor)
+    void SafetyStage::set_strength(const double factor, const double share)
     {
-      ModelProperties weak = strong;
-      if (safety.reduces_joints)
-        for (JointSetParameters &set : weak.joints)
-          set.law = reduced(set.law, factor);
-      if (safety.reduces_blocks)
-        for (MaterialParameters &material : weak.materials)
-          material = reduced(material, factor);
-      system.set_properties(weak, state);
+      system.set_properties(reduced(reduced(strong, std::pow(raised, share)),
+                                    std::pow(factor, share),
+                                    safety.reduces_joints,
+                                    safety.reduces_blocks),
+                            state);
     }
 
     void SafetyStage::begin_trial(const StageParameters &variant)
@@ -149,40 +153,27 @@ namespace quoin
                  || system.solver->contacts());
     }
 
-    double SafetyStage::reduction_time() const
-    {
-      const double slowest = slowest_shear_wave(*system.model);
-      const double passage
-          = std::isfinite(slowest)
-                ? 2. * system.nodes->table().diagonal() / slowest
-                      * std::sqrt(1.
-                                  + system.explicit_solver->added_mass_share())
-                : 0.;
-      return std::max(passage, n_reductions * least_reduction_steps
-                                   * system.explicit_solver->get_time_step());
-    }
-
     void SafetyStage::come_to_rest(const StageParameters &variant,
                                    SafetyTrial &trial)
     {
       ExplicitSolver<2> &solver = *system.explicit_solver;
       context.steps.choose(variant);
       // A sudden loss of strength would make the model overshoot.
-      const double start = state.time, duration = reduction_time();
+      const double start = state.time, duration = solver.quiet_time();
       const double limit = failure_displacement();
       FailureWatch watch(limit, start + duration);
-      unsigned int reduced = 0;
-      trial.verdict        = Verdict::undecided;
+      unsigned int n_reduced = 0;
+      trial.verdict          = Verdict::undecided;
       try
       {
         for (;;)
         {
           const double share = (state.time - start) / duration;
-          if (reduced < n_reductions && share >= double(reduced) / n_reductions)
+          if (n_reduced < n_reductions
+              && share >= double(n_reduced) / n_reductions)
           {
-            ++reduced;
-            set_strength(
-                std::pow(trial.factor, double(reduced) / n_reductions));
+            ++n_reduced;
+            set_strength(trial.factor, double(n_reduced) / n_reductions);
           }
           ExplicitSolver<2>::Requests requests;
           requests.balance
@@ -221,10 +212,12 @@ namespace quoin
     void SafetyStage::find_equilibrium(SafetyTrial &trial)
     {
       ImplicitSolver &solver = *system.implicit_solver;
-      set_strength(trial.factor);
+      set_strength(trial.factor, 1.);
       solver.begin_stage(stage, previous_stage(system.parameters.stages, index),
                          state);
-      FailureWatch watch(failure_displacement(), 0.);
+      const double limit = failure_displacement();
+      std::optional<FailureWatch> watch; // of a jump
+      double before = 0.;
       trial.verdict = Verdict::undecided;
       try
       {
@@ -233,13 +226,25 @@ namespace quoin
           solver.step(state);
           outputs.write_iterations();
           solver.record().jumps.clear();
-          const ImplicitState &now = state.get<ImplicitState>();
-          if (now.jumps
-              && watch.has_failed(now.drag_time, largest_displacement()))
+          const ImplicitState &now  = state.get<ImplicitState>();
+          const double displacement = largest_displacement();
+          if (!now.jumps)
+          {
+            watch.reset();
+            before = displacement;
+          }
+          else if (!watch)
+            watch.emplace(limit, 0.);
+          if (watch && watch->has_failed(now.drag_time, displacement - before))
           {
             trial.verdict = Verdict::failing;
             return;
           }
+          // Loads that are released slowly may lead ground that flows from one
+          // equilibrium to the next, until it lies as a heap. Whether it keeps
+          // moving shows when it is let go.
+          if (!now.jumps && now.released < 1. && displacement > limit)
+            solver.move_against_drag(state);
           if (context.run.progress.due())
             context.run.progress.update(figures());
         }
@@ -302,7 +307,8 @@ namespace quoin
                     stable == 0. ? std::string() : text_of(stable));
       if (stable == 0. && !open)
         log.warning(begin, "even the lowest factor, ", failing,
-                    ", fails: the model has no equilibrium under these loads");
+                    ", fails: the model has no equilibrium under these loads, "
+                    "or 'Lowest factor' is too high");
       else if (std::isinf(failing) && !open)
         log.warning(begin, "even the highest factor, ", stable,
                     ", is stable: the model may have no mechanism");

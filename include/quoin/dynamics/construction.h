@@ -21,8 +21,9 @@ namespace quoin
   groups_placed_later(const std::vector<StageParameters> &stages);
 
   /**
-   * Staged construction: excavation and fill of blocks and changes of materials
-   * and joint laws, done before the solver begins a stage.
+   * Staged construction: excavation and fill of blocks and changes of
+   * materials, joint laws and their strength, done before the solver begins a
+   * stage.
    *
    * Excavated blocks stay in the arrays: State::block_marks says that they are
    * absent, their nodes are held, their joints are deactivated. The forces that
@@ -61,9 +62,10 @@ namespace quoin
       std::string where; /**< for messages */
       std::vector<bool> excavate, fill;
       bool takes = false, places = false;
-      ModelProperties properties; /**< from here on */
-      double release = 1.;
-      bool changes   = false; /**< whether the properties change */
+      ModelProperties properties; /**< from here on, of strength 1 */
+      double release  = 1.;
+      bool changes    = false; /**< whether the properties change */
+      double strength = 1.;    /**< factor on strengths */
       /** Physical surfaces present before and after the stage. */
       std::vector<bool> bears_load;
     };
@@ -81,6 +83,8 @@ namespace quoin
     double stored_energy(const State<2> &state) const; /**< of this rank [J] */
     void take_away(const Step &step, Solver<2> &solver, State<2> &state) const;
     void place(const Step &step, State<2> &state) const;
+    /** Properties of the model after @p n stages. */
+    ModelProperties properties_after(unsigned int n) const;
     /** Restores the model after @p n stages. */
     void restore(unsigned int n, const ConstructionState &state);
 

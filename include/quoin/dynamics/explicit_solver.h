@@ -73,13 +73,18 @@ namespace quoin
                      const StageParameters *previous, State<dim> &state);
 
     /** As begin_stage(), for a state read from a checkpoint in mid-stage. */
-    void resume_stage(const StageParameters &stage, State<dim> &state);
+    void resume_stage(const StageParameters &stage,
+                      const StageParameters *previous, State<dim> &state);
 
     /** Critical time step of the stage [s], the same on all ranks. */
     double critical_time_step() const
     {
       return critical_step;
     }
+    /** Time in which forces may change without shaking the model: that of a
+        shear wave along its diagonal and back, at least two thousand critical
+        time steps, which joints are too soft for waves alone to tell [s]. */
+    double quiet_time() const;
     /** Mass added by mass scaling, by the mass of the model [-]. */
     double added_mass_share() const
     {
@@ -140,6 +145,11 @@ namespace quoin
     /** Collects what acts in the stage; @p previous: stage before, or null. */
     void collect_operators(const StageParameters *previous);
     void collect_constrained_nodes(const State<dim> &state);
+    /** Time of a shear wave along the model and back, with added masses [s];
+        0 if all blocks are rigid. */
+    double passage_time() const;
+    /** Time over which gravity that begins in the stage grows [s]. */
+    double automatic_ramp() const;
     /** Duration of the release of held forces in this stage [s]. */
     double release_duration(const State<dim> &state) const;
     /** Blocks of this rank that loads of this or a later stage move. */

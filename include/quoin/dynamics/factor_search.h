@@ -27,6 +27,10 @@ namespace quoin
     bool reduces_blocks         = true;
     bool reduces_joints         = true;
 
+    /** Trials of a search whose first one is stable and whose second one
+        fails. */
+    unsigned int least_trials() const;
+
     /** Declares or reads the entries in the subsection of a stage. */
     void enter(ParameterEntries &entries);
   };

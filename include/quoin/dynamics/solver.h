@@ -107,6 +107,11 @@ namespace quoin
     {
       return last_energies;
     }
+    /** Sets @p energies, where a trial is over and its state is dropped. */
+    void set_energies(const Energies &energies)
+    {
+      last_energies = energies;
+    }
 
     /** The loads that act in the stage that has begun. */
     const StageLoads<dim> &stage_loads() const
@@ -153,6 +158,9 @@ namespace quoin
      * are absent in @p state.
      */
     void activate(const StageParameters &stage, const State<dim> &state);
+    /** Lets gravity that @p previous, the stage before or null, has not grow
+        over @p automatic [s], unless its parameters say otherwise. */
+    void ramp_gravity(const StageParameters *previous, double automatic);
     /** Refuses loads on absent blocks, except prescribed motions. */
     void refuse_absent_nodes(const State<dim> &state) const;
     /** Whether @p stage names @p constraint and, of far fields, is of its kind.

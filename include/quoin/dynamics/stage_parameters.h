@@ -76,6 +76,10 @@ namespace quoin
     /** Joint sets and the sets whose laws they take over. */
     std::vector<std::pair<std::string, std::string>> joint_properties;
 
+    /** Cohesion, tensile strength and tangent of the friction angle of joints
+        and blocks by those of their parameters [-]. */
+    double strength_factor = 1.;
+
     /** Strength reduction by trials, which leave the state unchanged. */
     std::optional<SafetyParameters> safety;
 

@@ -86,7 +86,8 @@ namespace quoin
     void begin_stage(const StageParameters &stage,
                      const StageParameters *previous, State<2> &state);
     /** Resumes a stage with a state completed by save(). */
-    void resume_stage(const StageParameters &stage, State<2> &state);
+    void resume_stage(const StageParameters &stage,
+                      const StageParameters *previous, State<2> &state);
 
     /** Load time at which the stage ends [s]. */
     double duration() const
@@ -107,6 +108,10 @@ namespace quoin
      * smallest step; the state is then the last equilibrium.
      */
     void step(State<2> &state);
+
+    /** Lets the next steps of a search for the factor of safety be those of a
+        jump, from @p state on and with all forces released. */
+    void move_against_drag(State<2> &state);
 
     /**
      * Computes the matrix, its factors and the first correction of the next

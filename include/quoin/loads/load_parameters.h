@@ -72,6 +72,8 @@ namespace quoin
     LoadComponent lateral;  /**< component y in three dimensions, where the
                                vertical one is z */
     LoadComponent pressure; /**< of tractions */
+    /** Time over which gravity grows where it begins [s]; -1: automatic. */
+    double ramp_duration = -1.;
 
     /** All functions of time: the components, lateral and pressure. */
     std::array<LoadComponent, 5> functions() const

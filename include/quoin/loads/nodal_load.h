@@ -31,6 +31,13 @@ namespace quoin
     /** Updates the weights of gravity; @p mass as in the constructor. */
     void set_mass(const std::vector<double> &mass);
 
+    /** Gravity that @p begins in the stage grows by half a cosine, over a
+        duration that is given or @p automatic [s]; 0: it is there at once. */
+    void begin_stage(const bool begins, const double automatic)
+    {
+      ramp_duration = !begins ? 0. : given_ramp >= 0. ? given_ramp : automatic;
+    }
+
     const char *kind() const override
     {
       return "loads";
@@ -59,6 +66,8 @@ namespace quoin
     LoadComponent pressure;
     std::vector<unsigned int> nodes;
     std::vector<double> weights;
+    double given_ramp; /**< -1: automatic [s] */
+    double ramp_duration = 0.;
     std::vector<NodeVector<dim>>
         inward; /**< n_i [m^2]; empty without pressure */
   };

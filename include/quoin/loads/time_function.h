@@ -15,6 +15,10 @@ namespace quoin
   /** Time in a stage after which loads are taken as constant [s]. */
   constexpr double late_time = 1e9;
 
+  /** Half a cosine from 0 at @p time 0 to 1 at @p duration [s], and 1 beyond.
+   */
+  double half_cosine(double time, double duration);
+
   /**
    * A value that depends on time alone: an expression of t (time in the
    * stage) and T (total time), with pi and the functions of muParser,

@@ -49,6 +49,11 @@ namespace quoin
     std::vector<JointSetParameters> joints;
   };
 
+  /** @p properties with the strength of joints and blocks, or of one of the
+      two, divided by @p factor. */
+  ModelProperties reduced(ModelProperties properties, double factor,
+                          bool joints = true, bool blocks = true);
+
   /**
    * The blocks and joints of this rank, packed for the solvers; constant but
    * for what set_properties() changes. Nodes and cells have the local numbers

@@ -42,6 +42,19 @@ TEST(FactorSearch, BracketsTheLimit)
   }
 }
 
+TEST(FactorSearch, TakesAsManyTrialsAsEstimated)
+{
+  for (const double tolerance : { 0.5, 0.1, 0.01 })
+  {
+    SafetyParameters parameters;
+    parameters.tolerance = tolerance;
+    EXPECT_EQ(searched(parameters, 1.1).trials().size(),
+              parameters.least_trials());
+    EXPECT_GE(searched(parameters, 2.1).trials().size(),
+              parameters.least_trials());
+  }
+}
+
 TEST(FactorSearch, EndsAtTheLowestAndHighestFactors)
 {
   EXPECT_EQ(searched({}, 0.05).lowest_failing(), 0.1);

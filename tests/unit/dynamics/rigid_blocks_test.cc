@@ -674,7 +674,7 @@ TEST(RigidBlocks, ResumesInMidStage)
   run.begin(stage, 0.5);
   run.step(200);
   other.state = run.state;
-  other.solver.resume_stage(stage, other.state);
+  other.solver.resume_stage(stage, nullptr, other.state);
   EXPECT_EQ(other.solver.critical_time_step(), run.solver.critical_time_step());
   other.solver.set_time_step(run.dt());
   run.step(200);

@@ -289,7 +289,7 @@ TEST(ImplicitSolver, ACollapseResumedWithinItsJumpEndsTheSame)
   run.solver.save(run.state);
   other.run->state = run.state;
   run.state.get<ImplicitState>().before_jump.clear(); // of the checkpoint alone
-  other.run->solver.resume_stage(stage_with({ "held", "push" }),
+  other.run->solver.resume_stage(stage_with({ "held", "push" }), nullptr,
                                  other.run->state);
   const std::string text = collapse(run);
   EXPECT_NE(text.find("went on moving"), std::string::npos) << text;
@@ -326,7 +326,7 @@ TEST(ImplicitSolver, AGivenRotationResumedIsBitwiseTheSame)
   run.solver.begin_stage(stage, nullptr, run.state);
   run.solver.step(run.state);
   other.state = run.state;
-  other.solver.resume_stage(stage, other.state);
+  other.solver.resume_stage(stage, nullptr, other.state);
   run.solver.step(run.state);
   other.solver.step(other.state);
   EXPECT_EQ(bytes(other.state), bytes(run.state));

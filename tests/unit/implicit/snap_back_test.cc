@@ -212,7 +212,7 @@ TEST(SnapBack, ARunThatIsResumedIsBitwiseTheSame)
     other.begin();
     other.run->state = states[share * states.size()];
     other.run->solver.resume_stage(stage_with({ "left", "guide", "pull" }),
-                                   other.run->state);
+                                   nullptr, other.run->state);
     other.run->finish();
     EXPECT_EQ(bytes(other.run->state), bytes(whole.run->state)) << share;
   }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <vector>
 
 using namespace quoin;
@@ -48,6 +49,32 @@ namespace
     }
   };
 } // namespace
+
+TEST(NodalLoad, GravityGrowsWhereItBegins)
+{
+  const Rectangle rectangle;
+  LoadParameters parameters;
+  parameters.type          = LoadType::gravity;
+  parameters.components[1] = { LoadQuantity::force, TimeFunction("-8", "./") };
+  for (const double given : { -1., 0., 4. })
+  {
+    parameters.ramp_duration = given;
+    NodalLoad<2> load(parameters, rectangle.nodes, std::vector<double>(4, 1.),
+                      1.);
+    const auto at = [&](const double t) {
+      return load.amplitude({ t, 10. + t })[1];
+    };
+    EXPECT_EQ(at(0.), -8.);
+    load.begin_stage(true, 2.);
+    const double duration = given < 0. ? 2. : given;
+    EXPECT_EQ(at(0.), duration > 0. ? 0. : -8.);
+    EXPECT_NEAR(at(0.25 * duration),
+                duration > 0. ? -4. + 2. * std::sqrt(2.) : -8., 1e-14);
+    EXPECT_EQ(at(duration), -8.);
+    load.begin_stage(false, 2.); // it has been there before
+    EXPECT_EQ(at(0.), -8.);
+  }
+}
 
 TEST(NodalLoad, PressurePushesOnTheBlock)
 {

@@ -302,7 +302,7 @@ TEST(ModelBox, DeletedBlocksStayDeletedInTheNextStageAndWhenResumed)
     run.step(20);
     TestRun resumed(mesh, parameters, loads);
     resumed.state = run.state;
-    resumed.solver.resume_stage(second, resumed.state);
+    resumed.solver.resume_stage(second, &first, resumed.state);
     resumed.solver.set_time_step(run.dt());
     for (TestRun *each : { &run, &resumed })
       each->step(200, true);
