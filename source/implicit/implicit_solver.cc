@@ -20,8 +20,10 @@ namespace quoin
     constexpr double first_drag_step = 0.1, least_drag_step = 1e-9;
     constexpr double drag_growth = 2., drag_cut = 0.2;
     constexpr unsigned int most_drag_steps = 500;
-    /** Path increment in a step of a jump, by the largest path step. */
-    constexpr double most_flow = 1.;
+    /** Path increment in a step of a jump, by the largest path step or, where a
+        search for the factor of safety asks whether the model goes on moving,
+        by the path of the jump so far. */
+    constexpr double most_flow = 1., safety_flow = 0.2;
     /** Load step after a jump, by the last one. */
     constexpr double jump_share = 0.3;
     /** Steps of a jump between trials without drag. */
@@ -276,7 +278,7 @@ namespace quoin
       // tilt holds them: it is none of the path that the loads follow.
       const double most
           = state.get<ImplicitState>().jumps
-                ? most_flow * parameters.largest_path_step
+                ? most_jump_path(state.get<ImplicitState>())
                 : collapse_share * model.nodes().table().diagonal();
       if (outcome == Outcome::converged && std::abs(balance.path) <= most)
         break;
@@ -298,12 +300,12 @@ namespace quoin
     now.jump_loss += state.energy.damping - before.energy.damping;
     ++now.n_drag;
     now.drag_time += now.drag_step;
+    now.drag_path += std::abs(balance.path);
     // A search for the factor of safety judges by itself how far it goes.
     if (now.n_drag >= most_drag_steps || (!stage.safety && has_gone_far(state)))
       give_up(state);
     if (iteration <= parameters.wanted_iterations
-        && std::abs(balance.path)
-               < parameters.largest_path_step * most_flow / drag_growth)
+        && std::abs(balance.path) < most_jump_path(now) / drag_growth)
       now.drag_step *= drag_growth;
     // Trials without drag cost as much as steps: at first, then at intervals.
     if (balance.dragged > jump_ends * balance.applied
@@ -327,6 +329,12 @@ namespace quoin
     done.jumps.push_back(
         { now.jump_time, now.n_drag,
           dealii::Utilities::MPI::sum(now.jump_loss, communicator) });
+  }
+
+  double ImplicitSolver::most_jump_path(const ImplicitState &now) const
+  {
+    const double most = most_flow * parameters.largest_path_step;
+    return stage.safety ? std::max(most, safety_flow * now.drag_path) : most;
   }
 
   bool ImplicitSolver::has_gone_far(const State<2> &state) const
@@ -358,6 +366,7 @@ namespace quoin
     now.jumps        = true;
     now.n_drag       = 0;
     now.drag_time    = 0.;
+    now.drag_path    = 0.;
     now.jump_loss    = 0.;
     now.drag_step    = first_drag_step;
     now.jump_time    = std::min(

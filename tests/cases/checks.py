@@ -994,7 +994,10 @@ def factor_of_safety(case, folder, output, histories):
     table, _ = read_table(os.path.join(
         folder, case.get("table", "reference.csv")))
     wanted = table[case["factor"]][0]
-    stable, failing = found["stable at"], found["failing at"]
+    stable = found.get("stable at")
+    failing = found.get("failing at")
+    if stable is None or failing is None:
+        raise Failure("no bracket was found: %s" % found)
     print("  stable at %.4f, failing at %.4f, reference %.4f, %d trials"
           % (stable, failing, wanted, found["trials"]))
     if not os.path.exists(os.path.join(output, "mechanism", "blocks.pvd")):

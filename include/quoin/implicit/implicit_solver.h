@@ -189,6 +189,8 @@ namespace quoin
     void adapt_step(const State<2> &before, State<2> &state) const;
     /** Reduces the next step; false: it is the smallest one. */
     bool cut_step(State<2> &state) const;
+    /** Largest path increment in the next step of a jump [m]. */
+    double most_jump_path(const ImplicitState &now) const;
     /** Whether a jump has become a collapse; collective. */
     bool has_gone_far(const State<2> &state) const;
     /** Makes @p state the last equilibrium and throws the RunError. */

@@ -35,6 +35,7 @@ namespace quoin
     double jump_time    = 0.;    /**< load time of the jump [s] */
     double drag_step    = 0.;    /**< next step of pseudo-time [-] */
     double drag_time    = 0.;    /**< pseudo-time of the jump so far [-] */
+    double drag_path    = 0.;    /**< path's length in the jump so far [m] */
     unsigned int n_drag = 0;     /**< steps of the jump so far */
     double jump_loss = 0.; /**< dissipated by drag since the jump began [J] */
     /** In checkpoints within a jump: the archived State of the equilibrium
@@ -49,7 +50,7 @@ namespace quoin
       visitor.own(held_blocks, 3, RigidBlockStates::slice_name);
       visitor.same(released, step, last_step, follows_path, path_step,
                    path_length, farthest, ahead, jumps, jump_time, drag_step,
-                   drag_time, n_drag, jump_loss, before_jump);
+                   drag_time, drag_path, n_drag, jump_loss, before_jump);
     }
 
     template <typename Archive>
