@@ -34,6 +34,8 @@ namespace quoin
     constexpr double collapse_share = 0.05;
     /** Ratio of drag to applied force below which a jump may have ended. */
     constexpr double jump_ends = 1e-4;
+    /** Unbalanced by drag force that a trial of the factor of safety bears. */
+    constexpr double drag_share = 0.1;
     /** Steps ahead on the path before return to load control. */
     constexpr unsigned int steps_ahead = 5;
     /** Tolerated relative error of the path's length [-]. */
@@ -169,7 +171,15 @@ namespace quoin
                                    <= path_tolerance * target.path
                              : configuration.load_time == target.load_time
                                    && configuration.released == target.released;
-      if (iteration > 0 && there && ratio <= parameters.force_ratio)
+      // Points of joints that close and open in turn with every iteration must
+      // not hold up a trial that asks whether the model goes on moving.
+      const double tolerance
+          = stage.safety && state.get<ImplicitState>().jumps
+                    && target.path == 0.
+                ? std::max(parameters.force_ratio,
+                           drag_share * balance.dragged / balance.applied)
+                : parameters.force_ratio;
+      if (iteration > 0 && there && ratio <= tolerance)
         return Outcome::converged;
       if (i >= parameters.maximum_iterations
           || (i >= 10 && ratio > 0.5 * ratios[i - 6]))
@@ -354,6 +364,12 @@ namespace quoin
     const bool jumped  = state.get<ImplicitState>().jumps;
     state              = last_equilibrium;
     fail(state, tried, jumped);
+  }
+
+  void ImplicitSolver::move_against_drag(State<2> &state)
+  {
+    last_equilibrium = state;
+    begin_jump(state);
   }
 
   bool ImplicitSolver::begin_jump(State<2> &state) const

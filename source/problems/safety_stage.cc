@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace quoin
 {
@@ -224,7 +225,9 @@ namespace quoin
       set_strength(trial.factor);
       solver.begin_stage(stage, previous_stage(system.parameters.stages, index),
                          state);
-      FailureWatch watch(failure_displacement(), 0.);
+      const double limit = failure_displacement();
+      std::optional<FailureWatch> watch; // of a jump
+      double before = 0.;
       trial.verdict = Verdict::undecided;
       try
       {
@@ -233,13 +236,25 @@ namespace quoin
           solver.step(state);
           outputs.write_iterations();
           solver.record().jumps.clear();
-          const ImplicitState &now = state.get<ImplicitState>();
-          if (now.jumps
-              && watch.has_failed(now.drag_time, largest_displacement()))
+          const ImplicitState &now  = state.get<ImplicitState>();
+          const double displacement = largest_displacement();
+          if (!now.jumps)
+          {
+            watch.reset();
+            before = displacement;
+          }
+          else if (!watch)
+            watch.emplace(limit, 0.);
+          if (watch && watch->has_failed(now.drag_time, displacement - before))
           {
             trial.verdict = Verdict::failing;
             return;
           }
+          // Loads that are released slowly may lead ground that flows from one
+          // equilibrium to the next, until it lies as a heap. Whether it keeps
+          // moving shows when it is let go.
+          if (!now.jumps && now.released < 1. && displacement > limit)
+            solver.move_against_drag(state);
           if (context.run.progress.due())
             context.run.progress.update(figures());
         }

@@ -988,7 +988,8 @@ def in_situ_rest(case, folder, output, histories):
 
 def factor_of_safety(case, folder, output, histories):
     """The middle of the bracket, no wider than 0.01, against a column of a
-    table."""
+    table; where factors are "undecided", the stable one, and that the column is
+    in the bracket."""
     with open(os.path.join(output, "summary.json")) as stream:
         found = json.load(stream)["factor of safety"]["safety"]
     table, _ = read_table(os.path.join(
@@ -1002,6 +1003,10 @@ def factor_of_safety(case, folder, output, histories):
           % (stable, failing, wanted, found["trials"]))
     if not os.path.exists(os.path.join(output, "mechanism", "blocks.pvd")):
         raise Failure("the failing state was not written")
+    if case.get("undecided"):
+        if not stable <= wanted <= failing:
+            raise Failure("the reference is outside of the bracket")
+        return {"stable factor": float(abs(stable / wanted - 1))}
     if not 0 < failing - stable <= 0.01 + 1e-12:
         raise Failure("the bracket is %g wide" % (failing - stable))
     return {"factor of safety": float(

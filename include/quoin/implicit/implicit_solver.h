@@ -108,6 +108,10 @@ namespace quoin
      */
     void step(State<2> &state);
 
+    /** Lets the next steps of a search for the factor of safety be those of a
+        jump, from @p state on and with all forces released. */
+    void move_against_drag(State<2> &state);
+
     /**
      * Computes the matrix, its factors and the first correction of the next
      * step, to measure their cost, and discards them.

@@ -1,3 +1,3 @@
-// The vertical cut with quadrangles of half the size.
-h = 0.03125;
+// The vertical cut with quadrangles of 1/44 m.
+h = 1 / 44;
 Include "cut.geo";

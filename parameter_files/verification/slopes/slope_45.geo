@@ -1,4 +1,4 @@
 // A slope of 45 degrees.
-DefineConstant[ h = 0.0625 ]; // size of the quadrangles
+DefineConstant[ h = 1 / 24 ]; // size of the quadrangles
 c = 1;
 Include "slope.inc";

@@ -1,4 +1,4 @@
 // A slope of 60 degrees.
-DefineConstant[ h = 0.0625 ]; // size of the quadrangles
+DefineConstant[ h = 1 / 24 ]; // size of the quadrangles
 c = 0.57735;
 Include "slope.inc";
