@@ -293,6 +293,7 @@ namespace quoin
                      " m. Refine the mesh there to ", 0.1 * length,
                      " m, or lower the frequency.");
     }
+
     /** Largest speed [m/s] at which loads of the stage move something. */
     double largest_speed(const StageOfRun &run)
     {
