@@ -28,7 +28,7 @@ namespace quoin
     /** Most steps between two looks at the motions. */
     constexpr double longest_interval = 50.;
     /** Least and largest automatic skin by the median edge. */
-    constexpr double least_skin = 0.01, most_skin = 0.2;
+    constexpr double least_skin = 0.02, most_skin = 0.2;
     /** Steps between two searches that an automatic skin is made for, at twice
         the present speed. */
     constexpr double skin_steps = 100.;
