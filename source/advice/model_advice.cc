@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/known_names.h>
-#include <quoin/advice/advice.h>
+#include <quoin/advice/contact_advice.h>
 
 #include <algorithm>
 #include <cmath>
@@ -258,7 +258,11 @@ namespace quoin
       check_initial_joints(parameters, model, state, advice);
     check_materials(parameters, model, advice);
     if constexpr (dim == 2)
+    {
       check_joints(parameters, model, advice);
+      if (!parameters.is_implicit)
+        check_restitution(model, advice);
+    }
     check_output(parameters, advice);
     return advice;
   }

@@ -3,7 +3,7 @@
 
 #include <quoin/base/known_names.h>
 #include <quoin/base/point_text.h>
-#include <quoin/advice/advice.h>
+#include <quoin/advice/contact_advice.h>
 
 #include <algorithm>
 #include <array>
@@ -293,6 +293,27 @@ namespace quoin
                      " m. Refine the mesh there to ", 0.1 * length,
                      " m, or lower the frequency.");
     }
+
+    /** Largest speed [m/s] at which loads of the stage move something. */
+    double largest_speed(const StageOfRun &run)
+    {
+      constexpr unsigned int n = 1025;
+      double largest           = 0.;
+      for (const LoadParameters *load : run.loads)
+        for (const auto &given : load->given_components())
+        {
+          const LoadQuantity quantity = given.component.quantity;
+          if (quantity == LoadQuantity::force || given.name == "rotation")
+            continue;
+          auto values
+              = sampled(run.function(given.component), run.stage.duration, n);
+          if (quantity == LoadQuantity::displacement)
+            values = derivative(values, run.stage.duration / (n - 1));
+          for (const double v : values)
+            largest = std::max(largest, std::abs(v));
+        }
+      return largest;
+    }
   } // namespace
 
   Shaking fastest_load(const Parameters &parameters, const unsigned int index)
@@ -333,6 +354,10 @@ namespace quoin
     if (rise > 0.) // else nothing deforms
       check_jumps(run, rise, checks);
     check_edges(run, sizes, checks);
+    if constexpr (dim == 2)
+      if (run.stage.is_dynamic() && parameters.model.large_displacements)
+        check_soft_contacts(model, fastest_load(parameters, index),
+                            largest_speed(run), checks);
     checks.warn_if(index == 0 && parameters.history_interval > 0.
                        && parameters.history_interval < time_step,
                    "'Interval = ", parameters.history_interval,

@@ -193,7 +193,8 @@ namespace quoin
   inline DEAL_II_ALWAYS_INLINE void
   BlockContacts::add_point_forces(const unsigned int i, const unsigned int k,
                                   const Geometry &g, ContactState &contacts,
-                                  const double viscous_beta, Losses &losses)
+                                  const double viscous_beta, const bool damps,
+                                  Losses &losses)
   {
     ContactPair &pair    = contacts.pairs[i];
     ContactPoint &point  = pair.points[k];
@@ -240,6 +241,8 @@ namespace quoin
     if (viscous_beta > 0. && point.state != JointState::open
         && point.state != JointState::slipping)
       add_viscous_forces(a, b, g, k, viscous_beta, stiffness);
+    if (damps && point.normal_traction < 0.)
+      note_dashpot(i, k, g, { { opening, slip_now } }, stiffness);
   }
 
   void BlockContacts::add_viscous_forces(const Edge &a, const Edge &b,
@@ -265,8 +268,14 @@ namespace quoin
   {
     ContactState &contacts    = state.get<ContactState>();
     const double viscous_beta = forces.viscous ? step.stiffness_damping : 0.;
-    if (viscous_beta > 0.)
+    const bool damps          = forces.viscous && has_dashpots();
+    if (viscous_beta > 0. || damps)
       gather_velocities(state.velocity.data());
+    if (damps)
+    {
+      dashpots.clear();
+      dashpot_points.clear();
+    }
     Losses losses;
     updates += contacts.pairs.size();
     begin_contacts(contacts);
@@ -284,14 +293,16 @@ namespace quoin
         continue;
       }
       for (unsigned int k = 0; k < 2; ++k)
-        add_point_forces(i, k, g, contacts, viscous_beta, losses);
+        add_point_forces(i, k, g, contacts, viscous_beta, damps, losses);
     }
+    if (damps)
+      add_dashpot_forces(contacts);
     state.energy.friction += losses.friction;
     state.energy.fracture += losses.fracture;
     state.energy.contact += losses.contact;
 
     scatter(compact_force, forces.force);
-    if (viscous_beta > 0.)
+    if (viscous_beta > 0. || damps)
       scatter(compact_viscous, forces.viscous);
   }
 

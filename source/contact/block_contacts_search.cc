@@ -11,6 +11,7 @@
 #include <quoin/base/wall_clock.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/contact/contact_search.h>
+#include <quoin/contact/contact_sets.h>
 #include <quoin/mesh/global_geometry.h>
 
 #include <algorithm>
@@ -26,8 +27,14 @@ namespace quoin
 
     /** Most steps between two looks at the motions. */
     constexpr double longest_interval = 50.;
-    /** Automatic skin by the median edge. */
-    constexpr double automatic_skin = 0.2;
+    /** Least and largest automatic skin by the median edge. */
+    constexpr double least_skin = 0.02, most_skin = 0.2;
+    /** Steps between two searches that an automatic skin is made for, at twice
+        the present speed. */
+    constexpr double skin_steps = 100.;
+    /** Skin by that for the present speed above which pairs are searched anew:
+        there are too many. */
+    constexpr double too_thick = 4.;
 
     /** Median of the edges of all ranks. Collective. */
     double median_length(const ContactEdges &edges, const MPI_Comm communicator)
@@ -83,19 +90,20 @@ namespace quoin
     : node_map(node_map), joints(joints), exchange(node_map.exchange()),
       edges(node_map), copies(edges, node_map.communicator()),
       parameters(model.parameters), thickness(model.thickness),
-      skin(model.parameters.skin), materials(model.materials),
+      largest_skin(model.parameters.skin), materials(model.materials),
       material_of_group(model.material_of_group)
   {
-    if (skin == 0.)
-      skin = automatic_skin * median_length(edges, node_map.communicator());
+    if (largest_skin == 0.)
+      largest_skin = most_skin * median_length(edges, node_map.communicator());
     set_laws(model.sets);
-    find_set_of_materials(model);
+    find_set_of_materials(model.sets);
     boundary_nodes = find_boundary_nodes(edges, exchange);
   }
 
   void BlockContacts::set_laws(const std::vector<JointSetParameters> &sets)
   {
     laws.clear();
+    dampings.clear();
     dilates = false;
     for (const JointSetParameters &set : sets)
     {
@@ -103,64 +111,26 @@ namespace quoin
         throw InputError("section 'Joints/" + set.name + "': general contacts "
                          + why + ". Take 'Law = Coulomb'.");
       laws.push_back(set.law);
+      dampings.push_back(set.damping);
       dilates = dilates || can_dilate(set.law);
     }
   }
 
-  void BlockContacts::find_set_of_materials(const ContactModel &model)
+  void BlockContacts::find_set_of_materials(
+      const std::vector<JointSetParameters> &sets)
   {
+    set_of_materials     = sets_of_new_contacts(sets, materials);
     const unsigned int n = materials.size();
-    const auto find      = [&](const JointSetParameters &set,
-                          const std::string &name) -> unsigned int
-    {
-      const auto found = std::find(materials.begin(), materials.end(), name);
-      if (found != materials.end())
-        return found - materials.begin();
-      throw InputError("section 'Joints/" + set.name
-                       + "': 'New contacts between' names '" + name
-                       + "', which is no material. Materials are: "
-                       + known_names(materials) + ".");
-    };
-    set_of_materials.assign(n * n, none);
-    unsigned int of_all = none;
-    for (unsigned int s = 0; s < model.sets.size(); ++s)
-    {
-      const JointSetParameters &set = model.sets[s];
-      const auto twice = [&](const unsigned int first, const std::string &what)
-      {
-        throw InputError("section 'Joints/" + set.name
-                         + "': new contacts between " + what
-                         + " follow the set '" + model.sets[first].name
-                         + "' already. Name them once.");
-      };
-      if (set.all_new_contacts)
-      {
-        if (of_all != none)
-          twice(of_all, "'all'");
-        of_all = s;
-      }
-      for (const auto &[first, second] : set.new_contacts)
-      {
-        const unsigned int i = find(set, first), j = find(set, second);
-        if (set_of_materials[i * n + j] != none)
-          twice(set_of_materials[i * n + j], first + ":" + second);
-        set_of_materials[i * n + j] = set_of_materials[j * n + i] = s;
-      }
-    }
     for (unsigned int i = 0; i < n; ++i)
       for (unsigned int j = 0; j < n; ++j)
-        if (set_of_materials[i * n + j] == none)
-        {
-          if (of_all == none)
-            throw InputError(
-                "section 'Joints': with 'Contact/Displacements = large' "
-                "blocks of '"
-                + materials[i] + "' and '" + materials[j]
-                + "' may touch anew, but no set says how. Give one 'New "
-                  "contacts between = "
-                + materials[i] + ":" + materials[j] + "' or 'all'.");
-          set_of_materials[i * n + j] = of_all;
-        }
+        if (set_of_materials[i * n + j] == no_contact_set)
+          throw InputError(
+              "section 'Joints': with 'Contact/Displacements = large' "
+              "blocks of '"
+              + materials[i] + "' and '" + materials[j]
+              + "' may touch anew, but no set says how. Give one 'New "
+                "contacts between = "
+              + materials[i] + ":" + materials[j] + "' or 'all'.");
   }
 
   void BlockContacts::prepare(State<2> &state) const
@@ -176,6 +146,15 @@ namespace quoin
     if (state.step >= contacts.next_check)
       check(state, step.dt);
     gather(state);
+  }
+
+  double BlockContacts::skin_for(const double step_length) const
+  {
+    return parameters.skin > 0.
+               ? parameters.skin
+               : std::clamp(4. * skin_steps * step_length,
+                            least_skin / most_skin * largest_skin,
+                            largest_skin);
   }
 
   void BlockContacts::check(State<2> &state, const double dt)
@@ -205,19 +184,20 @@ namespace quoin
     const double step_length = values[1] * dt;
     if (values[3] > 1.)
       refuse_depth(state, values[3]);
-    if (step_length > skin)
+    if (step_length > largest_skin)
       refuse_speed(state, values[1], dt);
 
-    const double budget = 0.5 * skin;
     // What it may move until the next look, were that as late as it can be.
     const double ahead = 2. * step_length;
-    double left        = budget - values[0];
-    if (is_first || values[2] > 0. || left < ahead)
+    double left        = 0.5 * contacts.skin - values[0];
+    if (is_first || values[2] > 0. || left < ahead
+        || contacts.skin > too_thick * skin_for(step_length))
     {
+      contacts.skin    = skin_for(step_length);
       const auto start = WallClock::now();
       search(state);
       seconds += seconds_since(start);
-      left = budget;
+      left = 0.5 * contacts.skin;
     }
     const double interval = ahead > 0. ? std::clamp(std::floor(left / ahead),
                                                     1., longest_interval)
@@ -344,7 +324,7 @@ namespace quoin
     for (unsigned int b = 0; b < left_out.size(); ++b)
       left_out[b] = state.is_absent(b);
     const auto ends = edges_within_reach(node_map, edges, state.nodes.data(),
-                                         left_out, skin);
+                                         left_out, contacts.skin);
 
     std::sort(contacts.pairs.begin(), contacts.pairs.end(),
               [](const ContactPair &a, const ContactPair &b)
@@ -366,7 +346,7 @@ namespace quoin
       else
         state.energy.contact += share(pair) * release(pair);
     };
-    for (const auto &[i, j] : near_edges(edges, ends, skin))
+    for (const auto &[i, j] : near_edges(edges, ends, contacts.skin))
     {
       const unsigned int a = ends[i].edge, b = ends[j].edge;
       if (is_matched(contacts, a, b))
@@ -621,6 +601,8 @@ namespace quoin
                            < pair_or_copy(contacts, q).edges();
                   });
     openings.assign(n_pairs, {});
+    if (has_dashpots())
+      bind_dashpots(contacts);
   }
 
   void BlockContacts::note_depth(const unsigned int pair, const double depth)
@@ -685,7 +667,7 @@ namespace quoin
             << ") m, moves at " << speed << " m/s, that is " << speed * dt
             << " m a step at time " << state.time << " s, step " << state.step
             << ": so fast that it would pass through others, whose skin is "
-            << skin
+            << largest_skin
             << " m. If nothing should move like that, the run is unstable: "
                "lower 'Share of critical time step' and look at the last "
                "fields. The last checkpoint is kept.";

@@ -39,10 +39,12 @@ namespace quoin
                      "Slip or opening of a matched joint, as a share of its "
                      "edge, at which the joints between its two blocks "
                      "become general contacts [-]");
-      entries.nonnegative("Skin", contact.skin,
-                          "Distance within which pairs of edges are watched; "
-                          "pairs are searched again when a block has moved "
-                          "half of it; 0: automatic [m]");
+      entries.nonnegative(
+          "Skin", contact.skin,
+          "Distance within which pairs of edges are watched; "
+          "pairs are searched again when a block has moved "
+          "half of it; 0: automatic, by the speed of the blocks "
+          "[m]");
       entries.within("Deepest overlap", contact.deepest, 1e-6, 1.,
                      "Largest overlap of two blocks, as a share of the height "
                      "of the cells behind the edges; the run stops beyond it "

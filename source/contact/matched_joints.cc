@@ -103,6 +103,12 @@ namespace quoin
     std::stable_sort(all_segments.begin(), all_segments.end(),
                      [](const JointSegment &a, const JointSegment &b)
                      { return a.set < b.set; });
+    segment_sides.clear();
+    for (const JointSegment &segment : all_segments)
+    {
+      const JointNodes<2> &face = nodes.faces().joints[segment.face];
+      segment_sides.push_back({ face.blocks, face.groups });
+    }
     set_begin.assign(1, 0);
     for (unsigned int s = 0; s < sets.size(); ++s)
       set_begin.push_back(std::partition_point(
@@ -200,9 +206,12 @@ namespace quoin
   {
     JointHistory &history = state.get<JointHistory>();
     add_forces(state.nodes.data(), history, state.energy, forces.force);
-    if (forces.viscous)
+    if (forces.viscous && step.stiffness_damping > 0.)
       add_viscous_forces(state.nodes.data(), history, state.velocity.data(),
                          step.stiffness_damping, forces.viscous);
+    if (forces.viscous && has_dashpots())
+      add_dashpot_forces(state.nodes.data(), history, state.velocity.data(),
+                         forces.viscous);
   }
 
   void MatchedJoints::add_forces(const NodeRecord<2> *nodes,
@@ -220,53 +229,6 @@ namespace quoin
           },
           all_laws[set]);
     energy += lost;
-  }
-
-  void MatchedJoints::add_viscous_forces(const NodeRecord<2> *nodes,
-                                         const JointHistory &history,
-                                         const NodeVector<2> *velocity,
-                                         const double beta,
-                                         NodeVector<2> *force) const
-  {
-    for (unsigned int i = 0; i < all_segments.size(); ++i)
-    {
-      const JointSegment &segment = all_segments[i];
-      const JointFrame local      = joint_frame(segment, nodes);
-      const double turn           = rotation_rate(segment, local, velocity);
-      double couple               = 0.;
-      for (unsigned int k = 0; k < 2; ++k)
-      {
-        const JointState state = history.state[2 * i + k];
-        if (state == JointState::slipping || state == JointState::open)
-          continue;
-        const double *a            = velocity[segment.lower[k]].v;
-        const double *b            = velocity[segment.upper[k]].v;
-        const auto [opening, slip] = joint_gap(segment, local, nodes, k);
-        const double opening_rate  = (b[0] - a[0]) * local.normal[0]
-                                    + (b[1] - a[1]) * local.normal[1]
-                                    - slip * turn;
-        const double slip_rate = (b[0] - a[0]) * local.tangent[0]
-                                 + (b[1] - a[1]) * local.tangent[1]
-                                 + opening * turn;
-        std::array<double, 2> stiffness;
-        std::visit(
-            [&](const auto &law) {
-              stiffness = law.stiffness_at(history.normal_traction[2 * i + k]);
-            },
-            all_laws[segment.set]);
-        const double sigma
-            = segment.area[k] * beta * stiffness[0] * opening_rate;
-        const double tau = segment.area[k] * beta * stiffness[1] * slip_rate;
-        couple += tau * opening - sigma * slip;
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          const double f = sigma * local.normal[d] + tau * local.tangent[d];
-          force[segment.lower[k]].v[d] += f;
-          force[segment.upper[k]].v[d] -= f;
-        }
-      }
-      subtract_couple(segment, local, couple, force);
-    }
   }
 
   double MatchedJoints::stored_energy(const State<2> &state) const
@@ -295,8 +257,12 @@ namespace quoin
   void MatchedJoints::set_laws(const std::vector<JointSetParameters> &sets)
   {
     all_laws.clear();
+    dampings.clear();
     for (const auto &set : sets)
+    {
       all_laws.push_back(set.law);
+      dampings.push_back(set.damping);
+    }
   }
 
   void MatchedJoints::add_stiffness_bound(

@@ -294,7 +294,7 @@ namespace quoin
       for (std::size_t i = range.begin; i < range.end; ++i)
         if (inverse_mass[i] > 0.)
           sums.unbalanced += norm(force[i]);
-    if (stage.damping == DampingType::none)
+    if (stage.damping == DampingType::none && !dashpots)
       return advance_nodes(
           range.begin, range.end, state.nodes.data(), state.velocity.data(),
           force.data(), inverse_mass.data(), context.dt_velocity, context.dt);
@@ -318,7 +318,7 @@ namespace quoin
     state.energy.plastic += blocks.add_forces(
         tile, state.nodes.data(), state.template get<PlasticHistory>(),
         force.data());
-    if (has_viscous_forces())
+    if (stage.stiffness_coefficient > 0.)
       blocks.add_viscous_forces(tile, state.nodes.data(), state.velocity.data(),
                                 stage.stiffness_coefficient,
                                 viscous_force.data());

@@ -185,6 +185,7 @@ namespace quoin
                        + " and '" + other + "' " + kind_of_law(wanted.law)
                        + ": a joint cannot change the kind of its law. Give "
                          "both sets laws of one kind.");
-    now.law = wanted.law;
+    now.law     = wanted.law;
+    now.damping = wanted.damping;
   }
 } // namespace quoin

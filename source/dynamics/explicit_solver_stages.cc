@@ -7,6 +7,7 @@
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
 #include <quoin/model/block_placement.h>
+#include <quoin/model/contact_bounds.h>
 #include <quoin/model/material_waves.h>
 
 #include <algorithm>
@@ -119,6 +120,22 @@ namespace quoin
     stepper.set_operators(forces, begun, acting.constraints, stage);
   }
 
+  template <>
+  void ExplicitSolver<2>::set_dashpots()
+  {
+    const NodeMap<2> &nodes = model.nodes();
+    std::vector<std::uint8_t> is_held(nodes.table().n_blocks(), 0);
+    for (const MotionConstraint<2> *constraint : acting.constraints)
+      for (const unsigned int node : constraint->nodes())
+        is_held[nodes.block_of_node(node)] = 1;
+    const DashpotBlocks blocks = dashpot_blocks(model, is_held);
+    model.joints().set_blocks(blocks);
+    if (block_contacts)
+      block_contacts->set_blocks(blocks);
+    stepper.use_dashpots(model.joints().has_dashpots()
+                         || (block_contacts && block_contacts->has_dashpots()));
+  }
+
   template <int dim>
   void ExplicitSolver<dim>::collect_constrained_nodes(const State<dim> &state)
   {
@@ -126,7 +143,10 @@ namespace quoin
     stepper.capture_nodes(node_mass, absent_nodes(model, state));
     this->refuse_shared_platens();
     if constexpr (dim == 2)
+    {
       rigid_stage.held = this->find_held_blocks();
+      set_dashpots();
+    }
     find_moved_blocks(state);
     hold_removed_blocks(state);
   }

@@ -11,6 +11,32 @@ namespace quoin
   namespace
   {
     using dealii::Patterns::Anything;
+    using dealii::Patterns::Double;
+
+    JointDamping read_damping(const ParameterSection &section)
+    {
+      /** The share of critical damping of the smallest restitution. */
+      constexpr double most = 2.;
+      JointDamping damping;
+      const double restitution = section.within("Restitution", 0.05, 1.);
+      damping.normal           = section.within("Normal damping", 0., most);
+      if (restitution < 1. && damping.normal > 0.)
+        section.fail("Normal damping",
+                     "does not go with 'Restitution = "
+                         + section.text("Restitution")
+                         + "', which sets it. Give one of them.");
+      if (restitution < 1.)
+        damping.normal = damping_of_restitution(restitution);
+      damping.shear = damping.normal;
+      if (section.text("Shear damping") == "same")
+        return damping;
+      damping.shear = section.numbers<1>("Shear damping").front();
+      if (!(damping.shear >= 0. && damping.shear <= most))
+        section.fail("Shear damping",
+                     "must be a number from 0 to 2, or 'same'.");
+      return damping;
+    }
+
     JointLaw read_law(const ParameterSection &section)
     {
       LawEntries entries(section);
@@ -45,6 +71,19 @@ namespace quoin
                       "residual strength. For large displacements; such a "
                       "set needs no curve.");
     LawEntries::all().declare(prm);
+    prm.declare_entry("Restitution", "1", Double(),
+                      "Coefficient of restitution of two blocks that meet "
+                      "squarely, each as a mass: sets 'Normal damping'; 1: "
+                      "that is as given. From 0.05 to 1 [-]");
+    prm.declare_entry("Normal damping", "0", Double(),
+                      "Dashpot beside the normal springs, as a share of "
+                      "critical damping of the two blocks on the springs at "
+                      "which they press on each other; up to 2. It does not "
+                      "pull, and lowers the critical time step [-]");
+    prm.declare_entry("Shear damping", "same", Anything(),
+                      "The same of the shear springs, within the friction of "
+                      "the whole pressure; 'same': that of the normal ones "
+                      "[-]");
   }
 
   JointSetParameters JointSetParameters::read(const ParameterSection &section,
@@ -64,6 +103,7 @@ namespace quoin
     if (set.curves == std::vector<std::string>{ "none" })
       set.curves.clear();
 
+    set.damping           = read_damping(section);
     set.law               = read_law(section);
     const std::string why = std::visit(
         [](const auto &law) { return law.no_new_contacts(); }, set.law);

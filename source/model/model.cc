@@ -144,8 +144,11 @@ namespace quoin
     bound.resize(node_map.n_owned());
     std::vector<double> rigid_bound;
     if constexpr (dim == 2)
+    {
       for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
         rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
+      add_dashpot_bound(bound, rigid_bound);
+    }
     std::fill(bound.begin() + node_map.n_deformable_nodes(), bound.end(),
               NodeStiffness<dim>{});
     StableTimeStep<dim> result(bound);
@@ -204,33 +207,6 @@ namespace quoin
                      : node_mass[a] / node_mass[b];
         },
         bound);
-  }
-
-  template <>
-  void Model<2>::add_contact_bound(std::vector<NodeStiffness<2>> &bound) const
-  {
-    // A spring k between nodes a and b has no more energy than 2 k at each.
-    double stiffness = 0.;
-    for (const JointSetParameters &set : now.joints)
-      for (const double largest : stiffness_bound(set.law))
-        stiffness = std::max(stiffness, largest);
-    const auto add_edge = [&](const std::array<unsigned int, 2> &edge)
-    {
-      const double tributary
-          = 0.5 * node_map.point(edge[0]).distance(node_map.point(edge[1]));
-      for (const unsigned int node : edge)
-        for (unsigned int c = 0; c < 2; ++c)
-          bound[node][c] += 2. * stiffness * tributary * given.thickness;
-    };
-    for (const OuterFace<2> &face : node_map.faces().outer)
-      add_edge(face.nodes);
-    for (const JointNodes<2> &face : node_map.faces().joints)
-    {
-      if (face.is_own[0])
-        add_edge(face.lower);
-      if (face.is_own[1])
-        add_edge(face.upper);
-    }
   }
 
   template <int dim>

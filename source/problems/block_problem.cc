@@ -3,7 +3,7 @@
 
 #include <quoin/results/entry_numbers.h>
 #include <quoin/farfield/boundary_report.h>
-#include <quoin/advice/advice.h>
+#include <quoin/advice/contact_advice.h>
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/problems/block_problem.h>
 #include <quoin/problems/costs.h>
@@ -99,6 +99,9 @@ namespace quoin
                  parameters.boundary, system.boundary_geometry,
                  start_of_stage(parameters.stages, parameters.stages.size())) })
         run.log.messages(lines);
+    if constexpr (dim == 2)
+      if (run.options.check)
+        run.log.messages(contact_lines(*system.model));
     run.log.warnings(
         model_advice(parameters, system.mesh_report, *system.model, state));
     report_stages();

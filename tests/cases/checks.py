@@ -372,6 +372,23 @@ def bounce_energy(case, folder, output, histories):
             for name in ("energy residual / drop", "bounces missing")}
 
 
+def impacts(case, folder, output, histories):
+    """Velocities after impacts at 1 m/s, the largest error of each kind."""
+    histories = strictly_increasing(histories)
+    after = histories["time"] > 0.06
+    kinds = {"soft": "deformable", "slid": "oblique", "stic": "oblique",
+             "wall_soft": "deformable"}
+    errors = {"energy residual": residual_of(energies(output))}
+    for column, wanted in reference_module(folder).rows():
+        found = np.polyfit(histories["time"][after],
+                           histories[column][after], 1)[0]
+        kind = next((kinds[start] for start in kinds
+                     if column.startswith(start)), "rigid")
+        print("  %-16s %8.4f %8.4f" % (column, found, wanted))
+        errors[kind] = max(errors.get(kind, 0.0), float(abs(found - wanted)))
+    return errors
+
+
 def newmark(case, folder, output, histories):
     """Slip of the block on the base against the exact history."""
     reference, _ = read_table(os.path.join(folder, case["slip"]))

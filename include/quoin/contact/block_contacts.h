@@ -10,6 +10,7 @@
 #include <quoin/contact/contact_parameters.h>
 #include <quoin/contact/matched_joints.h>
 #include <quoin/contact/pair_copies.h>
+#include <quoin/contact/pair_dashpots.h>
 #include <quoin/joints/joint_parameters.h>
 
 #include <array>
@@ -91,6 +92,15 @@ namespace quoin
 
     /** Other laws of the same joint sets, with the same stiffness. */
     void set_laws(const std::vector<JointSetParameters> &sets);
+
+    /** Sets what dashpots need, without which there are none. */
+    void set_blocks(const DashpotBlocks &blocks)
+    {
+      dashpots.set_blocks(blocks);
+      bound_search = -1;
+    }
+    /** Whether a set has dashpots that act. */
+    bool has_dashpots() const;
 
     /** The next update() searches: blocks were removed. Collective. */
     void search_anew(ContactState &contacts)
@@ -176,7 +186,7 @@ namespace quoin
       else
         std::visit(use, laws[set]);
     }
-    void find_set_of_materials(const ContactModel &model);
+    void find_set_of_materials(const std::vector<JointSetParameters> &sets);
     void check(State<2> &state, double dt);
     /** Marks interfaces with joints of this rank that are to become general
         contacts; whether there are any. */
@@ -185,6 +195,9 @@ namespace quoin
      */
     void hand_over(State<2> &state) const;
     void search(State<2> &state);
+    /** Skin [m] to search with where nodes move by @p step_length [m] a step.
+     */
+    double skin_for(double step_length) const;
     bool is_matched(const ContactState &contacts, unsigned int a,
                     unsigned int b) const;
     ContactPair new_pair(const EdgeEnds &a, const EdgeEnds &b) const;
@@ -235,10 +248,18 @@ namespace quoin
     void gather_velocities(const NodeVector<2> *velocity);
     void add_point_forces(unsigned int pair, unsigned int k, const Geometry &g,
                           ContactState &contacts, double viscous_beta,
-                          Losses &losses);
+                          bool damps, Losses &losses);
     void add_viscous_forces(const Edge &a, const Edge &b, const Geometry &g,
                             unsigned int k, double beta,
                             const std::array<double, 2> &stiffness);
+    void bind_dashpots(const ContactState &contacts);
+    /** Notes a point of pair @p pair that presses on its springs per area @p
+        stiffness [Pa/m] at @p gap, opening and slip [m]. */
+    void note_dashpot(unsigned int pair, unsigned int k, const Geometry &g,
+                      const std::array<double, 2> &gap,
+                      const std::array<double, 2> &stiffness);
+    /** Adds the forces of the dashpots of noted points. */
+    void add_dashpot_forces(const ContactState &contacts);
     /** Adds what is in @p from to nodes of own edges, and empties that. */
     void scatter(AlignedArray<NodeVector<2>> &from, NodeVector<2> *to) const;
     void relative_velocity(const Edge &a, const Edge &b, double lower,
@@ -274,9 +295,10 @@ namespace quoin
     PairCopies copies;
     const ContactParameters parameters;
     const double thickness;
-    double skin;
-    std::vector<JointLaw> laws; /**< of each set */
-    bool dilates = false;       /**< a set does */
+    double largest_skin;                /**< [m] */
+    std::vector<JointLaw> laws;         /**< of each set */
+    std::vector<JointDamping> dampings; /**< the same */
+    bool dilates = false;               /**< a set does */
     std::vector<std::string> materials;
     std::vector<unsigned int> material_of_group;
     std::vector<unsigned int> set_of_materials; /**< square table */
@@ -305,6 +327,16 @@ namespace quoin
     std::vector<Edge> local_edges;
     std::vector<std::array<double, 2>> openings; /**< of the last forces */
     std::vector<unsigned int> new_contacts;      /**< pairs, of this step */
+
+    /** A point that presses, at the last forces. */
+    struct DashpotPoint
+    {
+      unsigned int pair, k;
+      Geometry geometry;
+      std::array<double, 2> gap, stiffness;
+    };
+    PairDashpots dashpots;
+    std::vector<DashpotPoint> dashpot_points;
 
     bool search_is_due        = false;
     double deepest_ratio      = 0.;

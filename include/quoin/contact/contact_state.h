@@ -64,6 +64,7 @@ namespace quoin
     AlignedArray<NodeVector<2>> search_positions;
     std::uint64_t next_check = 0; /**< step of the next look at motions */
     std::uint64_t n_searches = 0;
+    double skin              = 0.; /**< of the last search [m] */
 
     template <typename Visitor>
     void visit(Visitor &visitor)
@@ -71,7 +72,7 @@ namespace quoin
       visitor.between(pairs);
       visitor.same(handed_over);
       visitor.own(search_positions);
-      visitor.same(next_check, n_searches);
+      visitor.same(next_check, n_searches, skin);
     }
 
     template <typename Archive>

@@ -4,6 +4,7 @@
 #ifndef quoin_contact_matched_joints_h
 #define quoin_contact_matched_joints_h
 
+#include <quoin/contact/pair_dashpots.h>
 #include <quoin/joints/joint_history.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/joints/joint_parameters.h>
@@ -136,6 +137,11 @@ namespace quoin
      */
     void set_laws(const std::vector<JointSetParameters> &sets);
 
+    /** Sets what dashpots need, without which there are none. Collective. */
+    void set_blocks(const DashpotBlocks &blocks);
+    /** Whether a set has dashpots that act. */
+    bool has_dashpots() const;
+
     /**
      * Brings the histories to the positions in @p nodes, adds the joint
      * forces to @p force and books the dissipation.
@@ -184,7 +190,29 @@ namespace quoin
                         const NodeRecord<2> *nodes, JointHistory &history,
                         EnergyAccounts &energy, NodeVector<2> *force) const;
 
-    std::vector<JointSegment> all_segments; /**< sorted by set */
+    void add_dashpot_forces(const NodeRecord<2> *nodes,
+                            const JointHistory &history,
+                            const NodeVector<2> *velocity,
+                            NodeVector<2> *force);
+
+    /** Opening and slip of a point [m] and their rates [m/s]. */
+    struct Motion
+    {
+      std::array<double, 2> gap, rate;
+    };
+    /**
+     * Adds to @p force, for the points of segment @p i, the tractions [Pa] that
+     * @p traction (entry of the history, motion) gives if @p acts (entry).
+     */
+    template <typename Acts, typename Traction>
+    void add_rate_forces(unsigned int i, const NodeRecord<2> *nodes,
+                         const NodeVector<2> *velocity, const Acts &acts,
+                         const Traction &traction, NodeVector<2> *force) const;
+
+    std::vector<JointSegment> all_segments;        /**< sorted by set */
+    std::vector<PairDashpots::Item> segment_sides; /**< of each */
+    std::vector<JointDamping> dampings;            /**< of each set */
+    PairDashpots dashpots;
     std::vector<JointLaw> all_laws;
     std::vector<unsigned int> set_begin; /**< first segment of each set */
   };

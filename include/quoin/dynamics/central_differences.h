@@ -71,6 +71,11 @@ namespace quoin
                        const std::vector<ForceOperator<dim> *> &begun,
                        const std::vector<MotionConstraint<dim> *> &constraints,
                        const StageParameters &stage);
+    /** Whether forces have dashpots beside the damping of the stage. */
+    void use_dashpots(const bool are_used)
+    {
+      dashpots = are_used;
+    }
     /** Takes the masses of the local nodes, with mass scaling [kg], and finds
         the nodes that constraints move, but for those that are @p absent (local
         nodes), which stay where they are. */
@@ -119,7 +124,7 @@ namespace quoin
   private:
     bool has_viscous_forces() const
     {
-      return stage.stiffness_coefficient > 0.;
+      return stage.stiffness_coefficient > 0. || dashpots;
     }
     /** Finds CapturedNode::begun in the stage's first step. */
     void find_begun_forces(const StepContext &context, State<dim> &state);
@@ -146,6 +151,7 @@ namespace quoin
     std::vector<ForceOperator<dim> *> forces, begun;
     std::vector<MotionConstraint<dim> *> constraints;
     StageParameters stage;
+    bool dashpots = false;
     /** Clock phases of forces and constraints. */
     std::vector<unsigned int> force_phases, constraint_phases;
     const struct

@@ -154,6 +154,9 @@ namespace quoin
     double release_duration(const State<dim> &state) const;
     /** Blocks of this rank that loads of this or a later stage move. */
     void find_moved_blocks(const State<dim> &state);
+    /** Tells joints and contacts what their dashpots need of the blocks and of
+        the loads that act. Collective. */
+    void set_dashpots();
     /** Fixes the nodes of removed blocks. */
     void hold_removed_blocks(const State<dim> &state);
     void look_at_box(State<dim> &state);
@@ -208,6 +211,8 @@ namespace quoin
   };
 
   // Members that exist in two dimensions only.
+  template <>
+  void ExplicitSolver<2>::set_dashpots();
   template <>
   void ExplicitSolver<2>::look_at_box(State<2> &state);
   template <>

@@ -5,6 +5,7 @@
 #define quoin_joints_joint_parameters_h
 
 #include <quoin/base/parameter_section.h>
+#include <quoin/joints/joint_damping.h>
 #include <quoin/joints/joint_law.h>
 
 #include <string>
@@ -22,6 +23,7 @@ namespace quoin
     std::vector<std::pair<std::string, std::string>> new_contacts;
     bool all_new_contacts = false; /**< of pairs that no other set names */
     JointLaw law;
+    JointDamping damping;
 
     static void declare(dealii::ParameterHandler &prm);
     static JointSetParameters read(const ParameterSection &section,

@@ -153,8 +153,12 @@ namespace quoin
     /** Adds springs of the joints to the bound of the local nodes. */
     void add_joint_bound(const State<dim> &state,
                          std::vector<NodeStiffness<dim>> &bound) const;
-    /** Adds springs wherever blocks may touch. */
+    /** Adds springs wherever blocks may touch. Collective. */
     void add_contact_bound(std::vector<NodeStiffness<dim>> &bound) const;
+    /** Adds to both bounds, of owned nodes [N/m] and of rigid blocks [1/s^2],
+        what dashpots take of the step. Collective. */
+    void add_dashpot_bound(std::vector<NodeStiffness<dim>> &bound,
+                           std::vector<double> &rigid_bound) const;
 
     const NodeMap<dim> &node_map;
     const ModelParameters given;
@@ -176,6 +180,9 @@ namespace quoin
                                  std::vector<NodeStiffness<2>> &bound) const;
   template <>
   void Model<2>::add_contact_bound(std::vector<NodeStiffness<2>> &bound) const;
+  template <>
+  void Model<2>::add_dashpot_bound(std::vector<NodeStiffness<2>> &bound,
+                                   std::vector<double> &rigid_bound) const;
   template <>
   void Model<2>::find_initial_stress();
   template <>

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_advice_contact_advice_h
+#define quoin_advice_contact_advice_h
+
+#include <quoin/advice/advice.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * Two squares as heavy as the median of the blocks on which a set of joints
+   * acts, which meet with a whole side: masses on springs and dashpots.
+   */
+  struct TypicalImpact
+  {
+    bool exists        = false; /**< whether the set acts on a block */
+    double mass        = 0.;    /**< of a block [kg] */
+    double size        = 0.;    /**< of its side [m] */
+    double frequency   = 0.;    /**< undamped [Hz] */
+    double duration    = 0.;    /**< of the contact [s] */
+    double restitution = 1.;    /**< [-] */
+    /** kn L/E with the side L; 0: blocks are rigid. */
+    double by_block = 0.;
+  };
+
+  /** Of each joint set of @p model, at its largest stiffness. Collective. */
+  std::vector<TypicalImpact> typical_impacts(const Model<2> &model);
+
+  /** A line for --check about each joint set that has dashpots or is for new
+      contacts. Collective. */
+  std::vector<std::string> contact_lines(const Model<2> &model);
+
+  /** Warns of restitution that the waves in blocks will not let be. */
+  void check_restitution(const Model<2> &model, Advice &advice);
+
+  /** Warns of new contacts too soft to follow @p shaking of a stage, which
+      brings up to the speed @p speed [m/s], 0 if that is not known. */
+  void check_soft_contacts(const Model<2> &model, const Shaking &shaking,
+                           double speed, Checks &checks);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "test_contacts.h"
+
+#include <limits>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  /** Blocks of 200 and 300 kg that press on each other with kn = 8e9. */
+  constexpr double mass = 120.; // reduced
+
+  DashpotBlocks inertia(const double impedance = infinity)
+  {
+    DashpotBlocks blocks;
+    blocks.communicator = MPI_COMM_WORLD;
+    blocks.inverse_mass = { 1. / 200., 1. / 300. };
+    blocks.is_divided   = { false, false };
+    blocks.impedance.assign(3, { { impedance, impedance } });
+    return blocks;
+  }
+
+  /** A block of 1 m x 1 m on another, edges cut into some, with dashpots. */
+  struct Pressed
+  {
+    TestNodes nodes;
+    MatchedJoints joints;
+    std::unique_ptr<BlockContacts> contacts;
+    State<2> state;
+    AlignedArray<NodeVector<2>> force, viscous;
+
+    /** @p may_meet: as contacts of separate blocks, else as joint. */
+    Pressed(const bool may_meet, const unsigned int n, const double xi,
+            const DashpotBlocks &blocks = inertia())
+      : nodes(mesh(may_meet, n))
+    {
+      JointSetParameters set = touching(0.5);
+      set.damping            = { xi, xi };
+      if (!may_meet)
+        set.curves = { "joint" };
+      joints.prepare(nodes, { set }, thickness);
+      joints.prepare(state);
+      contacts = std::make_unique<BlockContacts>(nodes, joints,
+                                                 contact_model({ set }));
+      contacts->prepare(state);
+      joints.set_blocks(blocks);
+      contacts->set_blocks(blocks);
+      for (unsigned int v = 0; v < nodes->n_local(); ++v)
+        state.nodes.push_back(
+            { { nodes->point(v)[0], nodes->point(v)[1] }, { 0., 0. } });
+      state.velocity.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
+      for (JointState &point : state.get<JointHistory>().state)
+        point = JointState::slipped;
+    }
+
+    static BlockMesh<2> mesh(const bool may_meet, const unsigned int n)
+    {
+      BlockMesh<2> result;
+      if (may_meet)
+        make_blocks(result, { { 0., 0., 1., 1., n, n },
+                              { 0., 1. + 1e-6, 1., 1., n, n } });
+      else
+        make_stack(result, n, n);
+      for (auto &p : result.vertices)
+        if (!may_meet)
+          p = { p[0] / n, p[1] / n };
+      return result;
+    }
+
+    bool is_upper(const unsigned int v) const
+    {
+      return nodes->block_of_node(v) == nodes->block_of_node(upper_corner());
+    }
+    unsigned int upper_corner() const
+    {
+      for (unsigned int v = 0; v < nodes->n_local(); ++v)
+        if (nodes->point(v)[1] > 1.9)
+          return v;
+      return 0;
+    }
+
+    /** Moves the upper block there, with a velocity; finds all forces. */
+    void move(const double x, const double y, const double vx, const double vy)
+    {
+      for (unsigned int v = 0; v < nodes->n_local(); ++v)
+        if (is_upper(v))
+        {
+          state.nodes[v].u[0]    = x;
+          state.nodes[v].u[1]    = y;
+          state.velocity[v].v[0] = vx;
+          state.velocity[v].v[1] = vy;
+        }
+      force.assign(nodes->n_local(), NodeVector<2>{ { 0., 0. } });
+      viscous = force;
+      StepContext step{};
+      step.dt                              = 1e-9;
+      state.get<ContactState>().next_check = state.step;
+      contacts->update(step, state);
+      joints.add_forces(step, state, { force.data(), viscous.data() });
+      contacts->add_forces(step, state, { force.data(), viscous.data() });
+      ++state.step;
+    }
+
+    /** Force on the upper block [N]. */
+    std::array<double, 2> on_upper(const AlignedArray<NodeVector<2>> &of) const
+    {
+      std::array<double, 2> sum{}, lower{};
+      for (unsigned int v = 0; v < nodes->n_local(); ++v)
+        for (unsigned int d = 0; d < 2; ++d)
+          (is_upper(v) ? sum : lower)[d] += of[v].v[d];
+      EXPECT_NEAR(sum[0] + lower[0], 0., 1e-6 * (1. + std::abs(sum[0])));
+      EXPECT_NEAR(sum[1] + lower[1], 0., 1e-6 * (1. + std::abs(sum[1])));
+      return sum;
+    }
+  };
+
+  /** Restitution of a mass on spring and dashpot that do not pull, by Heun's
+      method. */
+  double restitution(const double xi)
+  {
+    const double h = 1e-5;
+    double u = 0., v = -1.;
+    const auto push
+        = [&](const double u, const double v) { return -u - 2. * xi * v; };
+    while (push(u, v) >= 0.)
+    {
+      const double a = push(u, v), v1 = v + h * a, u1 = u + h * v;
+      u += 0.5 * h * (v + v1);
+      v += 0.5 * h * (a + push(u1, v1));
+    }
+    return v;
+  }
+} // namespace
+
+TEST(Dashpots, RestitutionIsThatOfTheIntegratedOscillator)
+{
+  for (const double xi : { 1e-3, 0.1, 0.5, 0.95, 1., 1.05, 2. })
+    EXPECT_NEAR(restitution_of_damping(xi), restitution(xi), 1e-4) << xi;
+  EXPECT_NEAR(restitution_of_damping(1.), std::exp(-2.), 1e-12);
+}
+
+TEST(Dashpots, DampingIsTheInverseOfRestitution)
+{
+  EXPECT_EQ(damping_of_restitution(1.), 0.);
+  for (const double e : { 0.05, 0.135, std::exp(-2.), 0.2, 0.5, 0.9, 0.999 })
+    EXPECT_NEAR(restitution_of_damping(damping_of_restitution(e)), e, 1e-9);
+}
+
+// Together the dashpots are 2 xi sqrt(K m), whatever the mesh.
+TEST(Dashpots, AddUpToTheShareOfCriticalDampingOfTheTwoMasses)
+{
+  for (const bool may_meet : { false, true })
+    for (const unsigned int n : { 1, 2, 5 })
+    {
+      Pressed blocks(may_meet, n, 0.3);
+      blocks.move(0., -1e-5, 0., -0.01);
+      EXPECT_NEAR(blocks.on_upper(blocks.viscous)[1],
+                  2. * 0.3 * std::sqrt(kn * thickness * mass) * 0.01, 1e-3)
+          << may_meet << n;
+      EXPECT_NEAR(blocks.on_upper(blocks.viscous)[0], 0., 1e-6);
+    }
+}
+
+TEST(Dashpots, AddUpToTheSameWhereBlocksOverlapInPart)
+{
+  Pressed blocks(true, 3, 0.3);
+  blocks.move(0.4, -1e-5, 0., -0.01);
+  EXPECT_NEAR(blocks.on_upper(blocks.viscous)[1],
+              2. * 0.3 * std::sqrt(0.6 * kn * thickness * mass) * 0.01, 1e-3);
+}
+
+TEST(Dashpots, AHeldBlockIsInfinitelyHeavy)
+{
+  DashpotBlocks held   = inertia();
+  held.inverse_mass[0] = 0.;
+  Pressed blocks(true, 2, 0.3, held);
+  blocks.move(0., -1e-5, 0., -0.01);
+  EXPECT_NEAR(blocks.on_upper(blocks.viscous)[1],
+              2. * 0.3 * std::sqrt(kn * thickness * 300.) * 0.01, 1e-3);
+}
+
+TEST(Dashpots, AreNoStrongerThanTheImpedanceOfTheBlocks)
+{
+  Pressed blocks(true, 2, 0.3, inertia(5e5));
+  blocks.move(0., -1e-5, 0., -0.01);
+  EXPECT_NEAR(blocks.on_upper(blocks.viscous)[1], 5e5 * thickness * 0.01, 1e-6);
+}
+
+TEST(Dashpots, DoNotPull)
+{
+  for (const bool may_meet : { false, true })
+  {
+    Pressed blocks(may_meet, 2, 0.3);
+    blocks.move(0., -1e-5, 0., 1.);
+    EXPECT_LT(blocks.on_upper(blocks.viscous)[1], -1e3);
+    EXPECT_NEAR(blocks.on_upper(blocks.viscous)[1],
+                -blocks.on_upper(blocks.force)[1], 1e-6);
+    // apart they rest, however fast they close
+    blocks.move(0., 1e-4, 0., -1.);
+    EXPECT_EQ(blocks.on_upper(blocks.viscous)[1], 0.);
+  }
+}
+
+TEST(Dashpots, FrictionBoundsTheWholeShearByTheWholePressure)
+{
+  for (const bool may_meet : { false, true })
+    for (const double down : { -0.01, 0.002 })
+    {
+      // sticking springs, but dashpots that would bear more than friction
+      Pressed blocks(may_meet, 2, 0.3);
+      blocks.move(0., -1e-5, 0., 0.);
+      blocks.move(1e-7, -1e-5, 5., down);
+      auto sum = blocks.on_upper(blocks.force);
+      auto own = blocks.on_upper(blocks.viscous);
+      EXPECT_NEAR(-(sum[0] + own[0]), 0.5 * (sum[1] + own[1]), 1e-3);
+      // springs that slip: their friction follows the pressure
+      blocks.move(5e-5, -1e-5, 5., down);
+      sum = blocks.on_upper(blocks.force);
+      own = blocks.on_upper(blocks.viscous);
+      EXPECT_NEAR(-sum[0], 0.5 * sum[1], 1e-3);
+      EXPECT_NEAR(-(sum[0] + own[0]), 0.5 * (sum[1] + own[1]), 1e-3);
+      EXPECT_GT(std::abs(own[0]), 1.);
+    }
+}
+
+TEST(Dashpots, ThatStickAreThoseOfTheShearSprings)
+{
+  Pressed blocks(true, 2, 0.3);
+  blocks.move(0., -1e-4, 0., 0.);
+  blocks.move(0., -1e-4, 1e-3, 0.);
+  EXPECT_NEAR(blocks.on_upper(blocks.viscous)[0],
+              -2. * 0.3 * std::sqrt(ks * thickness * mass) * 1e-3, 1e-4);
+}
