@@ -523,13 +523,18 @@ namespace quoin
     Geometry g;
     if (!pair.active || !geometry(pair, a, b, g))
       return false;
-    result.set = pair.set;
+    result.set   = pair.set;
+    result.share = pair_share[i];
     for (unsigned int k = 0; k < 2; ++k)
     {
       const double la = g.lower[k] * a.length, lb = g.upper[k] * b.length;
-      result.position[k]
-          = { 0.5 * (a.x + la * a.tangent[0] + b.x + lb * b.tangent[0]),
-              0.5 * (a.y + la * a.tangent[1] + b.y + lb * b.tangent[1]) };
+      result.lower[k] = { a.x + la * a.tangent[0], a.y + la * a.tangent[1] };
+      result.upper[k] = { b.x + lb * b.tangent[0], b.y + lb * b.tangent[1] };
+      const ContactPoint &point = pair.points[k];
+      const double sigma        = point.area * point.normal_traction;
+      const double tau          = point.area * point.shear_traction;
+      const auto &[nx, ny]      = g.normal[k];
+      result.force[k]     = { sigma * nx + tau * ny, sigma * ny - tau * nx };
       const auto &[p, q]  = edges[pair.lower].points;
       result.reference[k] = { p[0] + g.lower[k] * (q[0] - p[0]),
                               p[1] + g.lower[k] * (q[1] - p[1]) };

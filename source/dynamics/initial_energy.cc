@@ -9,7 +9,8 @@
 namespace quoin
 {
   template <int dim>
-  void account_for_initial_motion(const Model<dim> &model, State<dim> &state)
+  void refuse_moved_rigid_blocks(const Model<dim> &model,
+                                 const State<dim> &state)
   {
     const NodeMap<dim> &nodes = model.nodes();
     unsigned int moved        = NodeMap<dim>::none;
@@ -24,8 +25,14 @@ namespace quoin
           "section 'Initial motion': it moves the rigid block at "
           + point_text(p)
           + " m, but can be given to deformable blocks only. Make it 0 "
-            "there, or the block deformable.");
+            "there, and give 'Velocity' and 'Spin' to the block by its name in "
+            "section 'Blocks'.");
+  }
 
+  template <int dim>
+  void account_for_initial_motion(const Model<dim> &model, State<dim> &state)
+  {
+    const NodeMap<dim> &nodes = model.nodes();
     // Internal variables of joints and cells are updated in the first step.
     State<dim> moving = state, rest = model.initial_state();
     EnergyAccounts lost;
@@ -51,9 +58,20 @@ namespace quoin
     for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
       for (const double v : state.velocity[i].v)
         energy += 0.5 * model.mass()[i] * v * v;
+    if constexpr (dim == 2)
+      for (unsigned int b = 0; b < model.rigid_blocks().n_blocks(); ++b)
+      {
+        const RigidBlocks::Block &block = model.rigid_blocks().block(b);
+        const double *v = state.template get<RigidBlockStates>()[b].velocity;
+        energy += 0.5
+                  * (block.mass * (v[0] * v[0] + v[1] * v[1])
+                     + block.inertia * v[2] * v[2]);
+      }
     state.energy.external += energy;
   }
 
+  template void refuse_moved_rigid_blocks(const Model<2> &, const State<2> &);
+  template void refuse_moved_rigid_blocks(const Model<3> &, const State<3> &);
   template void account_for_initial_motion(const Model<2> &, State<2> &);
   template void account_for_initial_motion(const Model<3> &, State<3> &);
 } // namespace quoin

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/known_names.h>
 #include <quoin/base/named_sections.h>
 #include <quoin/dynamics/construction.h>
 #include <quoin/parameters/model_parameters.h>
@@ -93,6 +94,48 @@ namespace quoin
       }
     }
 
+    /** Refuses named blocks that move at the start of a run without motion. */
+    void check_named_blocks(const ParameterSection &top,
+                            const Parameters &parameters)
+    {
+      const ParameterSection section(top, "Blocks");
+      for (const NamedBlock &block : parameters.named_blocks)
+        if (parameters.is_implicit && block.moves())
+          ParameterSection(section, block.name)
+              .fail(block.spin != 0. ? "Spin" : "Velocity",
+                    "needs inertia, which 'Solver = implicit' leaves out: "
+                    "make it 0, or take 'explicit'.");
+    }
+
+    /** Checks the names of blocks that histories give. */
+    void check_block_histories(const ParameterSection &top,
+                               const Parameters &parameters)
+    {
+      const auto &blocks = parameters.named_blocks;
+      const ParameterSection section(top, "Histories");
+      for (const HistoryParameters &history : parameters.histories)
+      {
+        if (!history.is_of_block())
+          continue;
+        const ParameterSection subsection(section, history.name);
+        const std::string known
+            = known_names(blocks, &NamedBlock::name)
+              + ". Name one, or add the name to section 'Blocks'.";
+        if (!find_named(blocks, history.block))
+          subsection.fail("Block",
+                          "must be a named block. There are: " + known);
+        if (history.other_block.empty())
+          continue;
+        if (!find_named(blocks, history.other_block))
+          subsection.fail("Second block",
+                          "must be a named block or empty. There are: "
+                              + known);
+        if (history.other_block == history.block)
+          subsection.fail("Second block", "is 'Block' itself. Name another "
+                                          "block, or leave it empty.");
+      }
+    }
+
     /** Checks the conditions on histories by which stages end. */
     void check_end_conditions(const ParameterSection &top,
                               const Parameters &parameters)
@@ -166,7 +209,9 @@ namespace quoin
     parameters.stages
         = read_stages(top, parameters.loads, parameters.is_implicit);
     parameters.model.absent_groups = groups_placed_later(parameters.stages);
+    parameters.named_blocks        = read_named<NamedBlock>(top, "Blocks");
     check_coupled_histories(top, parameters);
+    check_block_histories(top, parameters);
     check_end_conditions(top, parameters);
     parameters.implicit
         = ImplicitParameters::read(ParameterSection(top, "Implicit"));
@@ -177,11 +222,12 @@ namespace quoin
     if (parameters.is_implicit && parameters.initial_motion.is_given())
       top.fail("Solver", "leaves out inertia, but section 'Initial motion' "
                          "gives one: remove that, or take 'explicit'.");
+    check_named_blocks(top, parameters);
   }
 
   void read_boundary_model(const ParameterSection &top, Parameters &parameters)
   {
-    for (const std::string name : { "Joints", "Loads", "Stages" })
+    for (const std::string name : { "Joints", "Loads", "Stages", "Blocks" })
       refuse_names(top, name, "boundary elements");
     for (const std::string name : { "Displacement", "Velocity" })
       if (const ParameterSection section(top, "Initial motion");

@@ -27,6 +27,7 @@ namespace quoin
             { "Stages", StageParameters::declare },
             { "Boundary elements", BoundaryCurveParameters::declare },
             { "Incident waves", IncidentWaveParameters::declare },
+            { "Blocks", NamedBlock::declare },
             { "Histories", HistoryParameters::declare } };
 
     void enter_top(ParameterEntries &entries, Parameters &parameters)

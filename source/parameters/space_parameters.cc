@@ -91,6 +91,8 @@ namespace quoin
                        "section 'Joints': 'Names'",
                        "Leave it empty: blocks in three dimensions have no "
                        "joints.");
+    refusals.refuse_if(!parameters.named_blocks.empty(),
+                       "section 'Blocks': 'Names'", "Leave it empty.");
     refusals.refuse_if(parameters.measure_bandwidth,
                        "section 'Output': 'Measure bandwidth = yes'",
                        "Take 'no'.");

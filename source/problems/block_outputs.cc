@@ -50,10 +50,10 @@ namespace quoin
                                 ? system.construction->absent_in_the_end()
                                 : std::vector<bool>(
                                     system.nodes->table().group_names.size());
-                      return Histories<dim>(parameters.histories, *system.model,
-                                            *system.solver,
-                                            system.boundary_geometry,
-                                            parameters.boundary, absent);
+                      return Histories<dim>(
+                          parameters.histories, *system.model, *system.solver,
+                          system.boundary_geometry, parameters.boundary, absent,
+                          system.named_blocks);
                     });
     }
   } // namespace

@@ -101,7 +101,10 @@ namespace quoin
         run.log.messages(lines);
     if constexpr (dim == 2)
       if (run.options.check)
+      {
         run.log.messages(contact_lines(*system.model));
+        run.log.messages(named_block_lines(*system.model, system.named_blocks));
+      }
     run.log.warnings(
         model_advice(parameters, system.mesh_report, *system.model, state));
     report_stages();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/dynamics/initial_block_motion.h>
 #include <quoin/dynamics/initial_energy.h>
 #include <quoin/farfield/boundary_values.h>
 #include <quoin/loads/nodal_load.h>
@@ -19,7 +20,8 @@ namespace quoin
   BlockSystem<dim>::BlockSystem(const Parameters &parameters,
                                 MeshData<dim> as_read,
                                 const MPI_Comm communicator)
-    : parameters(parameters), communicator(communicator)
+    : parameters(parameters), communicator(communicator),
+      named_blocks(parameters.named_blocks)
   {
     MeshData<2> curves;
     if constexpr (dim == 2)
@@ -30,6 +32,8 @@ namespace quoin
            [&]()
            {
              model = std::make_unique<Model<dim>>(*nodes, parameters.model);
+             if constexpr (dim == 2)
+               find_named_blocks(*nodes, named_blocks);
              if constexpr (dim == 2)
                construction
                    = std::make_unique<Construction>(*model, parameters.stages);
@@ -165,13 +169,21 @@ namespace quoin
   {
     State<dim> state = model->initial_state();
     solver->prepare(state);
-    if (parameters.initial_motion.is_given())
+    const bool blocks_move
+        = std::any_of(named_blocks.begin(), named_blocks.end(),
+                      [](const NamedBlock &block) { return block.moves(); });
+    if (parameters.initial_motion.is_given() || blocks_move)
       naming(parameters.file,
              [&]()
              {
-               all_or_none<InputError>(
-                   communicator,
-                   [&]() { parameters.initial_motion.apply(state); });
+               if (parameters.initial_motion.is_given())
+                 all_or_none<InputError>(
+                     communicator,
+                     [&]() { parameters.initial_motion.apply(state); });
+               refuse_moved_rigid_blocks(*model, state);
+               if constexpr (dim == 2)
+                 start_blocks(named_blocks, *model, *solver,
+                              parameters.stages.front(), state);
                account_for_initial_motion(*model, state);
              });
     return state;

@@ -117,10 +117,11 @@ namespace quoin
       fields.joint_set.push_back(contact.set);
       for (unsigned int k = 0; k < 2; ++k)
       {
-        const auto &[x, y]   = contact.position[k];
         const auto &[x0, y0] = contact.reference[k];
         fields.position.push_back(contact.reference[k]);
-        fields.displacement.push_back({ { x - x0, y - y0 } });
+        fields.displacement.push_back(
+            { { 0.5 * (contact.lower[k][0] + contact.upper[k][0]) - x0,
+                0.5 * (contact.lower[k][1] + contact.upper[k][1]) - y0 } });
         fields.opening.push_back(contact.opening[k]);
         fields.slip.push_back(contact.slip[k]);
         fields.normal_traction.push_back(pairs[i].points[k].normal_traction);

@@ -227,12 +227,13 @@ namespace quoin
                             const Model<dim> &model, const Solver<dim> &solver,
                             const BoundaryGeometry &geometry,
                             const BoundaryElementParameters &boundaries,
-                            const std::vector<bool> &absent_in_the_end)
+                            const std::vector<bool> &absent_in_the_end,
+                            const std::vector<NamedBlock> &named_blocks)
     : n_columns(parameters.size()), model(model), solver(solver),
       communicator(model.nodes().communicator()),
       absent_in_the_end(absent_in_the_end)
   {
-    std::vector<HistoryParameters> boundary_probes;
+    std::vector<HistoryParameters> boundary_probes, block_probes;
     for (const HistoryParameters &history : parameters)
     {
       Probe probe;
@@ -242,6 +243,8 @@ namespace quoin
       probes.push_back(probe);
       if (history.is_of_boundary())
         boundary_probes.push_back(history);
+      if (history.is_of_block())
+        block_probes.push_back(history);
     }
     for (unsigned int i = 0; i < n_columns; ++i)
       if (probes[i].parameters.is_of_two_points())
@@ -250,6 +253,10 @@ namespace quoin
     if (!boundary_probes.empty())
       of_boundary = std::make_unique<BoundaryHistories>(
           boundary_probes, geometry, boundaries, model.parameters().thickness);
+    if constexpr (dim == 2)
+      if (!block_probes.empty())
+        of_blocks = std::make_unique<BlockHistories>(block_probes, named_blocks,
+                                                     model, solver.contacts());
   }
 
   template <int dim>
@@ -267,10 +274,14 @@ namespace quoin
   Histories<dim>::names_in(const unsigned int block) const
   {
     std::vector<unsigned int> is_in;
+    unsigned int next = 0; // column of of_blocks
     for (const Probe &probe : probes)
     {
       const auto blocks = blocks_of(probe);
-      is_in.push_back(std::count(blocks.begin(), blocks.end(), block) > 0);
+      is_in.push_back(probe.parameters.is_of_block()
+                          ? of_blocks->is_of(next++, block)
+                          : std::count(blocks.begin(), blocks.end(), block)
+                                > 0);
     }
     dealii::Utilities::MPI::max(is_in, communicator, is_in);
     std::vector<std::string> names;
@@ -357,6 +368,9 @@ namespace quoin
     case HistoryQuantity::relative_displacement: // see add_ends()
     case HistoryQuantity::tilt:
     case HistoryQuantity::distance_change:
+    case HistoryQuantity::block_displacement: // see BlockHistories
+    case HistoryQuantity::block_velocity:
+    case HistoryQuantity::block_force:
     case HistoryQuantity::boundary_displacement: // see BoundaryHistories
     case HistoryQuantity::boundary_velocity:
     case HistoryQuantity::boundary_traction:
@@ -627,6 +641,9 @@ namespace quoin
                      / (d == 2 ? constants::degree : 1.);
       }
     }
+    if constexpr (dim == 2)
+      if (of_blocks)
+        of_blocks->before_step(state);
   }
 
   template <int dim>
@@ -684,9 +701,23 @@ namespace quoin
     }
     result.resize(1 + n_columns);
     if constexpr (dim == 2)
+      if (of_blocks)
+        add_block_values(state, result);
+    if constexpr (dim == 2)
       if (of_boundary && state.template get<FarFieldState>().active)
         add_boundary_values(state, result);
     return result;
+  }
+
+  template <>
+  void Histories<2>::add_block_values(const State<2> &state,
+                                      std::vector<double> &result)
+  {
+    const std::vector<double> values = of_blocks->after_step(state);
+    unsigned int next                = 0;
+    for (unsigned int i = 0; i < n_columns; ++i)
+      if (probes[i].parameters.is_of_block())
+        result[1 + i] = values[next++];
   }
 
   template <>

@@ -75,6 +75,15 @@ namespace quoin
         { "contacts", { Q::contacts, 0, "-" } },
         { "blocks outside", { Q::blocks_outside, 0, "-" } },
         { "open joints", { Q::open_joints, 0, "m" } },
+        { "block displacement x", { Q::block_displacement, 0, "m" } },
+        { "block displacement y", { Q::block_displacement, 1, "m" } },
+        { "block rotation", { Q::block_displacement, 2, "deg" } },
+        { "block velocity x", { Q::block_velocity, 0, "m/s" } },
+        { "block velocity y", { Q::block_velocity, 1, "m/s" } },
+        { "block spin", { Q::block_velocity, 2, "deg/s" } },
+        { "block force x", { Q::block_force, 0, "N" } },
+        { "block force y", { Q::block_force, 1, "N" } },
+        { "block force moment", { Q::block_force, 2, "N m" } },
         { "boundary displacement x", { Q::boundary_displacement, 0, "m" } },
         { "boundary displacement y", { Q::boundary_displacement, 1, "m" } },
         { "boundary velocity x", { Q::boundary_velocity, 0, "m/s" } },
@@ -115,6 +124,12 @@ namespace quoin
           "are than at the start, 'tilt' the angle by which the line from "
           "'Point' to 'Second point' has turned, from -180 to 180, "
           "anticlockwise; "
+          "'block displacement x', 'block velocity x' and the like are of the "
+          "centroid of 'Block', 'block rotation' (full turns counted, "
+          "anticlockwise) and 'block spin' of the block as a whole; 'block "
+          "force x', 'block force y' are the force on 'Block' by 'Second "
+          "block', or by all others, over joints and contacts, 'block force "
+          "moment' its moment about the present centroid of 'Block'; "
           "'rotation' is that of the nearest rigid block, full turns counted, "
           "or of the nearest cell, from -180 to 180, anticlockwise. Rigid "
           "blocks have no stress: it is written as 0. In a block that has been "
@@ -180,6 +195,14 @@ namespace quoin
                    "the nearest joint point; empty: all. Boundary force, "
                    "moment: the boundary, by its name in 'Boundary "
                    "elements'.");
+      if (entries.reads_if(history.is_of_block()))
+        entries.text("Block", history.block,
+                     "Quantities of a block: one of the 'Names' of section "
+                     "'Blocks'.");
+      if (entries.reads_if(history.quantity == HistoryQuantity::block_force))
+        entries.text("Second block", history.other_block,
+                     "The named block whose force on 'Block' is recorded; "
+                     "empty: all others together.");
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;

@@ -213,6 +213,38 @@ def incline_slides(case, folder, output, histories):
     }
 
 
+def block_impulse(case, folder, output, histories):
+    """Momentum of both blocks and spin of one of them change by the impulse of
+    the force between them, with a row for each step; the energy residual."""
+    t = histories["time"]
+    errors = energy_residual(case, folder, output, histories)
+    for what, column, inertia, force in (
+            ("momentum of a", "a_v", 2000.0, -histories["on_b"]),
+            ("momentum of b", "b_v", 3000.0, histories["on_b"]),
+            ("spin of b", "b_spin", np.radians(3000.0 / 6),
+             histories["on_b_moment"])):
+        impulse = np.concatenate(
+            [[0], np.cumsum(np.diff(t) * (force[1:] + force[:-1]) / 2)])
+        gained = inertia * (histories[column] - histories[column][0])
+        errors[what] = float(np.max(np.abs(gained - impulse))
+                             / case["impulse"])
+    return errors
+
+
+def block_sliding(case, folder, output, histories):
+    """Friction by normal force while it slides, and that the joints became
+    contacts on the way."""
+    normal, tangential = histories["force_y"], histories["force_x"]
+    if histories["contacts"][1] > 0 or not histories["contacts"][-1] > 0:
+        raise Failure("the joints did not become contacts")
+    slides = normal > 0.01 * normal.max()
+    return {
+        "friction / normal force": float(np.max(np.abs(
+            tangential[slides] / normal[slides] + np.tan(np.radians(30.0))))),
+        "energy residual": residual_of(energies(output)),
+    }
+
+
 def incline_stands(case, folder, output, histories):
     """At rest, leaning as statics of its two corner springs have it."""
     slope, gravity, stiffness = np.radians(40.0), 10.0, case["stiffness"]

@@ -106,6 +106,9 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "construction, divided": (common.DIG, []),
             # general contacts, both blocks in several ranks
             "contacts, divided": (common.SLIDE, []),
+            # joints between ranks that become contacts
+            "named blocks": (os.path.join(common.VERIFICATION, "named_blocks",
+                                          "slide.prm"), []),
             # a block of tetrahedra in several ranks, with dashpots
             "space": (os.path.join(common.VERIFICATION, "space_waves",
                                    "s.prm"),

@@ -72,6 +72,10 @@ CASES = {
                                 "case.prm"),
                    ["Output/Checkpoint interval=0.02",
                     "Time stepping/Share of critical time step=0.02"], 1, 3),
+    # turns of a named block, counted
+    "thrown": (os.path.join(common.VERIFICATION, "named_blocks", "thrown.prm"),
+               ["Output/Checkpoint interval=0.02",
+                "Materials/block/Law=linear elastic"], 1, 3),
     # contacts searched, handed over and taken up in between
     "sled": (common.SLED, ["Output/Checkpoint interval=0.02",
                            "Output/Field interval=2e-3"], 1, 4),

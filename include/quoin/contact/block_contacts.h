@@ -139,13 +139,18 @@ namespace quoin
       return boundary_nodes;
     }
 
-    /** One contact as it is written to files. */
+    /** One contact as it is written to files and tables. */
     struct Contact
     {
+      /** Of both ends of the overlap: x, y. */
+      using Ends = std::array<std::array<double, 2>, 2>;
+
       unsigned int set;
-      std::array<std::array<double, 2>, 2> position;  /**< of both ends [m] */
-      std::array<std::array<double, 2>, 2> reference; /**< of lower [m] */
-      std::array<double, 2> opening, slip;            /**< [m] */
+      Ends lower, upper;                   /**< places on both edges [m] */
+      Ends reference;                      /**< of lower [m] */
+      std::array<double, 2> opening, slip; /**< [m] */
+      Ends force;   /**< on the lower edge, without viscous ones [N] */
+      double share; /**< of the contact that this rank counts */
     };
     /** The contact of pair @p pair at the positions of update(); false if it is
         inactive or the edges do not overlap. */

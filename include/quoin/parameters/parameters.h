@@ -9,6 +9,7 @@
 #include <quoin/results/history_parameters.h>
 #include <quoin/loads/initial_motion.h>
 #include <quoin/model/model.h>
+#include <quoin/model/named_blocks.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/implicit/implicit_parameters.h>
 #include <quoin/mesh/block_splitter.h>
@@ -49,6 +50,7 @@ namespace quoin
     std::vector<LoadParameters> loads; /**< initial stresses included */
     std::vector<StageParameters> stages;
     InitialMotion initial_motion;
+    std::vector<NamedBlock> named_blocks;
 
     /** Whether the implicit solver is used. */
     bool is_implicit = false;

@@ -78,7 +78,8 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &fields &boundary &most_residual &largest_throughput &fields_time;
+      archive &fields &boundary &histories &most_residual &largest_throughput
+          &fields_time;
     }
 
   private:

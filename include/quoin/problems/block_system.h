@@ -61,6 +61,7 @@ namespace quoin
     MeshReport mesh_report;
     std::unique_ptr<BlockTriangulation<dim>> blocks;
     std::unique_ptr<NodeMap<dim>> nodes;
+    std::vector<NamedBlock> named_blocks; /**< with their numbers */
     BoundaryGeometry boundary_geometry;
     std::unique_ptr<Model<dim>> model;
     std::unique_ptr<Construction> construction; /**< in two dimensions */

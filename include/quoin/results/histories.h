@@ -4,6 +4,7 @@
 #ifndef quoin_results_histories_h
 #define quoin_results_histories_h
 
+#include <quoin/results/block_histories.h>
 #include <quoin/results/boundary_histories.h>
 #include <quoin/results/history_parameters.h>
 #include <quoin/operators/state.h>
@@ -32,14 +33,16 @@ namespace quoin
     /**
      * @p geometry: of the boundary elements of @p boundaries.
      * @p absent_in_the_end: whether each physical surface is absent in the end;
-     * its nodes are chosen last among those at the same position. Throws an
-     * InputError about loads and curves that do not exist.
+     * its nodes are chosen last among those at the same position.
+     * @p named_blocks: all that histories of blocks name. Throws an InputError
+     * about loads and curves that do not exist.
      */
     Histories(const std::vector<HistoryParameters> &parameters,
               const Model<dim> &model, const Solver<dim> &solver,
               const BoundaryGeometry &geometry,
               const BoundaryElementParameters &boundaries,
-              const std::vector<bool> &absent_in_the_end);
+              const std::vector<bool> &absent_in_the_end,
+              const std::vector<NamedBlock> &named_blocks = {});
 
     /** "time [s]" and "name [unit]" of each column. */
     std::vector<std::string> column_names() const;
@@ -54,6 +57,14 @@ namespace quoin
 
     /** The row for the time before the step; collective. */
     std::vector<double> after_step(const State<dim> &state);
+
+    /** What a checkpoint needs of them. */
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      if (of_blocks)
+        archive &*of_blocks;
+    }
 
   private:
     struct Probe
@@ -86,6 +97,8 @@ namespace quoin
     /** Adds the columns of boundary elements. */
     void add_boundary_values(const State<dim> &state,
                              std::vector<double> &result) const;
+    /** Adds the columns of named blocks; collective. */
+    void add_block_values(const State<dim> &state, std::vector<double> &result);
     /** Rotation of a local cell [rad]. */
     double rotation(unsigned int cell, const State<dim> &state) const;
 
@@ -94,6 +107,7 @@ namespace quoin
     const Model<dim> &model;
     const Solver<dim> &solver;
     std::unique_ptr<BoundaryHistories> of_boundary; /**< or null */
+    std::unique_ptr<BlockHistories> of_blocks;      /**< or null */
     MPI_Comm communicator;
     const std::vector<bool> absent_in_the_end; /**< of physical surfaces */
     std::array<double, 2> load_clock{};        /**< time [s] and rate [-] */
@@ -112,6 +126,9 @@ namespace quoin
                                    const State<2> &state) const;
   template <>
   double Histories<2>::rotation(unsigned int cell, const State<2> &state) const;
+  template <>
+  void Histories<2>::add_block_values(const State<2> &state,
+                                      std::vector<double> &result);
   template <>
   void Histories<2>::add_boundary_values(const State<2> &state,
                                          std::vector<double> &result) const;

@@ -33,6 +33,9 @@ namespace quoin
     contacts,
     blocks_outside,
     open_joints,
+    block_displacement, /**< of a named block: x, y, rotation */
+    block_velocity,
+    block_force, /**< between it and others: x, y, moment */
     boundary_displacement,
     boundary_traction,
     boundary_velocity,
@@ -55,6 +58,7 @@ namespace quoin
     std::array<double, 3> other_point{};
     std::string load;
     std::string curve;
+    std::string block, other_block; /**< named ones; the second may be empty */
 
     /** Whether it is on boundary elements, alone or beyond blocks. */
     bool is_of_boundary() const
@@ -66,6 +70,14 @@ namespace quoin
     {
       return quantity == HistoryQuantity::displacement
              || quantity == HistoryQuantity::velocity;
+    }
+
+    /** Whether it is one of a named block. */
+    bool is_of_block() const
+    {
+      return quantity == HistoryQuantity::block_displacement
+             || quantity == HistoryQuantity::block_velocity
+             || quantity == HistoryQuantity::block_force;
     }
 
     /** Whether it compares the displacements of two points. */
