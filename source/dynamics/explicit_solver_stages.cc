@@ -109,6 +109,8 @@ namespace quoin
         if (previous && !names_load(*previous, load.name()))
           begun.push_back(&load);
       }
+    if (acting.pattern)
+      forces.push_back(acting.pattern.get());
     forces.push_back(&acting.release);
     stepper.set_operators(forces, begun, acting.constraints, stage);
   }
@@ -123,6 +125,8 @@ namespace quoin
       rigid_stage.held = this->find_held_blocks();
     find_moved_blocks(state);
     hold_removed_blocks(state);
+    if (acting.pattern)
+      acting.pattern->set_mobility(node_mass, acting.constraints, rigid_stage);
   }
 
   template <int dim>
@@ -167,6 +171,7 @@ namespace quoin
       constraint->begin_stage(state,
                               previous && acts_in(*constraint, *previous));
     collect_constrained_nodes(state);
+    this->begin_pattern(previous, state);
     state.stage_start      = state.time;
     state.stage_step       = 0;
     state.load_time        = 0.;

@@ -40,6 +40,15 @@ namespace quoin
     std::string expression;
   };
 
+  /** Loads that one factor scales, so that a displacement follows a function of
+      time; see LoadPattern. */
+  struct PatternParameters
+  {
+    std::vector<std::string> loads;
+    std::string controlled = "mean"; /**< or the name of a history */
+    TimeFunction control; /**< of the time in the stage, from 0 on [m] */
+  };
+
   /** One stage of a run: a subsection of 'Stages'. */
   struct StageParameters
   {
@@ -75,6 +84,9 @@ namespace quoin
     std::vector<std::pair<std::string, std::string>> materials;
     /** Joint sets and the sets whose laws they take over. */
     std::vector<std::pair<std::string, std::string>> joint_properties;
+
+    /** Loads beside 'loads' that are scaled; see PatternParameters. */
+    std::optional<PatternParameters> pattern;
 
     /** Strength reduction by trials, which leave the state unchanged. */
     std::optional<SafetyParameters> safety;
