@@ -30,11 +30,11 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  LoadPattern<dim>::LoadPattern(const Model<dim> &model,
-                                const StageParameters &stage,
-                                const std::vector<NodalLoad<dim>> &loads,
-                                const std::vector<DisplacementTerm> *measured,
-                                const State<dim> &state)
+  LoadPattern<dim>::LoadPattern(
+      const Model<dim> &model, const StageParameters &stage,
+      const std::vector<NodalLoad<dim>> &loads,
+      const std::vector<MotionConstraint<dim> *> &constraints,
+      const std::vector<DisplacementTerm> *measured, const State<dim> &state)
     : model(model), stage_name(stage.name), control(stage.pattern->control)
   {
     const std::string where = "section 'Stages/" + stage.name + "': ";
@@ -56,26 +56,47 @@ namespace quoin
     for (unsigned int i = 0; i < nodal.size(); ++i)
       if (absent[i] || i >= model.nodes().n_owned())
         nodal[i] = NodeVector<dim>{};
-    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-    {
-      double square = 0.;
-      for (const double f : nodal[i].v)
-        square += f * f;
-      scale += std::sqrt(square);
-    }
-    scale = dealii::Utilities::MPI::sum(scale, model.nodes().communicator());
-    if (!(scale > 0.))
+    double size = 0.;
+    for (const NodeVector<dim> &force : nodal)
+      for (const double f : force.v)
+        size += std::abs(f);
+    if (dealii::Utilities::MPI::sum(size, model.nodes().communicator()) == 0.)
       throw InputError(where
                        + "the loads of 'Load pattern' are zero, so that no "
                          "factor of theirs moves anything. Give them their "
                          "size at the factor 1.");
+    find_mean(constraints);
     if (measured)
       terms = *measured;
-    else
-      for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
+  }
+
+  template <int dim>
+  void LoadPattern<dim>::find_mean(
+      const std::vector<MotionConstraint<dim> *> &constraints)
+  {
+    auto free = nodal;
+    for (const MotionConstraint<dim> *constraint : constraints)
+      for (const unsigned int node : constraint->nodes())
         for (unsigned int d = 0; d < dim; ++d)
-          if (nodal[i].v[d] != 0.)
-            terms.push_back({ i, d, nodal[i].v[d] / scale });
+          if (constraint->traits().holds[d])
+            free[node].v[d] = 0.;
+    for (const NodeVector<dim> &force : free)
+    {
+      double square = 0.;
+      for (const double f : force.v)
+        square += f * f;
+      scale += std::sqrt(square);
+    }
+    scale = dealii::Utilities::MPI::sum(scale, model.nodes().communicator());
+    if (scale == 0.)
+      throw InputError("section 'Stages/" + stage_name
+                       + "': all that the loads of 'Load pattern' act on is "
+                         "held by other loads of the stage. Leave some of it "
+                         "free to move.");
+    for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (free[i].v[d] != 0.)
+          terms.push_back({ i, d, free[i].v[d] / scale });
   }
 
   template <int dim>
@@ -152,18 +173,6 @@ namespace quoin
       if (is_loaded)
         loaded.push_back(node);
     }
-    double free = node_gain;
-    if constexpr (dim == 2)
-      for (unsigned int b = 0; b < model.rigid_blocks().n_blocks(); ++b)
-        if (!rigid.held[b])
-          for (unsigned int i = model.rigid_blocks().block(b).begin;
-               i < model.rigid_blocks().block(b).end; ++i)
-            free += std::abs(nodal[i].v[0]) + std::abs(nodal[i].v[1]);
-    if (dealii::Utilities::MPI::sum(free, communicator) == 0.)
-      throw InputError("section 'Stages/" + stage_name
-                       + "': all that the loads of 'Load pattern' act on is "
-                         "held by other loads of the stage. Leave some of it "
-                         "free to move.");
   }
 
   template <int dim>
@@ -198,9 +207,8 @@ namespace quoin
     // S w after the step without the change of lambda, and by how much an
     // impulse raises its rate.
     double sums[2] = { 0., node_gain };
-    for (const LoadedNode &node : loaded)
-      for (unsigned int d = 0; d < dim; ++d)
-        sums[0] += node.force[d] * state.nodes[node.node].u[d];
+    for (const DisplacementTerm &term : terms)
+      sums[0] += scale * term.weight * state.nodes[term.node].u[term.component];
     if constexpr (dim == 2)
       sums[1] += model.rigid_blocks().mobility(rigid_stage, nodal.data(),
                                                step.dt, state);

@@ -177,7 +177,7 @@ namespace quoin
     {
       const auto found = controls.find(stage.name);
       acting.pattern   = std::make_shared<LoadPattern<dim>>(
-          model, stage, all_loads,
+          model, stage, all_loads, acting.constraints,
           found == controls.end() ? nullptr : &found->second, state);
     }
 

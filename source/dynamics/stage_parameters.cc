@@ -206,9 +206,12 @@ namespace quoin
     TimeFunction control_function(const ParameterSection &section)
     {
       const std::string name = "Control function";
-      const auto result      = section.made(
-               name,
-               [&]() { return TimeFunction(section.text(name), section.folder()); });
+      if (section.text(name).empty())
+        section.fail(name, "must say how far the loads of 'Load pattern' move "
+                           "the model, an expression of t such as 1e-3 * t.");
+      const auto result = section.made(
+          name,
+          [&]() { return TimeFunction(section.text(name), section.folder()); });
       if (result({ 0., 0. }) != 0.)
         section.fail(name, "is not 0 where the stage begins, but a "
                            "displacement counts from there: let it rise from "

@@ -54,7 +54,8 @@ namespace quoin
    * their mean weighted by the loads themselves,
    * @f[ w = \sum_i p_i \cdot u_i / S , \quad S = \sum_i |p_i| , @f]
    * and the work of the loads is lambda S dw. The sums are over the nodes of
-   * all blocks that are present.
+   * blocks that are present, without components that prescribed motions and
+   * platens hold: a load on those goes into the support.
    *
    * Explicit: lambda is the Lagrange multiplier of this constraint. Forces of a
    * step have lambda of the step before, all nodes advance as if there were no
@@ -73,12 +74,14 @@ namespace quoin
   public:
     /**
      * The loads of @p loads that @p stage names in its pattern, on blocks that
-     * are present in @p state; @p measured: this rank's terms of w; null: the
-     * mean. Throws an InputError about loads that change in time or vanish, or
-     * if blocks may be deleted. Collective.
+     * are present in @p state; @p constraints: those that act in the stage;
+     * @p measured: this rank's terms of w; null: the mean. Throws an InputError
+     * about loads that change in time, vanish or act on nothing that is free,
+     * or if blocks may be deleted. Collective.
      */
     LoadPattern(const Model<dim> &model, const StageParameters &stage,
                 const std::vector<NodalLoad<dim>> &loads,
+                const std::vector<MotionConstraint<dim> *> &constraints,
                 const std::vector<DisplacementTerm> *measured,
                 const State<dim> &state);
 
@@ -124,6 +127,9 @@ namespace quoin
     void correct(const StepContext &step, State<dim> &state);
 
   private:
+    /** Makes the terms of the mean, without what is held. */
+    void find_mean(const std::vector<MotionConstraint<dim> *> &constraints);
+
     /** A node with a load. */
     struct LoadedNode
     {
