@@ -68,6 +68,31 @@ namespace quoin
       return false;
     }
 
+    /** Warns of a controlled displacement that begins with a velocity. */
+    void check_control(const StageOfRun &run, Checks &checks)
+    {
+      if (!run.stage.pattern || run.stage.slows_loads())
+        return;
+      const TimeFunction &control = run.stage.pattern->control;
+      const double early          = 1e-6 * run.stage.duration;
+      double fastest              = 0.;
+      constexpr unsigned int n    = 100;
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        const double t = run.stage.duration * i / n;
+        fastest = std::max(fastest, std::abs(control({ t + early, t + early })
+                                             - control({ t, t })));
+      }
+      const double first = std::abs(control({ early, early }));
+      checks.warn_if(first > 0.5 * fastest && fastest > 0.,
+                     "'Control function' begins with a velocity of ",
+                     first / early,
+                     " m/s, a jump that shakes the model and the factor of the "
+                     "load pattern. Let it begin slowly, such as with v * "
+                     "if(t < T, t^2 / (2 * T), t - T / 2), or give a 'Kinetic "
+                     "energy limit'.");
+    }
+
     void check_damping(const StageOfRun &run, Checks &checks)
     {
       const StageParameters &stage = run.stage;
@@ -342,6 +367,7 @@ namespace quoin
     const StageOfRun run(parameters, index);
     Advice advice;
     Checks checks(advice, "stage " + run.stage.name + ": ");
+    check_control(run, checks);
     check_damping(run, checks);
     check_supports(run, checks);
     check_weight(run, checks);

@@ -265,6 +265,64 @@ namespace quoin
     return work;
   }
 
+  std::array<double, 3> RigidBlocks::resultant(const Block &block,
+                                               const Direction &now,
+                                               const NodeVector<2> *force) const
+  {
+    std::array<double, 3> sum{};
+    const Arm *arm = arms_of(block);
+    for (unsigned int i = block.begin; i < block.end; ++i, ++arm)
+    {
+      const double *f = force[i].v;
+      sum[0] += f[0];
+      sum[1] += f[1];
+      sum[2] += (now.c * arm->x - now.s * arm->y) * f[1]
+                - (now.s * arm->x + now.c * arm->y) * f[0];
+    }
+    return sum;
+  }
+
+  double RigidBlocks::mobility(const RigidBlockStage &stage,
+                               const NodeVector<2> *force, const double dt,
+                               const State<2> &state) const
+  {
+    double sum = 0.;
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+    {
+      if (stage.held[b])
+        continue;
+      const RigidBlockState &rigid = state.get<RigidBlockStates>()[b];
+      const Direction before(rigid.rotation - dt * rigid.velocity[2]);
+      const auto f    = resultant(blocks[b], before, force);
+      const auto mass = inertia(stage, b);
+      for (unsigned int d = 0; d < 3; ++d)
+        sum += f[d] * f[d] / mass[d];
+    }
+    return sum;
+  }
+
+  void RigidBlocks::push(const RigidBlockStage &stage,
+                         const NodeVector<2> *force, const double duration,
+                         const double dt, State<2> &state) const
+  {
+    for (unsigned int b = 0; b < blocks.size(); ++b)
+    {
+      if (stage.held[b])
+        continue;
+      RigidBlockState &rigid = state.get<RigidBlockStates>()[b];
+      const Direction before(rigid.rotation - dt * rigid.velocity[2]);
+      const auto f    = resultant(blocks[b], before, force);
+      const auto mass = inertia(stage, b);
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        const double change = duration * f[d] / mass[d];
+        rigid.velocity[d] += change;
+        (d < 2 ? rigid.displacement[d] : rigid.rotation) += dt * change;
+      }
+      place_nodes(blocks[b], rigid, before, state);
+    }
+  }
+
   void RigidBlocks::follow_nodes(const RigidBlockStage &stage,
                                  State<2> &state) const
   {

@@ -96,6 +96,11 @@ namespace quoin
     stepper.move_constrained_nodes(state, context);
     if constexpr (dim == 2)
       model.rigid_blocks().follow_nodes(rigid_stage, state);
+    if (acting.pattern)
+    {
+      acting.pattern->correct(context, state);
+      time_shares.lap(load_phase);
+    }
     // 7. Work and energies; exchange of ghost positions.
     book_energies(state, context, requests, stored, sums);
     stepper.exchange_positions(state);

@@ -116,6 +116,8 @@ namespace quoin
         if (previous && !names_load(*previous, load.name()))
           begun.push_back(&load);
       }
+    if (acting.pattern)
+      forces.push_back(acting.pattern.get());
     forces.push_back(&acting.release);
     stepper.set_operators(forces, begun, acting.constraints, stage);
   }
@@ -149,6 +151,8 @@ namespace quoin
     }
     find_moved_blocks(state);
     hold_removed_blocks(state);
+    if (acting.pattern)
+      acting.pattern->set_mobility(node_mass, acting.constraints, rigid_stage);
   }
 
   template <int dim>
@@ -217,6 +221,7 @@ namespace quoin
       constraint->begin_stage(state,
                               previous && acts_in(*constraint, *previous));
     collect_constrained_nodes(state);
+    this->begin_pattern(previous, state);
     state.stage_start      = state.time;
     state.stage_step       = 0;
     state.load_time        = 0.;

@@ -4,6 +4,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/point_text.h>
+#include <quoin/operators/archive.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/model/free_bodies.h>
 #include <quoin/model/material_waves.h>
@@ -171,6 +172,15 @@ namespace quoin
       if (names_load(stage, load.name()))
         acting.nodal.push_back(&load);
 
+    acting.pattern.reset();
+    if (stage.pattern)
+    {
+      const auto found = controls.find(stage.name);
+      acting.pattern   = std::make_shared<LoadPattern<dim>>(
+          model, stage, all_loads, acting.constraints,
+          found == controls.end() ? nullptr : &found->second, state);
+    }
+
     // With large displacements blocks may rest on others without a joint.
     if (stage.end == StageEnd::static_ratio
         && !model.parameters().large_displacements)
@@ -184,6 +194,17 @@ namespace quoin
     for (NodalLoad<dim> &load : all_loads)
       load.begin_stage(!previous || !names_load(*previous, load.name()),
                        automatic);
+  }
+
+  template <int dim>
+  void Solver<dim>::begin_pattern(const StageParameters *previous,
+                                  State<dim> &state) const
+  {
+    LoadPatternState &own = state.template get<LoadPatternState>();
+    const bool goes_on    = stage.pattern && previous && previous->pattern
+                         && previous->pattern->loads == stage.pattern->loads;
+    own = { goes_on ? own.factor : 0.,
+            acting.pattern ? acting.pattern->displacement(state.nodes) : 0. };
   }
 
   template <int dim>
@@ -206,6 +227,7 @@ namespace quoin
   {
     for (const auto &constraint : all_constraints)
       constraint->prepare(state);
+    state.template add<LoadPatternState>();
   }
 
   template <int dim>

@@ -89,12 +89,58 @@ namespace quoin
       }
     }
 
+    /** Checks the loads that @p stage scales by a factor. */
+    void check_pattern(const std::string &file, const StageParameters &stage,
+                       const std::vector<LoadParameters> &loads,
+                       const bool is_implicit)
+    {
+      const std::string where
+          = file + ", section 'Stages/" + stage.name + "': ";
+      for (const std::string &name : stage.pattern->loads)
+      {
+        const std::string what     = where + "'Load pattern' names '" + name;
+        const LoadParameters *load = find_named(loads, name);
+        if (!load)
+          throw InputError(what + "', which is no load. Loads are: "
+                           + known_names(loads, &LoadParameters::name) + ".");
+        if (load->type != LoadType::traction && load->type != LoadType::gravity)
+          throw InputError(what + "', of type '" + load->type_text()
+                           + "', but a factor scales loads of type 'traction' "
+                             "and 'gravity' alone.");
+        if (names_load(stage, name))
+          throw InputError(what
+                           + "', which 'Loads' names, too. Leave it out "
+                             "there, or give the part that does not grow "
+                             "a load of its own.");
+        if (std::count(stage.pattern->loads.begin(), stage.pattern->loads.end(),
+                       name)
+            > 1)
+          throw InputError(what
+                           + "' twice, but it acts once. Remove one, or "
+                             "give the load another value.");
+      }
+      if (!is_implicit && stage.pattern->controlled != "mean")
+        throw InputError(
+            where + "'Controlled displacement = " + stage.pattern->controlled
+            + "', but the explicit solver controls the displacement along the "
+              "loads, 'mean'. Take that, record the other one as a history and "
+              "end the stage with it by 'End conditions', or take 'Solver = "
+              "implicit'.");
+    }
+
     void check_loads(const std::string &file,
                      const std::vector<StageParameters> &stages,
-                     const std::vector<LoadParameters> &loads)
+                     const std::vector<LoadParameters> &loads,
+                     const bool is_implicit)
     {
       std::set<std::string> used;
       for (const StageParameters &stage : stages)
+      {
+        if (stage.pattern)
+        {
+          check_pattern(file, stage, loads, is_implicit);
+          used.insert(stage.pattern->loads.begin(), stage.pattern->loads.end());
+        }
         for (const std::string &name : stage.loads)
         {
           const std::string what = file + ", section 'Stages/" + stage.name
@@ -113,6 +159,7 @@ namespace quoin
                                "start and does not end. Leave it out there.");
           used.insert(name);
         }
+      }
       for (const LoadParameters &load : loads)
         if (load.type != LoadType::initial_stress && used.count(load.name) == 0)
           throw InputError(file + ", section 'Loads/" + load.name
@@ -159,7 +206,7 @@ namespace quoin
       check_stage(ParameterSection(section, stage.name), stage,
                   is_implicit || comes_to_rest(stage, loads), has_excavated);
     }
-    check_loads(top.file(), stages, loads);
+    check_loads(top.file(), stages, loads, is_implicit);
     for (const LoadParameters &load : loads)
       if (load.type == LoadType::boundary_elements)
         check_far_field(top.file(), stages, load.name);

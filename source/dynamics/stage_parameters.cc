@@ -209,12 +209,74 @@ namespace quoin
                       "must be 'previous end' or a time of zero or more.");
     }
 
+    TimeFunction control_function(const ParameterSection &section)
+    {
+      const std::string name = "Control function";
+      if (section.text(name).empty())
+        section.fail(name, "must say how far the loads of 'Load pattern' move "
+                           "the model, an expression of t such as 1e-3 * t.");
+      const auto result = section.made(
+          name,
+          [&]() { return TimeFunction(section.text(name), section.folder()); });
+      if (result({ 0., 0. }) != 0.)
+        section.fail(name, "is not 0 where the stage begins, but a "
+                           "displacement counts from there: let it rise from "
+                           "0.");
+      return result;
+    }
+
+    void enter_pattern(ParameterEntries &entries, StageParameters &stage)
+    {
+      PatternParameters pattern;
+      entries.list("Load pattern", pattern.loads,
+                   "Names of tractions and gravities that act beside 'Loads', "
+                   "multiplied by a factor that the stage finds: that at which "
+                   "a displacement follows 'Control function', also where the "
+                   "model bears less and less. Their values, constant in time, "
+                   "are those of the factor 1; empty: none.");
+      if (entries.reads_if(!pattern.loads.empty()))
+      {
+        entries.text("Controlled displacement", pattern.controlled,
+                     "Load pattern: 'mean', the displacement of the blocks in "
+                     "the direction of its loads, weighted by them; or, for "
+                     "the implicit solver, the name of a history with the "
+                     "quantity displacement or relative displacement.");
+        entries.other("Control function", "",
+                      "Load pattern: the controlled displacement from the "
+                      "start of the stage on, a function of t as those of "
+                      "loads [m]",
+                      [&](const ParameterSection &from)
+                      { pattern.control = control_function(from); });
+      }
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      if (pattern.loads.empty())
+      {
+        for (const auto &[name, preset] :
+             { std::pair("Controlled displacement", "mean"),
+               std::pair("Control function", "") })
+          if (section->text(name) != preset)
+            section->fail(name, "has no effect without a 'Load pattern'. Name "
+                                "the loads that are to be scaled, or remove "
+                                "this.");
+        return;
+      }
+      if (stage.end != StageEnd::time)
+        section->fail("Load pattern",
+                      "needs 'End = time', a 'Duration' and a 'Control "
+                      "function' of that time. 'End conditions' may end the "
+                      "stage before.");
+      stage.pattern = pattern;
+    }
+
     void enter(ParameterEntries &entries, StageParameters &stage)
     {
       entries.list("Loads", stage.loads,
                    "Names of the loads that act in this stage; initial "
                    "stresses act in all and are not among them.");
       enter_end(entries, stage);
+      enter_pattern(entries, stage);
       enter_damping(entries, stage);
       enter_construction(entries, stage);
       const ParameterSection *section = entries.read_section();
@@ -282,6 +344,12 @@ namespace quoin
           + end_text(*this, is_implicit);
     if (!is_implicit)
       text += "; " + damping_text(*this);
+    if (pattern)
+      text
+          += "; a factor of " + join(pattern->loads, ", ") + " makes "
+             + (pattern->controlled == "mean" ? "their mean displacement"
+                                              : "'" + pattern->controlled + "'")
+             + " follow its function";
     for (const EndCondition &condition : end_conditions)
       text += "; ends as '" + condition.outcome + "' where "
               + condition.expression;

@@ -54,7 +54,8 @@ namespace quoin
 
   DofMap::DofMap(const Model<2> &model,
                  const std::vector<MotionConstraint<2> *> &constraints,
-                 const std::vector<bool> &held, const State<2> &state)
+                 const std::vector<bool> &held, const State<2> &state,
+                 const bool has_factor)
     : model(model), communicator(model.nodes().communicator()),
       stage_start(state.stage_start), absent(absent_nodes(model, state)),
       ties(model.nodes().n_local(),
@@ -62,7 +63,7 @@ namespace quoin
   {
     add_platens(constraints, state);
     add_rigid_blocks(held);
-    number();
+    number(has_factor);
 
     // The last constraint that acts on a node prevails.
     const unsigned int n = model.nodes().n_owned();
@@ -133,7 +134,7 @@ namespace quoin
     }
   }
 
-  void DofMap::number()
+  void DofMap::number(const bool has_factor)
   {
     const NodeExchange &exchange = model.nodes().exchange();
     const Index first_body       = 2 * Index(exchange.n_global());
@@ -143,13 +144,19 @@ namespace quoin
             communicator, 4 * Index(body_list.size() - n_platens))
             [dealii::Utilities::MPI::this_mpi_process(communicator)];
 
-    owned_dofs = dealii::IndexSet(first_rigid + rigid.size());
+    owned_dofs
+        = dealii::IndexSet(first_rigid + rigid.size() + (has_factor ? 1 : 0));
+    if (has_factor)
+      factor_dof = first_rigid + rigid.size();
     if (exchange.n_owned() > 0)
     {
       const Index first = 2 * Index(exchange.global(0));
       owned_dofs.add_range(first, first + 2 * exchange.n_owned());
     }
     owned_dofs.add_indices(rigid, first_rigid);
+    if (has_factor
+        && dealii::Utilities::MPI::this_mpi_process(communicator) == 0)
+      owned_dofs.add_index(factor_dof);
     for (unsigned int b = 0; b < body_list.size(); ++b)
     {
       RigidBody &body = body_list[b];
@@ -166,7 +173,9 @@ namespace quoin
 
     exchange.update_ghosts(ties.data());
     relevant_dofs = owned_dofs;
-    has_bodies    = !body_list.empty();
+    if (has_factor)
+      relevant_dofs.add_index(factor_dof);
+    has_bodies = !body_list.empty();
     for (unsigned int b = 0; b < n_platens; ++b)
       relevant_dofs.add_range(body_list[b].first, body_list[b].first + 4);
     for (unsigned int i = 0; i < exchange.n_local(); ++i)

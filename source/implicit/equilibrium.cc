@@ -30,10 +30,11 @@ namespace quoin
                            const std::vector<const NodalLoad<2> *> &loads,
                            const std::vector<bool> &path_sets,
                            const double stage_start,
-                           const StaticFarField *far_field)
+                           const StaticFarField *far_field,
+                           const LoadPattern<2> *pattern)
     : model(model), dof_map(dof_map), loads(loads), path_sets(path_sets),
       stage_start(stage_start), communicator(model.nodes().communicator()),
-      far_field(far_field)
+      pattern(pattern), far_field(far_field)
   {
     for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
     {
@@ -47,13 +48,13 @@ namespace quoin
 
   void Equilibrium::make_pattern()
   {
-    dealii::TrilinosWrappers::SparsityPattern pattern(
+    dealii::TrilinosWrappers::SparsityPattern entries(
         dof_map.owned(), dof_map.owned(), dof_map.relevant(), communicator);
     const auto add = [&](const unsigned int *nodes, const unsigned int n)
     {
       element_dofs.resize(2 * n);
       dof_map.get_dofs(nodes, n, element_dofs);
-      dof_map.constraints().add_entries_local_to_global(element_dofs, pattern,
+      dof_map.constraints().add_entries_local_to_global(element_dofs, entries,
                                                         false);
     };
     State<2> rest  = model.initial_state();
@@ -85,12 +86,19 @@ namespace quoin
     {
       find_far_stiffness();
       for (const Index row : far_rows)
-        pattern.add_entries(row, far_columns.begin(), far_columns.end());
+        entries.add_entries(row, far_columns.begin(), far_columns.end());
     }
     for (const Index row : dof_map.owned())
-      pattern.add(row, row);
-    pattern.compress();
-    matrix.reinit(pattern);
+    {
+      entries.add(row, row);
+      if (pattern)
+      {
+        entries.add(row, dof_map.factor());
+        entries.add(dof_map.factor(), row);
+      }
+    }
+    entries.compress();
+    matrix.reinit(entries);
   }
 
   void Equilibrium::find_far_stiffness()
@@ -313,7 +321,12 @@ namespace quoin
   {
     const unsigned int n_owned = model.nodes().n_owned();
     balance.external.assign(model.nodes().n_local(), no_force);
-    add_external(configuration.load_time, balance.external);
+    add_external(configuration.load_time, configuration.factor,
+                 balance.external);
+    if (pattern)
+      balance.lacking = committed.get<LoadPatternState>().start
+                        + pattern->target(configuration.load_time)
+                        - pattern->displacement(configuration.nodes);
 
     const double left = 1. - configuration.released;
     const auto &now   = committed.get<ImplicitState>();
@@ -337,9 +350,12 @@ namespace quoin
     find_ratio(joint_force, balance);
   }
 
-  void Equilibrium::add_external(const double load_time,
+  void Equilibrium::add_external(const double load_time, const double factor,
                                  AlignedArray<NodeVector<2>> &force) const
   {
+    for (unsigned int i = 0; pattern && i < force.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        force[i].v[d] += factor * pattern->forces()[i].v[d];
     for (const NodalLoad<2> *load : loads)
       load->add_forces({ load_time, stage_start + load_time }, force.data());
     if (release)
@@ -417,6 +433,8 @@ namespace quoin
     add_far_field(committed, configuration, balance, &slopes);
     add_loads(committed, configuration, balance);
     add_turning(balance.force);
+    if (pattern)
+      add_pattern(configuration, advance.load_time, slopes.by_advance);
     matrix.compress(dealii::VectorOperation::add);
     fill_unused_rows();
 
@@ -425,7 +443,7 @@ namespace quoin
         = dealii::Utilities::MPI::sum(slopes.path_by_advance, communicator);
 
     AlignedArray<NodeVector<2>> change(n_owned, no_force);
-    add_external(advance.load_time, change);
+    add_external(advance.load_time, configuration.factor, change);
     const double freed = advance.released - configuration.released;
     const auto &now    = committed.get<ImplicitState>();
     const auto &held   = now.held;
@@ -448,6 +466,41 @@ namespace quoin
     slopes.by_advance.compress(dealii::VectorOperation::add);
   }
 
+  void Equilibrium::add_pattern(const Configuration &configuration,
+                                const double load_time,
+                                DofMap::Vector &by_advance)
+  {
+    const Index factor         = dof_map.factor();
+    const unsigned int n_owned = model.nodes().n_owned();
+    DofMap::Vector push(dof_map.owned(), communicator),
+        measure(dof_map.owned(), communicator);
+    dof_map.add_forces(pattern->forces(), push);
+    AlignedArray<NodeVector<2>> weights(n_owned, no_force);
+    double moves
+        = pattern->target(load_time) - pattern->target(configuration.load_time);
+    double given = 0.; // by prescribed motions
+    for (const DisplacementTerm &term : pattern->measure())
+    {
+      weights[term.node].v[term.component] += term.weight;
+      given += term.weight
+               * dof_map.constraints().get_inhomogeneity(
+                   dof_map.dof(term.node, term.component));
+    }
+    dof_map.add_forces(weights, measure);
+    push.compress(dealii::VectorOperation::add);
+    measure.compress(dealii::VectorOperation::add);
+    for (const Index row : dof_map.owned())
+    {
+      if (push(row) != 0.)
+        matrix.add(row, factor, -push(row));
+      if (measure(row) != 0.)
+        matrix.add(factor, row, measure(row));
+    }
+    moves -= dealii::Utilities::MPI::sum(given, communicator);
+    if (dof_map.owned().is_element(factor))
+      by_advance(factor) += moves;
+  }
+
   void Equilibrium::fill_unused_rows()
   {
     // Rows of constrained degrees of freedom are those of the unit matrix,
@@ -455,7 +508,7 @@ namespace quoin
     const double size
         = matrix.frobenius_norm() / std::sqrt(double(dof_map.owned().size()));
     for (const Index row : dof_map.owned())
-      if (matrix.diag_element(row) == 0.)
+      if (matrix.diag_element(row) == 0. && row != dof_map.factor())
         matrix.set(row, row, size > 0. ? size : 1.);
     matrix.compress(dealii::VectorOperation::insert);
   }

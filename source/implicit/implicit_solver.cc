@@ -40,6 +40,8 @@ namespace quoin
     constexpr unsigned int steps_ahead = 5;
     /** Tolerated relative error of the path's length [-]. */
     constexpr double path_tolerance = 1e-3;
+    /** Tolerated error of a controlled displacement, by its increment [-]. */
+    constexpr double control_tolerance = 1e-6;
     /** Share of a correction at which the line search gives up. */
     constexpr double least_search_share = 0.1;
     /** Least reduction of the unbalanced force by share of a correction. */
@@ -55,6 +57,8 @@ namespace quoin
     dof_map->add_forces(balance.drag, residual);
     add_body_forces(dof_map->bodies(), balance.drives, residual);
     add_body_forces(dof_map->bodies(), balance.held, residual);
+    if (acting.pattern && dof_map->owned().is_element(dof_map->factor()))
+      residual(dof_map->factor()) += balance.lacking;
     residual.compress(dealii::VectorOperation::add);
     bool is_solved = false;
     time_shares.measure(solver_phase,
@@ -97,9 +101,15 @@ namespace quoin
                                Configuration &configuration)
   {
     const Configuration from = configuration;
-    const auto go            = [&](const double eta)
+    double factor            = 0.; // its change
+    if (acting.pattern && dof_map->owned().is_element(dof_map->factor()))
+      factor = correction(dof_map->factor());
+    if (acting.pattern)
+      factor = dealii::Utilities::MPI::sum(factor, communicator);
+    const auto go = [&](const double eta)
     {
-      configuration = from;
+      configuration        = from;
+      configuration.factor = from.factor + eta * factor;
       configuration.released
           += eta * share * (advance.released - from.released);
       const double load_time
@@ -179,7 +189,16 @@ namespace quoin
                 ? std::max(parameters.force_ratio,
                            drag_share * balance.dragged / balance.applied)
                 : parameters.force_ratio;
-      if (iteration > 0 && there && ratio <= tolerance)
+      const bool is_controlled
+          = !acting.pattern
+            || std::abs(balance.lacking)
+                   <= control_tolerance
+                          * std::max(std::abs(acting.pattern->target(
+                                                  configuration.load_time)
+                                              - acting.pattern->target(
+                                                  state.load_time)),
+                                     1e-9 * model.nodes().table().diagonal());
+      if (iteration > 0 && there && is_controlled && ratio <= tolerance)
         return Outcome::converged;
       if (i >= parameters.maximum_iterations
           || (i >= 10 && ratio > 0.5 * ratios[i - 6]))

@@ -135,13 +135,16 @@ namespace quoin
         stage.release_duration >= 0. ? stage.release_duration : stage_duration);
     rests   = rests && !acting.release.changes();
     dof_map = std::make_unique<DofMap>(model, acting.constraints, held_blocks,
-                                       state);
+                                       state, acting.pattern != nullptr);
     equilibrium = std::make_unique<Equilibrium>(
         model, *dof_map, acting.nodal, path_sets, stage_start,
-        far.elastostatic_acts ? far.elastostatic : nullptr);
+        far.elastostatic_acts ? far.elastostatic : nullptr,
+        acting.pattern.get());
     equilibrium->set_release(acting.release);
-    linear_solver = std::make_unique<LinearSolver>(parameters.linear_solver,
-                                                   model, *dof_map);
+    // Multigrid knows no factor.
+    linear_solver = std::make_unique<LinearSolver>(
+        acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
+        model, *dof_map);
     residual.reinit(dof_map->owned(), communicator);
     slopes.by_advance = slopes.path_by_dof = correction = advanced = residual;
     broken.assign(model.joints().n_points(), 0);
@@ -182,6 +185,7 @@ namespace quoin
     state.load_time            = 0.;
     state.load_rate            = 1.;
     state.get<ImplicitState>() = ImplicitState();
+    begin_pattern(previous, state);
     prepare_stage(state);
     hold_what_is_out_of_balance(previous, state);
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/dynamics/load_pattern.h>
 #include <quoin/implicit/rigid_bodies.h>
 #include <quoin/loads/platen.h>
 #include <quoin/blocks/rigid_blocks.h>
@@ -26,6 +27,7 @@ namespace quoin
     result.nodes     = state.nodes;
     result.load_time = state.load_time;
     result.released  = state.get<ImplicitState>().released;
+    result.factor    = state.get<LoadPatternState>().factor;
     for (const RigidBody &body : bodies)
       if (body.platen)
       {
@@ -45,9 +47,10 @@ namespace quoin
   void write_configuration(const RigidBodies &bodies,
                            const Configuration &configuration, State<2> &state)
   {
-    state.nodes                         = configuration.nodes;
-    state.load_time                     = configuration.load_time;
-    state.get<ImplicitState>().released = configuration.released;
+    state.nodes                          = configuration.nodes;
+    state.load_time                      = configuration.load_time;
+    state.get<ImplicitState>().released  = configuration.released;
+    state.get<LoadPatternState>().factor = configuration.factor;
     for (unsigned int b = 0; b < bodies.size(); ++b)
     {
       const auto &d = configuration.bodies[b];

@@ -203,6 +203,7 @@ namespace quoin
                       { "Rotation", "free", { "platen" } },
                       { "Pressure", "free", { "traction" } },
                       { "Ramp duration", "automatic", { "gravity" } },
+                      { "Distribution", "1", { "traction", "gravity" } },
                       { "Incident normal velocity", "0", viscous },
                       { "Incident shear velocity", "0", viscous },
                       { "Far field material", "", viscous },
@@ -327,6 +328,23 @@ namespace quoin
                      "it acts; empty: all.");
     }
 
+    /** A factor by place; none if the text is 1. */
+    std::optional<SpaceTimeFunction>
+    distribution(const ParameterSection &section)
+    {
+      const std::string name = "Distribution", text = section.text(name);
+      if (text == "1")
+        return {};
+      // In two dimensions z is 0.
+      const auto factor = section.made(
+          name, [&]() { return SpaceTimeFunction(text, section.folder(), 3); });
+      if (factor.depends_on_time())
+        section.fail(name, "depends on time. Give a factor by place alone, and "
+                           "the course in time as 'Horizontal', 'Vertical', "
+                           "'Lateral' or 'Pressure'.");
+      return factor;
+    }
+
     /** Enters a component that @p read makes from section and name. */
     template <typename Read>
     void enter_component(ParameterEntries &entries, const std::string &name,
@@ -402,6 +420,14 @@ namespace quoin
             "models without initial stress, where it is twice the time of a "
             "shear wave along the model's diagonal, at least two thousand "
             "critical time steps [s]");
+      if (entries.reads_if(is_force))
+        entries.other("Distribution", "1",
+                      "Traction, gravity: factor by which the load differs "
+                      "from place to place, an expression of x, y and, in "
+                      "three dimensions, z in the mesh [m], such as y/12 for "
+                      "one that grows with the height [-]",
+                      [&](const ParameterSection &from)
+                      { load.distribution = distribution(from); });
       const ParameterSection *section = entries.read_section();
       if (section && is_platen
           && load.groups.empty() == load.boundaries.empty())

@@ -8,6 +8,7 @@
 #include <quoin/mesh/kind_text.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 namespace quoin
@@ -102,6 +103,7 @@ namespace quoin
       for (unsigned int i = 0; i < node_map.n_owned(); ++i)
         nodes.push_back(i);
       weights.resize(nodes.size());
+      find_factors(parameters, node_map);
       set_mass(mass);
       return;
     }
@@ -128,13 +130,48 @@ namespace quoin
       if (pressure.quantity != LoadQuantity::free)
         inward.push_back(inward_area[node]);
     }
+    find_factors(parameters, node_map);
+    for (unsigned int i = 0; i < node_factors.size(); ++i)
+    {
+      weights[i] *= node_factors[i];
+      if (!inward.empty())
+        for (double &area_component : inward[i].v)
+          area_component *= node_factors[i];
+    }
+  }
+
+  template <int dim>
+  void NodalLoad<dim>::find_factors(const LoadParameters &parameters,
+                                    const NodeMap<dim> &node_map)
+  {
+    if (!parameters.distribution)
+      return;
+    for (const unsigned int node : nodes)
+    {
+      dealii::Point<3> place;
+      for (unsigned int d = 0; d < dim; ++d)
+        place[d] = node_map.point(node)[d];
+      node_factors.push_back((*parameters.distribution)(place, 0.));
+    }
+    const bool is_wrong
+        = std::any_of(node_factors.begin(), node_factors.end(),
+                      [](const double f) { return !std::isfinite(f); });
+    if (dealii::Utilities::MPI::max(unsigned(is_wrong), node_map.communicator())
+        > 0)
+      throw InputError("section 'Loads/" + load_name
+                       + "': 'Distribution' is no finite number at a node on "
+                         "which the load acts. Give an expression that has a "
+                         "value everywhere.");
   }
 
   template <int dim>
   void NodalLoad<dim>::set_mass(const std::vector<double> &mass)
   {
-    if (is_gravity)
-      std::copy_n(mass.begin(), weights.size(), weights.begin());
+    if (!is_gravity)
+      return;
+    std::copy_n(mass.begin(), weights.size(), weights.begin());
+    for (unsigned int i = 0; i < node_factors.size(); ++i)
+      weights[i] *= node_factors[i];
   }
 
   template <int dim>

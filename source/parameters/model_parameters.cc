@@ -215,6 +215,14 @@ namespace quoin
     check_end_conditions(top, parameters);
     parameters.implicit
         = ImplicitParameters::read(ParameterSection(top, "Implicit"));
+    if (parameters.is_implicit
+        && parameters.implicit.linear_solver == LinearSolverType::iterative
+        && std::any_of(parameters.stages.begin(), parameters.stages.end(),
+                       [](const StageParameters &stage)
+                       { return stage.pattern.has_value(); }))
+      ParameterSection(top, "Implicit")
+          .fail("Linear solver", "does not solve for the factor of a 'Load "
+                                 "pattern'. Take 'direct' or 'automatic'.");
     if (parameters.is_implicit && !parameters.boundary.waves.empty())
       ParameterSection(top, "Incident waves")
           .fail("Names", "needs motion, which 'Solver = implicit' leaves "

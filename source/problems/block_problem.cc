@@ -209,8 +209,8 @@ namespace quoin
   void BlockProblem<dim>::archive_all(Archive &archive, State<dim> &archived)
   {
     archive &archived &context.outputs &context.iterations &context
-        .cuts &context.searches &context.outcomes &context.peaks &context
-        .displaced;
+        .cuts &context.searches &context.outcomes &context.loads &context
+        .peaks &context.displaced;
   }
 
   template <int dim>
@@ -361,13 +361,17 @@ namespace quoin
                                 { "step", ended.step } };
       if (!ended.condition.empty())
         stage["condition"] = ended.condition;
+      context.loads[i].summarise(stage);
     }
-    if (!context.failure.empty())
-      summary["stages"][parameters.stages[state.stage].name]
-          = { { "outcome", "failed" },
+    if (context.failure.empty())
+      return;
+    nlohmann::json &stage
+        = summary["stages"][parameters.stages[state.stage].name];
+    stage = { { "outcome", "failed" },
               { "reason", context.failure },
               { "time [s]", state.time },
               { "step", state.step } };
+    context.loads[state.stage].summarise(stage);
   }
 
   template <>

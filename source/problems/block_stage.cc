@@ -12,8 +12,18 @@ namespace quoin
     : run(run), system(parameters, std::move(mesh), run.communicator),
       steps(system, run.log), outputs(system, run),
       state(system.initial_state()), searches(parameters.stages.size()),
-      outcomes(parameters.stages.size())
+      outcomes(parameters.stages.size()), loads(parameters.stages.size())
   {
+    for (const StageParameters &stage : parameters.stages)
+      if (stage.pattern && stage.pattern->controlled != "mean")
+        naming(parameters.file,
+               [&]()
+               {
+                 system.solver->set_control(
+                     stage.name,
+                     outputs.terms_of(stage.pattern->controlled,
+                                      "section 'Stages/" + stage.name + "': "));
+               });
   }
 
   template <int dim>
@@ -41,6 +51,8 @@ namespace quoin
     system.solver->check_finite(state);
     check_cells(*system.model, state, stage.loads);
     warn_of_slip();
+    if (const std::string what = context.loads[index].warning(); !what.empty())
+      log.warning("stage ", stage.name, ": ", what);
     keep_unreleased_forces();
     note_outcome();
     ++state.stage;
@@ -48,9 +60,41 @@ namespace quoin
   }
 
   template <int dim>
+  void BlockStage<dim>::before_row()
+  {
+    outputs.before_row(state);
+    load_time = state.load_time;
+    is_first  = state.stage_step == 0;
+    if (const auto &pattern = system.solver->stage_loads().pattern)
+      controlled = pattern->displacement(state.nodes)
+                   - state.template get<LoadPatternState>().start;
+  }
+
+  template <int dim>
+  void BlockStage<dim>::record_loads(const double time)
+  {
+    // The forces of an explicit stage's first step are an impact if a load
+    // jumps there.
+    if (is_first && system.explicit_solver)
+      return;
+    LoadRecord &record           = context.loads[index];
+    const StageLoads<dim> &loads = system.solver->stage_loads();
+    if (loads.pattern)
+      record.add_factor(state.template get<LoadPatternState>().factor,
+                        controlled, time);
+    // In equilibrium supports take all.
+    if (stage.is_dynamic() || !system.explicit_solver
+        || loads.constraints.empty())
+      return;
+    const auto [applied, supports] = force_balance(system, state, load_time);
+    record.add_forces(applied, supports, time);
+  }
+
+  template <int dim>
   void BlockStage<dim>::write_row()
   {
     std::vector<double> row = outputs.write_row(state);
+    record_loads(row.front());
     if (conditions.empty() || is_to_end())
       return;
     // One rank decides for all, whatever their sums are rounded to.

@@ -114,7 +114,7 @@ namespace quoin
       requests.energies = row_is_due || may_be_last(balance);
       requests.balance = balance || (row_is_due && outputs.row_needs_balance());
       if (requests.energies)
-        outputs.before_row(state);
+        this->before_row();
       try
       {
         solver.step(state, requests);

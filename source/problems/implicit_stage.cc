@@ -105,7 +105,7 @@ namespace quoin
 
     void ImplicitStage::add_row()
     {
-      outputs.before_row(state);
+      before_row();
       write_row();
     }
   } // namespace

@@ -365,6 +365,8 @@ namespace quoin
     case HistoryQuantity::open_joints:
     case HistoryQuantity::load_time:
     case HistoryQuantity::loading_rate:
+    case HistoryQuantity::load_factor:
+    case HistoryQuantity::controlled_displacement:
     case HistoryQuantity::relative_displacement: // see add_ends()
     case HistoryQuantity::tilt:
     case HistoryQuantity::distance_change:
@@ -607,6 +609,41 @@ namespace quoin
   }
 
   template <int dim>
+  std::vector<DisplacementTerm>
+  Histories<dim>::terms_of(const std::string &name,
+                           const std::string &where) const
+  {
+    const auto found = std::find_if(probes.begin(), probes.begin() + n_columns,
+                                    [&](const Probe &probe)
+                                    { return probe.parameters.name == name; });
+    const bool is_of_two = found != probes.begin() + n_columns
+                           && found->parameters.quantity
+                                  == HistoryQuantity::relative_displacement;
+    if (found == probes.begin() + n_columns
+        || (!is_of_two
+            && found->parameters.quantity != HistoryQuantity::displacement))
+      throw InputError(where + "'Controlled displacement = " + name
+                       + "' is neither 'mean' nor a history with the quantity "
+                         "displacement or relative displacement. Name one of "
+                         "section 'Histories'.");
+    std::vector<DisplacementTerm> terms;
+    const unsigned int d = found->parameters.component;
+    const auto add       = [&](const Probe &probe, const double weight)
+    {
+      if (probe.here)
+        terms.push_back({ probe.entity, d, weight });
+    };
+    if (!is_of_two)
+      add(*found, 1.);
+    else
+    {
+      add(probes[found->ends + d], -1.);
+      add(probes[found->ends + dim + d], 1.);
+    }
+    return terms;
+  }
+
+  template <int dim>
   bool Histories<dim>::need_balance() const
   {
     return std::any_of(probes.begin(), probes.end(),
@@ -622,9 +659,13 @@ namespace quoin
     std::fill(row.begin(), row.end(), 0.);
     row[0]     = state.time;
     load_clock = { state.load_time, state.load_rate };
-    n_outside  = double(std::count_if(
-         state.block_marks.begin(), state.block_marks.end(),
-         [](const std::uint8_t mark) {
+    controlled = std::numeric_limits<double>::quiet_NaN();
+    if (const LoadPattern<dim> *pattern = solver.stage_loads().pattern.get())
+      controlled = pattern->displacement(state.nodes)
+                   - state.template get<LoadPatternState>().start;
+    n_outside = double(std::count_if(
+        state.block_marks.begin(), state.block_marks.end(),
+        [](const std::uint8_t mark) {
           return mark == block_mark::left_box || mark == block_mark::removed;
         }));
     for (unsigned int i = 0; i < probes.size(); ++i)
@@ -691,6 +732,12 @@ namespace quoin
         result[1 + i] = load_clock[0];
       else if (wanted.quantity == HistoryQuantity::loading_rate)
         result[1 + i] = load_clock[1];
+      else if (wanted.quantity == HistoryQuantity::load_factor)
+        result[1 + i] = std::isnan(controlled)
+                            ? controlled
+                            : state.template get<LoadPatternState>().factor;
+      else if (wanted.quantity == HistoryQuantity::controlled_displacement)
+        result[1 + i] = controlled;
       else if (wanted.quantity == HistoryQuantity::kinetic_share)
         result[1 + i] = solver.energies().kinetic
                         / std::max(solver.energies().throughput(), 1e-300);

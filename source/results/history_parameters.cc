@@ -72,6 +72,9 @@ namespace quoin
         { "kinetic energy share", { Q::kinetic_share, 0, "-", 0 } },
         { "load time", { Q::load_time, 0, "s", 0 } },
         { "loading rate", { Q::loading_rate, 0, "-", 0 } },
+        { "load factor", { Q::load_factor, 0, "-", 0 } },
+        { "controlled displacement",
+          { Q::controlled_displacement, 0, "m", 0 } },
         { "contacts", { Q::contacts, 0, "-" } },
         { "blocks outside", { Q::blocks_outside, 0, "-" } },
         { "open joints", { Q::open_joints, 0, "m" } },
@@ -116,6 +119,9 @@ namespace quoin
           "tensile strength and cohesion that a composite law has lost, 'joint "
           "crushing' the plastic displacement on its cap; 'contacts' the "
           "number of points that press on each other, matched joints apart; "
+          "'load factor' that of a stage's 'Load pattern' and 'controlled "
+          "displacement' what it controls, from the start of the stage on: "
+          "'nan' in stages without; "
           "'blocks outside' that of blocks that have left the 'Box' of section "
           "'Contact', deleted ones among them; 'open joints' the length of "
           "the joints that have failed in tension or are open, matched ones; "

@@ -14,7 +14,7 @@ whole, and dashpots that hold what it carried. Blocks placed and excavated, whol
 and divided. A divided block that slides along another one, from a joint that slipped
 on. Tetrahedra. A wall in equilibrium, cracking, to what its iterations leave, by both
 linear solvers; a block that is distributed over 2 and 3 ranks in equilibrium, without
-and with joints inside.
+and with joints inside. A stack of blocks under a load pattern, by both solvers.
 """
 import json
 import os
@@ -44,6 +44,15 @@ SHORT = ["Stages/%s/%s" % (stage, value)
 WALL = os.path.join(common.MASONRY, "tue_walls", "j4d.prm")
 PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
           "Implicit/Force ratio=1e-8"]
+# A stack pushed by a factor of loads that grow with the height; the factor is
+# no number in the first stage, a displacement is.
+COLLAPSE = os.path.join(common.VERIFICATION, "collapse_load", "stack.prm")
+COLLAPSING = ["Materials/block/Law=linear elastic",
+              "Materials/block/Young's modulus=1e9",
+              "Materials/block/Poisson's ratio=0.2",
+              "Stages/settle/Duration=5e-3", "Stages/push/Duration=0.02",
+              "Histories/Names=top", "Histories/top/Quantity=displacement x",
+              "Histories/top/Point=0.5, 3", "Histories/Interval=1e-4"]
 VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "rigid": (PATCH_TEST, SETS + ["Materials/rock/Law=rigid",
                                           "Loads/base/Type=traction"]),
@@ -114,6 +123,12 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                    "s.prm"),
                       ["Stages/wave/Damping=Rayleigh",
                        "Stages/wave/Rayleigh stiffness coefficient=1e-6"]),
+            # a load pattern on divided blocks
+            "pattern": (COLLAPSE, COLLAPSING),
+            "implicit, pattern": (
+                COLLAPSE, COLLAPSING + ["Solver=implicit",
+                                        "Implicit/Force ratio=1e-12",
+                                        "Implicit/Largest step=0.1"]),
             "implicit, divided": (
                 os.path.join(common.VERIFICATION, "kirsch", "case.prm"),
                 ["Solver=implicit"]),
@@ -129,6 +144,7 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                 WALL, PUSHED + ["Implicit/Linear solver=iterative"])}
 # Other than 2 and 4.
 RANKS = {"contacts, divided": (2, 3, 4), "implicit, divided": (2, 3),
+         "pattern": (2, 3), "implicit, pattern": (2, 3),
          "implicit, divided, cracked": (2, 3)}
 TOLERANCE = 1e-10
 # Of the peak, where an equilibrium is found to 'Force ratio'.

@@ -39,6 +39,10 @@ CASES = {
     # tetrahedra and dashpots
     "space": (os.path.join(common.VERIFICATION, "space_waves", "s.prm"),
               ["Output/Checkpoint interval=0.02"], 2, 2),
+    # the factor of a load pattern, past its peak
+    "pattern": (os.path.join(common.VERIFICATION, "collapse_load",
+                             "softening.prm"),
+                ["Output/Checkpoint interval=0.05"], 1, 2),
     # cells that yield
     "salencon": (os.path.join(common.VERIFICATION, "salencon", "case.prm"),
                  ["Output/Checkpoint interval=0.05",

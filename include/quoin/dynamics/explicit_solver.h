@@ -207,7 +207,8 @@ namespace quoin
     PlasticHistory plastic_now; /**< when energies are requested */
 
     const unsigned int energy_phase = time_shares.phase("energies"),
-                       rigid_phase  = time_shares.phase("rigid blocks");
+                       rigid_phase  = time_shares.phase("rigid blocks"),
+                       load_phase   = time_shares.phase("loads");
   };
 
   // Members that exist in two dimensions only.

@@ -16,6 +16,7 @@
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/platen.h>
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -99,6 +100,14 @@ namespace quoin
       return 0.;
     }
 
+    /** Sets this rank's @p terms of the displacement that the load pattern of
+        the stage @p name controls, if a history gives it. */
+    void set_control(const std::string &name,
+                     const std::vector<DisplacementTerm> &terms)
+    {
+      controls[name] = terms;
+    }
+
     /** Throws a RunError if the motion is no longer finite, which names the
         load if one is not; collective. */
     void check_finite(const State<dim> &state) const;
@@ -161,6 +170,11 @@ namespace quoin
     /** Lets gravity that @p previous, the stage before or null, has not grow
         over @p automatic [s], unless its parameters say otherwise. */
     void ramp_gravity(const StageParameters *previous, double automatic);
+    /** Begins the load pattern, if the stage has one, once the stage has
+        begun; it goes on with the factor of @p previous if that has the same
+        loads in its pattern. Collective. */
+    void begin_pattern(const StageParameters *previous,
+                       State<dim> &state) const;
     /** Refuses loads on absent blocks, except prescribed motions. */
     void refuse_absent_nodes(const State<dim> &state) const;
     /** Whether @p stage names @p constraint and, of far fields, is of its kind.
@@ -192,6 +206,8 @@ namespace quoin
     PhaseClock time_shares;
 
   private:
+    std::map<std::string, std::vector<DisplacementTerm>>
+        controls; /**< by the names of stages */
     void make_free_fields(const std::vector<LoadParameters> &loads);
     void add_far_fields(std::unique_ptr<FarField> far_field,
                         std::unique_ptr<StaticFarField> static_field);

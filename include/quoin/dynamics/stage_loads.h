@@ -5,12 +5,14 @@
 #define quoin_dynamics_stage_loads_h
 
 #include <quoin/model/free_bodies.h>
+#include <quoin/dynamics/load_pattern.h>
 #include <quoin/dynamics/release.h>
 #include <quoin/dynamics/stage_parameters.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/nodal_load.h>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace quoin
@@ -23,6 +25,8 @@ namespace quoin
     std::vector<MotionConstraint<dim> *> constraints; /**< in order of action */
     std::vector<const NodalLoad<dim> *> nodal;
     Release<dim> release; /**< of the forces of excavated blocks */
+    /** Loads that one factor scales, beside 'nodal'; null: none. */
+    std::shared_ptr<LoadPattern<dim>> pattern;
 
     /** Values of all of them but the release at @p load_time [s]. */
     std::vector<std::array<double, 4>> values(double stage_start,

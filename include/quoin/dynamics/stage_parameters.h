@@ -40,6 +40,15 @@ namespace quoin
     std::string expression;
   };
 
+  /** Loads that one factor scales, so that a displacement follows a function of
+      time; see LoadPattern. */
+  struct PatternParameters
+  {
+    std::vector<std::string> loads;
+    std::string controlled = "mean"; /**< or the name of a history */
+    TimeFunction control; /**< of the time in the stage, from 0 on [m] */
+  };
+
   /** One stage of a run: a subsection of 'Stages'. */
   struct StageParameters
   {
@@ -79,6 +88,9 @@ namespace quoin
     /** Cohesion, tensile strength and tangent of the friction angle of joints
         and blocks by those of their parameters [-]. */
     double strength_factor = 1.;
+
+    /** Loads beside 'loads' that are scaled; see PatternParameters. */
+    std::optional<PatternParameters> pattern;
 
     /** Strength reduction by trials, which leave the state unchanged. */
     std::optional<SafetyParameters> safety;

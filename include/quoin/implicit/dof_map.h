@@ -28,6 +28,8 @@ namespace quoin
    * after those of the nodes: displacement x and y of its centre, rotation,
    * and one that is always zero, so that all come in pairs.
    *
+   * The last one is the factor of a load pattern, if the stage has one.
+   *
    * Nodes that a load moves and nodes of absent blocks are constrained to
    * prescribed values; nodes of a body follow its degrees of freedom rigidly
    * through any rotation, u = d + (R - I) r, in constraints() by their present
@@ -50,11 +52,20 @@ namespace quoin
 
     /**
      * @p constraints: those that act in the stage, in their order; @p held:
-     * whether a platen moves each rigid block. Collective.
+     * whether a platen moves each rigid block; @p has_factor: whether the
+     * stage has a load pattern. Collective.
      */
     DofMap(const Model<2> &model,
            const std::vector<MotionConstraint<2> *> &constraints,
-           const std::vector<bool> &held, const State<2> &state);
+           const std::vector<bool> &held, const State<2> &state,
+           bool has_factor = false);
+
+    /** Of the factor of the load pattern; invalid without. The first rank owns
+        it. */
+    Index factor() const
+    {
+      return factor_dof;
+    }
 
     const RigidBodies &bodies() const
     {
@@ -143,7 +154,7 @@ namespace quoin
     void add_platens(const std::vector<MotionConstraint<2> *> &constraints,
                      const State<2> &state);
     void add_rigid_blocks(const std::vector<bool> &held);
-    void number();
+    void number(bool has_factor);
     /** Increment of component @p d of a driven body [m or rad]. */
     double given_motion(const RigidBody &body, unsigned int d, double from,
                         double to) const;
@@ -153,6 +164,7 @@ namespace quoin
     const double stage_start;
     RigidBodies body_list;
     unsigned int n_platens = 0;
+    Index factor_dof       = dealii::numbers::invalid_dof_index;
     std::vector<Prescribed> prescribed_list;
     std::vector<bool> absent; /**< of local nodes */
     std::vector<Tie> ties;    /**< of local nodes */

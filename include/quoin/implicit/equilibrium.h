@@ -5,6 +5,7 @@
 #define quoin_implicit_equilibrium_h
 
 #include <quoin/farfield/static_far_field.h>
+#include <quoin/dynamics/load_pattern.h>
 #include <quoin/dynamics/release.h>
 #include <quoin/implicit/dof_map.h>
 #include <quoin/loads/nodal_load.h>
@@ -38,6 +39,9 @@ namespace quoin
         origin [N m], of this rank. */
     std::array<double, 3> far_field_force{ { 0., 0., 0. } };
 
+    /** What the controlled displacement of a load pattern lacks [m]. */
+    double lacking = 0.;
+
     /** Increment of inelastic opening and slip, mean over the joints that
         measure the path [m]. */
     double path = 0.;
@@ -69,19 +73,27 @@ namespace quoin
 
   /**
    * The equations of equilibrium in a stage: residuals by the operators of the
-   * explicit solver, and their derivative.
+   * explicit solver, and their derivative. With a load pattern, p and c of
+   * LoadPattern, its factor is one more unknown and the controlled displacement
+   * one more equation,
+   * @f[ K \, \Delta u - p \, \Delta\lambda = r, \quad
+   *     c \cdot \Delta u = \hat w(t) - w , @f]
+   * in one matrix, which is regular also at a limit load, where K is not.
    */
   class Equilibrium
   {
   public:
     /**
      * Keeps references. @p path_sets: whether the inelastic motion of each
-     * joint set measures the path; @p far_field: boundary elements, or null.
+     * joint set measures the path; @p far_field: boundary elements, or null;
+     * @p pattern: loads that a factor scales, or null; it needs a DofMap with
+     * factor().
      */
     Equilibrium(const Model<2> &model, DofMap &dof_map,
                 const std::vector<const NodalLoad<2> *> &loads,
                 const std::vector<bool> &path_sets, double stage_start,
-                const StaticFarField *far_field);
+                const StaticFarField *far_field,
+                const LoadPattern<2> *pattern = nullptr);
 
     /** Adds the forces of excavated blocks; keeps a reference. */
     void set_release(const Release<2> &forces)
@@ -140,9 +152,15 @@ namespace quoin
                    const Configuration &configuration, Balance &balance);
     void add_drag(const State<2> &committed, const Configuration &configuration,
                   Balance &balance, Slopes *slopes);
-    /** Adds forces of loads on nodes that are present. */
-    void add_external(double load_time,
+    /** Adds forces of loads, with @p factor of the pattern, on nodes that are
+        present. */
+    void add_external(double load_time, double factor,
                       AlignedArray<NodeVector<2>> &force) const;
+    /** Adds the column and the row of the factor to the matrix and, to the
+        advance of a step to @p load_time [s], the displacement that it wants
+        beside prescribed motions. */
+    void add_pattern(const Configuration &configuration, double load_time,
+                     DofMap::Vector &by_advance);
     void find_ratio(const AlignedArray<NodeVector<2>> &applied,
                     Balance &balance);
     /** Adds an element to matrix and, by prescribed motion, @p by_advance. */
@@ -171,6 +189,7 @@ namespace quoin
     double drag          = 0.; /**< [-] */
     std::vector<double> drag_stiffness; /**< of local nodes, for drag 1 [N/m] */
 
+    const LoadPattern<2> *pattern;
     const StaticFarField *far_field;
     /** Minus the derivative of its forces on free degrees of freedom. */
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>

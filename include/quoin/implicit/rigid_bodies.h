@@ -42,6 +42,7 @@ namespace quoin
     BodyValues bodies;     /**< x, y [m] and rotation [rad] */
     double load_time = 0.; /**< in the stage [s] */
     double released  = 1.; /**< released share of the held forces [-] */
+    double factor    = 0.; /**< of the load pattern [-] */
   };
 
   Configuration configuration_of(const RigidBodies &bodies,

@@ -6,6 +6,7 @@
 
 #include <quoin/base/parameter_section.h>
 #include <quoin/loads/in_situ_stress.h>
+#include <quoin/loads/space_time_function.h>
 #include <quoin/loads/time_function.h>
 
 #include <array>
@@ -74,6 +75,10 @@ namespace quoin
     LoadComponent pressure; /**< of tractions */
     /** Time over which gravity grows where it begins [s]; -1: automatic. */
     double ramp_duration = -1.;
+
+    /** Tractions and gravity: factor by which they differ from place to place,
+        of the position in the mesh alone [-]; none: 1. */
+    std::optional<SpaceTimeFunction> distribution;
 
     /** All functions of time: the components, lateral and pressure. */
     std::array<LoadComponent, 5> functions() const

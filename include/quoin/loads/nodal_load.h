@@ -16,7 +16,8 @@ namespace quoin
    * A traction or gravity: forces a(t) w_i on nodes i with fixed weights w_i,
    * the tributary area [m^2] (face_share()) or the mass [kg]. A
    * pressure adds p(t) n_i, with n_i the tributary area times the inward
-   * normal.
+   * normal. A distribution of the load is a factor of w_i and n_i by the
+   * position of the node in the mesh.
    * Tractions and pressures act on the reference area and keep their
    * direction.
    */
@@ -60,6 +61,11 @@ namespace quoin
     }
 
   private:
+    void find_factors(const LoadParameters &parameters,
+                      const NodeMap<dim> &node_map);
+
+    /** The distribution at each of its nodes; empty: 1. */
+    std::vector<double> node_factors;
     std::string load_name;
     bool is_gravity;
     std::array<LoadComponent, 3> components;

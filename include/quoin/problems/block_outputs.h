@@ -39,6 +39,13 @@ namespace quoin
       return histories.need_balance();
     }
 
+    /** See Histories::terms_of(). */
+    std::vector<DisplacementTerm> terms_of(const std::string &name,
+                                           const std::string &where) const
+    {
+      return histories.terms_of(name, where);
+    }
+
     /** Called before the step whose row is due. */
     void before_row(const State<dim> &state)
     {

@@ -5,6 +5,7 @@
 #define quoin_problems_block_stage_h
 
 #include <quoin/problems/block_outputs.h>
+#include <quoin/problems/load_record.h>
 #include <quoin/problems/stage_steps.h>
 #include <quoin/results/history_conditions.h>
 
@@ -44,6 +45,7 @@ namespace quoin
     State<dim> state;
     std::vector<FactorSearch> searches; /**< of each stage, most unused */
     std::vector<StageOutcome> outcomes; /**< of each stage */
+    std::vector<LoadRecord> loads;      /**< of each stage */
     std::vector<double> peaks; /**< of histories: see HistoryConditions */
     double displaced = 0.;     /**< largest one where the stage began [m] */
     std::string failure; /**< why the last stage failed; empty: it did not */
@@ -70,6 +72,8 @@ namespace quoin
     virtual void finish()
     {
     }
+    /** Called before the step whose row is due. */
+    void before_row();
     /** Writes a row and looks whether a condition ends the stage. */
     void write_row();
     /** Whether a condition has been met. */
@@ -99,6 +103,8 @@ namespace quoin
 
   private:
     void warn_of_slip() const;
+    /** Records the loads of the row for @p time [s]. */
+    void record_loads(double time);
     /** Keeps and reports how the stage has ended. */
     void note_outcome();
     /** Forces of excavated blocks that a stage has not released when a
@@ -106,6 +112,10 @@ namespace quoin
     void keep_unreleased_forces();
 
     const HistoryConditions conditions; /**< by which the stage ends */
+    // Before the step whose row is due.
+    double load_time  = 0.;    /**< [s] */
+    double controlled = 0.;    /**< displacement by a load pattern [m] */
+    bool is_first     = false; /**< step of the stage */
   };
 
   /** A stage of the explicit solver that ends by time or at rest. */

@@ -53,6 +53,15 @@ namespace quoin
     /** Whether a row needs the unbalanced ratio of its own step. */
     bool need_balance() const;
 
+    /**
+     * This rank's terms of the displacement or relative displacement that the
+     * history @p name records. Throws an InputError about any other, which
+     * begins with @p where.
+     */
+    std::vector<DisplacementTerm> terms_of(const std::string &name,
+                                           const std::string &where) const;
+
+    /** Collective. */
     void before_step(const State<dim> &state);
 
     /** The row for the time before the step; collective. */
@@ -111,7 +120,8 @@ namespace quoin
     MPI_Comm communicator;
     const std::vector<bool> absent_in_the_end; /**< of physical surfaces */
     std::array<double, 2> load_clock{};        /**< time [s] and rate [-] */
-    double n_outside = 0.; /**< blocks that have left the box */
+    double n_outside  = 0.; /**< blocks that have left the box */
+    double controlled = 0.; /**< by a load pattern, NaN without [m] */
     std::vector<double> row;
   };
 

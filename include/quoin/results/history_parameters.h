@@ -30,6 +30,8 @@ namespace quoin
     kinetic_share,
     load_time,
     loading_rate,
+    load_factor,
+    controlled_displacement,
     contacts,
     blocks_outside,
     open_joints,

@@ -42,6 +42,7 @@ namespace
                                       *nodes);
       beam->prepare(state);
       state.add<ImplicitState>();
+      state.add<LoadPatternState>();
       beam->set_mass(model->mass());
       beam->begin_stage(state, false);
       dof_map = std::make_unique<DofMap>(
@@ -241,6 +242,7 @@ TEST(DofMap, TheLastMotionOfANodePrevails)
   const Model<2> model(nodes, two_blocks());
   State<2> state = model.initial_state();
   state.add<ImplicitState>();
+  state.add<LoadPatternState>();
   PrescribedMotion<2> bottom(motion("bottom", "bottom", "1", "2"), nodes);
   PrescribedMotion<2> sides(motion("sides", "sides", "3", ""), nodes);
   const DofMap dof_map(model, { &bottom, &sides }, {}, state);

@@ -109,3 +109,40 @@ TEST(NodalLoad, PressureAllAroundIsInBalanceAndDoesTheWorkOfVolume)
   EXPECT_NEAR(load.external_power({ 0., 0. }, velocity.data()),
               -7. * 2. * 3. * 0.3, 1e-13);
 }
+
+TEST(NodalLoad, DistributionIsAFactorByPlace)
+{
+  const Rectangle rectangle;
+  LoadParameters parameters;
+  parameters.name          = "triangle";
+  parameters.type          = LoadType::gravity;
+  parameters.components[0] = { LoadQuantity::force, TimeFunction("2", "./") };
+  parameters.distribution  = SpaceTimeFunction("x + 10 * y", "./", 3);
+  NodalLoad<2> load(parameters, rectangle.nodes, { 1., 2., 3., 4. }, 1.);
+  // Nodes at (0, 0), (3, 0), (3, 1), (0, 1); of a change of masses, too.
+  for (const double mass : { 1., 5. })
+  {
+    load.set_mass({ mass, 2. * mass, 3. * mass, 4. * mass });
+    std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
+    load.add_forces({ 0., 0. }, force.data());
+    const double expected[4] = { 0., 12., 78., 80. };
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      EXPECT_DOUBLE_EQ(force[i].v[0], mass * expected[i]);
+      EXPECT_EQ(force[i].v[1], 0.);
+    }
+  }
+  // A pressure at the nodes of the foot, x times half of its length.
+  parameters.type          = LoadType::traction;
+  parameters.boundaries    = { "wall" };
+  parameters.components[0] = {};
+  parameters.pressure      = { LoadQuantity::force, TimeFunction("1", "./") };
+  parameters.distribution  = SpaceTimeFunction("if(y > 0.5, 0, x)", "./", 3);
+  const NodalLoad<2> pressure(parameters, rectangle.nodes,
+                              std::vector<double>(4, 1.), 1.);
+  std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
+  pressure.add_forces({ 0., 0. }, force.data());
+  EXPECT_DOUBLE_EQ(force[1].v[1], 4.5);
+  EXPECT_EQ(force[0].v[1], 0.);
+  EXPECT_EQ(force[2].v[1], 0.);
+}

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_problems_load_record_h
+#define quoin_problems_load_record_h
+
+#include <quoin/operators/state.h>
+#include <quoin/problems/block_system.h>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <array>
+#include <limits>
+#include <string>
+
+namespace quoin
+{
+  /**
+   * What the rows of a stage have shown of its loads: the largest factor of a
+   * load pattern, and whether the supports took what was applied.
+   */
+  class LoadRecord
+  {
+  public:
+    /** The factor of the largest magnitude [-], and where [m] and when [s] it
+        was. */
+    struct Peak
+    {
+      double factor = 0., displacement = 0.;
+      double time = -1.; /**< -1: there is none */
+    };
+
+    /** Takes a row with the @p factor of a load pattern. */
+    void add_factor(double factor, double displacement, double time);
+
+    /** Takes a row at @p time [s]: resultants of the @p applied loads and of
+        the @p supports along the axes [N]. */
+    void add_forces(const std::array<double, 3> &applied,
+                    const std::array<double, 3> &supports, double time);
+
+    /**
+     * What is to be warned of: that along an axis along which the applied force
+     * varies, supports took another force than it when it was largest, by more
+     * than 5 %. Empty: nothing.
+     */
+    std::string warning() const;
+
+    /** Adds its figures to those of the stage in summary.json. */
+    void summarise(nlohmann::json &stage) const;
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &peak.factor &peak.displacement &peak.time;
+      for (Axis &axis : axes)
+        archive &axis.lowest &axis.highest &axis.applied &axis.supports &axis
+            .time;
+    }
+
+  private:
+    /** Forces along an axis: the range of the applied one, and both when its
+        magnitude was largest, at the last of such times [N, s]. */
+    struct Axis
+    {
+      double lowest  = std::numeric_limits<double>::infinity();
+      double highest = -std::numeric_limits<double>::infinity();
+      double applied = 0., supports = 0., time = 0.;
+
+      /** Whether it is to be warned of. */
+      bool parts() const;
+    };
+
+    Peak peak;
+    std::array<Axis, 3> axes;
+  };
+
+  /** Resultants along the axes of the loads and of the supports of a stage [N].
+   */
+  struct ForceBalance
+  {
+    std::array<double, 3> applied{}, supports{};
+  };
+
+  /**
+   * Those at @p load_time [s] of the stage that has begun, after the step of
+   * @p state from there on. Forces of platens count as applied, reactions of
+   * all other loads that move nodes, and of driven platens, as supports.
+   * Collective.
+   */
+  template <int dim>
+  ForceBalance force_balance(const BlockSystem<dim> &system,
+                             const State<dim> &state, double load_time);
+} // namespace quoin
+
+#endif

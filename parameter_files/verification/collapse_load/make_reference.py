@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Load factors of rigid blocks against the displacement of their loads.
+
+A body that turns by theta about an edge is in balance if the moments of its
+weight W and of the loads p of the factor 1 cancel,
+factor = W arm_W(theta) / (P arm_P(theta)), and the displacement of the loads
+along themselves is the integral of arm_P. A body that slides is in balance
+with the strength of its bed.
+"""
+import os
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+G, DENSITY, START = 9.81, 2000.0, 0.5
+
+
+def moved(t, v):
+    """'Control function', t from the start of the stage."""
+    return v * np.where(t < 0.2, t**2 / 0.4, t - 0.1)
+
+
+def save(name, times, w, factor):
+    np.savetxt(os.path.join(HERE, name),
+               np.transpose([START + times, factor, w]), delimiter=",",
+               fmt="%.9g", comments="", header="time [s],factor [-],moved [m]")
+
+
+def turned(w, ratio, weight, load, direction):
+    """Factor at the displacements w: places of weight and load from the edge,
+    the load towards direction; ratio: weight by load. The body turns
+    clockwise."""
+    theta = np.linspace(0, 0.6, 60001)
+    c, s = np.cos(theta), np.sin(theta)
+    place = np.array([c * load[0] + s * load[1], c * load[1] - s * load[0]])
+    way = direction @ (place - np.array(load)[:, None])
+    arm_weight = -(c * weight[0] + s * weight[1])
+    # clockwise moment of the load
+    arm_load = place[1] * direction[0] - place[0] * direction[1]
+    return np.interp(w, way, ratio * arm_weight / arm_load)
+
+
+times = np.linspace(0.02, 3, 150)
+w = moved(times, 0.1)
+save("overturning.csv", times, w,
+     turned(w, 1, (-0.5, 1), (-0.5, 1), np.array([1, 0])))
+
+weight, axle = DENSITY * 4 * 0.4 * G, 10e3
+save("axle.csv", times, w,
+     turned(w, weight / axle, (-1.1, 0.2), (0.7, 0.4), np.array([0, -1])))
+
+# the triangle has half the weight as its sum, at two thirds of the height
+times = np.linspace(0.02, 1, 50)
+w = moved(times, 0.01)
+save("triangle_overturning.csv", times, w,
+     turned(w, 2, (-0.5, 1.5), (-0.5, 2), np.array([1, 0])))
+
+# joints slide at mu W / p of what is above them: least at the top block
+heights = np.array([0, 1 / 3, 2 / 3])
+least = np.min(2 * np.tan(np.radians(15)) / (1 + heights))
+save("triangle_sliding.csv", times, w, np.full(len(times), least))
+
+# sliding of the block
+w = moved(times, 5e-3)
+save("sliding.csv", times, w, np.full(len(times), np.tan(np.radians(20))))
+
+# slip weakening: ks (s - p) = peak - (peak - residual) p / Dc
+pressure, ks, critical = DENSITY * 2 * G, 1e9, 3e-3
+peak = 20e3 + pressure * np.tan(np.radians(20))
+residual = 2e3 + pressure * np.tan(np.radians(10))
+fall = (peak - residual) / critical
+tau = np.maximum((peak - fall * w) / (1 - fall / ks), residual)
+save("softening.csv", times, w, np.minimum(ks * w, tau) / pressure)

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/number_text.h>
+#include <quoin/model/block_placement.h>
+#include <quoin/problems/load_record.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace quoin
+{
+  namespace
+  {
+    constexpr std::array<const char *, 3> axis_names = { "x", "y", "z" };
+
+    /** Difference of the forces, by the applied one, that is warned of [-]. */
+    constexpr double most_difference = 0.05;
+    /** Change of the applied force, by its magnitude, that is loading [-]. */
+    constexpr double least_change = 0.01;
+  } // namespace
+
+  void LoadRecord::add_factor(const double factor, const double displacement,
+                              const double time)
+  {
+    if (peak.time < 0. || std::abs(factor) > std::abs(peak.factor))
+      peak = { factor, displacement, time };
+  }
+
+  void LoadRecord::add_forces(const std::array<double, 3> &applied,
+                              const std::array<double, 3> &supports,
+                              const double time)
+  {
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      Axis &axis   = axes[d];
+      axis.lowest  = std::min(axis.lowest, applied[d]);
+      axis.highest = std::max(axis.highest, applied[d]);
+      // Constant loads have rounding.
+      if (std::abs(applied[d]) < (1. - 1e-9) * std::abs(axis.applied))
+        continue;
+      axis.applied  = applied[d];
+      axis.supports = supports[d];
+      axis.time     = time;
+    }
+  }
+
+  bool LoadRecord::Axis::parts() const
+  {
+    const double size = std::abs(applied);
+    return highest - lowest > least_change * size
+           && std::abs(applied + supports) > most_difference * size;
+  }
+
+  std::string LoadRecord::warning() const
+  {
+    std::string text;
+    for (unsigned int d = 0; d < 3; ++d)
+      if (const Axis &axis = axes[d]; axis.parts())
+        text += text_of(
+            text.empty() ? "" : " ", "along ", axis_names[d],
+            " the loads came to ", axis.applied, " N at time ", axis.time,
+            " s, but the supports took ", -axis.supports,
+            " N: the difference, ",
+            100. * std::abs((axis.applied + axis.supports) / axis.applied),
+            " %, moved the model or was damped, so what was applied is not "
+            "what the model bears.");
+    if (!text.empty())
+      text += " Load more slowly; beyond a limit load control a displacement, "
+              "by 'Load pattern'.";
+    return text;
+  }
+
+  void LoadRecord::summarise(nlohmann::json &stage) const
+  {
+    if (peak.time >= 0.)
+      stage["largest load factor"]
+          = { { "factor", peak.factor },
+              { "controlled displacement [m]", peak.displacement },
+              { "time [s]", peak.time } };
+    for (unsigned int d = 0; d < 3; ++d)
+      if (const Axis &axis = axes[d]; axis.parts())
+        stage["supports do not take the loads"][axis_names[d]]
+            = { { "applied [N]", axis.applied },
+                { "supports [N]", axis.supports },
+                { "time [s]", axis.time } };
+  }
+
+  template <int dim>
+  ForceBalance force_balance(const BlockSystem<dim> &system,
+                             const State<dim> &state, const double load_time)
+  {
+    const StageLoads<dim> &loads = system.solver->stage_loads();
+    const NodeMap<dim> &nodes    = *system.nodes;
+    const TimePoint time{ load_time, state.stage_start + load_time };
+    AlignedArray<NodeVector<dim>> force(nodes.n_local(), NodeVector<dim>{});
+    for (const NodalLoad<dim> *load : loads.nodal)
+      load->add_forces(time, force.data());
+    loads.release.add_forces(load_time, force.data());
+    const auto absent = absent_nodes(*system.model, state);
+    ForceBalance result;
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      for (unsigned int d = 0; d < dim && !absent[i]; ++d)
+        result.applied[d] += force[i].v[d];
+    MPI_Allreduce(MPI_IN_PLACE, result.applied.data(), 3, MPI_DOUBLE, MPI_SUM,
+                  nodes.communicator());
+    if (loads.pattern)
+    {
+      const double factor = state.template get<LoadPatternState>().factor;
+      const auto all      = loads.pattern->resultant();
+      for (unsigned int d = 0; d < dim; ++d)
+        result.applied[d] += factor * all[d];
+    }
+    for (const MotionConstraint<dim> *constraint : loads.constraints)
+    {
+      const auto &traits = constraint->traits();
+      const auto forces  = system.solver->resultant(constraint->name());
+      for (unsigned int d = 0; d < dim; ++d)
+        (traits.is_rigid_body() && !traits.holds[d] ? result.applied
+                                                    : result.supports)[d]
+            += forces[d];
+    }
+    return result;
+  }
+
+  template ForceBalance force_balance(const BlockSystem<2> &, const State<2> &,
+                                      double);
+  template ForceBalance force_balance(const BlockSystem<3> &, const State<3> &,
+                                      double);
+} // namespace quoin
