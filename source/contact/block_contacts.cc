@@ -200,8 +200,10 @@ namespace quoin
     const Edge &a        = local_edges[pair_edges[i][0]];
     const Edge &b        = local_edges[pair_edges[i][1]];
     const double *normal = g.normal[k];
-    if (g.opening[k] < -pair_depth[i] && g.overlap > -g.opening[k])
-      note_depth(i, -g.opening[k]);
+    // What crushed has closed for good and is not overlap.
+    const double deep = std::min(0., point.plastic_opening) - g.opening[k];
+    if (deep > pair_depth[i] && g.overlap > deep)
+      note_depth(i, deep);
     double opening     = g.opening[k];
     const double depth = point.plastic_opening - opening;
     if (depth > g.overlap)
@@ -219,6 +221,7 @@ namespace quoin
     const double mean_area = 0.5 * (g.area[k] + point.area) * pair_share[i];
     losses.friction += mean_area * step.lost.friction;
     losses.fracture += mean_area * step.lost.fracture;
+    losses.crushing += mean_area * step.lost.crushing;
     if (step.flows)
     {
       // Anchors behind would turn rotation into slip.
@@ -288,6 +291,7 @@ namespace quoin
     }
     state.energy.friction += losses.friction;
     state.energy.fracture += losses.fracture;
+    state.energy.crushing += losses.crushing;
     state.energy.contact += losses.contact;
 
     scatter(compact_force, forces.force);
@@ -362,13 +366,14 @@ namespace quoin
     ContactPair &pair    = contacts.pairs[i];
     const double opening = std::min(g.opening[0], g.opening[1]);
     pair.was_open        = pair.was_open || opening >= 0.;
-    if (opening <= -pair_depth[i] || (opening >= 0. && !dilates))
+    if (opening >= 0. && !dilates)
       return false;
     unsigned int set = pair.set;
     ContactPoint inherited;
     double deepest     = 0.;
     const bool is_heir = find_parent(contacts, i, set, inherited, deepest);
-    if (opening >= inherited.plastic_opening)
+    if (opening >= inherited.plastic_opening
+        || opening <= std::min(0., inherited.plastic_opening) - pair_depth[i])
       return false;
     // Edges that overlap from behind, as those of thin wedges which lie on
     // each other, were never apart, and their vertices lie outside.

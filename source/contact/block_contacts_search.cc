@@ -99,9 +99,6 @@ namespace quoin
     dilates = false;
     for (const JointSetParameters &set : sets)
     {
-      if (const std::string why = no_contacts(set.law); !why.empty())
-        throw InputError("section 'Joints/" + set.name + "': general contacts "
-                         + why + ". Take 'Law = Coulomb'.");
       laws.push_back(set.law);
       dilates = dilates || can_dilate(set.law);
     }

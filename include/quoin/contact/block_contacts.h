@@ -69,8 +69,7 @@ namespace quoin
   public:
     /**
      * Keeps references to @p node_map and @p joints; collective. Throws an
-     * InputError about materials that no set for new contacts covers, and
-     * about laws that are not for contacts.
+     * InputError about materials that no set for new contacts covers.
      */
     BlockContacts(const NodeMap<2> &node_map, const MatchedJoints &joints,
                   const ContactModel &model);
@@ -229,7 +228,7 @@ namespace quoin
     /** What a step loses [J]. */
     struct Losses
     {
-      double friction = 0., fracture = 0.;
+      double friction = 0., fracture = 0., crushing = 0.;
       double contact = 0.; /**< with areas and contacts that go */
     };
     void gather_velocities(const NodeVector<2> *velocity);

@@ -328,6 +328,31 @@ TEST(BlockContacts, DilationIsNotForgottenFromEdgeToEdge)
   }
 }
 
+namespace
+{
+  /** A composite set for joints and new contacts that crushes under the
+      pressure of the scenes. */
+  JointSetParameters crushing_mortar()
+  {
+    JointSetParameters set = touching();
+    set.name               = "mortar";
+    CompositeLaw law;
+    law.normal_stiffness       = kn;
+    law.shear_stiffness        = ks;
+    law.tension                = 1e4;
+    law.tension_energy         = 5.;
+    law.cohesion               = 2e4;
+    law.shear_energy           = 2.;
+    law.friction               = 0.5;
+    law.residual_friction      = 0.4;
+    law.cap.compression        = 9e5;
+    law.cap.compression_energy = 1e3;
+    law.cap.peak_crushing      = 1e-3;
+    set.law                    = law;
+    return set;
+  }
+} // namespace
+
 TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
 {
   JointSetParameters weak = elastic_joint(kn, ks), strong = weak;
@@ -336,9 +361,12 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
   coulomb_law(strong).peak     = { 1e4, 0.5, 0. };
   coulomb_law(strong).residual = { 0., 0.5, 0. };
   JointSetParameters rough = strong, yielding = strong;
-  rough.law    = rock_test::rough();
-  yielding.law = rock_test::yielding();
-  for (const JointSetParameters &joint : { weak, strong, rough, yielding })
+  rough.law                 = rock_test::rough();
+  yielding.law              = rock_test::yielding();
+  JointSetParameters mortar = strong;
+  mortar.law                = crushing_mortar().law;
+  for (const JointSetParameters &joint :
+       { weak, strong, rough, yielding, mortar })
     for (const double angle : { 0., 0.008 })
     {
       Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); },
@@ -482,6 +510,102 @@ TEST(BlockContacts, NewContactsOfRockAreWorn)
     EXPECT_NEAR(force[0], -std::tan(angle[i++] * rock_test::degree) * force[1],
                 1e-3 * force[1]);
   }
+}
+
+// A joint crushes, slides and is handed over; beside a twin that has stayed a
+// matched joint it goes on crushing, unloads and keeps what it closed by.
+TEST(BlockContacts, HandedOverJointsStayCrushed)
+{
+  JointSetParameters mortar = crushing_mortar();
+  mortar.curves             = { "unnamed" };
+  Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); }, { mortar });
+  const unsigned int upper = scene.block_at(0., 2.);
+  const auto law           = std::get<CompositeLaw>(mortar.law);
+  JointHistory twin        = scene.state.get<JointHistory>();
+  EnergyAccounts of_twin;
+  std::array<double, 3> matched;
+  const auto step = [&](const double x, const double y)
+  {
+    scene.move(upper, x, y);
+    scene.find_forces();
+    const auto force = scene.force;
+    scene.force.assign(scene.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+    scene.joints.add_forces(scene.state.nodes.data(), twin, of_twin,
+                            scene.force.data());
+    matched     = scene.total(upper);
+    scene.force = force;
+  };
+  for (unsigned int i = 0; i < 40; ++i)
+    step(0., -0.05 * closing);
+  while (!scene.state.get<ContactState>().handed_over[0])
+    step(0.2 * closing, 0.);
+  for (const double down : { -0.05, -0.05, -0.05, 0.04, 0.04 })
+  {
+    for (unsigned int i = 0; i < 20; ++i)
+      step(0., down * closing);
+    const auto general = scene.total(upper);
+    for (unsigned int d = 0; d < 3; ++d)
+      EXPECT_NEAR(general[d], matched[d], 2e-3 * std::abs(matched[1]))
+          << "component " << d << ", after " << down;
+  }
+  const EnergyAccounts &energy = scene.state.energy;
+  EXPECT_GT(of_twin.crushing, 0.);
+  EXPECT_NEAR(energy.crushing, of_twin.crushing, 1e-3 * of_twin.crushing);
+  EXPECT_NEAR(energy.fracture, of_twin.fracture, 1e-3 * of_twin.crushing);
+  double crushed = 0.;
+  for (const ContactPair &pair : scene.state.get<ContactState>().pairs)
+    if (pair.was_joint)
+      for (const ContactPoint &point : pair.points)
+      {
+        EXPECT_LT(point.internal[0], 0.05); // bond
+        EXPECT_GT(point.internal[1], 2. * closing);
+        crushed = point.plastic_opening;
+      }
+  // Lifted to where the joint has closed by it bears neither load nor tension.
+  step(0., 0.5 * crushed - scene.state.nodes.back().u[1]);
+  EXPECT_NEAR(scene.total(upper)[1], 0., 0.05 * law.tension);
+}
+
+// Blocks that were never joined have no bond, and the set's cap.
+TEST(BlockContacts, NewCompositeContactsHaveNoBond)
+{
+  const JointSetParameters mortar = crushing_mortar();
+  const auto law                  = std::get<CompositeLaw>(mortar.law);
+  Scene scene({ { 0., 0., 4., 1., 1, 1 }, { 1., 1., 1., 1., 1, 1 } },
+              { mortar });
+  const unsigned int upper = scene.block_at(1., 2.);
+  scene.move(upper, 0., -0.2 * closing);
+  scene.find_forces();
+  for (unsigned int step = 0; step < 200; ++step)
+  {
+    scene.move(upper, 2e-6, 0.);
+    scene.find_forces();
+  }
+  const auto slid = scene.total(upper);
+  EXPECT_GT(slid[1], 0.);
+  EXPECT_NEAR(slid[0], -law.residual_friction * slid[1], 1e-6 * slid[1]);
+  for (unsigned int step = 0; step < 200; ++step)
+  {
+    scene.move(upper, 0., -1e-5);
+    scene.find_forces();
+  }
+  // What the shear traction takes of the cap is little once it has softened.
+  double crushing = 0., sigma = 0., tau = 0.;
+  for (const ContactPair &pair : scene.state.get<ContactState>().pairs)
+    if (pair.active)
+    {
+      crushing = pair.points[0].internal[1];
+      sigma    = pair.points[0].normal_traction;
+      tau      = pair.points[0].shear_traction;
+      EXPECT_EQ(pair.points[0].internal[0], 0.);
+    }
+  EXPECT_GT(crushing, 1e-3);
+  EXPECT_NEAR(law.cap.load(sigma, tau),
+              law.cap.limit(crushing) * law.cap.limit(crushing),
+              1e-9 * law.cap.compression * law.cap.compression);
+  scene.move(upper, 0., 2. * crushing);
+  scene.find_forces();
+  EXPECT_EQ(scene.total(upper)[1], 0.);
 }
 
 TEST(BlockContacts, SearchesChangeNothing)
