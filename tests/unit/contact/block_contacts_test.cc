@@ -608,6 +608,56 @@ TEST(BlockContacts, NewCompositeContactsHaveNoBond)
   EXPECT_EQ(scene.total(upper)[1], 0.);
 }
 
+// A block slides with friction over a corner while it tips: the work of its
+// nodes is stored, lost to friction or to areas that change. Kinks within the
+// steps are in the accounts; what is left falls with the square of the step.
+TEST(BlockContacts, WorkIsStoredOrDissipated)
+{
+  for (const double friction : { 0., 0.4 })
+  {
+    Scene scene({ { 0., 0., 2., 1., 2, 1 }, { 1.2, 1., 1., 1., 2, 1 } },
+                { touching(friction) });
+    const unsigned int upper = scene.block_at(1.2, 2.);
+    scene.move(upper, 0., 0.1 * closing);
+    scene.find_forces();
+    Scene *const s        = &scene;
+    const double at_start = s->contacts->stored_energy(s->state);
+    const unsigned int n  = 40000;
+    double work = 0., throughput = 0.;
+    double angle = 0., x = 0., y = 0.1 * closing;
+    for (unsigned int i = 1; i <= n; ++i)
+    {
+      const auto nodes = scene.state.nodes;
+      const auto force = scene.force;
+      const double p   = static_cast<double>(i) / n;
+      // Tips over its own corner and over that of the block below in turn.
+      const double next[3]
+          = { 0.02 * std::sin(20. * p), 0.1 * std::sin(3. * p) + 1e-3 * p,
+              closing * (0.1 - 4. * std::sin(9. * p)) };
+      scene.turn(upper, next[0] - angle, 2. + x, 1. + y);
+      scene.move(upper, next[1] - x, next[2] - y);
+      angle = next[0];
+      x     = next[1];
+      y     = next[2];
+      scene.find_forces(i % 20 == 0);
+      for (unsigned int v = 0; v < nodes.size(); ++v)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double w = 0.5 * (force[v].v[d] + scene.force[v].v[d])
+                           * (scene.state.nodes[v].u[d] - nodes[v].u[d]);
+          work += w;
+          throughput += std::abs(w);
+        }
+    }
+    const EnergyAccounts &lost = scene.state.energy;
+    const double stored = scene.contacts->stored_energy(scene.state) - at_start;
+    EXPECT_NEAR(work + stored + lost.friction + lost.contact, 0.,
+                1e-5 * throughput)
+        << "friction " << friction << ": work " << work << ", stored " << stored
+        << ", friction " << lost.friction << ", contact " << lost.contact;
+  }
+}
+
 TEST(BlockContacts, SearchesChangeNothing)
 {
   Scene scene({ { 0., 0., 4., 1., 8, 1 }, { 0.1, 1., 1.2, 1., 3, 1 } });
