@@ -348,6 +348,7 @@ namespace
     law.cap.compression        = 9e5;
     law.cap.compression_energy = 1e3;
     law.cap.peak_crushing      = 1e-3;
+    law.cap.shear              = 0.1;
     set.law                    = law;
     return set;
   }
@@ -620,8 +621,7 @@ TEST(BlockContacts, WorkIsStoredOrDissipated)
     const unsigned int upper = scene.block_at(1.2, 2.);
     scene.move(upper, 0., 0.1 * closing);
     scene.find_forces();
-    Scene *const s        = &scene;
-    const double at_start = s->contacts->stored_energy(s->state);
+    const double at_start = scene.contacts->stored_energy(scene.state);
     const unsigned int n  = 40000;
     double work = 0., throughput = 0.;
     double angle = 0., x = 0., y = 0.1 * closing;
