@@ -181,7 +181,12 @@ namespace quoin
                                              PlasticHistory &history,
                                              NodeVector<2> *force) const
   {
-    double dissipated = 0.;
+    double dissipated     = 0.;
+    std::uint8_t yielding = 0;
+    if (data.is_plastic())
+      for (std::size_t k = tile.cells.begin; k < tile.cells.end; ++k)
+        yielding |= history.yielding[k]
+            = MohrCoulomb::past(history.yielding[k]);
     for (std::size_t r = tile.begin_run; r < tile.end_run; ++r)
     {
       const Run &run  = runs[r];
@@ -196,13 +201,26 @@ namespace quoin
       NodeVector<2> *tile_force         = force + tile.nodes.begin;
       if (const MohrCoulomb *yields = data.law(run.stiffness))
       {
-        const PlasticStrips<lanes> strips(
-            *yields, data.stiffness[run.stiffness], data.thickness,
-            &lane_cells[run.first_step * lanes],
-            lane_stress.empty() ? nullptr : data.initial_stress.data(),
-            history);
-        dissipated += strips.add_forces(sequence, tile_records, tile_force,
-                                        prefetcher);
+        const std::uint32_t *const cells = &lane_cells[run.first_step * lanes];
+        const auto add                   = [&](const auto intact)
+        {
+          const PlasticStrips<lanes, decltype(intact)::value> strips(
+              *yields, data.stiffness[run.stiffness], data.thickness, cells,
+              lane_stress.empty() ? nullptr : data.initial_stress.data(),
+              history);
+          dissipated += strips.add_forces(sequence, tile_records, tile_force,
+                                          prefetcher);
+        };
+        // One cell is looked up after the other only in tiles that yield.
+        const bool intact = yielding == 0
+                            || std::none_of(cells, cells + run.n_steps * lanes,
+                                            [&](const std::uint32_t c) {
+                                              return history.yielding[c] != 0;
+                                            });
+        if (intact)
+          add(std::true_type());
+        else
+          add(std::false_type());
       }
       else if (lane_stress.empty())
         elastic_strips<lanes, false>(sequence, moduli, nullptr, tile_records,
@@ -237,10 +255,6 @@ namespace quoin
                                     PlasticHistory &history,
                                     NodeVector<2> *force) const
   {
-    if (data.is_plastic())
-      for (std::size_t k = tiles[tile].cells.begin; k < tiles[tile].cells.end;
-           ++k)
-        history.yielding[k] = MohrCoulomb::past(history.yielding[k]);
     return n_lanes == 8
                ? add_forces_in_lanes<8>(tiles[tile], nodes, history, force)
                : add_forces_in_lanes<4>(tiles[tile], nodes, history, force);

@@ -25,8 +25,11 @@ namespace quoin
      * m the mean stress in the plane, N = N_phi, q the unconfined compressive
      * strength; both sides times the volume of F_e by that at the start, so
      * that nothing is divided. The law gets the triangles that exceed it.
+     *
+     * In @p intact strips no cell has yielded before: Q is zero and is neither
+     * loaded nor computed with.
      */
-    template <int lanes>
+    template <int lanes, bool intact>
     class PlasticStrips
     {
     public:
@@ -106,10 +109,20 @@ namespace quoin
       double strength, tension, number, inverse, slope, cohesion;
     };
 
-    template <int lanes>
-    void PlasticStrips<lanes>::take_edges(const std::uint32_t *at,
-                                          const Step &before, Step &now) const
+    template <int lanes, bool intact>
+    void PlasticStrips<lanes, intact>::take_edges(const std::uint32_t *at,
+                                                  const Step &before,
+                                                  Step &now) const
     {
+      const Vector<lanes> &e1 = before.e, &e2 = now.e;
+      const Value det = e1.x * e2.y - e1.y * e2.x;
+      if constexpr (intact)
+      {
+        now.b1 = e1;
+        now.b2 = e2;
+        StripWalk<lanes>::take_gradient({ e1, e2, before.w, now.w }, det, now);
+        return;
+      }
       Value q[4];
       L::load_four(
           [&](const int l) { return history.cells[at[l]].inverse_stretch; }, q);
@@ -120,10 +133,8 @@ namespace quoin
         b = { e.x + (q[1] * e.x - q[2] * e.y),
               e.y + (q[0] * e.y - q[2] * e.x) };
       };
-      const Vector<lanes> &e1 = before.e, &e2 = now.e;
       stretch(e1, now.b1);
       stretch(e2, now.b2);
-      const Value det = e1.x * e2.y - e1.y * e2.x;
       Gradient<lanes> G(now.b1, now.b2, before.w, now.w);
       G.sum += det * (q[0] + q[1]);
       G.h1 += det * (q[0] - q[1]);
@@ -133,25 +144,33 @@ namespace quoin
       now.q_area = (1. + q[0]) * (1. + q[1]) - q[2] * q[2];
     }
 
-    template <int lanes>
-    auto PlasticStrips<lanes>::trial_stress(const std::uint32_t *at,
-                                            const Strain &e,
-                                            const Value &q_zz) const -> Stress
+    template <int lanes, bool intact>
+    auto PlasticStrips<lanes, intact>::trial_stress(const std::uint32_t *at,
+                                                    const Strain &e,
+                                                    const Value &q_zz) const
+        -> Stress
     {
       Stress s;
-      s.mean  = bulk * e.trace + c12 * q_zz;
+      s.mean  = bulk * e.trace;
       s.half  = 2. * shear * e.half;
       s.shear = 2. * shear * e.shear;
-      s.zz    = c12 * e.trace + c11 * q_zz;
+      s.zz    = c12 * e.trace;
+      if constexpr (!intact)
+      {
+        s.mean += c12 * q_zz;
+        s.zz += c11 * q_zz;
+      }
       if (initial)
       {
         // That of a cell which has yielded is part of its elastic stretch.
         alignas(32) static constexpr double none[4]{};
         Value s0[4];
         L::load_four(
-            [&](const int l) {
-              return history.yielding[at[l]] != 0 ? none
-                                                  : initial[at[l]].data();
+            [&](const int l)
+            {
+              return !intact && history.yielding[at[l]] != 0
+                         ? none
+                         : initial[at[l]].data();
             },
             s0);
         s.mean += 0.5 * (s0[0] + s0[1]);
@@ -162,25 +181,32 @@ namespace quoin
       return s;
     }
 
-    template <int lanes>
-    std::uint8_t
-    PlasticStrips<lanes>::exceeding(const Stress &s, const Strain &e,
-                                    const Value &turn, const Step &now) const
+    template <int lanes, bool intact>
+    std::uint8_t PlasticStrips<lanes, intact>::exceeding(const Stress &s,
+                                                         const Strain &e,
+                                                         const Value &turn,
+                                                         const Step &now) const
     {
       // Kirchhoff's stress (S + turn J) U times b is to be compared with the
       // limits times a; a / b is the volume by that at the start.
       const Value u = 1. + 0.5 * e.trace;
       Value a       = u * u - e.half * e.half - e.shear * e.shear;
-      Value b       = now.q_area;
       if (!out_of_plane)
-      {
         a *= 1. + thinning * e.trace;
-        b *= 1. + now.q_zz;
+      Value mean = s.mean * u + s.half * e.half + s.shear * e.shear;
+      Value half = s.mean * e.half - turn * e.shear + s.half * u;
+      Value tau  = s.mean * e.shear + turn * e.half + s.shear * u;
+      Value zz   = s.zz;
+      if constexpr (!intact)
+      {
+        Value b = now.q_area;
+        if (!out_of_plane)
+          b *= 1. + now.q_zz;
+        mean *= b;
+        half *= b;
+        tau *= b;
+        zz *= b * (1. + now.q_zz);
       }
-      const Value mean = b * (s.mean * u + s.half * e.half + s.shear * e.shear);
-      const Value half = b * (s.mean * e.half - turn * e.shear + s.half * u);
-      const Value tau  = b * (s.mean * e.shear + turn * e.half + s.shear * u);
-      const Value zz   = b * s.zz * (1. + now.q_zz);
 
       const Value q = strength * a;
       Value limit   = cohesion * a - slope * mean;
@@ -193,10 +219,10 @@ namespace quoin
              | L::greater(zz, tension * a);
     }
 
-    template <int lanes>
-    void PlasticStrips<lanes>::keep_stress(const std::uint32_t *at,
-                                           const std::uint8_t mask,
-                                           const Stress &s) const
+    template <int lanes, bool intact>
+    void PlasticStrips<lanes, intact>::keep_stress(const std::uint32_t *at,
+                                                   const std::uint8_t mask,
+                                                   const Stress &s) const
     {
       alignas(32) double unused[4];
       L::store_four(
@@ -205,11 +231,11 @@ namespace quoin
           { s.mean + s.half, s.mean - s.half, s.shear, s.zz });
     }
 
-    template <int lanes>
-    double PlasticStrips<lanes>::yield(const std::uint32_t *at,
-                                       const std::uint8_t mask,
-                                       const Value &volume, const Strain &e,
-                                       Stress &s) const
+    template <int lanes, bool intact>
+    double PlasticStrips<lanes, intact>::yield(const std::uint32_t *at,
+                                               const std::uint8_t mask,
+                                               const Value &volume,
+                                               const Strain &e, Stress &s) const
     {
       double dissipated = 0.;
       for (int l = 0; l < lanes; ++l)
@@ -231,11 +257,10 @@ namespace quoin
       return dissipated;
     }
 
-    template <int lanes>
-    double PlasticStrips<lanes>::add_forces(const StripSequence &sequence,
-                                            const NodeRecord<2> *nodes,
-                                            NodeVector<2> *force,
-                                            Prefetcher &prefetcher) const
+    template <int lanes, bool intact>
+    double PlasticStrips<lanes, intact>::add_forces(
+        const StripSequence &sequence, const NodeRecord<2> *nodes,
+        NodeVector<2> *force, Prefetcher &prefetcher) const
     {
       char *const sums = reinterpret_cast<char *>(force);
 

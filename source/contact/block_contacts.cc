@@ -20,6 +20,28 @@ namespace quoin
     /** Share of the shorter edge by which edges may overlap that meet without
         having been seen apart. */
     constexpr double first_overlap = 1e-3;
+
+    /**
+     * How far [m] the end of an overlap lies beyond the vertex of one edge, by
+     * how far @p inside the other edge this vertex lies. Minus the derivative,
+     * @p share, by which the end goes with the other edge's vertex, goes from
+     * 1 to 0 over twice the @p rounding length [m], which @p shift moves; where
+     * the vertices coincide the end is theirs.
+     */
+    double soft_end(const double inside, const double shift,
+                    const double rounding, double &share)
+    {
+      if (rounding == 0.)
+      {
+        share = inside < 0. ? 1. : 0.;
+        return std::max(0., -inside);
+      }
+      const double v    = inside + shift * rounding;
+      const double left = std::max(0., 1. - std::abs(v) / rounding);
+      const double part = 0.5 * left * (3. * left - 2.);
+      share             = v < 0. ? 1. - part : part;
+      return std::max(0., -v) - 0.5 * std::abs(v) * left * left;
+    }
   } // namespace
 
   bool BlockContacts::geometry(const ContactPair &pair, const Edge &a,
@@ -45,7 +67,13 @@ namespace quoin
     const double overlap = ends[1] - ends[0];
     if (!(overlap > 0.))
       return false;
-    result.overlap = overlap;
+    result.overlap    = overlap;
+    result.tangent[0] = t[0];
+    result.tangent[1] = t[1];
+    result.half       = half;
+    result.slope      = (a.tangent[0] * t[1] - a.tangent[1] * t[0]) / half;
+    result.begin      = begin_b;
+    result.height     = x * t[1] - y * t[0];
 
     // The length that counts allows for the slip at which a matched joint,
     // whose length does not change, became this contact.
@@ -74,20 +102,28 @@ namespace quoin
     const double rounding = parameters.rounding * std::min(a.length, b.length);
     for (unsigned int k = 0; k < 2; ++k)
     {
-      result.lower[k] = ends[k] / along_a;
-      result.upper[k] = (begin_b - ends[k]) / along_b;
-      const double dx = x + result.upper[k] * b.length * b.tangent[0]
+      // As soon as a corner is among them the end of the overlap goes over from
+      // one vertex to the other within the rounding length.
+      const double ca = a.corner[k], cb = b.corner[1 - k];
+      const double shift  = ca * (1. - cb) - cb * (1. - ca);
+      const double beyond = soft_end(
+          inside[k], shift, rounding * std::max(ca, cb), result.share[k]);
+      const double end = k == 0 ? beyond : along_a - beyond;
+      result.lower[k]  = end / along_a;
+      result.upper[k]  = (begin_b - end) / along_b;
+      const double dx  = x + result.upper[k] * b.length * b.tangent[0]
                         - result.lower[k] * a.length * a.tangent[0];
       const double dy = y + result.upper[k] * b.length * b.tangent[1]
                         - result.lower[k] * a.length * a.tangent[1];
       // The edge that a vertex touches gives the normal. Where two vertices
       // pass each other it turns from one edge to the other, unless one of
       // them is no corner: then its edge's normal holds on.
-      const double ca = a.corner[k], cb = b.corner[1 - k];
-      const double touched = std::clamp(
-          0.5 * (1. + inside[k] / rounding + ca * (1. - cb) - cb * (1. - ca)),
-          0., 1.);
-      const double of_b = 0.5 * parallel + (1. - parallel) * touched;
+      const double touched = 0.5 * (1. + inside[k] / rounding + shift);
+      const double of_b
+          = 0.5 * parallel + (1. - parallel) * std::clamp(touched, 0., 1.);
+      result.lean[k] = 2. * of_b - 1.;
+      result.turn[k]
+          = touched > 0. && touched < 1. ? (1. - parallel) / rounding : 0.;
       const double of_a = 1. - of_b;
       const double norm = 1. / std::sqrt(1. - 2. * of_a * of_b * (1. - cosine));
       double *normal    = result.normal[k];
@@ -201,8 +237,15 @@ namespace quoin
     const Edge &a        = local_edges[pair_edges[i][0]];
     const Edge &b        = local_edges[pair_edges[i][1]];
     const double *normal = g.normal[k];
-    if (g.opening[k] < -pair_depth[i] && g.overlap > -g.opening[k])
-      note_depth(i, -g.opening[k]);
+    // What crushed has closed for good and is not overlap.
+    const double deep = std::min(0., point.plastic_opening) - g.opening[k];
+    if (deep > pair_depth[i] && g.overlap > deep)
+      note_depth(i, deep);
+    // Kinks of the law within a step: what the trapezoidal work of a contact
+    // that closes or opens there has beyond its energy.
+    const double pulled_before = point.area * point.normal_traction;
+    const double gap_before    = open_gap(point);
+
     double opening     = g.opening[k];
     const double depth = point.plastic_opening - opening;
     if (depth > g.overlap)
@@ -220,6 +263,7 @@ namespace quoin
     const double mean_area = 0.5 * (g.area[k] + point.area) * pair_share[i];
     losses.friction += mean_area * step.lost.friction;
     losses.fracture += mean_area * step.lost.fracture;
+    losses.crushing += mean_area * step.lost.crushing;
     if (step.flows)
     {
       // Anchors behind would turn rotation into slip.
@@ -230,19 +274,94 @@ namespace quoin
     // What the trapezoidal work of a spring with changing area leaves over
     // from the change of its energy.
     losses.contact += pair_share[i] * (point.area - g.area[k]) * step.carried;
-    point.area     = g.area[k];
-    openings[i][k] = opening;
+    point.area    = g.area[k];
+    point.opening = opening;
 
     const double sigma = g.area[k] * point.normal_traction;
     const double tau   = g.area[k] * point.shear_traction;
-    const double f[2]  = { sigma * normal[0] + tau * normal[1],
-                           sigma * normal[1] - tau * normal[0] };
-    spread(a, b, g.lower[k], g.upper[k], f, compact_force.data());
+    losses.contact += 0.5 * pair_share[i] * (pulled_before + sigma)
+                      * (open_gap(point) - gap_before);
+    if (sigma != 0. || tau != 0.)
+      add_tractions(a, b, g, k, point, sigma, tau);
     if (viscous_beta > 0. && point.state != JointState::open
         && point.state != JointState::slipping)
       add_viscous_forces(a, b, g, k, viscous_beta, stiffness);
     if (damps && point.normal_traction < 0.)
       note_dashpot(i, k, g, { { opening, slip_now } }, stiffness);
+  }
+
+  double BlockContacts::open_gap(const ContactPoint &point)
+  {
+    return point.normal_traction == 0. && std::isfinite(point.opening)
+               ? std::max(0., point.opening - point.plastic_opening)
+               : 0.;
+  }
+
+  void BlockContacts::add_tractions(const Edge &a, const Edge &b,
+                                    const Geometry &g, const unsigned int k,
+                                    const ContactPoint &point,
+                                    const double sigma, const double tau)
+  {
+    const double *normal = g.normal[k], *t = g.tangent;
+    const double f[2] = { tau * normal[1], -tau * normal[0] };
+    spread(a, b, point.anchor_lower, point.anchor_upper, f,
+           compact_force.data());
+
+    // theory.md, "General contacts": the differential of sigma u_n + tau u_s
+    // by the place of b, the rotations and the lengths of both edges.
+    const double cosine = normal[0] * t[1] - normal[1] * t[0];
+    const double sine   = normal[0] * t[0] + normal[1] * t[1];
+    const double rise   = g.slope * g.half;
+    const double end    = g.lower[k] * g.half * a.length;
+    const double lag    = g.begin - 2. * end;
+    const double height = g.height + g.slope * lag;
+    const double pull   = 2. * g.slope * cosine * sigma;
+    const double side   = k == 0 ? -1. : 1.;
+
+    const double la = point.anchor_lower * a.length;
+    const double lb = point.anchor_upper * b.length;
+    const double across
+        = (b.x - a.x + lb * b.tangent[0] - la * a.tangent[0]) * normal[0]
+          + (b.y - a.y + lb * b.tangent[1] - la * a.tangent[1]) * normal[1];
+    const double by_turn
+        = cosine * cosine * (tau * across - sigma * height * sine);
+    const double by_slope = sigma * cosine * lag + by_turn * g.lean[k];
+    const double by_inside
+        = by_turn * g.slope * g.turn[k] - side * pull * g.share[k];
+
+    const double along   = 0.5 * pull + side * by_inside;
+    const double move[2] = { sigma * cosine * t[1] + along * t[0],
+                             along * t[1] - sigma * cosine * t[0] };
+    const double turn
+        = tau * across + move[0] * (b.y - a.y) - move[1] * (b.x - a.x);
+    double bend      = -by_slope / (g.half * g.half);
+    double stretch_a = 0., stretch_b = 0.;
+    if (k == 0)
+    {
+      bend += by_inside * b.length * rise;
+      stretch_b = by_inside * g.half;
+    }
+    else
+    {
+      bend -= (by_inside + pull) * a.length * rise;
+      stretch_a = -(by_inside + pull) * g.half;
+    }
+
+    const double turn_a = 0.5 * (turn + bend) / a.length;
+    const double turn_b = 0.5 * (turn - bend) / b.length;
+    const double end_a[2]
+        = { stretch_a * a.tangent[0] - turn_a * a.tangent[1],
+            stretch_a * a.tangent[1] + turn_a * a.tangent[0] };
+    const double end_b[2]
+        = { stretch_b * b.tangent[0] - turn_b * b.tangent[1],
+            stretch_b * b.tangent[1] + turn_b * b.tangent[0] };
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      compact_force[a.nodes[0]].v[d] += end_a[d] + move[d];
+      compact_force[a.nodes[1]].v[d] -= end_a[d];
+      compact_force[b.nodes[0]].v[d] += end_b[d] - move[d];
+      compact_force[b.nodes[1]].v[d] -= end_b[d];
+    }
   }
 
   void BlockContacts::add_viscous_forces(const Edge &a, const Edge &b,
@@ -299,6 +418,7 @@ namespace quoin
       add_dashpot_forces(contacts);
     state.energy.friction += losses.friction;
     state.energy.fracture += losses.fracture;
+    state.energy.crushing += losses.crushing;
     state.energy.contact += losses.contact;
 
     scatter(compact_force, forces.force);
@@ -362,6 +482,9 @@ namespace quoin
         pair.was_open = 0;
       else if (begin_contact(contacts, i, g))
         new_contacts.push_back(i);
+      else
+        for (unsigned int k = 0; k < 2; ++k)
+          pair.points[k].opening = g.opening[k];
     }
     for (const unsigned int i : new_contacts)
       contacts.pairs[i].active = 1;
@@ -373,13 +496,14 @@ namespace quoin
     ContactPair &pair    = contacts.pairs[i];
     const double opening = std::min(g.opening[0], g.opening[1]);
     pair.was_open        = pair.was_open || opening >= 0.;
-    if (opening <= -pair_depth[i] || (opening >= 0. && !dilates))
+    if (opening >= 0. && !dilates)
       return false;
     unsigned int set = pair.set;
     ContactPoint inherited;
     double deepest     = 0.;
     const bool is_heir = find_parent(contacts, i, set, inherited, deepest);
-    if (opening >= inherited.plastic_opening)
+    if (opening >= inherited.plastic_opening
+        || opening <= std::min(0., inherited.plastic_opening) - pair_depth[i])
       return false;
     // Edges that overlap from behind, as those of thin wedges which lie on
     // each other, were never apart, and their vertices lie outside.
@@ -399,6 +523,7 @@ namespace quoin
     for (unsigned int k = 0; k < 2; ++k)
     {
       ContactPoint &point = pair.points[k];
+      inherited.opening   = point.opening;
       point               = inherited;
       point.anchor_lower  = g.lower[k];
       point.anchor_upper  = g.upper[k];
@@ -418,7 +543,7 @@ namespace quoin
   {
     const Edge &a        = local_edges[pair_edges[i][0]];
     const Edge &b        = local_edges[pair_edges[i][1]];
-    const bool is_of_a   = g.lower[k] == k;
+    const bool is_of_a   = g.share[k] < 0.5;
     const Edge &touched  = is_of_a ? b : a;
     const double *vertex = position[is_of_a ? a.nodes[k] : b.nodes[1 - k]].v;
     for (const unsigned int e : touched.neighbours)
@@ -497,7 +622,7 @@ namespace quoin
                  {
                    energy += pair_share[i] * point.area
                              * law.stored_energy(read_point(law, point),
-                                                 openings[i][k]);
+                                                 point.opening);
                  });
       }
     }

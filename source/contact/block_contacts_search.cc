@@ -107,9 +107,6 @@ namespace quoin
     dilates = false;
     for (const JointSetParameters &set : sets)
     {
-      if (const std::string why = no_contacts(set.law); !why.empty())
-        throw InputError("section 'Joints/" + set.name + "': general contacts "
-                         + why + ". Take 'Law = Coulomb'.");
       laws.push_back(set.law);
       dampings.push_back(set.damping);
       dilates = dilates || can_dilate(set.law);
@@ -263,8 +260,9 @@ namespace quoin
         point.plastic_opening = history.plastic_opening[p];
         for (unsigned int j = 0; j < history.n_internal; ++j)
           point.internal[j] = history.internal[p * history.n_internal + j];
-        point.state = history.state[p];
-        point.area  = segment.area[k];
+        point.state   = history.state[p];
+        point.area    = segment.area[k];
+        point.opening = gaps[k][0];
         // The vertices that coincided; the upper edge runs backwards.
         point.anchor_lower         = k;
         point.anchor_upper         = 1. - k;
@@ -359,7 +357,10 @@ namespace quoin
           is_old && next->active ? *next : new_pair(ends[i], ends[j]));
       if (is_old)
       {
-        contacts.pairs.back().was_open = next->was_open;
+        ContactPair &pair = contacts.pairs.back();
+        pair.was_open     = next->was_open;
+        for (unsigned int k = 0; k < 2 && pair.lower == next->lower; ++k)
+          pair.points[k].opening = next->points[k].opening;
         ++next;
       }
     }
@@ -600,7 +601,6 @@ namespace quoin
                     return pair_or_copy(contacts, p).edges()
                            < pair_or_copy(contacts, q).edges();
                   });
-    openings.assign(n_pairs, {});
     if (has_dashpots())
       bind_dashpots(contacts);
   }

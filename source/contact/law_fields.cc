@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "joint_points.h"
+#include "contact_points.h"
 
 namespace quoin
 {
@@ -25,18 +25,38 @@ namespace quoin
     return names;
   }
 
+  namespace
+  {
+    /** The field @p name of the point that @p read makes for @p law. */
+    template <typename Read>
+    double field_of(const JointLaw &law, const std::string &name,
+                    const Read &read)
+    {
+      double value = 0.;
+      std::visit(
+          [&](const auto &own)
+          {
+            for (const auto &field : own.template fields<2>())
+              if (field.name == name)
+                value = field.value(read(own));
+          },
+          law);
+      return value;
+    }
+  } // namespace
+
   double law_field(const MatchedJoints &joints, const std::string &name,
                    const unsigned int p, const JointHistory &history)
   {
-    double value = 0.;
-    std::visit(
-        [&](const auto &law)
-        {
-          for (const auto &field : law.template fields<2>())
-            if (field.name == name)
-              value = field.value(read_point(law, history, p));
-        },
-        joints.laws()[joints.segments()[p / 2].set]);
-    return value;
+    return field_of(joints.laws()[joints.segments()[p / 2].set], name,
+                    [&](const auto &law)
+                    { return read_point(law, history, p); });
+  }
+
+  double law_field(const MatchedJoints &joints, const std::string &name,
+                   const unsigned int set, const ContactPoint &point)
+  {
+    return field_of(joints.laws()[set], name,
+                    [&](const auto &law) { return read_point(law, point); });
   }
 } // namespace quoin

@@ -31,11 +31,6 @@ namespace quoin
     return std::visit([](const auto &own) { return own.kind; }, law);
   }
 
-  std::string no_contacts(const JointLaw &law)
-  {
-    return std::visit([](const auto &own) { return own.no_contacts; }, law);
-  }
-
   std::string law_text(const JointLaw &law)
   {
     return std::visit([](const auto &own) { return own.text(); }, law);

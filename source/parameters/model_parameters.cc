@@ -190,15 +190,6 @@ namespace quoin
         = ContactParameters::read(ParameterSection(top, "Contact"));
     parameters.model.large_displacements
         = parameters.model.contact.large_displacements;
-    for (const JointSetParameters &set : parameters.model.joints)
-      if (const std::string why = no_contacts(set.law);
-          !why.empty() && parameters.model.large_displacements)
-        ParameterSection(ParameterSection(top, "Joints"), set.name)
-            .fail("Law", "is for small displacements: contacts that go on "
-                         "elsewhere "
-                             + why
-                             + ". Take 'Coulomb', or 'Displacements = small' "
-                               "in section 'Contact'.");
     parameters.loads = read_named<LoadParameters>(top, "Loads");
     for (const LoadParameters &load : parameters.loads)
       if (load.type == LoadType::initial_stress)

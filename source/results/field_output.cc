@@ -103,10 +103,13 @@ namespace quoin
     return fields;
   }
 
-  JointFields contact_fields(const BlockContacts &contacts,
+  JointFields contact_fields(const MatchedJoints &joints,
+                             const BlockContacts &contacts,
                              const State<2> &state)
   {
     JointFields fields;
+    for (const std::string &name : law_field_names(joints))
+      fields.of_laws.push_back({ name, {} });
     const ContactState &all = state.get<ContactState>();
     const auto &pairs       = all.pairs;
     for (unsigned int i = 0; i < pairs.size(); ++i)
@@ -126,6 +129,9 @@ namespace quoin
         fields.slip.push_back(contact.slip[k]);
         fields.normal_traction.push_back(pairs[i].points[k].normal_traction);
         fields.shear_traction.push_back(pairs[i].points[k].shear_traction);
+        for (auto &[name, values] : fields.of_laws)
+          values.push_back(
+              law_field(joints, name, contact.set, pairs[i].points[k]));
         fields.state.push_back(pairs[i].points[k].state);
       }
     }

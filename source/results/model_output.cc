@@ -52,7 +52,7 @@ namespace quoin
     {
       joints.write(time, joint_fields(model, now));
       if (const BlockContacts *all = solver.contacts())
-        contacts.write(time, contact_fields(*all, now));
+        contacts.write(time, contact_fields(model.joints(), *all, now));
     }
   }
 

@@ -12,7 +12,7 @@ import sys
 
 import numpy as np
 
-from common import ROOT, Failure, read_table, strictly_increasing
+from common import ROOT, Failure, read_table, run, strictly_increasing
 
 sys.path.insert(0, os.path.join(ROOT, "scripts"))
 import vtu  # noqa: E402
@@ -1075,6 +1075,24 @@ def factor_of_safety(case, folder, output, histories):
         raise Failure("the bracket is %g wide" % (failing - stable))
     return {"factor of safety": float(
         abs(0.5 * (stable + failing) / wanted - 1))}
+
+
+def same_factor_of_safety(case, folder, output, histories):
+    """factor_of_safety(), and how far its middle moves in each run of "others",
+    further settings by name: those that strength does not depend on."""
+    def middle(folder_of_run):
+        with open(os.path.join(folder_of_run, "summary.json")) as stream:
+            found = json.load(stream)["factor of safety"]["safety"]
+        return 0.5 * (found["stable at"] + found["failing at"])
+
+    result = factor_of_safety(case, folder, output, histories)
+    for name, sets in case["others"].items():
+        other = os.path.join(output, "other", name.replace(" ", "_"))
+        run(case["quoin"], os.path.join(folder, case["prm"]), other,
+            case.get("set", []) + sets)
+        print("  %s: %.4f" % (name, middle(other)))
+        result[name] = float(abs(middle(other) / middle(output) - 1))
+    return result
 
 
 def creep(case, folder, output, histories):

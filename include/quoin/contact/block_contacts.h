@@ -70,8 +70,7 @@ namespace quoin
   public:
     /**
      * Keeps references to @p node_map and @p joints; collective. Throws an
-     * InputError about materials that no set for new contacts covers, and
-     * about laws that are not for contacts.
+     * InputError about materials that no set for new contacts covers.
      */
     BlockContacts(const NodeMap<2> &node_map, const MatchedJoints &joints,
                   const ContactModel &model);
@@ -174,11 +173,20 @@ namespace quoin
     struct Geometry
     {
       double overlap;      /**< [m] */
+      double tangent[2];   /**< mean direction of both edges, as of a */
+      double half;         /**< cosine of half the angle between them */
+      double slope;        /**< of a against the mean direction, outwards */
+      double begin;        /**< first node of b from that of a, along [m] */
+      double height;       /**< the same, across [m] */
       double sideways;     /**< 1: from corner to corner, 0: along a side */
       double area[2];      /**< of each point [m^2] */
       double normal[2][2]; /**< from lower to upper */
       double lower[2], upper[2]; /**< where on the edges, 0 to 1 */
       double opening[2];         /**< [m] */
+      /** Share by which the end of the overlap goes with the vertex of b. */
+      double share[2];
+      double lean[2]; /**< slope of the normal by that of b's, from -1 to 1 */
+      double turn[2]; /**< its derivative, by how far a's vertex is inside */
     };
 
     /** Calls @p use with the law of a set, of its own type. */
@@ -247,13 +255,22 @@ namespace quoin
     /** What a step loses [J]. */
     struct Losses
     {
-      double friction = 0., fracture = 0.;
+      double friction = 0., fracture = 0., crushing = 0.;
       double contact = 0.; /**< with areas and contacts that go */
     };
     void gather_velocities(const NodeVector<2> *velocity);
     void add_point_forces(unsigned int pair, unsigned int k, const Geometry &g,
                           ContactState &contacts, double viscous_beta,
                           bool damps, Losses &losses);
+    /** By how much a contact without traction is open [m]. */
+    static double open_gap(const ContactPoint &point);
+    /**
+     * Adds the forces of the resultants @p sigma and @p tau [N] of a point,
+     * minus the derivative of sigma u_n + tau u_s by the nodes of both edges.
+     */
+    void add_tractions(const Edge &a, const Edge &b, const Geometry &g,
+                       unsigned int k, const ContactPoint &point, double sigma,
+                       double tau);
     void add_viscous_forces(const Edge &a, const Edge &b, const Geometry &g,
                             unsigned int k, double beta,
                             const std::array<double, 2> &stiffness);
@@ -330,8 +347,7 @@ namespace quoin
     AlignedArray<NodeVector<2>> position, compact_force, compact_velocity,
         compact_viscous;
     std::vector<Edge> local_edges;
-    std::vector<std::array<double, 2>> openings; /**< of the last forces */
-    std::vector<unsigned int> new_contacts;      /**< pairs, of this step */
+    std::vector<unsigned int> new_contacts; /**< pairs, of this step */
 
     /** A point that presses, at the last forces. */
     struct DashpotPoint

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 
 namespace quoin
 {
@@ -23,6 +24,8 @@ namespace quoin
     double anchor_lower    = 0.; /**< where on the edges, 0 to 1, slip is */
     double anchor_upper    = 0.; /**< counted from */
     double area            = 0.; /**< as last used [m^2] */
+    /** As last computed; infinite: not yet [m]. */
+    double opening = std::numeric_limits<double>::infinity();
     /** Internal variables of its law; there is room for most_internal. */
     static constexpr unsigned int most_internal = 4;
     double internal[most_internal]{};

@@ -4,6 +4,7 @@
 #ifndef quoin_contact_law_fields_h
 #define quoin_contact_law_fields_h
 
+#include <quoin/contact/contact_state.h>
 #include <quoin/contact/matched_joints.h>
 
 #include <string>
@@ -17,6 +18,11 @@ namespace quoin
       none. */
   double law_field(const MatchedJoints &joints, const std::string &name,
                    unsigned int point, const JointHistory &history);
+
+  /** The same of a general contact's @p point that follows the law of @p set.
+   */
+  double law_field(const MatchedJoints &joints, const std::string &name,
+                   unsigned int set, const ContactPoint &point);
 } // namespace quoin
 
 #endif

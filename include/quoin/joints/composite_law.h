@@ -122,8 +122,7 @@ namespace quoin
         = { { { "composite",
                 "cohesion, friction and tension that soften with fracture "
                 "energies, and a cap that crushes, for masonry" } } };
-    static constexpr bool bridges            = true;
-    static constexpr const char *no_contacts = "have no bond that could soften";
+    static constexpr bool bridges = true;
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -158,11 +157,6 @@ namespace quoin
         dilation is not above the friction that is left. */
     CompositeLaw reduced(double factor) const;
 
-    std::string no_new_contacts() const
-    {
-      return "which hold nothing together";
-    }
-
     /** kn and ks [Pa/m] at the normal traction @p sigma [Pa], and at most. */
     std::array<double, 2> stiffness_at(double /*sigma*/) const
     {
@@ -182,6 +176,13 @@ namespace quoin
       point.shear_traction  = shear;
       point.plastic_opening = -normal / normal_stiffness;
       point.plastic_slip    = -shear / shear_stiffness;
+    }
+
+    /** Contacts that come up have no bond, but a cap that nothing crushed. */
+    template <int dim>
+    void wear_out(CompositePoint<dim> &point) const
+    {
+      point.bond = 0.;
     }
 
     /** Quantities of a point for results. */

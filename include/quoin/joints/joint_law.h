@@ -71,9 +71,6 @@ namespace quoin
   /** Laws of one kind remember the same of a joint. */
   std::string kind_of_law(const JointLaw &law);
 
-  /** Why the law is not for general contacts, which ...; empty: it is. */
-  std::string no_contacts(const JointLaw &law);
-
   /** What --check says of the law. */
   std::string law_text(const JointLaw &law);
 

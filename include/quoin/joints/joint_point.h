@@ -158,8 +158,6 @@ namespace quoin
     static constexpr bool stiffens = false;
     /** Whether a joint that is open may bear tension. */
     static constexpr bool bridges = false;
-    /** Why it is not for general contacts, which ...; empty: it is. */
-    static constexpr const char *no_contacts = "";
 
     /** Why it is not for contacts that come up, "which ..."; empty: it is. */
     std::string no_new_contacts() const

@@ -28,7 +28,8 @@ namespace quoin
   JointFields joint_fields(const Model<2> &model, const State<2> &state);
 
   /** Fields of the general contacts of this rank, for the same state. */
-  JointFields contact_fields(const BlockContacts &contacts,
+  JointFields contact_fields(const MatchedJoints &joints,
+                             const BlockContacts &contacts,
                              const State<2> &state);
 
   /** The total field on the boundary after the far field's last step. */

@@ -328,6 +328,32 @@ TEST(BlockContacts, DilationIsNotForgottenFromEdgeToEdge)
   }
 }
 
+namespace
+{
+  /** A composite set for joints and new contacts that crushes under the
+      pressure of the scenes. */
+  JointSetParameters crushing_mortar()
+  {
+    JointSetParameters set = touching();
+    set.name               = "mortar";
+    CompositeLaw law;
+    law.normal_stiffness       = kn;
+    law.shear_stiffness        = ks;
+    law.tension                = 1e4;
+    law.tension_energy         = 5.;
+    law.cohesion               = 2e4;
+    law.shear_energy           = 2.;
+    law.friction               = 0.5;
+    law.residual_friction      = 0.4;
+    law.cap.compression        = 9e5;
+    law.cap.compression_energy = 1e3;
+    law.cap.peak_crushing      = 1e-3;
+    law.cap.shear              = 0.1;
+    set.law                    = law;
+    return set;
+  }
+} // namespace
+
 TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
 {
   JointSetParameters weak = elastic_joint(kn, ks), strong = weak;
@@ -336,9 +362,12 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
   coulomb_law(strong).peak     = { 1e4, 0.5, 0. };
   coulomb_law(strong).residual = { 0., 0.5, 0. };
   JointSetParameters rough = strong, yielding = strong;
-  rough.law    = rock_test::rough();
-  yielding.law = rock_test::yielding();
-  for (const JointSetParameters &joint : { weak, strong, rough, yielding })
+  rough.law                 = rock_test::rough();
+  yielding.law              = rock_test::yielding();
+  JointSetParameters mortar = strong;
+  mortar.law                = crushing_mortar().law;
+  for (const JointSetParameters &joint :
+       { weak, strong, rough, yielding, mortar })
     for (const double angle : { 0., 0.008 })
     {
       Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); },
@@ -481,6 +510,151 @@ TEST(BlockContacts, NewContactsOfRockAreWorn)
     EXPECT_GT(force[1], 0.);
     EXPECT_NEAR(force[0], -std::tan(angle[i++] * rock_test::degree) * force[1],
                 1e-3 * force[1]);
+  }
+}
+
+// A joint crushes, slides and is handed over; beside a twin that has stayed a
+// matched joint it goes on crushing, unloads and keeps what it closed by.
+TEST(BlockContacts, HandedOverJointsStayCrushed)
+{
+  JointSetParameters mortar = crushing_mortar();
+  mortar.curves             = { "unnamed" };
+  Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); }, { mortar });
+  const unsigned int upper = scene.block_at(0., 2.);
+  const auto law           = std::get<CompositeLaw>(mortar.law);
+  JointHistory twin        = scene.state.get<JointHistory>();
+  EnergyAccounts of_twin;
+  std::array<double, 3> matched;
+  const auto step = [&](const double x, const double y)
+  {
+    scene.move(upper, x, y);
+    scene.find_forces();
+    const auto force = scene.force;
+    scene.force.assign(scene.mesh.n_vertices(), NodeVector<2>{ { 0., 0. } });
+    scene.joints.add_forces(scene.state.nodes.data(), twin, of_twin,
+                            scene.force.data());
+    matched     = scene.total(upper);
+    scene.force = force;
+  };
+  for (unsigned int i = 0; i < 40; ++i)
+    step(0., -0.05 * closing);
+  while (!scene.state.get<ContactState>().handed_over[0])
+    step(0.2 * closing, 0.);
+  for (const double down : { -0.05, -0.05, -0.05, 0.04, 0.04 })
+  {
+    for (unsigned int i = 0; i < 20; ++i)
+      step(0., down * closing);
+    const auto general = scene.total(upper);
+    for (unsigned int d = 0; d < 3; ++d)
+      EXPECT_NEAR(general[d], matched[d], 2e-3 * std::abs(matched[1]))
+          << "component " << d << ", after " << down;
+  }
+  const EnergyAccounts &energy = scene.state.energy;
+  EXPECT_GT(of_twin.crushing, 0.);
+  EXPECT_NEAR(energy.crushing, of_twin.crushing, 1e-3 * of_twin.crushing);
+  EXPECT_NEAR(energy.fracture, of_twin.fracture, 1e-3 * of_twin.crushing);
+  double crushed = 0.;
+  for (const ContactPair &pair : scene.state.get<ContactState>().pairs)
+    if (pair.was_joint)
+      for (const ContactPoint &point : pair.points)
+      {
+        EXPECT_LT(point.internal[0], 0.05); // bond
+        EXPECT_GT(point.internal[1], 2. * closing);
+        crushed = point.plastic_opening;
+      }
+  // Lifted to where the joint has closed by it bears neither load nor tension.
+  step(0., 0.5 * crushed - scene.state.nodes.back().u[1]);
+  EXPECT_NEAR(scene.total(upper)[1], 0., 0.05 * law.tension);
+}
+
+// Blocks that were never joined have no bond, and the set's cap.
+TEST(BlockContacts, NewCompositeContactsHaveNoBond)
+{
+  const JointSetParameters mortar = crushing_mortar();
+  const auto law                  = std::get<CompositeLaw>(mortar.law);
+  Scene scene({ { 0., 0., 4., 1., 1, 1 }, { 1., 1., 1., 1., 1, 1 } },
+              { mortar });
+  const unsigned int upper = scene.block_at(1., 2.);
+  scene.move(upper, 0., -0.2 * closing);
+  scene.find_forces();
+  for (unsigned int step = 0; step < 200; ++step)
+  {
+    scene.move(upper, 2e-6, 0.);
+    scene.find_forces();
+  }
+  const auto slid = scene.total(upper);
+  EXPECT_GT(slid[1], 0.);
+  EXPECT_NEAR(slid[0], -law.residual_friction * slid[1], 1e-6 * slid[1]);
+  for (unsigned int step = 0; step < 200; ++step)
+  {
+    scene.move(upper, 0., -1e-5);
+    scene.find_forces();
+  }
+  // What the shear traction takes of the cap is little once it has softened.
+  double crushing = 0., sigma = 0., tau = 0.;
+  for (const ContactPair &pair : scene.state.get<ContactState>().pairs)
+    if (pair.active)
+    {
+      crushing = pair.points[0].internal[1];
+      sigma    = pair.points[0].normal_traction;
+      tau      = pair.points[0].shear_traction;
+      EXPECT_EQ(pair.points[0].internal[0], 0.);
+    }
+  EXPECT_GT(crushing, 1e-3);
+  EXPECT_NEAR(law.cap.load(sigma, tau),
+              law.cap.limit(crushing) * law.cap.limit(crushing),
+              1e-9 * law.cap.compression * law.cap.compression);
+  scene.move(upper, 0., 2. * crushing);
+  scene.find_forces();
+  EXPECT_EQ(scene.total(upper)[1], 0.);
+}
+
+// A block slides with friction over a corner while it tips: the work of its
+// nodes is stored, lost to friction or to areas that change. Kinks within the
+// steps are in the accounts; what is left falls with the square of the step.
+TEST(BlockContacts, WorkIsStoredOrDissipated)
+{
+  for (const double friction : { 0., 0.4 })
+  {
+    Scene scene({ { 0., 0., 2., 1., 2, 1 }, { 1.2, 1., 1., 1., 2, 1 } },
+                { touching(friction) });
+    const unsigned int upper = scene.block_at(1.2, 2.);
+    scene.move(upper, 0., 0.1 * closing);
+    scene.find_forces();
+    const double at_start = scene.contacts->stored_energy(scene.state);
+    const unsigned int n  = 40000;
+    double work = 0., throughput = 0.;
+    double angle = 0., x = 0., y = 0.1 * closing;
+    for (unsigned int i = 1; i <= n; ++i)
+    {
+      const auto nodes = scene.state.nodes;
+      const auto force = scene.force;
+      const double p   = static_cast<double>(i) / n;
+      // Tips over its own corner and over that of the block below in turn.
+      const double next[3]
+          = { 0.02 * std::sin(20. * p), 0.1 * std::sin(3. * p) + 1e-3 * p,
+              closing * (0.1 - 4. * std::sin(9. * p)) };
+      scene.turn(upper, next[0] - angle, 2. + x, 1. + y);
+      scene.move(upper, next[1] - x, next[2] - y);
+      angle = next[0];
+      x     = next[1];
+      y     = next[2];
+      scene.find_forces(i % 20 == 0);
+      for (unsigned int v = 0; v < nodes.size(); ++v)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double w = 0.5 * (force[v].v[d] + scene.force[v].v[d])
+                           * (scene.state.nodes[v].u[d] - nodes[v].u[d]);
+          work += w;
+          throughput += std::abs(w);
+        }
+    }
+    const EnergyAccounts &lost = scene.state.energy;
+    const double stored = scene.contacts->stored_energy(scene.state) - at_start;
+    EXPECT_NEAR(work + stored + lost.friction + lost.contact, 0.,
+                1e-5 * throughput)
+        << "friction " << friction << ": work " << work << ", stored " << stored
+        << ", friction " << lost.friction << ", contact " << lost.contact;
   }
 }
 

@@ -1,0 +1,21 @@
+// A stone of 1 m by 0.1 m on a floor of 1.2 m: matching nodes along the joint.
+SetFactory("Built-in");
+h = 0.0125;
+Point(1) = {-0.1, -0.1, 0, h};
+Point(2) = { 1.1, -0.1, 0, h};
+Point(3) = { 1.1,  0.0, 0, h};
+Point(4) = { 1.0,  0.0, 0, h};
+Point(5) = { 0.0,  0.0, 0, h};
+Point(6) = {-0.1,  0.0, 0, h};
+Point(7) = { 1.0,  0.1, 0, h};
+Point(8) = { 0.0,  0.1, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 5};
+Line(5) = {5, 6}; Line(6) = {6, 1}; Line(7) = {4, 7}; Line(8) = {7, 8};
+Line(9) = {8, 5};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6};
+Curve Loop(2) = {7, 8, 9, -4};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+Physical Surface("floor") = {1};
+Physical Surface("stone") = {2};
+Physical Curve("joint")   = {4};
