@@ -151,8 +151,9 @@ namespace quoin
     run.log.warnings(stage_advice(parameters, index, *system.model, begun,
                                   system.explicit_solver->get_time_step()));
     if (system.solver->far_fields().elastodynamic_acts)
-      run.log.warnings(boundary_advice(
-          parameters.boundary, system.boundary_geometry, stage.duration));
+      run.log.warnings(boundary_advice(parameters.boundary,
+                                       system.boundary_geometry, stage.duration,
+                                       wants_hoop_stress(parameters)));
   }
 
   template <int dim>
@@ -203,8 +204,8 @@ namespace quoin
   void BlockProblem<dim>::archive_all(Archive &archive, State<dim> &archived)
   {
     archive &archived &context.outputs &context.iterations &context
-        .cuts &context.searches &context.outcomes &context.peaks &context
-        .displaced;
+        .cuts &context.searches &context.outcomes &context
+        .damping_shares &context.peaks &context.displaced;
   }
 
   template <int dim>
@@ -355,6 +356,9 @@ namespace quoin
                                 { "step", ended.step } };
       if (!ended.condition.empty())
         stage["condition"] = ended.condition;
+      const LocalDampingShare &damping = context.damping_shares[i];
+      if (damping.n > 0)
+        stage["local damping share"] = damping.sum / double(damping.n);
     }
     if (!context.failure.empty())
       summary["stages"][parameters.stages[state.stage].name]
