@@ -99,6 +99,9 @@ namespace quoin
                  parameters.boundary, system.boundary_geometry,
                  start_of_stage(parameters.stages, parameters.stages.size())) })
         run.log.messages(lines);
+    if constexpr (dim == 2)
+      if (run.options.check)
+        run.log.messages(face_lines(parameters, *system.nodes));
     run.log.warnings(
         model_advice(parameters, system.mesh_report, *system.model, state));
     report_stages();

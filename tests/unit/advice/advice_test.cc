@@ -252,6 +252,10 @@ TEST(ModelSummary, SaysWhatThereIs)
   ASSERT_EQ(joints.size(), 1U);
   EXPECT_EQ(joints[0],
             "joints joint: 3 m; elastic, kn 2e+10 Pa/m, ks 1e+10 Pa/m");
+  const auto faces = face_lines(parameters, nodes);
+  ASSERT_EQ(faces.size(), 1U);
+  EXPECT_EQ(faces[0], "joints joint: 3 faces between two blocks; while closed "
+                      "too stiff by 22.2 % in rotation");
   const auto loads = load_lines<2>(parameters, nodes);
   ASSERT_EQ(loads.size(), 2U);
   EXPECT_EQ(loads[0], "load base: prescribed motion on 4 nodes of bottom, "
