@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/known_names.h>
 #include <quoin/base/number_text.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/nodal_load.h>
@@ -11,6 +12,9 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
 #include <set>
 
 namespace quoin
@@ -125,6 +129,48 @@ namespace quoin
                   takes_new ? " and new contacts" : "", "; ", law_text(set.law),
                   ", ", stiffens(set.law) ? "up to " : "", "kn ", stiffness[0],
                   " Pa/m, ks ", stiffness[1], " Pa/m"));
+    }
+    return lines;
+  }
+
+  std::vector<std::string> face_lines(const Parameters &parameters,
+                                      const NodeMap<2> &nodes)
+  {
+    if (nodes.table().is_quadratic)
+      return {};
+    // Curve and blocks of each face, from the rank of its lower side.
+    std::vector<std::array<unsigned int, 3>> own;
+    for (const JointNodes<2> &face : nodes.faces().joints)
+      if (face.is_own[0] && face.blocks[0] != face.blocks[1])
+        own.push_back({ { face.name, std::min(face.blocks[0], face.blocks[1]),
+                          std::max(face.blocks[0], face.blocks[1]) } });
+    std::map<std::array<unsigned int, 3>, unsigned int> n_faces;
+    for (const auto &part :
+         dealii::Utilities::MPI::all_gather(nodes.communicator(), own))
+      for (const auto &face : part)
+        ++n_faces[face];
+
+    std::vector<std::string> lines;
+    for (const JointSetParameters &set : parameters.model.joints)
+    {
+      unsigned int fewest = -1, most = 0;
+      for (const auto &[face, n] : n_faces)
+        if (is_among(face[0] == 0 ? "unnamed"
+                                  : nodes.table().face_names[face[0]],
+                     set.curves))
+        {
+          fewest = std::min(fewest, n);
+          most   = std::max(most, n);
+        }
+      if (most > 0)
+        lines.push_back(text_of(
+            "joints ", set.name, ": ",
+            fewest == most ? count_text(most, "face")
+                           : text_of(fewest, " to ", most, " faces"),
+            " between two blocks; while closed ",
+            fewest == most ? "" : "those of the fewest ", "too stiff by ",
+            std::round(2000. / (double(fewest) * fewest)) / 10.,
+            " % in rotation"));
     }
     return lines;
   }

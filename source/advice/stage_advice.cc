@@ -341,6 +341,14 @@ namespace quoin
     }
   } // namespace
 
+  bool wants_hoop_stress(const Parameters &parameters)
+  {
+    return std::any_of(
+        parameters.histories.begin(), parameters.histories.end(),
+        [](const HistoryParameters &history)
+        { return history.quantity == HistoryQuantity::boundary_hoop_stress; });
+  }
+
   Shaking fastest_load(const Parameters &parameters, const unsigned int index)
   {
     const StageOfRun run(parameters, index);

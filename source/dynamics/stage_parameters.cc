@@ -72,19 +72,37 @@ namespace quoin
         check_release(*section, stage);
     }
 
+    /** The damping of a stage for which none is given. */
+    DampingType automatic_damping(const ParameterSection &section,
+                                  const StageParameters &stage)
+    {
+      // Local damping needs no search for its strength, and does not show in
+      // an equilibrium, but bears a part of the weight of what moves steadily.
+      if (stage.slows_loads() || section.text("End") == "factor of safety")
+        return DampingType::adaptive;
+      return stage.end == StageEnd::static_ratio ? DampingType::local
+                                                 : DampingType::none;
+    }
+
     void enter_damping(ParameterEntries &entries, StageParameters &stage)
     {
-      entries.choice("Damping", stage.damping,
-                     { { "none", DampingType::none },
+      std::optional<DampingType> damping;
+      entries.choice("Damping", damping,
+                     { { "automatic", std::nullopt },
+                       { "none", DampingType::none },
                        { "local", DampingType::local },
                        { "adaptive", DampingType::adaptive },
                        { "Rayleigh", DampingType::rayleigh } },
                      "local: a share of the unbalanced force, against the "
                      "velocity; adaptive: mass-proportional with a "
                      "coefficient that keeps the damping power at half the "
-                     "rate of kinetic energy; Rayleigh: alpha and beta. "
-                     "Explicit stages that settle need one, or a viscous or "
-                     "free-field boundary.");
+                     "rate of kinetic energy; Rayleigh: alpha and beta; "
+                     "automatic: local with 'End = static ratio', adaptive "
+                     "with 'Kinetic energy limit' or 'End = factor of safety', "
+                     "else none. Explicit stages that settle need one, or a "
+                     "viscous or free-field boundary.");
+      if (const ParameterSection *section = entries.read_section())
+        stage.damping = damping ? *damping : automatic_damping(*section, stage);
       double local_coefficient = default_local_damping;
       if (entries.reads_if(stage.damping == DampingType::local))
       {

@@ -104,6 +104,7 @@ namespace quoin
       {
         run.log.messages(contact_lines(*system.model));
         run.log.messages(named_block_lines(*system.model, system.named_blocks));
+        run.log.messages(face_lines(parameters, *system.nodes));
       }
     run.log.warnings(
         model_advice(parameters, system.mesh_report, *system.model, state));
@@ -157,8 +158,9 @@ namespace quoin
     run.log.warnings(stage_advice(parameters, index, *system.model, begun,
                                   system.explicit_solver->get_time_step()));
     if (system.solver->far_fields().elastodynamic_acts)
-      run.log.warnings(boundary_advice(
-          parameters.boundary, system.boundary_geometry, stage.duration));
+      run.log.warnings(boundary_advice(parameters.boundary,
+                                       system.boundary_geometry, stage.duration,
+                                       wants_hoop_stress(parameters)));
   }
 
   template <int dim>
@@ -210,7 +212,7 @@ namespace quoin
   {
     archive &archived &context.outputs &context.iterations &context
         .cuts &context.searches &context.outcomes &context.loads &context
-        .peaks &context.displaced;
+        .damping_shares &context.peaks &context.displaced;
   }
 
   template <int dim>
@@ -362,6 +364,9 @@ namespace quoin
       if (!ended.condition.empty())
         stage["condition"] = ended.condition;
       context.loads[i].summarise(stage);
+      const LocalDampingShare &damping = context.damping_shares[i];
+      if (damping.n > 0)
+        stage["local damping share"] = damping.sum / double(damping.n);
     }
     if (context.failure.empty())
       return;

@@ -12,7 +12,8 @@ namespace quoin
     : run(run), system(parameters, std::move(mesh), run.communicator),
       steps(system, run.log), outputs(system, run),
       state(system.initial_state()), searches(parameters.stages.size()),
-      outcomes(parameters.stages.size()), loads(parameters.stages.size())
+      outcomes(parameters.stages.size()), loads(parameters.stages.size()),
+      damping_shares(parameters.stages.size())
   {
     for (const StageParameters &stage : parameters.stages)
       if (stage.pattern && stage.pattern->controlled != "mean")
@@ -53,6 +54,7 @@ namespace quoin
     warn_of_slip();
     if (const std::string what = context.loads[index].warning(); !what.empty())
       log.warning("stage ", stage.name, ": ", what);
+    warn_of_damping();
     keep_unreleased_forces();
     note_outcome();
     ++state.stage;
@@ -160,6 +162,22 @@ namespace quoin
                   " % of the edges that touch, but small displacements leave "
                   "blocks where they are: areas and neighbours no longer hold. "
                   "Take 'Displacements = large' in section 'Contact'.");
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_damping() const
+  {
+    const LocalDampingShare &share = context.damping_shares[index];
+    if (stage.end == StageEnd::time && share.is_large())
+      log.warning("stage ", stage.name, ": local damping opposed ",
+                  100. * share.sum / double(share.n),
+                  " % of the applied forces on average, and more than ",
+                  100. * LocalDampingShare::large, " % during ",
+                  100. * double(share.n_large) / double(share.n),
+                  " % of the stage. It holds up what moves steadily: reactions "
+                  "may be wrong by several times that share, and a collapse "
+                  "may come too early or too late. Take 'Damping = adaptive', "
+                  "or 'Rayleigh' with a stiffness coefficient.");
   }
 
   template <int dim>

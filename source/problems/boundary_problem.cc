@@ -3,6 +3,7 @@
 
 #include <quoin/base/known_names.h>
 #include <quoin/base/wall_clock.h>
+#include <quoin/advice/advice.h>
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/problems/boundary_problem.h>
 #include <quoin/problems/costs.h>
@@ -59,8 +60,9 @@ namespace quoin
   void BoundaryProblem::report_steps()
   {
     const Boundary &boundary = system.geometry.boundary;
-    run.log.warnings(
-        boundary_advice(settings, system.geometry, settings.duration));
+    run.log.warnings(boundary_advice(settings, system.geometry,
+                                     settings.duration,
+                                     wants_hoop_stress(parameters)));
     run.log.message("time step ", system.dt, " s, ",
                     step_ratio_text(boundary, system.medium, system.dt), ", ",
                     system.n_steps, " steps");

@@ -124,6 +124,9 @@ namespace quoin
         throw RunError("stage '" + stage.name + "': " + error.what());
       }
       ++context.n_done;
+      if (balance && stage.damping == DampingType::local)
+        context.damping_shares[index].add(stage.local_coefficient
+                                          * state.unbalanced_ratio);
       report_blocks_outside();
       over = ends_here(balance);
       if (row_is_due || over)

@@ -78,6 +78,34 @@ def outcomes(case, folder, output, histories):
     return errors
 
 
+def spreading_arch(case, folder, output, histories):
+    """Thrust and crown of an arch on spreading supports, and the spread at
+    which it falls; or, if the case is one that the program should warn of,
+    that it did. The residual of the energy balance in any case."""
+    with open(os.path.join(output, "log.txt")) as stream:
+        warned = "local damping opposed" in stream.read()
+    if warned != case.get("warns", False):
+        raise Failure("%s warning of local damping"
+                      % ("a" if warned else "no"))
+    errors = energy_residual(case, folder, output, histories)
+    if warned:
+        return errors
+    exact = reference_module(folder)
+    spread = 2 * histories["spread"]
+    crown = histories["crown"]
+    fallen = np.argmax(crown < -exact.HEIGHT)
+    collapse = np.interp(exact.HEIGHT, -crown[fallen - 1:fallen + 1],
+                         spread[fallen - 1:fallen + 1])
+    chosen = (spread > 0.02) & (spread < 0.44)
+    spread = spread[chosen]
+    errors["collapse"] = abs(collapse / exact.COLLAPSE - 1)
+    errors["thrust"] = np.max(np.abs(
+        np.abs(histories["thrust"][chosen]) / exact.thrust(spread) - 1))
+    errors["crown / height"] = np.max(np.abs(
+        crown[chosen] + exact.HEIGHT - exact.rise(spread))) / exact.HEIGHT
+    return {name: float(error) for name, error in errors.items()}
+
+
 def initial_energy(case, folder, output, histories):
     """The energy of the pulse f(x) that is put in at the start, half of it
     strain: rho c^2 times the integral of f'^2; and the residual."""

@@ -58,6 +58,9 @@ namespace quoin
                       const Model<dim> &model, const State<dim> &state,
                       double time_step);
 
+  /** Whether a history is the hoop stress on boundary elements. */
+  bool wants_hoop_stress(const Parameters &parameters);
+
   /** The load on blocks with the highest frequency in stage @p index. */
   Shaking fastest_load(const Parameters &parameters, unsigned int index);
 } // namespace quoin

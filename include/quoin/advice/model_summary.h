@@ -29,6 +29,15 @@ namespace quoin
   std::vector<std::string> joint_lines(const Parameters &parameters,
                                        const MeshReport &report);
 
+  /**
+   * How many faces joints have between two blocks, and by how much that makes
+   * them too stiff in rotation: 2/n^2 for n equal faces with nodal quadrature
+   * (theory.md, "Nodal quadrature"). None for quadratic triangles, on whose
+   * edges Simpson's rule is exact. Collective.
+   */
+  std::vector<std::string> face_lines(const Parameters &parameters,
+                                      const NodeMap<2> &nodes);
+
   template <int dim>
   std::vector<std::string> load_lines(const Parameters &parameters,
                                       const NodeMap<dim> &nodes);

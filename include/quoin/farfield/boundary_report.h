@@ -30,16 +30,24 @@ namespace quoin
 
   /**
    * Warning that elements are too long for the fastest incident wave or value
-   * on a boundary within @p duration [s]; or nothing.
+   * on a boundary within @p duration [s]; or nothing. @p with_stress: the hoop
+   * stress is asked for.
    */
   std::vector<std::string>
   boundary_advice(const BoundaryElementParameters &settings,
-                  const BoundaryGeometry &geometry, double duration);
+                  const BoundaryGeometry &geometry, double duration,
+                  bool with_stress);
 
-  /** Warning that elements of @p length [m] are too long for @p shaking, with
-      S waves of the speed @p shear_wave [m/s]; or nothing. */
+  /**
+   * Warning that elements of @p length [m] are too long for @p shaking, with
+   * S waves of the speed @p shear_wave [m/s]; or nothing. The hoop stress, if
+   * it is asked for, needs shorter ones than the displacement: with n elements
+   * to an S wave it lacks 5/n^2 of its peak, measured on a cavity in harmonic
+   * waves (theory.md, "Assumptions and limits").
+   */
   std::vector<std::string> element_advice(const Shaking &shaking,
-                                          double shear_wave, double length);
+                                          double shear_wave, double length,
+                                          bool with_stress);
 
   /** Warning that motion may grow in a run of @p n_steps of @p time_step [s]
       because tractions are given; or nothing. */

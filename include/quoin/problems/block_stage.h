@@ -30,6 +30,40 @@ namespace quoin
     }
   };
 
+  /**
+   * How much of the applied forces local damping opposes in a stage: at most
+   * its coefficient times the unbalanced ratio. Blocks that move steadily have
+   * that as a force against their motion, which is missing in reactions.
+   */
+  struct LocalDampingShare
+  {
+    /** Share above which reactions may be some per cent off [-]; measured:
+        theory.md, "Damping". */
+    static constexpr double large = 0.005;
+
+    double sum      = 0.;
+    std::uint64_t n = 0, n_large = 0; /**< samples, and those above large */
+
+    void add(const double share)
+    {
+      sum += share;
+      ++n;
+      n_large += share > large;
+    }
+    /** Whether it was large for more than half of the stage: not only while it
+        settles, or as joints break. */
+    bool is_large() const
+    {
+      return 2 * n_large > n;
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &sum &n &n_large;
+    }
+  };
+
   /** Data of the stages of a problem of blocks. */
   template <int dim>
   struct BlockContext
@@ -46,6 +80,7 @@ namespace quoin
     std::vector<FactorSearch> searches; /**< of each stage, most unused */
     std::vector<StageOutcome> outcomes; /**< of each stage */
     std::vector<LoadRecord> loads;      /**< of each stage */
+    std::vector<LocalDampingShare> damping_shares; /**< of each stage */
     std::vector<double> peaks; /**< of histories: see HistoryConditions */
     double displaced = 0.;     /**< largest one where the stage began [m] */
     std::string failure; /**< why the last stage failed; empty: it did not */
@@ -105,6 +140,8 @@ namespace quoin
     void warn_of_slip() const;
     /** Records the loads of the row for @p time [s]. */
     void record_loads(double time);
+    /** Warns of local damping that has borne a part of the loads. */
+    void warn_of_damping() const;
     /** Keeps and reports how the stage has ended. */
     void note_outcome();
     /** Forces of excavated blocks that a stage has not released when a

@@ -176,6 +176,16 @@ TEST(InputAdvice, JointsAndMaterials)
   law.normal_stiffness   = 3e19;
   parameters.is_implicit = true;
   expect(parameters, "rounding");
+  // Joints that fail one after the other need softer ones.
+  law.normal_stiffness = 31. * 1e10 / std::sqrt(13.);
+  EXPECT_EQ(advice(parameters), "");
+  law.peak.tension = law.residual.tension = 0.;
+  law.peak.friction = law.residual.friction = 0.6;
+  expect(parameters, "the run may not come to its end");
+  law.normal_stiffness = 29. * 1e10 / std::sqrt(13.);
+  EXPECT_EQ(advice(parameters), "");
+  law                    = CoulombLaw();
+  law.shear_stiffness    = 1e10;
   parameters.is_implicit = false;
   law.normal_stiffness   = 2e10;
   // A curve on the outside has no joint.
@@ -204,9 +214,25 @@ TEST(InputAdvice, OutputThatIsTooFrequent)
 TEST(InputAdvice, BoundaryElementsTooLong)
 {
   const Shaking shaking{ "the incident wave w", 100. };
-  EXPECT_TRUE(element_advice(shaking, 2000., 3.9).empty());
-  EXPECT_EQ(element_advice(shaking, 2000., 4.1).size(), 1U);
-  EXPECT_TRUE(element_advice({}, 2000., 4.1).empty());
+  EXPECT_TRUE(element_advice(shaking, 2000., 3.9, false).empty());
+  EXPECT_EQ(element_advice(shaking, 2000., 4.1, false).size(), 1U);
+  EXPECT_TRUE(element_advice({}, 2000., 4.1, false).empty());
+}
+
+TEST(InputAdvice, BoundaryElementsTooLongForStress)
+{
+  // S waves of 20 m.
+  const Shaking shaking{ "the incident wave w", 100. };
+  EXPECT_TRUE(element_advice(shaking, 2000., 1.6, true).empty());
+  EXPECT_TRUE(element_advice(shaking, 2000., 2., false).empty());
+  const auto advice = element_advice(shaking, 2000., 2., true);
+  ASSERT_EQ(advice.size(), 1U);
+  EXPECT_NE(advice[0].find("lacks about 5 %"), std::string::npos) << advice[0];
+  EXPECT_NE(advice[0].find("elements of 1 m"), std::string::npos) << advice[0];
+  // Too long for displacements, too: that is said.
+  const auto too_long = element_advice(shaking, 2000., 4.1, true);
+  ASSERT_EQ(too_long.size(), 1U);
+  EXPECT_NE(too_long[0].find("eight to ten"), std::string::npos);
 }
 
 TEST(ModelSummary, SaysWhatThereIs)
@@ -226,6 +252,10 @@ TEST(ModelSummary, SaysWhatThereIs)
   ASSERT_EQ(joints.size(), 1U);
   EXPECT_EQ(joints[0],
             "joints joint: 3 m; elastic, kn 2e+10 Pa/m, ks 1e+10 Pa/m");
+  const auto faces = face_lines(parameters, nodes);
+  ASSERT_EQ(faces.size(), 1U);
+  EXPECT_EQ(faces[0], "joints joint: 3 faces between two blocks; while closed "
+                      "too stiff by 22.2 % in rotation");
   const auto loads = load_lines<2>(parameters, nodes);
   ASSERT_EQ(loads.size(), 2U);
   EXPECT_EQ(loads[0], "load base: prescribed motion on 4 nodes of bottom, "

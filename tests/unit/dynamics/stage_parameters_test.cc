@@ -69,6 +69,22 @@ TEST(StageParameters, StaticStage)
   EXPECT_EQ(stage.scaled_time_step, 1e-4);
 }
 
+TEST(StageParameters, DampingThatSuitsTheEnd)
+{
+  EXPECT_EQ(read("set Duration = 1\n").damping, DampingType::none);
+  const auto at_rest = read("set End = static ratio\n");
+  EXPECT_EQ(at_rest.damping, DampingType::local);
+  EXPECT_EQ(at_rest.local_coefficient, default_local_damping);
+  const auto slow = read("set Duration = 1\nset Kinetic energy limit = 1e-4\n");
+  EXPECT_EQ(slow.damping, DampingType::adaptive);
+  EXPECT_EQ(slow.local_coefficient, 0.);
+  EXPECT_EQ(read("set End = factor of safety\n").damping,
+            DampingType::adaptive);
+  // What is given holds, also none.
+  EXPECT_EQ(read("set End = static ratio\nset Damping = none\n").damping,
+            DampingType::none);
+}
+
 TEST(StageParameters, ConditionsThatEndIt)
 {
   EXPECT_TRUE(read("set Duration = 1\n").end_conditions.empty());
