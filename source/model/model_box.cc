@@ -112,7 +112,7 @@ namespace quoin
               << ". If it may leave, make the box larger or set 'Outside the "
                  "box' to report or delete; if not, look at the last fields. "
                  "The last checkpoint is kept.";
-      throw ModelFailure(message.str());
+      throw BlockLeftBox(message.str());
     }
     return found;
   }

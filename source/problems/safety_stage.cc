@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/number_text.h>
+#include <quoin/model/model_box.h>
 #include <quoin/problems/block_stage.h>
 #include <quoin/results/atomic_file.h>
 
@@ -195,6 +196,12 @@ namespace quoin
           if (context.run.progress.due())
             context.run.progress.update(figures());
         }
+      }
+      catch (const BlockLeftBox &error)
+      {
+        log.message("stage ", stage.name, ": factor ", trial.factor, ": ",
+                    error.what());
+        trial.verdict = Verdict::failing;
       }
       catch (const ModelFailure &error)
       {

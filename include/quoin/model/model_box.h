@@ -4,6 +4,7 @@
 #ifndef quoin_model_model_box_h
 #define quoin_model_model_box_h
 
+#include <quoin/base/exceptions.h>
 #include <quoin/model/model.h>
 
 #include <array>
@@ -11,6 +12,13 @@
 
 namespace quoin
 {
+  /** The failure of a model of which a block has left the box. */
+  class BlockLeftBox : public ModelFailure
+  {
+  public:
+    using ModelFailure::ModelFailure;
+  };
+
   /** A block that was found outside the box. */
   struct BlockOutside
   {
