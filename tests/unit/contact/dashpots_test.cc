@@ -14,6 +14,7 @@ namespace
 
   /** Blocks of 200 and 300 kg that press on each other with kn = 8e9. */
   constexpr double mass = 120.; // reduced
+  constexpr double gap  = 0.01; // of separate blocks in the mesh [m]
 
   DashpotBlocks inertia(const double impedance = infinity)
   {
@@ -33,11 +34,12 @@ namespace
     std::unique_ptr<BlockContacts> contacts;
     State<2> state;
     AlignedArray<NodeVector<2>> force, viscous;
+    const bool meets;
 
     /** @p may_meet: as contacts of separate blocks, else as joint. */
     Pressed(const bool may_meet, const unsigned int n, const double xi,
             const DashpotBlocks &blocks = inertia())
-      : nodes(mesh(may_meet, n))
+      : nodes(mesh(may_meet, n)), meets(may_meet)
     {
       JointSetParameters set = touching(0.5);
       set.damping            = { xi, xi };
@@ -63,7 +65,7 @@ namespace
       BlockMesh<2> result;
       if (may_meet)
         make_blocks(result, { { 0., 0., 1., 1., n, n },
-                              { 0., 1. + 1e-6, 1., 1., n, n } });
+                              { 0., 1. + gap, 1., 1., n, n } });
       else
         make_stack(result, n, n);
       for (auto &p : result.vertices)
@@ -91,7 +93,7 @@ namespace
         if (is_upper(v))
         {
           state.nodes[v].u[0]    = x;
-          state.nodes[v].u[1]    = y;
+          state.nodes[v].u[1]    = meets ? y - gap : y;
           state.velocity[v].v[0] = vx;
           state.velocity[v].v[1] = vy;
         }
