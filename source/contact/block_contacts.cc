@@ -25,22 +25,20 @@ namespace quoin
      * How far [m] the end of an overlap lies beyond the vertex of one edge, by
      * how far @p inside the other edge this vertex lies. Minus the derivative,
      * @p share, by which the end goes with the other edge's vertex, goes from
-     * 1 to 0 over twice the @p rounding length [m], which @p shift moves; where
-     * the vertices coincide the end is theirs.
+     * 1 to 0 over twice the @p rounding length [m]; where the vertices coincide
+     * and beyond the rounding the end is one of theirs.
      */
-    double soft_end(const double inside, const double shift,
-                    const double rounding, double &share)
+    double soft_end(const double inside, const double rounding, double &share)
     {
       if (rounding == 0.)
       {
         share = inside < 0. ? 1. : 0.;
         return std::max(0., -inside);
       }
-      const double v    = inside + shift * rounding;
-      const double left = std::max(0., 1. - std::abs(v) / rounding);
+      const double left = std::max(0., 1. - std::abs(inside) / rounding);
       const double part = 0.5 * left * (3. * left - 2.);
-      share             = v < 0. ? 1. - part : part;
-      return std::max(0., -v) - 0.5 * std::abs(v) * left * left;
+      share             = inside < 0. ? 1. - part : part;
+      return std::max(0., -inside) - 0.5 * std::abs(inside) * left * left;
     }
   } // namespace
 
@@ -105,9 +103,9 @@ namespace quoin
       // As soon as a corner is among them the end of the overlap goes over from
       // one vertex to the other within the rounding length.
       const double ca = a.corner[k], cb = b.corner[1 - k];
-      const double shift  = ca * (1. - cb) - cb * (1. - ca);
-      const double beyond = soft_end(
-          inside[k], shift, rounding * std::max(ca, cb), result.share[k]);
+      const double shift = ca * (1. - cb) - cb * (1. - ca);
+      const double beyond
+          = soft_end(inside[k], rounding * std::max(ca, cb), result.share[k]);
       const double end = k == 0 ? beyond : along_a - beyond;
       result.lower[k]  = end / along_a;
       result.upper[k]  = (begin_b - end) / along_b;
