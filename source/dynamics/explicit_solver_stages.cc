@@ -249,6 +249,8 @@ namespace quoin
     collect_constrained_nodes(state);
   }
 
+  template double ExplicitSolver<2>::quiet_time() const;
+  template double ExplicitSolver<3>::quiet_time() const;
   template void ExplicitSolver<2>::scale_masses(const StageParameters &,
                                                 State<2> &);
   template void ExplicitSolver<2>::begin_stage(const StageParameters &,
