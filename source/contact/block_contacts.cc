@@ -280,7 +280,7 @@ namespace quoin
     losses.contact += 0.5 * pair_share[i] * (pulled_before + sigma)
                       * (open_gap(point) - gap_before);
     if (sigma != 0. || tau != 0.)
-      add_tractions(a, b, g, k, point, sigma, tau);
+      add_tractions(a, b, g, k, point, sigma, tau, compact_force.data());
     if (viscous_beta > 0. && point.state != JointState::open
         && point.state != JointState::slipping)
       add_viscous_forces(a, b, g, k, viscous_beta, stiffness);
@@ -298,12 +298,12 @@ namespace quoin
   void BlockContacts::add_tractions(const Edge &a, const Edge &b,
                                     const Geometry &g, const unsigned int k,
                                     const ContactPoint &point,
-                                    const double sigma, const double tau)
+                                    const double sigma, const double tau,
+                                    NodeVector<2> *force)
   {
     const double *normal = g.normal[k], *t = g.tangent;
     const double f[2] = { tau * normal[1], -tau * normal[0] };
-    spread(a, b, point.anchor_lower, point.anchor_upper, f,
-           compact_force.data());
+    spread(a, b, point.anchor_lower, point.anchor_upper, f, force);
 
     // theory.md, "General contacts": the differential of sigma u_n + tau u_s
     // by the place of b, the rotations and the lengths of both edges.
@@ -355,10 +355,10 @@ namespace quoin
             stretch_b * b.tangent[1] + turn_b * b.tangent[0] };
     for (unsigned int d = 0; d < 2; ++d)
     {
-      compact_force[a.nodes[0]].v[d] += end_a[d] + move[d];
-      compact_force[a.nodes[1]].v[d] -= end_a[d];
-      compact_force[b.nodes[0]].v[d] += end_b[d] - move[d];
-      compact_force[b.nodes[1]].v[d] -= end_b[d];
+      force[a.nodes[0]].v[d] += end_a[d] + move[d];
+      force[a.nodes[1]].v[d] -= end_a[d];
+      force[b.nodes[0]].v[d] += end_b[d] - move[d];
+      force[b.nodes[1]].v[d] -= end_b[d];
     }
   }
 
@@ -664,6 +664,38 @@ namespace quoin
       result.opening[k]   = g.opening[k];
       result.slip[k]      = slip(pair.points[k], a, b, g.normal[k]);
     }
+    return true;
+  }
+
+  bool BlockContacts::end_forces(const ContactState &contacts,
+                                 const unsigned int i, EndForces &result) const
+  {
+    const ContactPair &pair = contacts.pairs[i];
+    Edge a = local_edges[pair_edges[i][0]], b = local_edges[pair_edges[i][1]];
+    Geometry g;
+    if (!pair.active || !geometry(pair, a, b, g))
+      return false;
+    a.nodes[0] = 0;
+    a.nodes[1] = 1;
+    b.nodes[0] = 2;
+    b.nodes[1] = 3;
+    NodeVector<2> force[4]{};
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      const ContactPoint &point = pair.points[k];
+      add_tractions(a, b, g, k, point, point.area * point.normal_traction,
+                    point.area * point.shear_traction, force);
+    }
+    for (const Edge *edge : { &a, &b })
+      for (unsigned int end = 0; end < 2; ++end)
+      {
+        const unsigned int n  = edge->nodes[end];
+        const double distance = end == 0 ? 0. : edge->length;
+        result.place[n]       = { edge->x + distance * edge->tangent[0],
+                                  edge->y + distance * edge->tangent[1] };
+        result.force[n]       = { force[n].v[0], force[n].v[1] };
+      }
+    result.share = pair_share[i];
     return true;
   }
 

@@ -383,15 +383,24 @@ namespace quoin
 
   void BlockContacts::inherit_shifts(ContactState &contacts) const
   {
-    // Of each edge, those of its pairs whose overlap allows for the slip of the
-    // matched joint that they were.
+    // Of each edge, those of its pairs whose overlap still allows for the slip
+    // of the matched joint that they were.
+    const auto has_shift_left = [&](const unsigned int i)
+    {
+      const ContactPair &pair = pair_or_copy(contacts, i);
+      if (!pair.active || pair.shift == 0.)
+        return false;
+      const Edge &a = local_edges[pair_edges[i][0]];
+      const Edge &b = local_edges[pair_edges[i][1]];
+      Geometry g;
+      return geometry(pair, a, b, g) && shift_left(pair, a, b, g.tangent) != 0.;
+    };
     std::vector<unsigned int> parents, begin{ 0 };
     for (unsigned int e = 0; e + 1 < edge_pairs_begin.size(); ++e)
     {
       for (unsigned int j = edge_pairs_begin[e]; j < edge_pairs_begin[e + 1];
            ++j)
-        if (const ContactPair &pair = pair_or_copy(contacts, edge_pairs[j]);
-            pair.active && pair.shift != 0.)
+        if (has_shift_left(edge_pairs[j]))
           parents.push_back(edge_pairs[j]);
       begin.push_back(parents.size());
     }

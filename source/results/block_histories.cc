@@ -211,14 +211,13 @@ namespace quoin
       for (unsigned int p = 0; p < pairs.size(); ++p)
       {
         const bool is_lower = acts(pairs[p], lower, upper);
-        BlockContacts::Contact contact;
+        BlockContacts::EndForces ends;
         if ((!is_lower && !acts(pairs[p], upper, lower))
-            || !contacts->contact(all, i, contact))
+            || !contacts->end_forces(all, i, ends))
           continue;
-        for (unsigned int k = 0; k < 2; ++k)
-          add_force(pairs[p], is_lower ? contact.share : -contact.share,
-                    is_lower ? contact.lower[k] : contact.upper[k],
-                    contact.force[k], forces[p]);
+        for (const unsigned int n : { is_lower ? 0 : 2, is_lower ? 1 : 3 })
+          add_force(pairs[p], ends.share, ends.place[n], ends.force[n],
+                    forces[p]);
       }
     }
   }

@@ -274,6 +274,26 @@ def block_impulse(case, folder, output, histories):
     return errors
 
 
+def block_stack(case, folder, output, histories):
+    """Moments about the centroids where they are: as blocks bear on each other
+    where they are deformed, the weight above goes sideways with them."""
+    masses, gravity = (1000.0, 1500.0, 800.0), (2.0, -10.0)
+    names, heights = ("base", "middle", "top"), (0.25, 0.875, 1.45)
+    centroids = [np.array([0.5 + histories[name + "_u"][-1],
+                           height + histories[name + "_v"][-1]])
+                 for name, height in zip(names, heights)]
+    errors = {}
+    for block in (0, 1):
+        wanted = sum(mass * ((place - centroids[block])[0] * gravity[1]
+                             - (place - centroids[block])[1] * gravity[0])
+                     for mass, place in zip(masses[block + 1:],
+                                            centroids[block + 1:]))
+        found = histories[names[block] + "_m"][-1]
+        errors["moment on %s where it is" % names[block]] = float(
+            abs(found / wanted - 1))
+    return errors
+
+
 def block_sliding(case, folder, output, histories):
     """Friction by normal force while it slides, and that the joints became
     contacts on the way."""

@@ -146,6 +146,9 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
 RANKS = {"contacts, divided": (2, 3, 4), "implicit, divided": (2, 3),
          "pattern": (2, 3), "implicit, pattern": (2, 3),
          "implicit, divided, cracked": (2, 3)}
+# The block of the named ones moves by 0.42 m, which takes 17; what this variant
+# shows is the sums of forces on both sides, of joints and then of contacts.
+LEAST_SEARCHES = {"named blocks": 15}
 TOLERANCE = 1e-10
 # Of the peak, where an equilibrium is found to 'Force ratio'.
 LOOSE = {"implicit": 1e-6, "implicit, iterative": 1e-6}
@@ -219,7 +222,7 @@ def compare(quoin, prm, sets, variant, scratch):
                               % (variant, name))
     with open(os.path.join(again, "summary.json")) as stream:
         searches = json.load(stream).get("contact searches")
-    if searches is not None and searches < 50:
+    if searches is not None and searches < LEAST_SEARCHES.get(variant, 50):
         raise Failure("%s: contacts were searched %d times only, so that this "
                       "shows little" % (variant, searches))
     return worst, different

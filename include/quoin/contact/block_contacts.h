@@ -155,6 +155,20 @@ namespace quoin
         inactive or the edges do not overlap. */
     bool contact(const ContactState &contacts, unsigned int pair,
                  Contact &result) const;
+    /** The forces of a pair on the ends of the lower edge and then of the upper
+        one as they act on the nodes, without viscous ones. They have the
+        resultant of Contact::force; their moment is also that by which the
+        contact's area and normals go with the rotation of the edges. */
+    struct EndForces
+    {
+      std::array<std::array<double, 2>, 4> place; /**< [m] */
+      std::array<std::array<double, 2>, 4> force; /**< [N] */
+      double share; /**< of the contact that this rank counts */
+    };
+    /** Those of pair @p pair at the positions of update(); false if it is
+        inactive or the edges do not overlap. */
+    bool end_forces(const ContactState &contacts, unsigned int pair,
+                    EndForces &result) const;
     /** Whether this rank writes the pair. */
     bool is_own(const ContactState &contacts, unsigned int pair) const;
 
@@ -268,9 +282,10 @@ namespace quoin
      * Adds the forces of the resultants @p sigma and @p tau [N] of a point,
      * minus the derivative of sigma u_n + tau u_s by the nodes of both edges.
      */
-    void add_tractions(const Edge &a, const Edge &b, const Geometry &g,
-                       unsigned int k, const ContactPoint &point, double sigma,
-                       double tau);
+    /** Adds to @p force, of compact nodes. */
+    static void add_tractions(const Edge &a, const Edge &b, const Geometry &g,
+                              unsigned int k, const ContactPoint &point,
+                              double sigma, double tau, NodeVector<2> *force);
     void add_viscous_forces(const Edge &a, const Edge &b, const Geometry &g,
                             unsigned int k, double beta,
                             const std::array<double, 2> &stiffness);
