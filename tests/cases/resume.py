@@ -85,6 +85,9 @@ CASES = {
                            "Output/Field interval=2e-3"], 1, 4),
     "sled on 2 ranks": (common.SLED, ["Output/Checkpoint interval=0.05",
                                       "Output/Field interval=2e-3"], 2, 2),
+    # dashpots of contacts
+    "dashpots": (os.path.join(common.VERIFICATION, "impacts", "case.prm"),
+                 ["Output/Checkpoint interval=0.02"], 1, 2),
     # boundary elements: their history, and the domain after the last step
     "cavity": (os.path.join(common.VERIFICATION, "cavity_step", "case.prm"),
                ["Output/Checkpoint interval=0.01", "Sampled field/Spacing=2",
