@@ -43,7 +43,7 @@ def turned(w, ratio, weight, load, direction):
 
 
 times = np.linspace(0.01, 4, 400)
-w = moved(times, 0.03, 1.5)
+w = 2e-3 * times**2
 save("overturning.csv", times, w,
      turned(w, 1, (-0.5, 1), (-0.5, 1), np.array([1, 0])))
 
@@ -53,7 +53,7 @@ save("axle.csv", times, w,
 
 # the triangle has half the weight as its sum, at two thirds of the height
 times = np.linspace(0.01, 2, 200)
-w = moved(times, 4e-3, 1)
+w = 1e-3 * times**2
 save("triangle_overturning.csv", times, w,
      turned(w, 2, (-0.5, 1.5), (-0.5, 2), np.array([1, 0])))
 
