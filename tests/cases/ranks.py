@@ -45,14 +45,17 @@ WALL = os.path.join(common.MASONRY, "tue_walls", "j4d.prm")
 PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
           "Implicit/Force ratio=1e-8"]
 # A stack pushed by a factor of loads that grow with the height; the factor is
-# no number in the first stage, a displacement is.
+# no number in the first stage, the reaction to it and a displacement are.
 COLLAPSE = os.path.join(common.VERIFICATION, "collapse_load", "stack.prm")
 COLLAPSING = ["Materials/block/Law=linear elastic",
               "Materials/block/Young's modulus=1e9",
               "Materials/block/Poisson's ratio=0.2",
               "Stages/settle/Duration=5e-3", "Stages/push/Duration=0.02",
-              "Histories/Names=top", "Histories/top/Quantity=displacement x",
-              "Histories/top/Point=0.5, 3", "Histories/Interval=1e-4"]
+              "Stages/push/Control function=0.025 * t^2",
+              "Histories/factor/Quantity=reaction x",
+              "Histories/factor/Load=base",
+              "Histories/moved/Quantity=displacement x",
+              "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
 VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "rigid": (PATCH_TEST, SETS + ["Materials/rock/Law=rigid",
                                           "Loads/base/Type=traction"]),
