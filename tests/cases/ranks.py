@@ -152,6 +152,9 @@ RANKS = {"contacts, divided": (2, 3, 4), "implicit, divided": (2, 3),
 TOLERANCE = 1e-10
 # Of the peak, where an equilibrium is found to 'Force ratio'.
 LOOSE = {"implicit": 1e-6, "implicit, iterative": 1e-6}
+# The rounding of a controlled displacement, by the square of the time step, is
+# an acceleration, which the factor of a load pattern brings about.
+ROUNDED = {"pattern": 1e-8}
 
 
 def tables(folder):
@@ -208,7 +211,8 @@ def compare(quoin, prm, sets, variant, scratch):
         different += ["%s '%s' by %.1e on %d ranks"
                       % (variant, name, error, ranks)
                       for name, error in errors.items()
-                      if not error <= LOOSE.get(variant, TOLERANCE)]
+                      if not error <= {**LOOSE, **ROUNDED}.get(variant,
+                                                               TOLERANCE)]
         print("  %s, up to %d ranks: largest difference %.2e"
               % (variant, ranks, worst))
     again = run("2 again", 2)
@@ -238,7 +242,7 @@ def body():
             lambda variant: compare(options.quoin, *VARIANTS[variant], variant,
                                     scratch), VARIANTS)
         for variant, (error, columns) in zip(VARIANTS, outcomes):
-            if variant not in LOOSE:
+            if variant not in LOOSE and variant not in ROUNDED:
                 worst = max(worst, error)
             different += columns
         different += compare_linear_solvers(scratch)
