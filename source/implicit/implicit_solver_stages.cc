@@ -335,9 +335,12 @@ namespace quoin
               += state.get<StaticFarFieldState>().held[2 * k + d]
                  * (configuration.nodes[node].u[d] - state.nodes[node].u[d]);
         }
+    // Moments are in balance about the arms of their own configuration.
     const Configuration before = configuration_of(dof_map->bodies(), state);
+    dof_map->update_arms(before);
     const auto forces_0
         = body_forces(dof_map->bodies(), start.force, communicator);
+    dof_map->update_arms(configuration);
     const auto forces_1
         = body_forces(dof_map->bodies(), balance.force, communicator);
     for (unsigned int b = 0; b < before.bodies.size(); ++b)

@@ -45,14 +45,17 @@ WALL = os.path.join(common.MASONRY, "tue_walls", "j4d.prm")
 PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
           "Implicit/Force ratio=1e-8"]
 # A stack pushed by a factor of loads that grow with the height; the factor is
-# no number in the first stage, a displacement is.
+# no number in the first stage, the reaction to it and a displacement are.
 COLLAPSE = os.path.join(common.VERIFICATION, "collapse_load", "stack.prm")
 COLLAPSING = ["Materials/block/Law=linear elastic",
               "Materials/block/Young's modulus=1e9",
               "Materials/block/Poisson's ratio=0.2",
               "Stages/settle/Duration=5e-3", "Stages/push/Duration=0.02",
-              "Histories/Names=top", "Histories/top/Quantity=displacement x",
-              "Histories/top/Point=0.5, 3", "Histories/Interval=1e-4"]
+              "Stages/push/Control function=0.025 * t^2",
+              "Histories/factor/Quantity=reaction x",
+              "Histories/factor/Load=base",
+              "Histories/moved/Quantity=displacement x",
+              "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
 VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "rigid": (PATCH_TEST, SETS + ["Materials/rock/Law=rigid",
                                           "Loads/base/Type=traction"]),
@@ -152,6 +155,9 @@ LEAST_SEARCHES = {"named blocks": 15}
 TOLERANCE = 1e-10
 # Of the peak, where an equilibrium is found to 'Force ratio'.
 LOOSE = {"implicit": 1e-6, "implicit, iterative": 1e-6}
+# The rounding of a controlled displacement, by the square of the time step, is
+# an acceleration, which the factor of a load pattern brings about.
+ROUNDED = {"pattern": 1e-8}
 
 
 def tables(folder):
@@ -208,7 +214,8 @@ def compare(quoin, prm, sets, variant, scratch):
         different += ["%s '%s' by %.1e on %d ranks"
                       % (variant, name, error, ranks)
                       for name, error in errors.items()
-                      if not error <= LOOSE.get(variant, TOLERANCE)]
+                      if not error <= {**LOOSE, **ROUNDED}.get(variant,
+                                                               TOLERANCE)]
         print("  %s, up to %d ranks: largest difference %.2e"
               % (variant, ranks, worst))
     again = run("2 again", 2)
@@ -238,7 +245,7 @@ def body():
             lambda variant: compare(options.quoin, *VARIANTS[variant], variant,
                                     scratch), VARIANTS)
         for variant, (error, columns) in zip(VARIANTS, outcomes):
-            if variant not in LOOSE:
+            if variant not in LOOSE and variant not in ROUNDED:
                 worst = max(worst, error)
             different += columns
         different += compare_linear_solvers(scratch)

@@ -40,8 +40,10 @@ namespace quoin
 
     /**
      * What is to be warned of: that along an axis along which the applied force
-     * varies, supports took another force than it when it was largest, by more
-     * than 5 %. Empty: nothing.
+     * varies, the largest force that supports took at any time is less than the
+     * largest applied one, by more than 5 %. A model that vibrates about a
+     * balance passes, as its supports take more than is applied, too. Empty:
+     * nothing.
      */
     std::string warning() const;
 
@@ -53,19 +55,23 @@ namespace quoin
     {
       archive &peak.factor &peak.displacement &peak.time;
       for (Axis &axis : axes)
-        archive &axis.lowest &axis.highest &axis.applied &axis.supports &axis
-            .time;
+        archive &axis.lowest &axis.highest &axis.most_up &axis.most_down &axis
+            .applied &axis.time;
     }
 
   private:
-    /** Forces along an axis: the range of the applied one, and both when its
-        magnitude was largest, at the last of such times [N, s]. */
+    /** Forces along an axis: the range of the applied one and, at the last time
+        when its magnitude was largest, its value; the largest forces of the
+        supports in both directions [N, s]. */
     struct Axis
     {
       double lowest  = std::numeric_limits<double>::infinity();
       double highest = -std::numeric_limits<double>::infinity();
-      double applied = 0., supports = 0., time = 0.;
+      double most_up = 0., most_down = 0.;
+      double applied = 0., time = 0.;
 
+      /** Largest applied force that supports took, in its direction [N]. */
+      double taken() const;
       /** Whether it is to be warned of. */
       bool parts() const;
     };

@@ -17,9 +17,9 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 G, DENSITY, START = 9.81, 2000.0, 0.5
 
 
-def moved(t, v):
+def moved(t, v, ramp):
     """'Control function', t from the start of the stage."""
-    return v * np.where(t < 0.2, t**2 / 0.4, t - 0.1)
+    return v * np.where(t < ramp, t**2 / (2 * ramp), t - ramp / 2)
 
 
 def save(name, times, w, factor):
@@ -42,8 +42,8 @@ def turned(w, ratio, weight, load, direction):
     return np.interp(w, way, ratio * arm_weight / arm_load)
 
 
-times = np.linspace(0.02, 3, 150)
-w = moved(times, 0.1)
+times = np.linspace(0.01, 4, 400)
+w = 2e-3 * times**2
 save("overturning.csv", times, w,
      turned(w, 1, (-0.5, 1), (-0.5, 1), np.array([1, 0])))
 
@@ -52,8 +52,8 @@ save("axle.csv", times, w,
      turned(w, weight / axle, (-1.1, 0.2), (0.7, 0.4), np.array([0, -1])))
 
 # the triangle has half the weight as its sum, at two thirds of the height
-times = np.linspace(0.02, 1, 50)
-w = moved(times, 0.01)
+times = np.linspace(0.01, 2, 200)
+w = 1e-3 * times**2
 save("triangle_overturning.csv", times, w,
      turned(w, 2, (-0.5, 1.5), (-0.5, 2), np.array([1, 0])))
 
@@ -63,13 +63,15 @@ least = np.min(2 * np.tan(np.radians(15)) / (1 + heights))
 save("triangle_sliding.csv", times, w, np.full(len(times), least))
 
 # sliding of the block
-w = moved(times, 5e-3)
+w = moved(times, 1e-3, 1)
 save("sliding.csv", times, w, np.full(len(times), np.tan(np.radians(20))))
 
 # slip weakening: ks (s - p) = peak - (peak - residual) p / Dc
-pressure, ks, critical = DENSITY * 2 * G, 1e9, 3e-3
-peak = 20e3 + pressure * np.tan(np.radians(20))
-residual = 2e3 + pressure * np.tan(np.radians(10))
+w = moved(times, 4e-3, 1)
+pressure, ks, critical = DENSITY * 0.25 * G, 1e8, 3e-3
+peak = 2e3 + pressure * np.tan(np.radians(20))
+residual = 0.2e3 + pressure * np.tan(np.radians(10))
 fall = (peak - residual) / critical
 tau = np.maximum((peak - fall * w) / (1 - fall / ks), residual)
 save("softening.csv", times, w, np.minimum(ks * w, tau) / pressure)
+print("peak of the softening bed: %.6g" % (peak / pressure))

@@ -1,0 +1,32 @@
+// Slab of 2 m x 0.25 m, from the origin, on a base.
+n = 10;
+Point(1) = {-1, -0.2, 0};
+Point(2) = {3, -0.2, 0};
+Point(3) = {3, 0, 0};
+Point(4) = {2, 0, 0};
+Point(5) = {0, 0, 0};
+Point(6) = {-1, 0, 0};
+Point(7) = {2, 0.25, 0};
+Point(8) = {0, 0.25, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Line(7) = {4, 7};
+Line(8) = {7, 8};
+Line(9) = {8, 5};
+Curve Loop(1) = {1, 2, 3, 4, 5, 6};
+Plane Surface(1) = {1};
+Curve Loop(2) = {-4, 7, 8, 9};
+Plane Surface(2) = {2};
+Transfinite Curve{1} = 4;
+Transfinite Curve{2, 3, 5, 6} = 2;
+Transfinite Curve{4, 8} = n + 1;
+Transfinite Curve{7, 9} = 2;
+Transfinite Surface{2};
+
+Physical Curve("bed") = {4};
+Physical Surface("base") = {1};
+Physical Surface("slab") = {2};
