@@ -100,12 +100,14 @@ namespace quoin
     const double rounding = parameters.rounding * std::min(a.length, b.length);
     for (unsigned int k = 0; k < 2; ++k)
     {
-      // As soon as a corner is among them the end of the overlap goes over from
-      // one vertex to the other within the rounding length.
+      // As soon as a corner is among them the end of the overlap of what was a
+      // joint goes over from one vertex to the other within the rounding
+      // length.
       const double ca = a.corner[k], cb = b.corner[1 - k];
-      const double shift = ca * (1. - cb) - cb * (1. - ca);
-      const double beyond
-          = soft_end(inside[k], rounding * std::max(ca, cb), result.share[k]);
+      const double shift  = ca * (1. - cb) - cb * (1. - ca);
+      const double beyond = soft_end(
+          inside[k], pair.was_joint ? rounding * std::max(ca, cb) : 0.,
+          result.share[k]);
       const double end = k == 0 ? beyond : along_a - beyond;
       result.lower[k]  = end / along_a;
       result.upper[k]  = (begin_b - end) / along_b;
@@ -280,7 +282,7 @@ namespace quoin
     losses.contact += 0.5 * pair_share[i] * (pulled_before + sigma)
                       * (open_gap(point) - gap_before);
     if (sigma != 0. || tau != 0.)
-      add_tractions(a, b, g, k, point, sigma, tau, compact_force.data());
+      add_forces_of_point(pair, a, b, g, k, sigma, tau, compact_force.data());
     if (viscous_beta > 0. && point.state != JointState::open
         && point.state != JointState::slipping)
       add_viscous_forces(a, b, g, k, viscous_beta, stiffness);
@@ -293,6 +295,21 @@ namespace quoin
     return point.normal_traction == 0. && std::isfinite(point.opening)
                ? std::max(0., point.opening - point.plastic_opening)
                : 0.;
+  }
+
+  void BlockContacts::add_forces_of_point(const ContactPair &pair,
+                                          const Edge &a, const Edge &b,
+                                          const Geometry &g,
+                                          const unsigned int k,
+                                          const double sigma, const double tau,
+                                          NodeVector<2> *force)
+  {
+    if (pair.was_joint)
+      return add_tractions(a, b, g, k, pair.points[k], sigma, tau, force);
+    const double *normal = g.normal[k];
+    const double f[2]    = { sigma * normal[0] + tau * normal[1],
+                             sigma * normal[1] - tau * normal[0] };
+    spread(a, b, g.lower[k], g.upper[k], f, force);
   }
 
   void BlockContacts::add_tractions(const Edge &a, const Edge &b,
@@ -683,8 +700,8 @@ namespace quoin
     for (unsigned int k = 0; k < 2; ++k)
     {
       const ContactPoint &point = pair.points[k];
-      add_tractions(a, b, g, k, point, point.area * point.normal_traction,
-                    point.area * point.shear_traction, force);
+      add_forces_of_point(pair, a, b, g, k, point.area * point.normal_traction,
+                          point.area * point.shear_traction, force);
     }
     for (const Edge *edge : { &a, &b })
       for (unsigned int end = 0; end < 2; ++end)

@@ -321,8 +321,18 @@ namespace quoin
     AlignedArray<std::uint8_t> left_out(node_map.table().n_blocks());
     for (unsigned int b = 0; b < left_out.size(); ++b)
       left_out[b] = state.is_absent(b);
-    const auto ends = edges_within_reach(node_map, edges, state.nodes.data(),
-                                         left_out, contacts.skin);
+    // Beside a contact that has dilated, crushed or overlaps edges touch as far
+    // apart as those of the contact.
+    double apart = 0.;
+    for (const ContactPair &pair : contacts.pairs)
+      for (const ContactPoint &point : pair.points)
+        if (point.normal_traction != 0. && std::isfinite(point.opening))
+          apart = std::max(apart, std::abs(point.opening));
+    MPI_Allreduce(MPI_IN_PLACE, &apart, 1, MPI_DOUBLE, MPI_MAX,
+                  exchange.communicator());
+    const double near = contacts.skin + apart;
+    const auto ends   = edges_within_reach(node_map, edges, state.nodes.data(),
+                                           left_out, near);
 
     std::sort(contacts.pairs.begin(), contacts.pairs.end(),
               [](const ContactPair &a, const ContactPair &b)
@@ -344,7 +354,7 @@ namespace quoin
       else
         state.energy.contact += share(pair) * release(pair);
     };
-    for (const auto &[i, j] : near_edges(edges, ends, contacts.skin))
+    for (const auto &[i, j] : near_edges(edges, ends, near))
     {
       const unsigned int a = ends[i].edge, b = ends[j].edge;
       if (is_matched(contacts, a, b))

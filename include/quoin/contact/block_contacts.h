@@ -282,6 +282,12 @@ namespace quoin
      * Adds the forces of the resultants @p sigma and @p tau [N] of a point,
      * minus the derivative of sigma u_n + tau u_s by the nodes of both edges.
      */
+    /** Adds the forces of the resultants @p sigma and @p tau [N] of a point:
+        those of add_tractions() where the pair was a joint, else in line. */
+    static void add_forces_of_point(const ContactPair &pair, const Edge &a,
+                                    const Edge &b, const Geometry &g,
+                                    unsigned int k, double sigma, double tau,
+                                    NodeVector<2> *force);
     /** Adds to @p force, of compact nodes. */
     static void add_tractions(const Edge &a, const Edge &b, const Geometry &g,
                               unsigned int k, const ContactPoint &point,

@@ -368,7 +368,10 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
   mortar.law                = crushing_mortar().law;
   for (const JointSetParameters &joint :
        { weak, strong, rough, yielding, mortar })
-    for (const double angle : { 0., 0.008 })
+    // Turned by more a joint that crushes would close by millimetres, and what
+    // either frame takes for slip then differs by more than its elastic slip.
+    for (const double angle :
+         { 0., std::holds_alternative<CompositeLaw>(joint.law) ? 2e-4 : 0.008 })
     {
       Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); },
                   { joint, touching() });
@@ -431,7 +434,8 @@ TEST(BlockContacts, JointsAreHandedOverWithoutAJump)
       EXPECT_GT(full, 0.);
       for (unsigned int d = 0; d < 3; ++d)
         EXPECT_NEAR(general[d], before[d], 2e-3 * full)
-            << "component " << d << ", angle " << angle;
+            << "component " << d << ", angle " << angle << ", "
+            << kind_of_law(joint.law);
       EXPECT_NEAR(scene.contacts->stored_energy(scene.state),
                   scene.joints.stored_energy(matched),
                   2e-3 * scene.joints.stored_energy(matched));
@@ -518,7 +522,7 @@ TEST(BlockContacts, NewContactsOfRockAreWorn)
 TEST(BlockContacts, HandedOverJointsStayCrushed)
 {
   JointSetParameters mortar = crushing_mortar();
-  mortar.curves             = { "unnamed" };
+  mortar.curves             = { "joint" };
   Scene scene([](BlockMesh<2> &mesh) { make_stack(mesh, 3, 1); }, { mortar });
   const unsigned int upper = scene.block_at(0., 2.);
   const auto law           = std::get<CompositeLaw>(mortar.law);

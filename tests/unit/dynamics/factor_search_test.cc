@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace quoin;
@@ -124,4 +125,18 @@ TEST(FailureWatch, WhatGoesOnMovingHasFailed)
     }
     EXPECT_TRUE(has_failed);
   }
+}
+
+TEST(FailureWatch, WhatCollapsesLateHasFailed)
+{
+  // It hardly moves for long, then accelerates, and comes to rest as a heap.
+  FailureWatch watch(1., 0.);
+  bool has_failed = false;
+  for (double t = 0.1; t <= 100.; t += 0.1)
+  {
+    const double fall = std::clamp(t - 30., 0., 5.);
+    has_failed = watch.has_failed(t, 0.3 + 0.2 * fall * fall) || has_failed;
+    EXPECT_FALSE(t < 31.5 && has_failed);
+  }
+  EXPECT_TRUE(has_failed);
 }
