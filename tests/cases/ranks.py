@@ -12,7 +12,7 @@ history and points the ranks share. A block that is distributed over several ran
 without and with joints inside. A static far field, which every rank has as a
 whole, and dashpots that hold what it carried. Blocks placed and excavated, whole
 and divided. A divided block that slides along another one, from a joint that slipped
-on. Tetrahedra. A wall in equilibrium, cracking, to what its iterations leave, by both
+on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra. A wall in equilibrium, cracking, to what its iterations leave, by both
 linear solvers; a block that is distributed over 2 and 3 ranks in equilibrium, without
 and with joints inside. A stack of blocks under a load pattern, by both solvers.
 """
@@ -118,6 +118,13 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "construction, divided": (common.DIG, []),
             # general contacts, both blocks in several ranks
             "contacts, divided": (common.SLIDE, []),
+            # dashpots of contacts
+            "dashpots": (os.path.join(common.VERIFICATION, "impacts",
+                                      "case.prm"), []),
+            # and of joints and contacts of blocks in several ranks
+            "dashpots, divided": (common.SLIDE,
+                                  ["Joints/seam/Restitution=0.3",
+                                   "Joints/touch/Restitution=0.3"]),
             # joints between ranks that become contacts
             "named blocks": (os.path.join(common.VERIFICATION, "named_blocks",
                                           "slide.prm"), []),
@@ -146,7 +153,8 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "implicit, iterative": (
                 WALL, PUSHED + ["Implicit/Linear solver=iterative"])}
 # Other than 2 and 4.
-RANKS = {"contacts, divided": (2, 3, 4), "implicit, divided": (2, 3),
+RANKS = {"contacts, divided": (2, 3, 4), "dashpots": (2, 3),
+         "dashpots, divided": (2, 3), "implicit, divided": (2, 3),
          "pattern": (2, 3), "implicit, pattern": (2, 3),
          "implicit, divided, cracked": (2, 3)}
 # The block of the named ones moves by 0.42 m, which takes 17; what this variant
