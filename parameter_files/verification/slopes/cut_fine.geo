@@ -1,3 +1,3 @@
-// The vertical cut with quadrangles of 1/44 m.
-h = 1 / 44;
+// The vertical cut with quadrangles of 1/48 m.
+h = 1 / 48;
 Include "cut.geo";
