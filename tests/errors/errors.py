@@ -126,6 +126,9 @@ def failed_run(quoin, case, folder):
             raise Failure("summary.json says that the run has finished")
     status, again = run(words + ["--resume"])
     expect(status, again, 2, case["says"])
+    # a stage that is over warns once
+    printed = "".join(line for line in printed.splitlines(keepends=True)
+                      if not line.startswith("Warning: stage first:"))
     if again != printed:
         raise Failure("resumed, it says:\n%s\ninstead of:\n%s"
                       % (again.strip(), printed.strip()))
