@@ -42,6 +42,16 @@ namespace quoin
     }
   } // namespace
 
+  std::array<double, 2>
+  BlockContacts::normal_between(const Edge &a, const Edge &b, const double lean)
+  {
+    const double of_a = 0.5 * (1. - lean), of_b = 0.5 * (1. + lean);
+    const double x    = of_a * a.tangent[1] - of_b * b.tangent[1];
+    const double y    = of_b * b.tangent[0] - of_a * a.tangent[0];
+    const double norm = 1. / std::sqrt(x * x + y * y);
+    return { norm * x, norm * y };
+  }
+
   bool BlockContacts::geometry(const ContactPair &pair, const Edge &a,
                                const Edge &b, Geometry &result) const
   {
@@ -122,13 +132,13 @@ namespace quoin
       const double of_b
           = 0.5 * parallel + (1. - parallel) * std::clamp(touched, 0., 1.);
       result.lean[k] = 2. * of_b - 1.;
-      result.turn[k]
-          = touched > 0. && touched < 1. ? (1. - parallel) / rounding : 0.;
-      const double of_a = 1. - of_b;
-      const double norm = 1. / std::sqrt(1. - 2. * of_a * of_b * (1. - cosine));
-      double *normal    = result.normal[k];
-      normal[0]         = norm * (of_a * a.tangent[1] - of_b * b.tangent[1]);
-      normal[1]         = norm * (of_b * b.tangent[0] - of_a * a.tangent[0]);
+      // Joints overlap by little against the rounding. Where overlaps may be
+      // many times as deep, forces of the turning would be a wall.
+      result.turn[k]    = pair.was_joint && touched > 0. && touched < 1.
+                              ? (1. - parallel) / rounding
+                              : 0.;
+      const auto normal = normal_between(a, b, result.lean[k]);
+      std::copy(normal.begin(), normal.end(), result.normal[k]);
       result.opening[k] = dx * normal[0] + dy * normal[1];
 
       result.area[k] = area;
@@ -248,9 +258,13 @@ namespace quoin
 
     double opening     = g.opening[k];
     const double depth = point.plastic_opening - opening;
+    double sideways    = 0.;
     if (depth > g.overlap)
-      opening += g.sideways * (depth - g.overlap * g.overlap / depth);
-    const double slip_now = slip(point, a, b, normal);
+      sideways = g.sideways * (depth - g.overlap * g.overlap / depth);
+    opening += sideways;
+    const double slip_now     = slip(point, a, b, normal);
+    const double sigma_before = point.normal_traction;
+    const double tau_before   = point.shear_traction;
 
     ContactStep step;
     std::array<double, 2> stiffness;
@@ -260,10 +274,23 @@ namespace quoin
                step      = advance_contact(law, point, opening, slip_now);
                stiffness = law.stiffness_at(point.normal_traction);
              });
-    const double mean_area = 0.5 * (g.area[k] + point.area) * pair_share[i];
+    // What an heir does as it comes, with no area, is not its own work.
+    const double mean_area
+        = point.area > 0. ? 0.5 * (g.area[k] + point.area) * pair_share[i] : 0.;
     losses.friction += mean_area * step.lost.friction;
     losses.fracture += mean_area * step.lost.fracture;
     losses.crushing += mean_area * step.lost.crushing;
+    if (!pair.was_joint
+        && (point.lean != g.lean[k] || point.sideways != sideways))
+    {
+      const auto [x, y] = motion_of_frame(a, b, g, k, point, slip_now);
+      losses.contact -= 0.5 * mean_area
+                        * ((sigma_before + point.normal_traction)
+                               * (x + sideways - point.sideways)
+                           + (tau_before + point.shear_traction) * y);
+    }
+    point.lean     = g.lean[k];
+    point.sideways = sideways;
     if (step.flows)
     {
       // Anchors behind would turn rotation into slip.
@@ -282,7 +309,7 @@ namespace quoin
     losses.contact += 0.5 * pair_share[i] * (pulled_before + sigma)
                       * (open_gap(point) - gap_before);
     if (sigma != 0. || tau != 0.)
-      add_forces_of_point(pair, a, b, g, k, sigma, tau, compact_force.data());
+      add_tractions(a, b, g, k, point, sigma, tau, compact_force.data());
     if (viscous_beta > 0. && point.state != JointState::open
         && point.state != JointState::slipping)
       add_viscous_forces(a, b, g, k, viscous_beta, stiffness);
@@ -293,23 +320,21 @@ namespace quoin
   double BlockContacts::open_gap(const ContactPoint &point)
   {
     return point.normal_traction == 0. && std::isfinite(point.opening)
-               ? std::max(0., point.opening - point.plastic_opening)
+               ? point.opening - point.plastic_opening
                : 0.;
   }
 
-  void BlockContacts::add_forces_of_point(const ContactPair &pair,
-                                          const Edge &a, const Edge &b,
-                                          const Geometry &g,
-                                          const unsigned int k,
-                                          const double sigma, const double tau,
-                                          NodeVector<2> *force)
+  std::array<double, 2> BlockContacts::motion_of_frame(
+      const Edge &a, const Edge &b, const Geometry &g, const unsigned int k,
+      const ContactPoint &point, const double slip_now)
   {
-    if (pair.was_joint)
-      return add_tractions(a, b, g, k, pair.points[k], sigma, tau, force);
-    const double *normal = g.normal[k];
-    const double f[2]    = { sigma * normal[0] + tau * normal[1],
-                             sigma * normal[1] - tau * normal[0] };
-    spread(a, b, g.lower[k], g.upper[k], f, force);
+    const auto [x, y]      = normal_between(a, b, point.lean);
+    const double before[2] = { x, y };
+    const double la = g.lower[k] * a.length, lb = g.upper[k] * b.length;
+    const double dx = b.x - a.x + lb * b.tangent[0] - la * a.tangent[0];
+    const double dy = b.y - a.y + lb * b.tangent[1] - la * a.tangent[1];
+    return { g.opening[k] - (dx * x + dy * y),
+             slip_now - slip(point, a, b, before) };
   }
 
   void BlockContacts::add_tractions(const Edge &a, const Edge &b,
@@ -538,10 +563,13 @@ namespace quoin
     for (unsigned int k = 0; k < 2; ++k)
     {
       ContactPoint &point = pair.points[k];
-      inherited.opening   = point.opening;
-      point               = inherited;
-      point.anchor_lower  = g.lower[k];
-      point.anchor_upper  = g.upper[k];
+      inherited.opening
+          = std::isfinite(point.opening) ? point.opening : g.opening[k];
+      point              = inherited;
+      point.lean         = g.lean[k];
+      point.sideways     = 0.;
+      point.anchor_lower = g.lower[k];
+      point.anchor_upper = g.upper[k];
       // Whoever is heir to a history comes with no area, others as they are.
       point.area = is_heir ? 0. : g.area[k];
       // Such that the slip now is that of the other pair.
@@ -700,8 +728,8 @@ namespace quoin
     for (unsigned int k = 0; k < 2; ++k)
     {
       const ContactPoint &point = pair.points[k];
-      add_forces_of_point(pair, a, b, g, k, point.area * point.normal_traction,
-                          point.area * point.shear_traction, force);
+      add_tractions(a, b, g, k, point, point.area * point.normal_traction,
+                    point.area * point.shear_traction, force);
     }
     for (const Edge *edge : { &a, &b })
       for (unsigned int end = 0; end < 2; ++end)

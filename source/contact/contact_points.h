@@ -59,7 +59,9 @@ namespace quoin
       step.lost = law.update_failing(point, opening, slip);
     step.flows = point.state == JointState::slipping
                  || point.state == JointState::open;
-    step.carried = law.carried_energy(before, point);
+    // What comes with no area has had no energy before.
+    step.carried
+        = law.carried_energy(contact.area > 0. ? before : point, point);
     write_point(point, contact);
     return step;
   }

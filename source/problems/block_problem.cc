@@ -434,6 +434,20 @@ namespace quoin
               ? "."
               : "; blocks that turn or slide far need 'Displacements = large' "
                 "in section 'Contact'.");
+    /** Largest energy that changing areas and normals of contacts may take or
+        give, by the energy throughput. */
+    constexpr double largest_of_contacts = 0.05;
+    const Energies &energies             = system.solver->energies();
+    const double of_contacts
+        = energies.accounts.contact / energies.throughput();
+    if (std::abs(of_contacts) > largest_of_contacts)
+      run.log.warning(
+          "general contacts ", of_contacts > 0. ? "took" : "gave", " ",
+          100. * std::abs(of_contacts),
+          " % of the energy throughput as their areas and normals changed "
+          "(column 'contact [J]' of energies.csv), more than 5 %: overlaps are "
+          "deep for edges as long as these. Compare with a run with a higher "
+          "'Normal stiffness'.");
     const std::uint64_t n_trial_steps = std::accumulate(
         context.searches.begin(), context.searches.end(), std::uint64_t(0),
         [](const std::uint64_t n, const FactorSearch &search)

@@ -276,19 +276,24 @@ namespace quoin
     void add_point_forces(unsigned int pair, unsigned int k, const Geometry &g,
                           ContactState &contacts, double viscous_beta,
                           bool damps, Losses &losses);
-    /** By how much a contact without traction is open [m]. */
+    /** By how much a contact without traction is open [m]; less than 0 where
+        one that begins overlaps already. */
     static double open_gap(const ContactPoint &point);
+    /** Unit normal of a contact, from lower to upper: of @p a where @p lean is
+        -1, of @p b where it is 1. */
+    static std::array<double, 2> normal_between(const Edge &a, const Edge &b,
+                                                double lean);
+    /** What of the opening and of the slip @p slip_now [m] came since the last
+        step by the turning of the normal from one edge to the other. */
+    static std::array<double, 2>
+    motion_of_frame(const Edge &a, const Edge &b, const Geometry &g,
+                    unsigned int k, const ContactPoint &point, double slip_now);
     /**
-     * Adds the forces of the resultants @p sigma and @p tau [N] of a point,
-     * minus the derivative of sigma u_n + tau u_s by the nodes of both edges.
+     * Adds to @p force, of compact nodes, the forces of the resultants @p sigma
+     * and @p tau [N] of a point, minus the derivative of
+     * sigma u_n + tau u_s by the nodes of both edges; the normal turns from one
+     * edge to the other only where Geometry::turn says so.
      */
-    /** Adds the forces of the resultants @p sigma and @p tau [N] of a point:
-        those of add_tractions() where the pair was a joint, else in line. */
-    static void add_forces_of_point(const ContactPair &pair, const Edge &a,
-                                    const Edge &b, const Geometry &g,
-                                    unsigned int k, double sigma, double tau,
-                                    NodeVector<2> *force);
-    /** Adds to @p force, of compact nodes. */
     static void add_tractions(const Edge &a, const Edge &b, const Geometry &g,
                               unsigned int k, const ContactPoint &point,
                               double sigma, double tau, NodeVector<2> *force);

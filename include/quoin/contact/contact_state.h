@@ -29,6 +29,12 @@ namespace quoin
     /** Internal variables of its law; there is room for most_internal. */
     static constexpr unsigned int most_internal = 4;
     double internal[most_internal]{};
+    /** How its normal leans, from -1, that of the lower edge, to 1, that of the
+        upper; as last used. */
+    double lean = 0.;
+    /** What it takes off the overlap that it is from corner to corner, as last
+        used [m]. */
+    double sideways  = 0.;
     JointState state = JointState::slipped;
   };
 

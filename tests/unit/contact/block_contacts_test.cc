@@ -616,33 +616,31 @@ TEST(BlockContacts, NewCompositeContactsHaveNoBond)
 // A block slides with friction over a corner while it tips: the work of its
 // nodes is stored, lost to friction or to areas that change. Kinks within the
 // steps are in the accounts; what is left falls with the square of the step.
-TEST(BlockContacts, WorkIsStoredOrDissipated)
+namespace
 {
-  for (const double friction : { 0., 0.4 })
+  /** Turn, x and y of a block at a share of its way from 0 to 1. */
+  using Way = std::function<std::array<double, 3>(double)>;
+
+  /** Moves the block @p upper, which turns about the point (@p x0, @p y0) that
+      goes with it, on its @p way: work must have been stored or booked. */
+  void expect_work_is_booked(Scene &scene, const unsigned int upper,
+                             const double x0, const double y0, const Way &way)
   {
-    Scene scene({ { 0., 0., 2., 1., 2, 1 }, { 1.2, 1., 1., 1., 2, 1 } },
-                { touching(friction) });
-    const unsigned int upper = scene.block_at(1.2, 2.);
-    scene.move(upper, 0., 0.1 * closing);
+    std::array<double, 3> now = way(0.);
+    scene.turn(upper, now[0], x0, y0);
+    scene.move(upper, now[1], now[2]);
     scene.find_forces();
     const double at_start = scene.contacts->stored_energy(scene.state);
     const unsigned int n  = 40000;
     double work = 0., throughput = 0.;
-    double angle = 0., x = 0., y = 0.1 * closing;
     for (unsigned int i = 1; i <= n; ++i)
     {
       const auto nodes = scene.state.nodes;
       const auto force = scene.force;
-      const double p   = static_cast<double>(i) / n;
-      // Tips over its own corner and over that of the block below in turn.
-      const double next[3]
-          = { 0.02 * std::sin(20. * p), 0.1 * std::sin(3. * p) + 1e-3 * p,
-              closing * (0.1 - 4. * std::sin(9. * p)) };
-      scene.turn(upper, next[0] - angle, 2. + x, 1. + y);
-      scene.move(upper, next[1] - x, next[2] - y);
-      angle = next[0];
-      x     = next[1];
-      y     = next[2];
+      const auto next  = way(static_cast<double>(i) / n);
+      scene.turn(upper, next[0] - now[0], x0 + now[1], y0 + now[2]);
+      scene.move(upper, next[1] - now[1], next[2] - now[2]);
+      now = next;
       scene.find_forces(i % 20 == 0);
       for (unsigned int v = 0; v < nodes.size(); ++v)
         for (unsigned int d = 0; d < 2; ++d)
@@ -657,8 +655,49 @@ TEST(BlockContacts, WorkIsStoredOrDissipated)
     const double stored = scene.contacts->stored_energy(scene.state) - at_start;
     EXPECT_NEAR(work + stored + lost.friction + lost.contact, 0.,
                 1e-5 * throughput)
-        << "friction " << friction << ": work " << work << ", stored " << stored
-        << ", friction " << lost.friction << ", contact " << lost.contact;
+        << "work " << work << ", stored " << stored << ", friction "
+        << lost.friction << ", contact " << lost.contact;
+  }
+} // namespace
+
+TEST(BlockContacts, WorkIsStoredOrDissipated)
+{
+  for (const double friction : { 0., 0.4 })
+  {
+    SCOPED_TRACE(friction);
+    Scene scene({ { 0., 0., 2., 1., 2, 1 }, { 1.2, 1., 1., 1., 2, 1 } },
+                { touching(friction) });
+    // Tips over its own corner and over that of the block below in turn.
+    expect_work_is_booked(scene, scene.block_at(1.2, 2.), 2., 1.,
+                          [](const double p)
+                          {
+                            return std::array<double, 3>{
+                              0.02 * std::sin(20. * p),
+                              0.1 * std::sin(3. * p) + 1e-3 * p,
+                              closing * (0.1 - 4. * std::sin(9. * p))
+                            };
+                          });
+  }
+}
+
+TEST(BlockContacts, WorkOfDeepCornersIsStoredOrBooked)
+{
+  // A square on its tip goes over the tip of another and over its side, many
+  // times as deep as corners are rounded.
+  for (const double friction : { 0., 0.4 })
+  {
+    SCOPED_TRACE(friction);
+    Scene scene({ { 0., -std::sqrt(2.), 1., 1., 1, 1, 45. * degree },
+                  { 0., 0., 1., 1., 1, 1, 45. * degree } },
+                { touching(friction) });
+    expect_work_is_booked(scene, scene.block_at(0., std::sqrt(2.)), 0., 0.,
+                          [](const double p)
+                          {
+                            return std::array<double, 3>{
+                              0.3 * std::sin(5. * p), 0.02 * std::sin(6. * p),
+                              0.002 - 0.02 * std::sin(3.14 * p)
+                            };
+                          });
   }
 }
 
