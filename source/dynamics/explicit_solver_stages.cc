@@ -152,7 +152,8 @@ namespace quoin
     find_moved_blocks(state);
     hold_removed_blocks(state);
     if (acting.pattern)
-      acting.pattern->set_mobility(node_mass, acting.constraints, rigid_stage);
+      acting.pattern->set_mobility(node_mass, acting.constraints, rigid_stage,
+                                   quiet_time());
   }
 
   template <int dim>

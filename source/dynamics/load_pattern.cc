@@ -13,6 +13,12 @@ namespace quoin
 {
   namespace
   {
+    /** Share of the largest target from which on the ratio of the mean to a
+        named displacement counts, and its largest value or inverse. */
+    constexpr double least_share = 1e-3, largest_ratio = 1e3;
+    /** Least time t_r by the duration of the stage. */
+    constexpr double least_response = 0.005;
+
     /** Throws an InputError if @p load changes in the stage. */
     template <int dim>
     void refuse_change(const NodalLoad<dim> &load, const StageParameters &stage)
@@ -35,7 +41,8 @@ namespace quoin
       const std::vector<NodalLoad<dim>> &loads,
       const std::vector<MotionConstraint<dim> *> &constraints,
       const std::vector<DisplacementTerm> *measured, const State<dim> &state)
-    : model(model), stage_name(stage.name), control(stage.pattern->control)
+    : model(model), stage_name(stage.name), control(stage.pattern->control),
+      is_named(measured), duration(stage.duration)
   {
     const std::string where = "section 'Stages/" + stage.name + "': ";
     if (model.parameters().contact.has_box
@@ -67,7 +74,7 @@ namespace quoin
                          "size at the factor 1.");
     find_mean(constraints);
     if (measured)
-      terms = *measured;
+      named = *measured;
   }
 
   template <int dim>
@@ -96,17 +103,51 @@ namespace quoin
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
         if (free[i].v[d] != 0.)
-          terms.push_back({ i, d, free[i].v[d] / scale });
+          mean.push_back({ i, d, free[i].v[d] / scale });
   }
+
+  namespace
+  {
+    template <int dim>
+    double sum_of(const std::vector<DisplacementTerm> &terms,
+                  const AlignedArray<NodeRecord<dim>> &nodes)
+    {
+      double sum = 0.;
+      for (const DisplacementTerm &term : terms)
+        sum += term.weight * nodes[term.node].u[term.component];
+      return sum;
+    }
+  } // namespace
 
   template <int dim>
   double LoadPattern<dim>::displacement(
       const AlignedArray<NodeRecord<dim>> &nodes) const
   {
-    double sum = 0.;
-    for (const DisplacementTerm &term : terms)
-      sum += term.weight * nodes[term.node].u[term.component];
-    return dealii::Utilities::MPI::sum(sum, model.nodes().communicator());
+    return dealii::Utilities::MPI::sum(sum_of(measure(), nodes),
+                                       model.nodes().communicator());
+  }
+
+  template <int dim>
+  double LoadPattern<dim>::largest_target() const
+  {
+    double largest = 0.;
+    for (unsigned int i = 0; i <= 100; ++i)
+      largest = std::max(largest, std::abs(target(0.01 * i * duration)));
+    return largest;
+  }
+
+  template <int dim>
+  LoadPatternState
+  LoadPattern<dim>::begin(const double at,
+                          const AlignedArray<NodeRecord<dim>> &nodes) const
+  {
+    LoadPatternState own;
+    own.factor     = at;
+    own.start      = displacement(nodes);
+    own.mean_start = own.mean = dealii::Utilities::MPI::sum(
+        sum_of(mean, nodes), model.nodes().communicator());
+    own.wanted = target(0.);
+    return own;
   }
 
   template <int dim>
@@ -125,9 +166,11 @@ namespace quoin
   void LoadPattern<dim>::set_mobility(
       const std::vector<double> &mass,
       const std::vector<MotionConstraint<dim> *> &constraints,
-      const RigidBlockStage &rigid)
+      const RigidBlockStage &rigid, const double response_time)
   {
     rigid_stage = rigid;
+    response    = std::max(response_time, least_response * duration);
+    least_moved = least_share * largest_target();
     std::vector<std::array<bool, dim>> is_held(nodal.size());
     bool moves_platen = false;
     for (const MotionConstraint<dim> *constraint : constraints)
@@ -201,35 +244,59 @@ namespace quoin
   }
 
   template <int dim>
+  void LoadPattern<dim>::advance_mean(const StepContext &step, const double at,
+                                      LoadPatternState &own) const
+  {
+    const double moved  = at - own.start;
+    const double wanted = target(step.end.stage);
+    if (std::abs(moved) > least_moved)
+    {
+      const double ratio = (own.mean - own.mean_start) / moved;
+      own.ratio          = std::copysign(
+                   std::clamp(std::abs(ratio), 1. / largest_ratio, largest_ratio),
+                   ratio);
+    }
+    // Four times the filter's time makes the loop critically damped.
+    const double aim = own.ratio
+                       * ((wanted - own.wanted) / step.dt
+                          + (wanted - moved) / (4. * response));
+    own.rate += step.dt / response * (aim - own.rate);
+    own.mean += step.dt * own.rate;
+    own.wanted = wanted;
+  }
+
+  template <int dim>
   void LoadPattern<dim>::correct(const StepContext &step, State<dim> &state)
   {
     LoadPatternState &own = state.template get<LoadPatternState>();
-    // S w after the step without the change of lambda, and by how much an
-    // impulse raises its rate.
-    double sums[2] = { 0., node_gain };
-    for (const DisplacementTerm &term : terms)
-      sums[0] += scale * term.weight * state.nodes[term.node].u[term.component];
+    // S w after the step without the change of lambda, by how much an impulse
+    // raises its rate, and the named displacement.
+    double sums[3] = { scale * sum_of(mean, state.nodes), node_gain,
+                       sum_of(named, state.nodes) };
     if constexpr (dim == 2)
       sums[1] += model.rigid_blocks().mobility(rigid_stage, nodal.data(),
                                                step.dt, state);
-    MPI_Allreduce(MPI_IN_PLACE, sums, 2, MPI_DOUBLE, MPI_SUM,
+    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM,
                   model.nodes().communicator());
-    const double missing
-        = scale * (own.start + target(step.end.stage)) - sums[0];
-    const double duration = missing / (step.dt * sums[1]);
-    const double change   = duration
+    if (is_named)
+      advance_mean(step, sums[2], own);
+    else
+      own.mean = own.start + target(step.end.stage);
+    const double missing = scale * own.mean - sums[0];
+    const double push    = missing / (step.dt * sums[1]);
+    const double change  = push
                           * (1. + 0.5 * step.dt_velocity * step.mass_damping)
                           / step.dt_velocity;
 
     for (const LoadedNode &node : loaded)
       for (unsigned int d = 0; d < dim; ++d)
       {
-        const double gained = duration * node.gain[d];
+        const double gained = push * node.gain[d];
         state.velocity[node.node].v[d] += gained;
         state.nodes[node.node].u[d] += step.dt * gained;
       }
     if constexpr (dim == 2)
-      model.rigid_blocks().push(rigid_stage, nodal.data(), duration, step.dt,
+      model.rigid_blocks().push(rigid_stage, nodal.data(), push, step.dt,
                                 state);
     // The work of the change over the last half step.
     state.energy.external += 0.5 * step.dt_before * change * power_before;

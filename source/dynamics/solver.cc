@@ -207,8 +207,9 @@ namespace quoin
     LoadPatternState &own = state.template get<LoadPatternState>();
     const bool goes_on    = stage.pattern && previous && previous->pattern
                          && previous->pattern->loads == stage.pattern->loads;
-    own = { goes_on ? own.factor : 0.,
-            acting.pattern ? acting.pattern->displacement(state.nodes) : 0. };
+    own = acting.pattern
+              ? acting.pattern->begin(goes_on ? own.factor : 0., state.nodes)
+              : LoadPatternState();
   }
 
   template <int dim>

@@ -91,8 +91,7 @@ namespace quoin
 
     /** Checks the loads that @p stage scales by a factor. */
     void check_pattern(const std::string &file, const StageParameters &stage,
-                       const std::vector<LoadParameters> &loads,
-                       const bool is_implicit)
+                       const std::vector<LoadParameters> &loads)
     {
       const std::string where
           = file + ", section 'Stages/" + stage.name + "': ";
@@ -119,26 +118,18 @@ namespace quoin
                            + "' twice, but it acts once. Remove one, or "
                              "give the load another value.");
       }
-      if (!is_implicit && stage.pattern->controlled != "mean")
-        throw InputError(
-            where + "'Controlled displacement = " + stage.pattern->controlled
-            + "', but the explicit solver controls the displacement along the "
-              "loads, 'mean'. Take that, record the other one as a history and "
-              "end the stage with it by 'End conditions', or take 'Solver = "
-              "implicit'.");
     }
 
     void check_loads(const std::string &file,
                      const std::vector<StageParameters> &stages,
-                     const std::vector<LoadParameters> &loads,
-                     const bool is_implicit)
+                     const std::vector<LoadParameters> &loads)
     {
       std::set<std::string> used;
       for (const StageParameters &stage : stages)
       {
         if (stage.pattern)
         {
-          check_pattern(file, stage, loads, is_implicit);
+          check_pattern(file, stage, loads);
           used.insert(stage.pattern->loads.begin(), stage.pattern->loads.end());
         }
         for (const std::string &name : stage.loads)
@@ -206,7 +197,7 @@ namespace quoin
       check_stage(ParameterSection(section, stage.name), stage,
                   is_implicit || comes_to_rest(stage, loads), has_excavated);
     }
-    check_loads(top.file(), stages, loads, is_implicit);
+    check_loads(top.file(), stages, loads);
     for (const LoadParameters &load : loads)
       if (load.type == LoadType::boundary_elements)
         check_far_field(top.file(), stages, load.name);

@@ -256,9 +256,10 @@ namespace quoin
       {
         entries.text("Controlled displacement", pattern.controlled,
                      "Load pattern: 'mean', the displacement of the blocks in "
-                     "the direction of its loads, weighted by them; or, for "
-                     "the implicit solver, the name of a history with the "
-                     "quantity displacement or relative displacement.");
+                     "the direction of its loads, weighted by them; or the "
+                     "name of a history with the quantity displacement or "
+                     "relative displacement, which the explicit solver follows "
+                     "by changing the rate of the mean.");
         entries.other("Control function", "",
                       "Load pattern: the controlled displacement from the "
                       "start of the stage on, a function of t as those of "

@@ -55,10 +55,33 @@ namespace quoin
     if (const std::string what = context.loads[index].warning(); !what.empty())
       log.warning("stage ", stage.name, ": ", what);
     warn_of_damping();
+    warn_of_control();
     keep_unreleased_forces();
     note_outcome();
     ++state.stage;
     outputs.write_fields(state);
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_control() const
+  {
+    /** Largest distance from the control function at the end of a stage, by its
+        largest value. */
+    constexpr double largest    = 0.05;
+    const auto &pattern         = system.solver->stage_loads().pattern;
+    const LoadPatternState &own = state.template get<LoadPatternState>();
+    if (!pattern || !system.explicit_solver)
+      return;
+    const double moved = pattern->displacement(state.nodes) - own.start;
+    const double lag   = pattern->target(state.load_time) - moved;
+    if (std::abs(lag) > largest * pattern->largest_target())
+      log.warning(
+          "stage ", stage.name, ": the displacement '",
+          stage.pattern->controlled, "' is ", moved, " m at the end, ", lag,
+          " m away from the 'Control function'. The load factor is that "
+          "of the motion that came about; to follow the function "
+          "closely take a longer 'Duration', more damping, or "
+          "'Controlled displacement = mean'.");
   }
 
   template <int dim>

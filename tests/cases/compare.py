@@ -76,6 +76,18 @@ def iterations_a_step(output):
     return summary["iterations"] / summary["steps"]
 
 
+def unexpected_warnings(case, output):
+    """Of the log, those that have none of the case's texts 'warns', and the
+    texts that none has."""
+    with open(os.path.join(output, "log.txt")) as log:
+        warnings = [line for line in log if line.startswith("Warning: ")]
+    texts = case.get("warns", [])
+    return (["warns: " + line.strip() for line in warnings
+             if not any(text in line for text in texts)]
+            + ["does not warn: " + text for text in texts
+               if not any(text in line for line in warnings)])
+
+
 def run_case(case, options):
     name = case["name"]
     results = common.begin(options, name)
@@ -101,12 +113,12 @@ def run_case(case, options):
                                                  histories)
         iterations = ("iterations a step" in case
                       and iterations_a_step(output))
+        failed = unexpected_warnings(case, output)
     tolerance, tolerances = case["tolerance"], case.get("tolerances", {})
     unknown = set(tolerances) - set(errors) - set(extra)
     if unknown:
         raise Failure("%s: tolerances of what is not compared: %s"
                       % (name, ", ".join(sorted(unknown))))
-    failed = []
     if iterations and iterations > case["iterations a step"]:
         failed.append("%.2f iterations a step > %g"
                       % (iterations, case["iterations a step"]))

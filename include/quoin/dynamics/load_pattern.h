@@ -23,10 +23,17 @@ namespace quoin
     /** The controlled displacement where the stage began [m]. */
     double start = 0.;
 
+    // By the explicit solver, where a history is controlled:
+    double mean_start = 0.; /**< mean displacement where the stage began [m] */
+    double mean       = 0.; /**< what it is prescribed to be [m] */
+    double rate       = 0.; /**< of that [m/s] */
+    double wanted     = 0.; /**< control function of the last step [m] */
+    double ratio      = 1.; /**< mean by controlled displacement so far [-] */
+
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
-      visitor.same(factor, start);
+      visitor.same(factor, start, mean_start, mean, rate, wanted, ratio);
     }
 
     template <typename Archive>
@@ -66,6 +73,13 @@ namespace quoin
    * the critical step holds. Local damping, which takes a share of the
    * unbalanced force, so sees lambda p, but for its change in one step.
    *
+   * The projection is not symmetric where another displacement q is named, and
+   * takes no heed of how long a force needs to get there. So the mean is
+   * prescribed then, too, at a rate by which q follows its control function
+   * Q(t), slowly against the time t_r that the model needs to respond,
+   * @f[ t_r \ddot w + \dot w = \frac{w - w_0}{q - q_0}
+   *               \left(\dot Q + \frac{Q - q}{4 t_r}\right) . @f]
+   *
    * Implicit: lambda is an unknown; see Equilibrium.
    */
   template <int dim>
@@ -90,31 +104,37 @@ namespace quoin
     {
       return nodal;
     }
-    /** This rank's terms of w. */
+    /** This rank's terms of the controlled displacement. */
     const std::vector<DisplacementTerm> &measure() const
     {
-      return terms;
+      return is_named ? named : mean;
     }
 
-    /** w, from the reference on [m]; collective. */
+    /** The controlled displacement, from the reference on [m]; collective. */
     double displacement(const AlignedArray<NodeRecord<dim>> &nodes) const;
-    /** What w has to be at @p load_time [s], from the start of the stage on
+    /** What it has to be at @p load_time [s], from the start of the stage on
         [m]. */
     double target(const double load_time) const
     {
       return control({ load_time, load_time });
     }
+    /** Largest target of the stage, whatever its sign [m]. */
+    double largest_target() const;
+    /** The pattern's state where a stage begins, with @p factor; collective. */
+    LoadPatternState begin(double factor,
+                           const AlignedArray<NodeRecord<dim>> &nodes) const;
     /** Resultant of the loads with the factor 1 [N]; collective. */
     std::array<double, dim> resultant() const;
 
     // The rest is for the explicit solver.
 
     /** Finds what lambda moves: not what @p constraints move. @p mass: of local
-        nodes, with mass scaling [kg]. Throws an InputError about constraints
-        that do not go with it. Collective. */
+        nodes, with mass scaling [kg]; @p response_time: of the model [s].
+        Throws an InputError about constraints that do not go with it.
+        Collective. */
     void set_mobility(const std::vector<double> &mass,
                       const std::vector<MotionConstraint<dim> *> &constraints,
-                      const RigidBlockStage &rigid);
+                      const RigidBlockStage &rigid, double response_time);
     const char *kind() const override
     {
       return "loads";
@@ -127,6 +147,10 @@ namespace quoin
     void correct(const StepContext &step, State<dim> &state);
 
   private:
+    /** Takes @p own.mean on by @p step, where the named displacement is @p at
+        now [m]. */
+    void advance_mean(const StepContext &step, double at,
+                      LoadPatternState &own) const;
     /** Makes the terms of the mean, without what is held. */
     void find_mean(const std::vector<MotionConstraint<dim> *> &constraints);
 
@@ -143,10 +167,14 @@ namespace quoin
     const TimeFunction control;
     AlignedArray<NodeVector<dim>> nodal;
     std::vector<LoadedNode> loaded; /**< owned */
-    std::vector<DisplacementTerm> terms;
-    double scale     = 0.; /**< S [N] */
-    double node_gain = 0.; /**< p M^-1 p of this rank's free nodes [N^2/kg] */
-    double factor    = 0.; /**< the state's, in a step [-] */
+    std::vector<DisplacementTerm> mean, named;
+    const bool is_named;
+    const double duration;   /**< of the stage [s] */
+    double response    = 0.; /**< time t_r [s] */
+    double least_moved = 0.; /**< of q for a ratio of both [m] */
+    double scale       = 0.; /**< S [N] */
+    double node_gain   = 0.; /**< p M^-1 p of this rank's free nodes [N^2/kg] */
+    double factor      = 0.; /**< the state's, in a step [-] */
     double power_before = 0.; /**< p v of this rank where a step begins [W] */
     RigidBlockStage rigid_stage;
   };

@@ -142,6 +142,8 @@ namespace quoin
     void record_loads(double time);
     /** Warns of local damping that has borne a part of the loads. */
     void warn_of_damping() const;
+    /** Warns if the stage ends far from its control function. Collective. */
+    void warn_of_control() const;
     /** Keeps and reports how the stage has ended. */
     void note_outcome();
     /** Forces of excavated blocks that a stage has not released when a

@@ -28,14 +28,15 @@ def save(name, times, w, factor):
                fmt="%.9g", comments="", header="time [s],factor [-],moved [m]")
 
 
-def turned(w, ratio, weight, load, direction):
-    """Factor at the displacements w: places of weight and load from the edge,
-    the load towards direction; ratio: weight by load. The body turns
-    clockwise."""
+def turned(w, ratio, weight, load, direction, point=None):
+    """Factor at the displacements w of the load, or of the point, along the
+    load: places from the edge, the load towards direction; ratio: weight by
+    load. The body turns clockwise."""
     theta = np.linspace(0, 0.6, 60001)
     c, s = np.cos(theta), np.sin(theta)
     place = np.array([c * load[0] + s * load[1], c * load[1] - s * load[0]])
-    way = direction @ (place - np.array(load)[:, None])
+    x, y = load if point is None else point
+    way = direction @ np.array([c * x + s * y - x, c * y - s * x - y])
     arm_weight = -(c * weight[0] + s * weight[1])
     # clockwise moment of the load
     arm_load = place[1] * direction[0] - place[0] * direction[1]
@@ -46,6 +47,9 @@ times = np.linspace(0.01, 4, 400)
 w = 2e-3 * times**2
 save("overturning.csv", times, w,
      turned(w, 1, (-0.5, 1), (-0.5, 1), np.array([1, 0])))
+
+save("overturning_top.csv", times, 2 * w,
+     turned(2 * w, 1, (-0.5, 1), (-0.5, 1), np.array([1, 0]), (-0.5, 2)))
 
 weight, axle = DENSITY * 4 * 0.4 * G, 10e3
 save("axle.csv", times, w,
