@@ -29,8 +29,11 @@ namespace quoin
 
   double Energies::throughput() const
   {
+    /** Share of what is stored at the start that may be rounding. */
+    constexpr double rounding = 1e-10;
     return std::max({ std::abs(accounts.sum(EnergyKind::given)), stored(),
-                      accounts.sum(EnergyKind::dissipated) });
+                      accounts.sum(EnergyKind::dissipated),
+                      rounding * at_start });
   }
 
   template <int dim>
@@ -381,6 +384,8 @@ namespace quoin
     last_energies.kinetic = values[0];
     last_energies.strain  = values[1] - strain_at_start;
     last_energies.joint   = values[2] - joint_at_start;
+    last_energies.at_start
+        = std::abs(strain_at_start) + std::abs(joint_at_start);
     if (const auto *beyond = state.template find<StaticFarFieldState>())
       last_energies.far_field = beyond->stored;
     unsigned int i = 3;

@@ -77,11 +77,11 @@ def iterations_a_step(output):
 
 
 def unexpected_warnings(case, output):
-    """Of the log, those that have none of the case's texts 'warns', and the
+    """Of the log, those that have none of the case's texts 'warnings', and the
     texts that none has."""
     with open(os.path.join(output, "log.txt")) as log:
         warnings = [line for line in log if line.startswith("Warning: ")]
-    texts = case.get("warns", [])
+    texts = case.get("warnings", [])
     return (["warns: " + line.strip() for line in warnings
              if not any(text in line for text in texts)]
             + ["does not warn: " + text for text in texts

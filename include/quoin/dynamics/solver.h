@@ -30,6 +30,9 @@ namespace quoin
     double strain    = 0.; /**< of the blocks, since the start */
     double joint     = 0.; /**< recoverable, since the start */
     double far_field = 0.; /**< of static boundary elements, since the start */
+    /** What blocks and joints stored at the start, which their energies since
+        then have the rounding of. */
+    double at_start = 0.;
     EnergyAccounts accounts;
 
     /** Error of the energy balance [J]; zero but for rounding and kinks. */
