@@ -8,6 +8,7 @@ import os
 import numpy as np
 
 import vtu
+from colours import MAGNITUDES, MATERIALS, STONES
 from joint_figure import (CrackJoints, DamageJoints, StateJoints,
                           contact_forces, draw_contacts)
 from stress_figure import Contours, Crosses
@@ -16,10 +17,6 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
 
-MATERIALS = ["#e9e2d6", "#cfd8dc", "#dcd3e3", "#d3e3d5", "#e3d3d3"]
-STONES = ["#d9c9ad", "#c9b693", "#e3d7c0", "#bfb3a0", "#d3bf9f", "#cbbfae",
-          "#b9a888"]
-VELOCITY_COLOURS = "YlOrRd"
 LARGEST_TURN = 0.3                   # [rad], see automatic_scale()
 
 
@@ -184,9 +181,9 @@ class Picture:
         if self.crosses:
             handles += self.crosses.draw(axes, frame, position,
                                          0.7 if self.is_panel else 0.9)
-            below += 0.05 * self.extent[1]
-            self.crosses.draw_bar(
-                axes, (self.low[0], self.low[1] - 0.045 * self.extent[1]))
+            strip = 0.06 * self.extent.max()
+            self.crosses.draw_bar(axes, self.low - [0.0, margin], strip)
+            below += strip
         axes.set_xlim(self.low[0] - margin, self.high[0] + margin)
         axes.set_ylim(self.low[1] - below, self.high[1] + margin)
         axes.set_aspect("equal")
@@ -209,7 +206,7 @@ class Picture:
     def colours(self, blocks):
         """Of the cells."""
         if self.sizes:
-            return plt.get_cmap(VELOCITY_COLOURS)(
+            return plt.get_cmap(MAGNITUDES)(
                 self.sizes(cell_size(blocks, self.options.colour)))
         if self.options.colour == "block":
             return block_colours(blocks.cell_data["block"])
@@ -231,7 +228,7 @@ class Picture:
         if self.sizes:
             name = self.options.colour
             bars.append((ScalarMappable(self.sizes,
-                                        plt.get_cmap(VELOCITY_COLOURS)),
+                                        plt.get_cmap(MAGNITUDES)),
                          f"{name} [{UNITS[name]}]"))
         if self.contours:
             bars.append((self.contours.mappable(),

@@ -4,6 +4,8 @@
 
 import matplotlib
 
+from colours import CURVES
+
 matplotlib.use("Agg")
 matplotlib.rcParams.update(
     {
@@ -13,6 +15,7 @@ matplotlib.rcParams.update(
         "axes.titlesize": 11,
         "axes.spines.top": False,
         "axes.spines.right": False,
+        "axes.prop_cycle": matplotlib.cycler(color=CURVES),
         "axes.grid": True,
         "grid.color": "0.9",
         "grid.linewidth": 0.6,

@@ -13,6 +13,8 @@ import numpy as np
 
 import figure_style  # noqa: F401  (sets matplotlib up before pyplot)
 import matplotlib.pyplot as plt
+from matplotlib.transforms import ScaledTranslation
+from mpl_toolkits.axes_grid1.inset_locator import inset_axes
 
 PANEL_WIDTH = 8.0                    # [inch]
 MOST_BYTES = 2e6                     # of a film
@@ -45,11 +47,15 @@ def draw_moment(picture, frame):
     title = picture.options.title
     axes.set_title((title + ", " if title else "") + heading(picture, frame))
     for k, (mappable, label) in enumerate(picture.colour_bars()):
-        figure.colorbar(mappable, label=label,
-                        cax=axes.inset_axes([1.03 + 0.2 * k, 0, 0.03, 1]))
+        # As wide on any model, and as high as this one.
+        beside = axes.transAxes + ScaledTranslation(
+            0.15 + 0.85 * k, 0.0, figure.dpi_scale_trans)
+        figure.colorbar(mappable, label=label, cax=inset_axes(
+            axes, width=0.15, height="100%", loc="lower left",
+            bbox_to_anchor=(1.0, 0.0, 1.0, 1.0), bbox_transform=beside,
+            borderpad=0.0))
     if handles:
-        axes.legend(loc="upper center", fontsize=8,
-                    bbox_to_anchor=(0.5, -0.55 / height), **in_rows(handles))
+        place_legend(figure, [axes], handles, None)
     return figure
 
 
