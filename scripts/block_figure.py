@@ -8,11 +8,11 @@ import os
 import numpy as np
 
 import vtu
-from colours import MAGNITUDES, MATERIALS, STONES
+from colours import MATERIALS, STONES
+from figure_style import MAGNITUDES
 from joint_figure import (CrackJoints, DamageJoints, StateJoints,
                           contact_forces, draw_contacts)
 from stress_figure import Contours, Crosses
-import matplotlib.pyplot as plt
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
@@ -206,7 +206,7 @@ class Picture:
     def colours(self, blocks):
         """Of the cells."""
         if self.sizes:
-            return plt.get_cmap(MAGNITUDES)(
+            return MAGNITUDES(
                 self.sizes(cell_size(blocks, self.options.colour)))
         if self.options.colour == "block":
             return block_colours(blocks.cell_data["block"])
@@ -227,8 +227,7 @@ class Picture:
         bars = []
         if self.sizes:
             name = self.options.colour
-            bars.append((ScalarMappable(self.sizes,
-                                        plt.get_cmap(MAGNITUDES)),
+            bars.append((ScalarMappable(self.sizes, MAGNITUDES),
                          f"{name} [{UNITS[name]}]"))
         if self.contours:
             bars.append((self.contours.mappable(),

@@ -3,8 +3,9 @@
 """The look that all figures share."""
 
 import matplotlib
+import matplotlib.colors
 
-from colours import CURVES
+from colours import CURVES, VALUES
 
 matplotlib.use("Agg")
 matplotlib.rcParams.update(
@@ -24,3 +25,8 @@ matplotlib.rcParams.update(
         "lines.linewidth": 1.5,
     }
 )
+
+# from none to much; of compression, which is negative, the other way round
+MAGNITUDES = matplotlib.colors.LinearSegmentedColormap.from_list(
+    "values", VALUES)
+STRESSES = MAGNITUDES.reversed()

@@ -10,14 +10,14 @@ their mean.
 
 import numpy as np
 
-from colours import COMPRESSION, STRESSES, TENSION
+from colours import COMPRESSION, TENSION
 from csv_table import scale_for, with_unit
+from figure_style import STRESSES
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
-import matplotlib.pyplot as plt
 
 LONGEST = 2.5                        # of the reference, in a cross
 
@@ -180,6 +180,5 @@ class Contours:
                          extend=self.extend)
 
     def mappable(self):
-        norm = BoundaryNorm(self.levels, plt.get_cmap(STRESSES).N,
-                            extend=self.extend)
-        return ScalarMappable(norm, plt.get_cmap(STRESSES))
+        return ScalarMappable(BoundaryNorm(self.levels, STRESSES.N,
+                                           extend=self.extend), STRESSES)

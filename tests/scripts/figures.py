@@ -275,9 +275,10 @@ class Pictures(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
-    def script(self, name, *words):
+    def script(self, name, *words, **variables):
         done = subprocess.run([sys.executable, os.path.join(SCRIPTS, name),
                                self.output, *words], stdout=subprocess.PIPE,
+                              env=dict(os.environ, **variables),
                               stderr=subprocess.PIPE, text=True, timeout=120)
         return done.returncode, done.stdout, done.stderr
 
@@ -291,8 +292,8 @@ class Pictures(unittest.TestCase):
         self.assertGreater(os.path.getsize(path), 5000)
         return path
 
-    def refuses(self, says, name, *words):
-        status, _, error = self.script(name, *words)
+    def refuses(self, says, name, *words, **variables):
+        status, _, error = self.script(name, *words, **variables)
         self.assertEqual(status, 1, error)
         self.assertNotIn("Traceback", error)
         self.assertEqual(len(error.strip().splitlines()), 1)
@@ -393,6 +394,8 @@ class Pictures(unittest.TestCase):
         if importlib.util.find_spec("paraview") is None \
                 and shutil.which("pvpython") is None:
             self.refuses("Install it", "paraview_view")
+        else:
+            self.refuses("xvfb-run", "paraview_view", DISPLAY="")
 
     def test_parameters(self):
         self.assertEqual(run_parameters.joint_sets(self.output), ["mortar"])
