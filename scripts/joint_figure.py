@@ -121,7 +121,7 @@ def usual_width(widths, block_size):
     if len(cracks) == 0:
         cracks = failed if len(failed) else np.array([1e-3])
     return np.quantile(
-        cracks[cracks > 1e-2 * np.quantile(cracks, 0.95)], 0.75)
+        cracks[cracks >= 0.1 * np.quantile(cracks, 0.95)], 0.75)
 
 
 class CrackJoints:

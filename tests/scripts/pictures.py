@@ -155,6 +155,14 @@ class Places(unittest.TestCase):
             self.assertAlmostEqual(bar.width, 0.15 * figure.dpi, delta=1.)
             self.assertAlmostEqual(bar.height, place.height, delta=1.)
 
+    def test_levels_beside_a_wide_model(self):
+        figure, _, renderer = self.draw(20, 2, colour="stress")
+        places = [label.get_window_extent(renderer) for label in
+                  figure.axes[1].get_yticklabels()]
+        self.assertGreater(len(places), 1)
+        for below, above in zip(places, places[1:]):
+            self.assertLess(below.y1, above.y0)
+
     def test_the_scale_is_below_the_blocks(self):
         for size, view in (((40, 1), None), ((6, 3), None), ((1, 20), None),
                            ((6, 3), (1., 1., 5., 2.))):
