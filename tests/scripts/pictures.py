@@ -15,14 +15,14 @@ import unittest
 import numpy as np
 
 from synthetic_runs import SCRIPTS
-import block_figure
-import colours
-import csv_table
-import curve_figure
-import figure_style
-import joint_figure
-import page_layout
-from vtu import Grid
+from quoin.figures import block_figure
+from quoin import colours
+from quoin import csv_table
+from quoin.figures import curve_figure
+from quoin.figures import figure_style
+from quoin.figures import joint_figure
+from quoin.figures import page_layout
+from quoin.vtu import Grid
 from matplotlib.colors import to_rgb
 import matplotlib.pyplot as plt
 

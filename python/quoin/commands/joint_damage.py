@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Draws how much of the joints has failed, as the run goes on.
@@ -24,14 +23,13 @@ import csv
 import os
 import sys
 
+import matplotlib.pyplot as plt
 import numpy as np
 
-import damage_table
-import figure_style  # noqa: F401  (sets matplotlib up before pyplot)
-from colours import ORANGE, RED, VIOLET
-from csv_table import Table, scale_for, unit_of
-from picture_options import Parser
-import matplotlib.pyplot as plt
+from quoin import damage_table, figures  # noqa: F401  (the look)
+from quoin.colours import ORANGE, RED, VIOLET
+from quoin.commands.options import Parser
+from quoin.csv_table import Table, scale_for, unit_of
 
 LOOK = {"failed": ("0.55", "-"), "slipping": (ORANGE, "-"), "open": (RED, "-"),
         "damaged": ("black", "--"), "crushed": (VIOLET, "-.")}

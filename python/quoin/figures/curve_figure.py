@@ -6,11 +6,10 @@ import json
 import os
 import re
 
+import matplotlib.pyplot as plt
 import numpy as np
 
-import figure_style  # noqa: F401  (sets matplotlib up before pyplot)
-from csv_table import Table, scaled_name, unit_of
-import matplotlib.pyplot as plt
+from quoin.csv_table import Table, scaled_name, unit_of
 
 MILLIMETRES = 1.0 / 25.4
 STYLES = ("-", "--", ":", "-.")

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Draws the deformed blocks of a run, the state of its joints and the forces
@@ -46,12 +45,12 @@ import sys
 
 import numpy as np
 
-import field_figure
-from block_figure import Frame, Picture
-from moments import Moment, check_times, moments_at, recorded_times
-from page_layout import draw_moment, draw_panel, write_film
-from picture_options import (Parser, add_picture_options, numbers,
-                             positive)
+from quoin.commands.options import (Parser, add_picture_options, numbers,
+                                    positive)
+from quoin.figures import field_figure
+from quoin.figures.block_figure import Frame, Picture
+from quoin.figures.page_layout import draw_moment, draw_panel, write_film
+from quoin.moments import Moment, check_times, moments_at, recorded_times
 
 
 def times_of_film(series, options):

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Runs a case by the explicit and by the implicit solver and compares both.
@@ -30,31 +29,25 @@ import os
 import subprocess
 import sys
 
-import run_parameters
-from block_figure import Frame, Picture
-from csv_table import as_text, unit_of
-from page_layout import draw_panel
-from picture_options import Parser, add_picture_options, positive
-from solver_comparison import SOLVERS, THRESHOLD, Comparison, spec_of
+from quoin import run_parameters
+from quoin.commands.options import Parser, add_picture_options, positive
+from quoin.csv_table import as_text, unit_of
+from quoin.figures.block_figure import Frame, Picture
+from quoin.figures.page_layout import draw_panel
+from quoin.running import CHECKOUT, command, environment
+from quoin.solver_comparison import SOLVERS, THRESHOLD, Comparison, spec_of
 
-ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 LOST_EQUILIBRIUM = 2                 # exit status: the outputs are kept
 
 
 def run_solver(options, others, solver, output):
     """Runs quoin; a run that ended early leaves its outputs, too."""
-    ranks = int(os.environ.get("RANKS", "1"))
-    words = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
-    words += [os.path.abspath(options.quoin), options.case, "--output", output]
-    for value in options.set + ["Solver=" + solver]:
-        words += ["--set", value]
-    environment = dict(os.environ, OPENBLAS_NUM_THREADS="1",
-                       OMPI_ALLOW_RUN_AS_ROOT="1",
-                       OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
-                       OMPI_MCA_rmaps_base_oversubscribe="1",
-                       OMPI_MCA_mpi_yield_when_idle="1")
+    words = command(options.case, output,
+                    options.set + ["Solver=" + solver], others,
+                    ranks=int(os.environ.get("RANKS", "1")),
+                    quoin=options.quoin)
     print(f"-- {solver}", flush=True)
-    status = subprocess.run(words + others, env=environment).returncode
+    status = subprocess.run(words, env=environment()).returncode
     if status not in (0, LOST_EQUILIBRIUM):
         raise ValueError(f"the {solver} run ended with exit status {status}")
 
@@ -141,10 +134,9 @@ def folders_of(options, others):
     os.makedirs(options.output, exist_ok=True)
     if all(given):
         return given
-    if not options.quoin:
-        subprocess.run([os.path.join(ROOT, "scripts", "build"), "quoin"],
+    if not options.quoin and CHECKOUT:
+        subprocess.run([os.path.join(CHECKOUT, "scripts", "build"), "quoin"],
                        check=True, stdout=subprocess.DEVNULL)
-        options.quoin = os.path.join(ROOT, "build", "quoin")
     folders = [os.path.join(options.output, solver) for solver in SOLVERS]
     for solver, folder in zip(SOLVERS, folders):
         run_solver(options, others, solver, folder)

@@ -5,14 +5,14 @@ domain, if it was sampled, and the boundary."""
 
 import os
 
-import numpy as np
-
-import vtu
-from colours import FIELD
-import matplotlib.pyplot as plt
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
+import matplotlib.pyplot as plt
+import numpy as np
+
+from quoin import vtu
+from quoin.colours import FIELD
 
 UNITS = {"velocity": "m/s", "displacement": "m"}
 

@@ -3,25 +3,23 @@
 """Joints and contacts for scripts/render: joints by their state, as cracks by
 mode and width, or by their damage."""
 
-import numpy as np
-
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.lines import Line2D
+import numpy as np
 
-import colours
-import run_parameters
-from csv_table import with_unit
-from stress_figure import cell_areas, round_near
+from quoin import colours, run_parameters
+from quoin.csv_table import with_unit
+from quoin.figures.stress_figure import cell_areas, round_near
+from quoin.joint_states import INTACT, NAMES, OPEN, SLIPPED, SLIPPING
 
-# state: (name, colour, line width), drawn in this order; see JointState
-INTACT, SLIPPING, SLIPPED, OPEN = 0, 1, 2, 3
+# state: (name, colour, line width), drawn in this order
 STATES = {
-    INTACT: ("intact", colours.INTACT, 0.4),
-    SLIPPED: ("slipped", colours.YELLOW, 1.6),
-    SLIPPING: ("slipping", colours.ORANGE, 1.8),
-    OPEN: ("open", colours.RED, 2.0),
+    INTACT: (NAMES[INTACT], colours.INTACT, 0.4),
+    SLIPPED: (NAMES[SLIPPED], colours.YELLOW, 1.6),
+    SLIPPING: (NAMES[SLIPPING], colours.ORANGE, 1.8),
+    OPEN: (NAMES[OPEN], colours.RED, 2.0),
 }
 # how a crack moves: (name, colour), in the order in which they are drawn
 MODES = (("shear slip", colours.ORANGE), ("tensile opening", colours.RED),

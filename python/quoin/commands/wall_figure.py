@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Draws a load-displacement curve and, beside it, the wall at points of it.
@@ -18,17 +17,16 @@ import os
 import sys
 import textwrap
 
+from matplotlib.patheffects import withStroke
+import matplotlib.pyplot as plt
 import numpy as np
 
-import figure_style  # noqa: F401  (sets matplotlib up before pyplot)
-from block_figure import Frame, Picture
-from curve_figure import CurveFigure, read_specs
-from moments import moments_at
-from page_layout import (PANEL_WIDTH, draw_lettered, legend_in, letter,
-                         place_legend)
-from picture_options import Parser, add_picture_options
-import matplotlib.pyplot as plt
-from matplotlib.patheffects import withStroke
+from quoin.commands.options import Parser, add_picture_options
+from quoin.figures.block_figure import Frame, Picture
+from quoin.figures.curve_figure import CurveFigure, read_specs
+from quoin.figures.page_layout import (PANEL_WIDTH, draw_lettered, legend_in,
+                                       letter, place_legend)
+from quoin.moments import moments_at
 
 LEFT_SHARE = 0.44                    # of the width
 HEIGHT = 3.6                         # [inch], aimed at

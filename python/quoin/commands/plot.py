@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Draws curves from the tables of one or several runs, with references.
@@ -64,9 +63,9 @@ unless "over" says where, or between the lowest and the highest of two or more
 import os
 import sys
 
-from csv_table import Table
-from curve_figure import CurveFigure, read_specs
-from picture_options import Parser
+from quoin.commands.options import Parser
+from quoin.csv_table import Table
+from quoin.figures.curve_figure import CurveFigure, read_specs
 
 
 def references_from(options, x, columns):

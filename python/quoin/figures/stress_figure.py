@@ -8,16 +8,16 @@ of the cells, never across a joint: constant-strain triangles scatter about
 their mean.
 """
 
-import numpy as np
-
-from colours import COMPRESSION, TENSION
-from csv_table import scale_for, with_unit
-from figure_style import STRESSES
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
+import numpy as np
+
+from quoin.colours import COMPRESSION, TENSION
+from quoin.csv_table import scale_for, with_unit
+from quoin.figures.figure_style import STRESSES
 
 LONGEST = 2.5                        # of the reference, in a cross
 

@@ -5,17 +5,17 @@ what joint_figure and stress_figure add to them."""
 
 import os
 
-import numpy as np
-
-import vtu
-from colours import MATERIALS, STONES
-from figure_style import MAGNITUDES
-from joint_figure import (CrackJoints, DamageJoints, StateJoints,
-                          contact_forces, draw_contacts)
-from stress_figure import Contours, Crosses
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
+import numpy as np
+
+from quoin import vtu
+from quoin.colours import MATERIALS, STONES
+from quoin.figures.figure_style import MAGNITUDES
+from quoin.figures.joint_figure import (CrackJoints, DamageJoints, StateJoints,
+                                        contact_forces, draw_contacts)
+from quoin.figures.stress_figure import Contours, Crosses
 
 LARGEST_TURN = 0.3                   # [rad], see automatic_scale()
 
@@ -36,6 +36,10 @@ class Frame:
             raise ValueError(f"no blocks are listed in "
                              f"{os.path.join(output, 'blocks.pvd')}; was a "
                              f"field written?")
+        if self.blocks.points.shape[1] == 3:
+            raise ValueError(f"{output}: blocks in three dimensions are not "
+                             "drawn here: take scripts/paraview_view, or open "
+                             "blocks.pvd in ParaView")
         if os.path.basename(os.path.abspath(output)) == "mechanism":
             # the series of a factor of safety lists its fields by it
             self.label = f"factor {self.blocks.time:.4g}"

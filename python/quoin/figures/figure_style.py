@@ -5,7 +5,7 @@
 import matplotlib
 import matplotlib.colors
 
-from colours import CURVES, VALUES
+from quoin.colours import CURVES, VALUES
 
 matplotlib.use("Agg")
 matplotlib.rcParams.update(

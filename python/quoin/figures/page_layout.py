@@ -9,13 +9,11 @@ colour_bars() and extent.
 import io
 import os
 
-import numpy as np
-
-import figure_style  # noqa: F401  (sets matplotlib up before pyplot)
-import matplotlib.pyplot as plt
 from matplotlib.colors import BoundaryNorm
+import matplotlib.pyplot as plt
 from matplotlib.transforms import ScaledTranslation
 from mpl_toolkits.axes_grid1.inset_locator import inset_axes
+import numpy as np
 
 PANEL_WIDTH = 8.0                    # [inch]
 LABELS_PER_INCH = 5

@@ -1,4 +1,3 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """The usual views of a run in ParaView: pictures, films, or a state to go on
@@ -53,10 +52,9 @@ import os
 import shutil
 import sys
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-import colours  # noqa: E402
-from csv_table import with_unit  # noqa: E402
-from picture_options import Parser  # noqa: E402
+from quoin import colours
+from quoin.csv_table import with_unit
+from quoin.commands.options import Parser
 
 
 def rgb(colour):
