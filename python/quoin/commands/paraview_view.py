@@ -376,7 +376,9 @@ class Views:
         b = self.main.GetDataInformation().GetBounds()
         if self.bar is not None:
             self.bar.WindowLocation = "Any Location"
-            self.bar.Position, self.bar.ScalarBarLength = [0.88, 0.2], 0.6
+            # its labels are as wide on any picture
+            self.bar.Position = [1.0 - 170.0 / self.window.ViewSize[0], 0.2]
+            self.bar.ScalarBarLength = 0.6
         self.window.OrientationAxesVisibility = 0
         self.window.UseColorPaletteForBackground = 0
         self.window.Background = [1.0, 1.0, 1.0]
