@@ -4,8 +4,10 @@
 """The package quoin: what it reads of runs whose answers are known, and its
 studies, by a program that stands for quoin."""
 import contextlib
+import importlib.util
 import io
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -212,6 +214,25 @@ class Package(unittest.TestCase):
             [sys.executable, "-c", "import sys; sys.modules['matplotlib'] = "
              "None; import quoin, quoin.commands.paraview_view"], check=True,
             env=dict(os.environ, PYTHONPATH=os.path.join(ROOT, "python")))
+
+    @unittest.skipUnless(importlib.util.find_spec("pip")
+                         and importlib.util.find_spec("setuptools"),
+                         "pip and setuptools are not needed otherwise")
+    def test_installation(self):
+        with tempfile.TemporaryDirectory() as folder:
+            # pip builds in the folder of the sources
+            shutil.copytree(os.path.join(ROOT, "python"), folder + "/python",
+                            ignore=shutil.ignore_patterns("__pycache__"))
+            subprocess.run(
+                [sys.executable, "-m", "pip", "install", "--quiet",
+                 "--no-build-isolation", "--no-deps", "--no-index",
+                 "--target", folder + "/there", folder + "/python"],
+                check=True, stderr=subprocess.PIPE)
+            said = subprocess.run(
+                [folder + "/there/bin/quoin-plot", "--help"], check=True,
+                stdout=subprocess.PIPE, text=True,
+                env=dict(os.environ, PYTHONPATH=folder + "/there")).stdout
+            self.assertIn("usage: quoin-plot", said)
 
     def test_version(self):
         """That of the program."""
