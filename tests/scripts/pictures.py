@@ -191,6 +191,8 @@ class Cracks(unittest.TestCase):
         self.assertAlmostEqual(self.usual(), 1e-4)
         for gap in (0.3e-3, 3e-3, 30e-3, 0.3):
             self.assertAlmostEqual(self.usual(np.full(12, gap)), 1e-4)
+        # many gaps: only their size tells them from cracks
+        self.assertAlmostEqual(self.usual(np.full(40, 30e-3)), 1e-4)
 
     def test_gaps_alone(self):
         self.assertEqual(joint_figure.usual_width(np.full(4, 0.2), 0.1), 0.2)
