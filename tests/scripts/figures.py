@@ -23,6 +23,7 @@ sys.path.insert(0, os.path.join(ROOT, "python"))
 
 from quoin.figures import block_figure  # noqa: E402
 from quoin.figures import curve_figure  # noqa: E402
+from quoin import colours  # noqa: E402
 from quoin import damage_table  # noqa: E402
 from quoin.figures import joint_figure  # noqa: E402
 from quoin import moments  # noqa: E402
@@ -403,6 +404,17 @@ class Pictures(unittest.TestCase):
             self.refuses("Install it", "paraview_view")
         else:
             self.refuses("xvfb-run", "paraview_view", DISPLAY="")
+        if importlib.util.find_spec("paraview") and shutil.which("xvfb-run"):
+            for view in ("crosses", "stress"):
+                path = os.path.join(self.folder.name, view + ".png")
+                subprocess.run(
+                    ["xvfb-run", "-a", "-s", "-noreset", sys.executable,
+                     os.path.join(SCRIPTS, "paraview_view"), self.output,
+                     "--view", view, "--time", "0.02", "--out", path],
+                    check=True, timeout=120, stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE)
+                self.has(path, {"crosses": colours.COMPRESSION,
+                                "stress": colours.VALUES[-1]}[view])
 
     def test_study(self):
         """The worked study of the user guide: once cracked through, a wall
