@@ -29,6 +29,7 @@ WIDEST_CRACK, THINNEST_CRACK = 4.0, 0.6      # [pt]
 LEAST_SHARE = 0.02                   # of the widest, below it is no crack
 DAMAGE_COLOURS = LinearSegmentedColormap.from_list(
     "damage", colours.DAMAGE)
+HAIRLINE = 1e-5                      # [m], drawn widest where nothing failed
 GAP = 0.05                           # of the size of a block: no crack any more
 WIDEST_CONTACT = 5.0                 # [pt]
 
@@ -117,9 +118,9 @@ def usual_width(widths, block_size):
     failed = widths[widths > 0.0]
     cracks = failed[failed < GAP * block_size]
     if len(cracks) == 0:
-        cracks = failed if len(failed) else np.array([1e-3])
+        cracks = failed if len(failed) else np.array([HAIRLINE])
     return np.quantile(
-        cracks[cracks >= 0.1 * np.quantile(cracks, 0.95)], 0.75)
+        cracks[cracks >= 0.1 * np.quantile(cracks, 0.95)], 0.8)
 
 
 class CrackJoints:
