@@ -15,8 +15,8 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(
-    os.path.dirname(os.path.abspath(__file__)), "..", "..", "scripts"))
-import figure_style  # noqa: E402,F401
+    os.path.dirname(os.path.abspath(__file__)), "..", "..", "python"))
+from quoin.figures import figure_style  # noqa: E402,F401
 import matplotlib.pyplot as plt  # noqa: E402
 
 STYLES = ({"color": "C0"}, {"color": "C1", "linestyle": "--"},

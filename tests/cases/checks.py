@@ -14,8 +14,8 @@ import numpy as np
 
 from common import ROOT, Failure, read_table, run, strictly_increasing
 
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
-import vtu  # noqa: E402
+sys.path.insert(0, os.path.join(ROOT, "python"))
+from quoin import vtu  # noqa: E402
 
 
 def reference_module(folder, name="make_reference"):

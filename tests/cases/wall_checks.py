@@ -15,9 +15,9 @@ import checks
 import common
 from common import Failure
 
-sys.path.insert(0, os.path.join(common.ROOT, "scripts"))
-import solver_comparison  # noqa: E402
-import vtu  # noqa: E402
+sys.path.insert(0, os.path.join(common.ROOT, "python"))
+from quoin import solver_comparison  # noqa: E402
+from quoin import vtu  # noqa: E402
 
 def note(case, tests, peak, histories):
     place = np.argmax(-histories["horizontal"])

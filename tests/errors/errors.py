@@ -475,8 +475,8 @@ SAFETY = ["Stages/second/End=factor of safety", "Stages/second/Damping=local",
 def failing_block_leaves(quoin, folder):
     """A block that leaves the box as a factor is tried: the factor fails, the
     mechanism is that of what is left, and no block is lost after it."""
-    sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
-    from vtu import read_at
+    sys.path.insert(0, os.path.join(HERE, "..", "..", "python"))
+    from quoin.vtu import read_at
     # the lower block hangs from the upper one, by a soft joint
     hangs = ["Contact/Displacements=large", "Contact/Box=-1, 0.4, 2, 2",
              "Joints/bed/Curves=bed", "Joints/bed/New contacts between=all",

@@ -14,9 +14,9 @@ import numpy as np
 
 from synthetic_runs import (NOTHING, SCRIPTS, SLID, SPEC, WIDE, Folders,
                             joint_grid, write_run)
-import joint_comparison
-import run_parameters
-import solver_comparison
+from quoin import joint_comparison
+from quoin import run_parameters
+from quoin import solver_comparison
 
 
 class Numbers(Folders):

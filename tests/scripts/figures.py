@@ -19,17 +19,19 @@ import numpy as np
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(
     os.path.abspath(__file__))))
 SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path.insert(0, SCRIPTS)
+sys.path.insert(0, os.path.join(ROOT, "python"))
 
-import curve_figure  # noqa: E402
-import damage_table  # noqa: E402
-import joint_figure  # noqa: E402
-import moments  # noqa: E402
-import run_parameters  # noqa: E402
-import stress_figure  # noqa: E402
+from quoin.figures import block_figure  # noqa: E402
+from quoin.figures import curve_figure  # noqa: E402
+from quoin import colours  # noqa: E402
+from quoin import damage_table  # noqa: E402
+from quoin.figures import joint_figure  # noqa: E402
+from quoin import moments  # noqa: E402
+from quoin import run_parameters  # noqa: E402
+from quoin.figures import stress_figure  # noqa: E402
 import synthetic_runs  # noqa: E402
-import vtu  # noqa: E402
-from vtu import Grid  # noqa: E402
+from quoin import vtu  # noqa: E402
+from quoin.vtu import Grid  # noqa: E402
 
 SMALL_WALL = os.path.join(ROOT, "parameter_files", "tutorials", "small_wall")
 COMPOSITE = ("Law=composite", "Shear fracture energy=125",
@@ -48,13 +50,19 @@ class Says(unittest.TestCase):
 
 
 class Space(Says):
-    def test_tetrahedra_are_refused(self):
+    def test_tetrahedra_are_read_and_not_drawn(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "blocks.vtu")
             synthetic_runs.write_vtu(path, 0., np.zeros((4, 2)),
                                      np.array([[0, 1, 2, 3]]), {}, {})
-            self.says(["three dimensions", "paraview_view"], vtu.read_vtu,
-                      path)
+            grid = vtu.read_vtu(path)
+            self.assertEqual((grid.points.shape, grid.cells.shape),
+                             ((4, 3), (1, 4)))
+            with open(os.path.join(folder, "blocks.pvd"), "w") as file:
+                file.write("<VTKFile><Collection><DataSet timestep='0' "
+                           "file='blocks.vtu'/></Collection></VTKFile>")
+            self.says(["three dimensions", "paraview_view"],
+                      block_figure.Frame, folder, None)
 
 
 class Moments(Says):
@@ -275,9 +283,10 @@ class Pictures(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
-    def script(self, name, *words):
+    def script(self, name, *words, **variables):
         done = subprocess.run([sys.executable, os.path.join(SCRIPTS, name),
                                self.output, *words], stdout=subprocess.PIPE,
+                              env=dict(os.environ, **variables),
                               stderr=subprocess.PIPE, text=True, timeout=120)
         return done.returncode, done.stdout, done.stderr
 
@@ -291,8 +300,8 @@ class Pictures(unittest.TestCase):
         self.assertGreater(os.path.getsize(path), 5000)
         return path
 
-    def refuses(self, says, name, *words):
-        status, _, error = self.script(name, *words)
+    def refuses(self, says, name, *words, **variables):
+        status, _, error = self.script(name, *words, **variables)
         self.assertEqual(status, 1, error)
         self.assertNotIn("Traceback", error)
         self.assertEqual(len(error.strip().splitlines()), 1)
@@ -393,6 +402,42 @@ class Pictures(unittest.TestCase):
         if importlib.util.find_spec("paraview") is None \
                 and shutil.which("pvpython") is None:
             self.refuses("Install it", "paraview_view")
+        else:
+            self.refuses("xvfb-run", "paraview_view", DISPLAY="")
+        if importlib.util.find_spec("paraview") and shutil.which("xvfb-run"):
+            for view in ("crosses", "stress"):
+                path = os.path.join(self.folder.name, view + ".png")
+                subprocess.run(
+                    ["xvfb-run", "-a", "-s", "-noreset", sys.executable,
+                     os.path.join(SCRIPTS, "paraview_view"), self.output,
+                     "--view", view, "--time", "0.02", "--out", path],
+                    check=True, timeout=120, stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE)
+                self.has(path, {"crosses": colours.COMPRESSION,
+                                "stress": colours.VALUES[-1]}[view])
+
+    def test_study(self):
+        """The worked study of the user guide: once cracked through, a wall
+        slides at N tan(phi), with any cohesion, as long as it slides on one
+        bed joint."""
+        output = os.path.join(self.folder.name, "study")
+        subprocess.run(
+            [sys.executable, os.path.join(SMALL_WALL, "study.py"), "--quoin",
+             quoin, "--output", output], check=True, timeout=300,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        with open(os.path.join(output, "study.csv")) as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), 12)
+        for row in rows:
+            angle = float(row["Joints/mortar/Friction angle"])
+            if angle < 45.:
+                self.assertAlmostEqual(
+                    float(row["sliding [N]"])
+                    / (15e3 * np.tan(np.radians(angle))), 1., delta=2e-3)
+            self.assertGreater(float(row["peak [N]"]),
+                               float(row["sliding [N]"]))
+        self.assertGreater(
+            os.path.getsize(os.path.join(output, "study.png")), 5000)
 
     def test_parameters(self):
         self.assertEqual(run_parameters.joint_sets(self.output), ["mortar"])

@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import unittest
 
-from synthetic_runs import SCRIPTS
+from synthetic_runs import ROOT
 
 SAYS = '#!/bin/sh\necho "$(basename "$0")" "$@"\n'
 
@@ -19,13 +19,13 @@ class Shell(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory()
         self.addCleanup(scratch.cleanup)
         self.root = scratch.name
-        for folder in ("scripts", "bin", "build", "cases"):
-            os.mkdir(os.path.join(self.root, folder))
+        for folder in ("scripts", "python/quoin", "bin", "build", "cases"):
+            os.makedirs(os.path.join(self.root, folder))
 
     def take(self, *names):
         for name in names:
-            shutil.copy(os.path.join(SCRIPTS, name),
-                        os.path.join(self.root, "scripts"))
+            shutil.copy(os.path.join(ROOT, name),
+                        os.path.join(self.root, name))
 
     def write(self, path, text):
         path = os.path.join(self.root, path)
@@ -44,7 +44,7 @@ class Shell(unittest.TestCase):
 class Build(Shell):
     def setUp(self):
         super().setUp()
-        self.take("build")
+        self.take("scripts/build")
         self.write("scripts/debian-packages.txt", "")
         self.write("bin/ninja", SAYS)
         # whose screen output the script throws away
@@ -73,7 +73,7 @@ class Build(Shell):
 class Run(Shell):
     def setUp(self):
         super().setUp()
-        self.take("run", "run_parameters.py")
+        self.take("scripts/run", "python/quoin/run_parameters.py")
         for name in ("scripts/build", "scripts/plot", "scripts/render",
                      "build/quoin"):
             self.write(name, SAYS)

@@ -13,10 +13,10 @@ import numpy as np
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(
     os.path.abspath(__file__))))
 SCRIPTS = os.path.join(ROOT, "scripts")
-sys.path.insert(0, SCRIPTS)
+sys.path.insert(0, os.path.join(ROOT, "python"))
 
-import solver_comparison  # noqa: E402
-import vtu  # noqa: E402
+from quoin import solver_comparison  # noqa: E402
+from quoin import vtu  # noqa: E402
 
 SPEC = {"x": {"column": "u", "factor": 1e3, "label": "displacement [mm]"},
         "y": {"label": "force [kN]"},

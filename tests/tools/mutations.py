@@ -51,8 +51,8 @@ ENVIRONMENT = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1",
                    OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                    OMPI_MCA_rmaps_base_oversubscribe="1",
                    OMPI_MCA_mpi_yield_when_idle="1")
-FOLDERS = ("include", "source", "tests", "scripts", "parameter_files", "meshes",
-           "doc")
+FOLDERS = ("include", "source", "tests", "scripts", "python", "parameter_files",
+           "meshes", "doc")
 
 # kind: the program it needs, and its command. {tree}, {quoin}, {unit_tests},
 # {fuzz}, {boundary_long_run}: where they are; {what}: the rest of the entry

@@ -17,8 +17,8 @@ import sys
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)),
-                                *[os.pardir] * 3, "scripts"))
-import vtu  # noqa: E402
+                                *[os.pardir] * 3, "python"))
+from quoin import vtu  # noqa: E402
 
 YOUNG, POISSON, THICKNESS = 16.7e9, 0.15, 0.1
 MORTAR = (82e9, 36e9)

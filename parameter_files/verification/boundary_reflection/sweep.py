@@ -71,8 +71,8 @@ def measure(quoin, boundary, kind, angle, folder):
 
 
 def plot(path):
-    sys.path.insert(0, os.path.join(packet.HERE, *[os.pardir] * 3, "scripts"))
-    import figure_style  # noqa: F401
+    sys.path.insert(0, os.path.join(packet.HERE, *[os.pardir] * 3, "python"))
+    from quoin.figures import figure_style  # noqa: F401
     import matplotlib.pyplot as plt
 
     rows = read_rows()

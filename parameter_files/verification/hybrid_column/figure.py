@@ -21,8 +21,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(HERE)))
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
-import figure_style  # noqa: E402,F401
+sys.path.insert(0, os.path.join(ROOT, "python"))
+from quoin.figures import figure_style  # noqa: E402,F401
 
 # with the series of the damping that each has
 MODELS = (("hybrid", "case.prm", "reference.csv", "C0", "-"),

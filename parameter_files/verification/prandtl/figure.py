@@ -17,10 +17,10 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(HERE)))
-sys.path.insert(0, os.path.join(ROOT, "scripts"))
-import figure_style  # noqa: E402,F401
+sys.path.insert(0, os.path.join(ROOT, "python"))
+from quoin.figures import figure_style  # noqa: E402,F401
 import matplotlib.pyplot as plt  # noqa: E402
-import vtu  # noqa: E402
+from quoin import vtu  # noqa: E402
 
 RUNS = (("plain, 0.25 m", "plain", "ground.geo", "C3"),
         ("crossed, 0.25 m", "crossed", "ground.geo", "C0"),

@@ -16,8 +16,9 @@ DTYPES = {"Float64": "<f8", "Int32": "<i4", "UInt8": "u1"}
 
 
 class Grid:
-    """points (n, 2), cells (m, 2 or 3), dictionaries of point and cell data,
-    and the time in seconds."""
+    """points (n, 2) [m], cells (m, 2 or 3), dictionaries of point and cell
+    data, and the time [s]; of blocks in three dimensions points (n, 3) and
+    cells (m, 4)."""
 
     def __init__(self, time, points, cells, point_data, cell_data):
         self.time = time
@@ -52,11 +53,9 @@ def read_vtu(path):
     cells = arrays(piece.find("Cells"))
     n_cells = int(piece.get("NumberOfCells"))
     per_cell = 0 if n_cells == 0 else int(cells["offsets"][0])
-    if per_cell == 4:
-        raise ValueError(f"{path}: blocks in three dimensions, which are not "
-                         "drawn here: take scripts/paraview_view, or open "
-                         "blocks.pvd in ParaView")
-    points = array(piece.find("Points")[0]).reshape(-1, 3)[:, :2]
+    points = array(piece.find("Points")[0]).reshape(-1, 3)
+    if per_cell != 4 and not points[:, 2].any():
+        points = points[:, :2]
     return Grid(
         float(arrays(piece_of.find("FieldData"))["TimeValue"][0]),
         points,

@@ -6,11 +6,10 @@ import json
 import os
 import re
 
+import matplotlib.pyplot as plt
 import numpy as np
 
-import figure_style  # noqa: F401  (sets matplotlib up before pyplot)
-from csv_table import Table, unit_of
-import matplotlib.pyplot as plt
+from quoin.csv_table import Table, scaled_name, unit_of
 
 MILLIMETRES = 1.0 / 25.4
 STYLES = ("-", "--", ":", "-.")
@@ -197,11 +196,9 @@ class CurveFigure:
         self.y = spec.get("y", {})
         self.tables = {}
         main = self.table(self.runs[0][0], {})
-        curves = spec["curves"]
-        self.x_label = (self.x.get("label")
-                        or main.full_name(self.x.get("column", 0)))
-        self.y_label = self.y.get("label") or (
-            main.full_name(curves[0]["column"]) if len(curves) == 1 else "")
+        self.x_label = self.x.get("label") or scaled_name(
+            main.full_name(self.x.get("column", 0)), self.x.get("factor", 1.0))
+        self.y_label = self.label_of(self.panels()[0])
 
     def table(self, folder, curve):
         name = curve.get("table", self.spec.get("table", "histories.csv"))
@@ -215,8 +212,34 @@ class CurveFigure:
         data = self.table(folder, curve)
         x = data.column(curve.get("x", self.x.get("column", 0)))
         return (x * self.x.get("factor", 1.0),
-                data.column(curve["column"])
-                * curve.get("factor", self.y.get("factor", 1.0)))
+                data.column(curve["column"]) * self.factor(curve))
+
+    def factor(self, curve):
+        return curve.get("factor", self.y.get("factor", 1.0))
+
+    def name_of(self, curve):
+        """Of the column, with the unit in which it is shown."""
+        return scaled_name(self.table(self.runs[0][0], curve).full_name(
+            curve["column"]), self.factor(curve))
+
+    def panels(self):
+        """The curves of each axes with their numbers: those of one unit share
+        one, unless the y axis has a label for all."""
+        curves = list(enumerate(self.spec["curves"]))
+        if self.y.get("label"):
+            return [curves]
+        panels = {}
+        for c, curve in curves:
+            panels.setdefault(unit_of(self.name_of(curve)), []).append(
+                (c, curve))
+        return list(panels.values())
+
+    def label_of(self, panel):
+        """Of the y axis."""
+        if self.y.get("label") or len(panel) == 1:
+            return self.y.get("label") or self.name_of(panel[0][1])
+        unit = unit_of(self.name_of(panel[0][1]))
+        return f"[{unit}]" if unit else ""
 
     def place_at(self, time):
         """Where the first curve of the first run is at a time [s]."""
@@ -225,8 +248,9 @@ class CurveFigure:
         return [np.interp(time, when, value)
                 for value in self.points(folder, curve)]
 
-    def line(self, axes, entry, x, y, style, colour, label, **look):
+    def line(self, axes, entry, points, style, colour, label, **look):
         """A curve, with its peak if that is wanted."""
+        x, y = points
         style = entry.get("style", style)
         look.update(look_of(style, colour) if "color" not in entry
                     else {"color": entry["color"]})
@@ -235,48 +259,55 @@ class CurveFigure:
                 if entry.get("peak", self.spec.get("peak", False)) else None)
         if peak is not None:
             k, at_end = peak
-            label += (f", peak {y[k]:.3g} {unit_of(self.y_label)}".rstrip()
+            label += (f", peak {y[k]:.3g} {unit_of(axes.get_ylabel())}".rstrip()
                       + f" at {x[k]:.3g} {unit_of(self.x_label)}".rstrip()
                       + (" (at its end)" if at_end else ""))
             axes.plot(x[k], y[k], "o", color=line.get_color(), markersize=5,
                       markeredgecolor="white", zorder=4, clip_on=False)
         line.set_label(label)
 
-    def draw_references(self, axes):
+    def draw_references(self, axes, panel):
+        """Those of the panel's columns; others are in the first one."""
         markers = iter("os^Dv<>p*" * 4)
+        here = [curve["column"] for _, curve in panel]
+        known = [curve["column"] for curve in self.spec["curves"]]
         for reference in self.spec.get("references", []):
+            column = reference.get("y")
+            if (column not in here if column in known else panel[0][0] > 0):
+                continue
             # Experiments are marked at their peak only if they ask for it.
             entry = dict(reference, peak=reference.get("peak", False))
             self.line(
-                axes, entry, *reference_points(reference, self.beside),
+                axes, entry, reference_points(reference, self.beside),
                 style=next(markers), colour="0.45",
                 markersize=4, markerfacecolor="none",
                 label=reference.get(
                     "label", os.path.splitext(reference["file"])[0]))
 
-    def draw_runs(self, axes):
-        curves = self.spec["curves"]
+    def draw_runs(self, axes, panel):
         several = len(self.runs) > 1
         for r, (folder, run_label) in enumerate(self.runs):
             run_label = run_label or os.path.basename(os.path.abspath(folder))
-            for c, curve in enumerate(curves):
-                name = curve.get("label") or self.table(
-                    folder, curve).full_name(curve["column"])
+            for c, curve in panel:
+                name = curve.get("label") or self.name_of(curve)
                 label = (name if not several else run_label
-                         if len(curves) == 1 else f"{run_label}: {name}")
-                self.line(axes, curve, *self.points(folder, curve),
+                         if len(panel) == 1 else f"{run_label}: {name}")
+                self.line(axes, curve, self.points(folder, curve),
                           style=STYLES[c % 4] if several else "-",
-                          colour=f"C{(r if several else c) % 10}", label=label)
+                          colour=f"C{r if several else c}", label=label)
 
-    def draw(self, axes):
-        """Everything but the title and the legend."""
-        for band in self.spec.get("bands", []):
-            draw_band(axes, band, self.beside)
-        # References first, so that the program's own curves lie on top.
-        self.draw_references(axes)
-        self.draw_runs(axes)
+    def draw(self, axes, panel=None):
+        """Everything of a panel, by default the first one, but the title and
+        the legend."""
+        panel = panel or self.panels()[0]
         axes.set_xlabel(self.x_label)
-        axes.set_ylabel(self.y_label)
+        axes.set_ylabel(self.label_of(panel))
+        if panel[0][0] == 0:
+            for band in self.spec.get("bands", []):
+                draw_band(axes, band, self.beside)
+        # References first, so that the program's own curves lie on top.
+        self.draw_references(axes, panel)
+        self.draw_runs(axes, panel)
         for limits, setter in ((self.x, axes.set_xlim),
                                (self.y, axes.set_ylim)):
             if "limits" in limits:
@@ -293,11 +324,18 @@ class CurveFigure:
     def save(self, path=None):
         """Writes the picture and returns its name."""
         size = np.array(self.spec.get("size", [152.4, 106.7])) * MILLIMETRES
-        figure, axes = plt.subplots(figsize=size, constrained_layout=True)
-        self.draw(axes)
+        panels = self.panels()
+        size[1] *= 1.0 if len(panels) == 1 else 0.6 * len(panels)
+        figure, all_axes = plt.subplots(
+            len(panels), figsize=size, constrained_layout=True, sharex=True,
+            squeeze=False)
+        for axes, panel in zip(all_axes.flat, panels):
+            self.draw(axes, panel)
+            axes.label_outer()
+            self.draw_legend(axes, fontsize=8.5)
         if self.spec.get("title"):
-            axes.set_title(self.spec["title"])
-        self.draw_legend(axes, fontsize=8.5)
+            all_axes[0, 0].set_title(self.spec["title"])
+        figure.align_ylabels()
         path = path or os.path.join(
             self.runs[0][0], self.spec.get("out", "force_displacement.png"))
         figure.savefig(path)

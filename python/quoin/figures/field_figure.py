@@ -5,15 +5,15 @@ domain, if it was sampled, and the boundary."""
 
 import os
 
-import numpy as np
-
-import vtu
-import matplotlib.pyplot as plt
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import Normalize
+import matplotlib.pyplot as plt
+import numpy as np
 
-COLOURS = "magma_r"
+from quoin import vtu
+from quoin.colours import FIELD
+
 UNITS = {"velocity": "m/s", "displacement": "m"}
 
 
@@ -75,12 +75,12 @@ class FieldPicture:
         if frame.field is not None:
             x, y = frame.field.points.T
             axes.tripcolor(x, y, frame.field.cells, value, norm=self.values,
-                           cmap=COLOURS, shading="gouraud", rasterized=True)
+                           cmap=FIELD, shading="gouraud", rasterized=True)
             axes.add_collection(LineCollection(lines, colors="0.1",
                                                linewidths=1.0))
         else:
             axes.add_collection(LineCollection(
-                lines, colors=plt.get_cmap(COLOURS)(self.values(value)),
+                lines, colors=plt.get_cmap(FIELD)(self.values(value)),
                 linewidths=2.0))
         margin = 0.0 if self.options.view else 0.04 * self.extent.max()
         axes.set_xlim(self.low[0] - margin, self.high[0] + margin)
@@ -98,5 +98,5 @@ class FieldPicture:
         return ""
 
     def colour_bars(self):
-        return [(ScalarMappable(self.values, plt.get_cmap(COLOURS)),
+        return [(ScalarMappable(self.values, plt.get_cmap(FIELD)),
                  f"{self.name} [{UNITS[self.name]}]")]

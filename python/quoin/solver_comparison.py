@@ -8,11 +8,10 @@ import os
 
 import numpy as np
 
-import run_parameters
-import vtu
-from csv_table import unit_of
-from curve_figure import CurveFigure, peak_of, read_specs
-from joint_comparison import agreement
+from quoin import run_parameters, vtu
+from quoin.csv_table import unit_of
+from quoin.figures.curve_figure import CurveFigure, peak_of, read_specs
+from quoin.joint_comparison import agreement
 
 SOLVERS = ("explicit", "implicit")
 THRESHOLD = 1e-4                     # [m], above it a joint is open or slides

@@ -3,33 +3,34 @@
 """Joints and contacts for scripts/render: joints by their state, as cracks by
 mode and width, or by their damage."""
 
-import numpy as np
-
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.lines import Line2D
+import numpy as np
 
-import run_parameters
-from csv_table import with_unit
-from stress_figure import COMPRESSION, round_near
+from quoin import colours, run_parameters
+from quoin.csv_table import with_unit
+from quoin.figures.stress_figure import cell_areas, round_near
+from quoin.joint_states import INTACT, NAMES, OPEN, SLIPPED, SLIPPING
 
-# state: (name, colour, line width), drawn in this order; see JointState
+# state: (name, colour, line width), drawn in this order
 STATES = {
-    0: ("intact", "0.6", 0.4),
-    2: ("slipped", "#f2c500", 1.6),
-    1: ("slipping", "#f07800", 1.8),
-    3: ("open", "#d00000", 2.0),
+    INTACT: (NAMES[INTACT], colours.INTACT, 0.4),
+    SLIPPED: (NAMES[SLIPPED], colours.YELLOW, 1.6),
+    SLIPPING: (NAMES[SLIPPING], colours.ORANGE, 1.8),
+    OPEN: (NAMES[OPEN], colours.RED, 2.0),
 }
-INTACT, SLIPPING, OPEN = 0, 1, 3
 # how a crack moves: (name, colour), in the order in which they are drawn
-MODES = (("shear slip", "#f07800"), ("tensile opening", "#d00000"),
-         ("crushing", "#4b1e78"))
+MODES = (("shear slip", colours.ORANGE), ("tensile opening", colours.RED),
+         ("crushing", colours.VIOLET))
 SHEAR, TENSION, CRUSHING = 0, 1, 2
 WIDEST_CRACK, THINNEST_CRACK = 4.0, 0.6      # [pt]
 LEAST_SHARE = 0.02                   # of the widest, below it is no crack
 DAMAGE_COLOURS = LinearSegmentedColormap.from_list(
-    "damage", ["0.65", "#fecc5c", "#fd8d3c", "#e31a1c", "#800026"])
+    "damage", colours.DAMAGE)
+HAIRLINE = 1e-5                      # [m], drawn widest where nothing failed
+GAP = 0.05                           # of the size of a block: no crack any more
 WIDEST_CONTACT = 5.0                 # [pt]
 
 
@@ -78,6 +79,12 @@ class StateJoints:
         return None
 
 
+def block_size(blocks):
+    """Side of a square as large as the median of the blocks [m]."""
+    area = np.bincount(blocks.cell_data["block"], cell_areas(blocks))
+    return np.sqrt(np.median(area[area > 0.0]))
+
+
 def crack_modes(joints, shear_stiffness, peak_crushing):
     """Mode of each face and how wide it is [m]: the mean of its ends.
 
@@ -104,6 +111,18 @@ def crack_modes(joints, shear_stiffness, peak_crushing):
     return mode, np.where(joints.cell_data["state"] == INTACT, 0.0, width)
 
 
+def usual_width(widths, block_size):
+    """Of wide cracks [m], from those of faces: neither a unit that has come
+    away, whose joints are gaps, nor a bed joint on which all slides shall make
+    all others thin. @p block_size [m]."""
+    failed = widths[widths > 0.0]
+    cracks = failed[failed < GAP * block_size]
+    if len(cracks) == 0:
+        cracks = failed if len(failed) else np.array([HAIRLINE])
+    return np.quantile(
+        cracks[cracks >= 0.1 * np.quantile(cracks, 0.95)], 0.8)
+
+
 class CrackJoints:
     """Cracks coloured by mode and as wide as they open, slip or close; one
     scale for all frames."""
@@ -117,10 +136,8 @@ class CrackJoints:
         widths = np.concatenate(
             [crack_modes(grid, *self.properties)[1] for grid in grids]
             or [np.zeros(0)])
-        widths = widths[widths > 1e-2 * max(widths.max(initial=0.0), 1e-12)]
-        # A bed joint on which all slides must not make all others thin.
         self.widest = widest or round_near(
-            widths.mean() if len(widths) else 1e-3)
+            usual_width(widths, block_size(frames[0].blocks)))
 
     def draw(self, axes, joints, scale, with_count):
         position = current_position(joints, scale)
@@ -196,9 +213,10 @@ def draw_contacts(axes, contacts, scale, largest_force):
     width = np.clip(WIDEST_CONTACT * force[shown] / largest_force, 0.3,
                     1.5 * WIDEST_CONTACT)
     add_lines(axes, position[contacts.cells[shown]], linewidths=width,
-              colors=np.where(slipping, STATES[SLIPPING][1], COMPRESSION))
-    handles = [Line2D([], [], color=COMPRESSION, linewidth=WIDEST_CONTACT,
-                      solid_capstyle="round",
+              colors=np.where(slipping, STATES[SLIPPING][1],
+                              colours.COMPRESSION))
+    handles = [Line2D([], [], color=colours.COMPRESSION,
+                      linewidth=WIDEST_CONTACT, solid_capstyle="round",
                       label=f"contact, {largest_force / 1e3:.3g} kN/m")]
     if slipping.any():
         handles.append(Line2D([], [], color=STATES[SLIPPING][1],

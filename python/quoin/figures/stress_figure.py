@@ -8,18 +8,17 @@ of the cells, never across a joint: constant-strain triangles scatter about
 their mean.
 """
 
-import numpy as np
-
-from csv_table import scale_for, with_unit
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
 from matplotlib.colors import BoundaryNorm
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
-import matplotlib.pyplot as plt
+import numpy as np
 
-COMPRESSION, TENSION = "#1f4e9c", "#c0282d"
-CONTOURS = "YlGnBu_r"
+from quoin.colours import COMPRESSION, TENSION
+from quoin.csv_table import scale_for, with_unit
+from quoin.figures.figure_style import STRESSES
+
 LONGEST = 2.5                        # of the reference, in a cross
 
 
@@ -32,12 +31,17 @@ def round_near(value):
     return float(steps[np.abs(np.log(steps / value)).argmin()])
 
 
+def cell_areas(blocks):
+    """[m^2]"""
+    a, b, c = (blocks.points[blocks.cells[:, k]] for k in range(3))
+    return 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1]
+                        - (b - a)[:, 1] * (c - a)[:, 0])
+
+
 def nodal_stress(blocks):
     """xx, yy and xy at the nodes [Pa]; nan at nodes without cells."""
     cells = blocks.cells
-    a, b, c = (blocks.points[cells[:, k]] for k in range(3))
-    area = 0.5 * np.abs((b - a)[:, 0] * (c - a)[:, 1]
-                        - (b - a)[:, 1] * (c - a)[:, 0])
+    area = cell_areas(blocks)
     n = len(blocks.points)
 
     def total(value):
@@ -115,24 +119,30 @@ class Crosses:
         for s, turned in ((s1, angle), (s2, angle + 0.5 * np.pi)):
             half = self.half * np.clip(np.abs(s), 0.0, most)[:, None] \
                 * np.stack([np.cos(turned), np.sin(turned)], axis=1)
+            lines = np.stack([centre - half, centre + half], axis=1)
+            # White below them, or they are lost on dark colours of blocks.
             axes.add_collection(LineCollection(
-                np.stack([centre - half, centre + half], axis=1),
-                colors=np.where(s < 0.0, COMPRESSION, TENSION),
+                lines, colors="white", linewidths=width + 0.8, zorder=2.9))
+            axes.add_collection(LineCollection(
+                lines, colors=np.where(s < 0.0, COMPRESSION, TENSION),
                 linewidths=width, zorder=3))
         return [Line2D([], [], color=COMPRESSION, label="compression"),
                 Line2D([], [], color=TENSION, label="tension")]
 
-    def draw_bar(self, axes, corner):
-        """The reference stress as a bar in the scale of the crosses."""
+    def draw_bar(self, axes, corner, strip):
+        """The reference stress as a bar in the scale of the crosses, in a
+        strip as high as @p strip [m] below this corner, which it clears."""
         length = 2.0 * self.half * self.reference
         x, y = corner
+        axes.axhspan(y - strip, y, color="white", linewidth=0, zorder=4)
+        y -= 0.55 * strip
         axes.plot([x, x + length], [y, y], color=COMPRESSION, linewidth=1.2,
-                  solid_capstyle="butt", clip_on=False)
+                  solid_capstyle="butt", clip_on=False, zorder=5)
         text = with_unit(self.reference, "Pa")
         if self.is_cut:
             text += f", cut at {with_unit(LONGEST * self.reference, 'Pa')}"
         axes.text(x + 1.4 * length, y, text, fontsize=7.5, va="center",
-                  clip_on=False)
+                  clip_on=False, zorder=5)
 
 
 class Contours:
@@ -166,10 +176,9 @@ class Contours:
         value = np.nan_to_num(self.factor * self.values(blocks))
         value = self.rounding * np.round(value / self.rounding)
         axes.tricontourf(*position.T, blocks.cells, value,
-                         levels=self.levels, cmap=CONTOURS,
+                         levels=self.levels, cmap=STRESSES,
                          extend=self.extend)
 
     def mappable(self):
-        norm = BoundaryNorm(self.levels, plt.get_cmap(CONTOURS).N,
-                            extend=self.extend)
-        return ScalarMappable(norm, plt.get_cmap(CONTOURS))
+        return ScalarMappable(BoundaryNorm(self.levels, STRESSES.N,
+                                           extend=self.extend), STRESSES)

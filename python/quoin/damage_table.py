@@ -7,9 +7,8 @@ import os
 
 import numpy as np
 
-import run_parameters
-import vtu
-from joint_figure import INTACT, OPEN, SLIPPING
+from quoin import run_parameters, vtu
+from quoin.joint_states import INTACT, OPEN, SLIPPING
 
 # name: what it says in a legend, in the order of columns
 CONDITIONS = {

@@ -5,21 +5,18 @@ what joint_figure and stress_figure add to them."""
 
 import os
 
-import numpy as np
-
-import vtu
-from joint_figure import (CrackJoints, DamageJoints, StateJoints,
-                          contact_forces, draw_contacts)
-from stress_figure import Contours, Crosses
-import matplotlib.pyplot as plt
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
+import numpy as np
 
-MATERIALS = ["#e9e2d6", "#cfd8dc", "#dcd3e3", "#d3e3d5", "#e3d3d3"]
-STONES = ["#d9c9ad", "#c9b693", "#e3d7c0", "#bfb3a0", "#d3bf9f", "#cbbfae",
-          "#b9a888"]
-VELOCITY_COLOURS = "YlOrRd"
+from quoin import vtu
+from quoin.colours import MATERIALS, STONES
+from quoin.figures.figure_style import MAGNITUDES
+from quoin.figures.joint_figure import (CrackJoints, DamageJoints, StateJoints,
+                                        contact_forces, draw_contacts)
+from quoin.figures.stress_figure import Contours, Crosses
+
 LARGEST_TURN = 0.3                   # [rad], see automatic_scale()
 
 
@@ -39,6 +36,10 @@ class Frame:
             raise ValueError(f"no blocks are listed in "
                              f"{os.path.join(output, 'blocks.pvd')}; was a "
                              f"field written?")
+        if self.blocks.points.shape[1] == 3:
+            raise ValueError(f"{output}: blocks in three dimensions are not "
+                             "drawn here: take scripts/paraview_view, or open "
+                             "blocks.pvd in ParaView")
         if os.path.basename(os.path.abspath(output)) == "mechanism":
             # the series of a factor of safety lists its fields by it
             self.label = f"factor {self.blocks.time:.4g}"
@@ -184,9 +185,9 @@ class Picture:
         if self.crosses:
             handles += self.crosses.draw(axes, frame, position,
                                          0.7 if self.is_panel else 0.9)
-            below += 0.05 * self.extent[1]
-            self.crosses.draw_bar(
-                axes, (self.low[0], self.low[1] - 0.045 * self.extent[1]))
+            strip = 0.06 * self.extent.max()
+            self.crosses.draw_bar(axes, self.low - [0.0, margin], strip)
+            below += strip
         axes.set_xlim(self.low[0] - margin, self.high[0] + margin)
         axes.set_ylim(self.low[1] - below, self.high[1] + margin)
         axes.set_aspect("equal")
@@ -209,7 +210,7 @@ class Picture:
     def colours(self, blocks):
         """Of the cells."""
         if self.sizes:
-            return plt.get_cmap(VELOCITY_COLOURS)(
+            return MAGNITUDES(
                 self.sizes(cell_size(blocks, self.options.colour)))
         if self.options.colour == "block":
             return block_colours(blocks.cell_data["block"])
@@ -230,8 +231,7 @@ class Picture:
         bars = []
         if self.sizes:
             name = self.options.colour
-            bars.append((ScalarMappable(self.sizes,
-                                        plt.get_cmap(VELOCITY_COLOURS)),
+            bars.append((ScalarMappable(self.sizes, MAGNITUDES),
                          f"{name} [{UNITS[name]}]"))
         if self.contours:
             bars.append((self.contours.mappable(),

@@ -3,6 +3,9 @@
 """The look that all figures share."""
 
 import matplotlib
+import matplotlib.colors
+
+from quoin.colours import CURVES, VALUES
 
 matplotlib.use("Agg")
 matplotlib.rcParams.update(
@@ -13,6 +16,7 @@ matplotlib.rcParams.update(
         "axes.titlesize": 11,
         "axes.spines.top": False,
         "axes.spines.right": False,
+        "axes.prop_cycle": matplotlib.cycler(color=CURVES),
         "axes.grid": True,
         "grid.color": "0.9",
         "grid.linewidth": 0.6,
@@ -21,3 +25,8 @@ matplotlib.rcParams.update(
         "lines.linewidth": 1.5,
     }
 )
+
+# from none to much; of compression, which is negative, the other way round
+MAGNITUDES = matplotlib.colors.LinearSegmentedColormap.from_list(
+    "values", VALUES)
+STRESSES = MAGNITUDES.reversed()

@@ -9,12 +9,14 @@ colour_bars() and extent.
 import io
 import os
 
+from matplotlib.colors import BoundaryNorm
+import matplotlib.pyplot as plt
+from matplotlib.transforms import ScaledTranslation
+from mpl_toolkits.axes_grid1.inset_locator import inset_axes
 import numpy as np
 
-import figure_style  # noqa: F401  (sets matplotlib up before pyplot)
-import matplotlib.pyplot as plt
-
 PANEL_WIDTH = 8.0                    # [inch]
+LABELS_PER_INCH = 5
 MOST_BYTES = 2e6                     # of a film
 
 
@@ -45,11 +47,21 @@ def draw_moment(picture, frame):
     title = picture.options.title
     axes.set_title((title + ", " if title else "") + heading(picture, frame))
     for k, (mappable, label) in enumerate(picture.colour_bars()):
-        figure.colorbar(mappable, label=label,
-                        cax=axes.inset_axes([1.03 + 0.2 * k, 0, 0.03, 1]))
+        # As wide on any model, and as high as this one.
+        beside = axes.transAxes + ScaledTranslation(
+            0.15 + 1.0 * k, 0.0, figure.dpi_scale_trans)
+        bar = figure.colorbar(mappable, label=label, cax=inset_axes(
+            axes, width=0.15, height="100%", loc="lower left",
+            bbox_to_anchor=(1.0, 0.0, 1.0, 1.0), bbox_transform=beside,
+            borderpad=0.0))
+        if isinstance(mappable.norm, BoundaryNorm):
+            # beside a wide model there is no room for every level
+            n = int(LABELS_PER_INCH * 5.0 * picture.extent[1]
+                    / picture.extent[0])
+            levels = mappable.norm.boundaries
+            bar.set_ticks(levels[::-(-len(levels) // max(n, 2))])
     if handles:
-        axes.legend(loc="upper center", fontsize=8,
-                    bbox_to_anchor=(0.5, -0.55 / height), **in_rows(handles))
+        place_legend(figure, [axes], handles, None)
     return figure
 
 
@@ -84,14 +96,18 @@ def draw_panel(picture, frames, n_columns=None):
 
 
 def draw_lettered(picture, frames, all_axes):
-    """Pictures (a), (b), ...; returns what their legend shall have."""
-    handles = {}
+    """Pictures (a), (b), ...; returns what their legend shall have, in the
+    order of the picture that has most."""
+    handles, place = {}, {}
     for k, (axes, frame) in enumerate(zip(all_axes, frames)):
-        for handle in picture.draw(axes, frame, with_count=False):
-            handles.setdefault(handle.get_label(), handle)
+        for n, handle in enumerate(picture.draw(axes, frame,
+                                                with_count=False)):
+            label = handle.get_label()
+            handles.setdefault(label, handle)
+            place[label] = max(n, place.get(label, 0))
         axes.set_title(f"({letter(k)}) {picture.caption(frame)}", fontsize=9)
         hide_frame(axes)
-    return list(handles.values())
+    return [handles[label] for label in sorted(handles, key=place.get)]
 
 
 def letter(k):

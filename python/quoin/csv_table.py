@@ -16,6 +16,12 @@ SHOWN = {
 }
 
 
+# factor: what stands before the unit then
+PREFIXES = {1.0: "", 1e3: "m", 1e6: "µ", 1e9: "n", 1e-3: "k", 1e-6: "M",
+            1e-9: "G"}
+PREFIXED = re.compile(r"(m|N|Pa|s|J|W)(?![\w^²])")
+
+
 class Table:
     """A csv file: lines that begin with # are comments, and the header row
     may be missing."""
@@ -90,7 +96,24 @@ def scale_for(unit, largest):
     return 1.0, unit
 
 
+def as_text(value, form="#.3g"):
+    """A number without the point at which this form may end."""
+    return f"{value:{form}}".rstrip(".")
+
+
 def with_unit(value, unit, form=".3g"):
     """A number as it is shown, e.g. 0.00102, "m" as "1.02 mm"."""
     factor, shown = scale_for(unit, abs(value))
-    return f"{value * factor:{form}} {shown}".rstrip()
+    return f"{as_text(value * factor, form)} {shown}".rstrip()
+
+
+def scaled_name(name, factor):
+    """What stands at an axis for a column times a factor: "ux [m]" and 1e3 as
+    "ux [mm]", -1e-3 of a force as "-fh [kN]", other factors as they are."""
+    prefix = PREFIXES.get(float(f"{abs(factor):.9g}"))
+    sign = "-" if factor < 0.0 else ""
+    if prefix == "":
+        return sign + name
+    if prefix is None or not PREFIXED.match(unit_of(name)):
+        return f"{factor:g} × {name}"
+    return sign + name.replace(" [", f" [{prefix}")

@@ -1,8 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
-"""The options that scripts/render and scripts/wall_figure share."""
+"""The options that scripts share."""
 
 import argparse
+import re
+
+
+class Parser(argparse.ArgumentParser):
+    """With the text of the script as its help, and "-1e3" or "-9,0,9,8" as
+    values, not as options, which argparse knows of "-1" alone."""
+
+    def __init__(self, text, **others):
+        super().__init__(description=text, **others,
+                         formatter_class=argparse.RawDescriptionHelpFormatter)
+        self._negative_number_matcher = re.compile(r"-\.?\d")
 
 
 def numbers(text):
@@ -31,8 +42,7 @@ def add_picture_options(parser, joints="state"):
     parser.add_argument("--scale", type=float,
                         help="of displacements, default automatic")
     parser.add_argument("--view", type=view, metavar="XMIN,YMIN,XMAX,YMAX",
-                        help="what is shown [m], default all; with a minus "
-                             "sign in front: --view=-9,0,9,8")
+                        help="what is shown [m], default all")
     parser.add_argument("--colour", default="material",
                         choices=("material", "block", "velocity", "stress",
                                  "displacement"),

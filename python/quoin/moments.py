@@ -3,13 +3,13 @@
 """The moments of a run that a figure shows: given as times, or by the values
 of a history."""
 
-import os
 from collections import namedtuple
+import os
 
 import numpy as np
 
-import vtu
-from csv_table import Table, unit_of, with_unit
+from quoin import vtu
+from quoin.csv_table import Table, unit_of, with_unit
 
 SLACK = 1e-3                         # of the range of a history
 # label: what is written above the picture, None: the time

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Draws the deformed blocks of a run, the state of its joints and the forces
+in its contacts; one moment, several of them, or a film.
+
+  scripts/render OUTPUT_DIR                      cracks.png of the last time
+  scripts/render OUTPUT_DIR --time 0.2 --scale 50 --principal --out wall.png
+  scripts/render OUTPUT_DIR --times 0,1.5,3,8 --colour block --view=-9,-1,9,8
+  scripts/render OUTPUT_DIR --at displacement=1e-3,2e-3,end --joints mode
+  scripts/render OUTPUT_DIR --at force=peak --principal --blocks-only
+  scripts/render OUTPUT_DIR --colour velocity --animate collapse.gif
+
+--at takes the fields nearest to where a column of histories.csv first reaches
+values (in the units of the table), its peak (largest magnitude) or its end.
+Above each picture stands the value that the history has at that field.
+
+Joints are dark red where open, orange where slipping, yellow where they slipped
+earlier, thin grey where intact. --joints mode draws cracks instead: what failed
+is dark red where it opens more than it slips, orange where it slips more, violet
+where it crushed (beyond the compressive strength), and as wide as it opens,
+slips or closes. --joints damage colours joints by the share of their strength
+that a composite law has lost. Contacts of large displacements are lines
+along the overlap, as wide as their normal force. --blocks-only leaves both out.
+
+Displacements are enlarged by --scale, by default so that the deformation can
+be seen: never less than once, and not so much that a block seems turned by
+more than 0.3 rad, so that blocks which really turn are drawn as they are.
+
+--principal adds crosses of the principal stresses on a regular grid: blue is
+compression, red is tension, the length is the magnitude, in the scale of the
+bar below. --colour stress fills the blocks with contours of the minor, that is
+most compressive, principal stress. Both are averaged at the nodes of a block.
+
+Of a run of boundary elements it draws the field in the domain, the magnitude of
+velocity or, with --colour displacement, of displacement, and the boundary.
+
+  scripts/render OUTPUT_DIR --times 1e-3,2e-3,3e-3 --out wave.png
+
+--animate writes a GIF, or with a name that ends in .png a strip of pictures,
+of --frames moments at equal distances. --out may end in .pdf or .svg.
+"""
+
+import os
+import sys
+
+import numpy as np
+
+from quoin.commands.options import (Parser, add_picture_options, numbers,
+                                    positive)
+from quoin.figures import field_figure
+from quoin.figures.block_figure import Frame, Picture
+from quoin.figures.page_layout import draw_moment, draw_panel, write_film
+from quoin.moments import Moment, check_times, moments_at, recorded_times
+
+
+def times_of_film(series, options):
+    """Recorded times at equal distances, each once."""
+    times = recorded_times(options.output, series)
+    if options.between:
+        times = times[(times >= options.between[0])
+                      & (times <= options.between[-1])]
+    if len(times) == 0:
+        raise ValueError("no field was written between these times")
+    n = options.frames or (6 if options.animate.endswith(".png") else 60)
+    wanted = np.linspace(times[0], times[-1], max(n, 2))
+    nearest = np.abs(np.subtract.outer(wanted, times)).argmin(axis=1)
+    return times[np.unique(nearest)]
+
+
+def moments_from(series, options):
+    if options.at:
+        return moments_at(options.output, options.at, series)
+    if options.animate:
+        return [Moment(t) for t in times_of_film(series, options)]
+    wanted = options.times or [options.time]
+    if wanted != [None]:
+        check_times(options.output, series, wanted)
+    return [Moment(t) for t in wanted]
+
+
+def read_options():
+    parser = Parser(__doc__)
+    parser.add_argument("output", metavar="OUTPUT_DIR")
+    moment = parser.add_mutually_exclusive_group()
+    moment.add_argument("--time", type=float, help="[s], default the last")
+    moment.add_argument("--times", type=numbers, metavar="T,T,...",
+                        help="several output times in one figure [s]")
+    moment.add_argument("--at", metavar="COLUMN=VALUE,...",
+                        help="where a history reaches values, peak or end")
+    moment.add_argument("--animate", metavar="FILE",
+                        help="a film, .gif, or a strip, .png")
+    parser.add_argument("--frames", type=positive(int),
+                        help="of --animate, default 60 (strip: 6)")
+    parser.add_argument("--between", type=numbers, metavar="START,END",
+                        help="of --animate [s], default all")
+    add_picture_options(parser)
+    parser.add_argument("--title")
+    parser.add_argument("--out", metavar="FILE",
+                        help="default OUTPUT_DIR/cracks.png, or field.png")
+    options = parser.parse_args()
+    if options.animate and not options.animate.endswith((".gif", ".png")):
+        parser.error("--animate writes a .gif or a .png")
+    if options.animate and options.out:
+        parser.error("--animate names its file itself: leave --out away")
+
+    return options
+
+
+def draw(options):
+    """Writes the figure and returns its name."""
+    is_field = field_figure.is_field_run(options.output)
+    if is_field and options.colour == "stress":
+        raise ValueError("--colour stress is for blocks")
+    make_frame = field_figure.FieldFrame if is_field else Frame
+    moments = moments_from("boundary.pvd" if is_field else "blocks.pvd",
+                           options)
+    frames = [make_frame(options.output, *moment) for moment in moments]
+    picture = (field_figure.FieldPicture if is_field
+               else Picture)(options, frames)
+    if options.animate and options.animate.endswith(".gif"):
+        write_film(picture, frames, options.animate)
+        return options.animate
+    path = (options.animate or options.out
+            or os.path.join(options.output, "field.png" if is_field
+                            else "cracks.png"))
+    figure = (draw_moment(picture, frames[0]) if len(frames) == 1
+              else draw_panel(picture, frames))
+    figure.savefig(path, bbox_inches="tight")
+    return path
+
+
+def main():
+    try:
+        print(draw(read_options()))
+    except (OSError, ValueError) as error:
+        sys.exit(f"render: {error}")
+
+
+if __name__ == "__main__":
+    main()

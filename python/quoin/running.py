@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Starts quoin on a case."""
+
+import os
+import shutil
+import subprocess
+
+from quoin import run_parameters
+from quoin.results import read
+
+# the folder of the sources, unless the package was installed without them
+CHECKOUT = os.path.dirname(os.path.dirname(os.path.dirname(
+    os.path.abspath(__file__))))
+if not os.path.exists(os.path.join(CHECKOUT, "scripts", "build")):
+    CHECKOUT = None
+
+
+class RunFailed(Exception):
+    """A run that quoin refused or ended: its message, the exit status (1: wrong
+    input, 2: the run failed and left what it had, negative: a signal) and the
+    output folder."""
+
+    def __init__(self, message, status, output):
+        super().__init__(message)
+        self.status = status
+        self.output = output
+
+
+def executable(quoin=None):
+    """The program: @p quoin, that of the environment variable QUOIN, that
+    which was built beside this package, or the one on the PATH."""
+    built = os.path.join(CHECKOUT, "build", "quoin") if CHECKOUT else ""
+    found = (quoin or os.environ.get("QUOIN")
+             or (built if os.path.exists(built) else shutil.which("quoin")))
+    if found is None:
+        raise FileNotFoundError(
+            "the program quoin was not found: build it with scripts/build, "
+            "put its folder onto the PATH or name it in the environment "
+            "variable QUOIN")
+    return os.path.abspath(found)
+
+
+def entry(name, value):
+    """"Section/Name=value" for --set; lists with commas, truths as yes, no."""
+    def text(one):
+        return ("yes" if one else "no") if isinstance(one, bool) else str(one)
+    several = isinstance(value, (list, tuple))
+    return f"{name}=" + (", ".join(map(text, value)) if several
+                         else text(value))
+
+
+def command(case, output, entries=(), options=(), ranks=1, quoin=None):
+    """The words that start a run; @p entries: "Section/Name=value"."""
+    words = ["mpirun", "-n", str(ranks)] if ranks > 1 else []
+    words += [executable(quoin), case, "--output", output]
+    for text in entries:
+        words += ["--set", text]
+    return words + list(options)
+
+
+def environment():
+    """Of runs that share a machine; Open MPI refuses root unless told."""
+    return dict(os.environ, OPENBLAS_NUM_THREADS="1",
+                OMPI_ALLOW_RUN_AS_ROOT="1",
+                OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
+                OMPI_MCA_rmaps_base_oversubscribe="1",
+                OMPI_MCA_mpi_yield_when_idle="1")
+
+
+def run(case, overrides=None, output=None, ranks=1, quoin=None, options=(),
+        quiet=True):
+    """Runs a case to its end and returns its Results.
+
+    @p case: path of a parameter file. @p overrides: {"Section/Name": value},
+    numbers, texts, truths or lists of them, in the units of the file. @p
+    output: the folder of the results, default that of the parameter file. @p
+    options: further words for quoin, e.g. ["--resume"]. With @p quiet its lines
+    are not shown. Throws RunFailed with quoin's message.
+    """
+    entries = [entry(*item) for item in (overrides or {}).items()]
+    output = output or run_parameters.output_of(case, entries)
+    done = subprocess.run(
+        command(case, output, entries, options, ranks, quoin),
+        env=environment(), stdout=subprocess.DEVNULL if quiet else None,
+        stderr=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        raise RunFailed(done.stderr.strip() or
+                        f"quoin ended with exit status {done.returncode}",
+                        done.returncode, output)
+    return read(output)

@@ -1,0 +1,246 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""The package quoin: what it reads of runs whose answers are known, and its
+studies, by a program that stands for quoin."""
+import contextlib
+import importlib.util
+import io
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+from synthetic_runs import NOTHING, ROOT, WIDE, joint_grid, write_run
+import quoin
+from quoin import frames, running, studies
+
+# Stands for quoin: writes the product of the overrides a and b, and how often
+# it was called; refuses a = 3, fails at a = 4, is killed at a = 5.
+QUOIN = """#!/usr/bin/python3
+import os, sys
+words = sys.argv
+folder = words[words.index("--output") + 1]
+values = dict(text.split("=") for k, text in enumerate(words)
+              if words[k - 1] == "--set")
+a, b = float(values["S/a"]), float(values.get("b", 1))
+with open("%s", "a") as file:
+    file.write(f"{a:g}\\n")
+if a == 3:
+    sys.exit(print("Error: section 'S': a is 3", file=sys.stderr) or 1)
+os.makedirs(folder)
+if a == 4:
+    sys.exit(print("Error: it fell over", file=sys.stderr) or 2)
+if a == 5:
+    os.kill(os.getpid(), 9)
+with open(os.path.join(folder, "histories.csv"), "w") as file:
+    file.write(f"time [s],p [N]\\n0,0\\n1,{a * b}\\n")
+"""
+
+
+class Results(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = os.path.join(scratch.name, "run")
+        write_run(self.folder, [0., 1e-3, 2e-3], [0., -5., -4.],
+                  {0: joint_grid(NOTHING, NOTHING),
+                   2: joint_grid(WIDE, NOTHING)})
+        self.results = quoin.read(self.folder)
+
+    def test_tables(self):
+        histories = self.results.histories
+        self.assertEqual(list(histories.columns), ["time", "u", "f"])
+        self.assertEqual(histories["f"].min(), -5.)
+        self.assertEqual(len(histories), 3)
+        self.assertEqual(self.results.units(), {"time": "s", "u": "m",
+                                                "f": "N"})
+        with open(os.path.join(self.folder, "energies.csv"), "w") as file:
+            file.write("time [s],a [m],a [m/s]\n0,1,2\n")
+        self.assertEqual(list(self.results.energies.columns),
+                         ["time", "a [m]", "a [m/s]"])
+
+    def test_without_pandas(self):
+        known, frames.pandas = frames.pandas, None
+        try:
+            histories = self.results.histories
+        finally:
+            frames.pandas = known
+        self.assertEqual(histories.columns, ["time", "u", "f"])
+        self.assertEqual(len(histories), 3)
+        np.testing.assert_array_equal(histories["u"], [0., 1e-3, 2e-3])
+        self.assertEqual(repr(histories).splitlines()[1].split(),
+                         ["0", "0", "0"])
+
+    def test_summary_and_parameters(self):
+        self.assertEqual(self.results.summary["steps"], 3)
+        self.assertEqual(
+            self.results.parameters["Joints"]["mortar"]["Law"], "Coulomb")
+
+    def test_fields(self):
+        self.assertEqual(self.results.series(), ["blocks", "joints"])
+        np.testing.assert_array_equal(self.results.times(), [0., 2.])
+        self.assertEqual(self.results.field("displacement").shape, (4, 3))
+        np.testing.assert_array_equal(
+            self.results.field("opening", 0.3, "joints"), np.zeros(4))
+        with self.assertRaisesRegex(ValueError, "no field 'stress'; there are "
+                                    "block, displacement, material"):
+            self.results.field("stress")
+        with self.assertRaisesRegex(ValueError, "fields of blocks, joints"):
+            self.results.times("contacts")
+        with self.assertRaisesRegex(ValueError, "no such folder"):
+            quoin.read(self.folder + "s")
+
+    def test_joints(self):
+        joints = self.results.joints()
+        self.assertEqual(list(joints["state"]), ["intact", "intact"])
+        self.assertEqual(list(joints["set"]), ["mortar", "mortar"])
+        np.testing.assert_allclose(joints["length"], [1., 2.])
+        # the mean of both ends
+        np.testing.assert_allclose(joints["opening"], [1e-4, 1.5e-4])
+        np.testing.assert_allclose(joints["x"], [0.5 + 1e-5, 2. + 1.5e-5])
+        self.assertEqual(list(self.results.joints(0.)["opening"]), [0., 0.])
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+        self.calls = os.path.join(self.folder, "calls")
+        self.case = os.path.join(self.folder, "case.prm")
+        with open(self.case, "w") as file:
+            file.write("set Output directory = here\n")
+        self.quoin = os.path.join(self.folder, "quoin")
+        with open(self.quoin, "w") as file:
+            file.write(QUOIN % self.calls)
+        os.chmod(self.quoin, 0o755)
+
+    def called(self):
+        """The values of a of all runs that were made since the last call."""
+        if not os.path.exists(self.calls):
+            return []
+        with open(self.calls) as file:
+            values = sorted(int(line) for line in file)
+        os.remove(self.calls)
+        return values
+
+    def test_run(self):
+        results = quoin.run(self.case, {"S/a": 2, "b": 4.5}, quoin=self.quoin)
+        self.assertEqual(results.output, os.path.join(self.folder, "here"))
+        self.assertEqual(results.histories["p"].max(), 9.)
+        with self.assertRaisesRegex(quoin.RunFailed, "a is 3") as caught:
+            quoin.run(self.case, {"S/a": 3}, quoin=self.quoin)
+        self.assertEqual(caught.exception.status, 1)
+
+    def test_entries(self):
+        self.assertEqual(running.entry("A/b", True), "A/b=yes")
+        self.assertEqual(running.entry("A/b", [0.1, 2]), "A/b=0.1, 2")
+        self.assertEqual(running.entry("A/b", "none"), "A/b=none")
+
+    def test_program(self):
+        self.assertEqual(running.executable(self.quoin), self.quoin)
+        os.environ["QUOIN"] = "some/quoin"
+        self.addCleanup(os.environ.pop, "QUOIN")
+        self.assertEqual(running.executable(), os.path.abspath("some/quoin"))
+
+    def study(self, a, b=(1, 2), progress=None, **others):
+        return quoin.study(
+            self.case, {"S/a": a, "b": b}, os.path.join(self.folder, "study"),
+            lambda results: {"peak": results.histories["p"].max()},
+            quoin=self.quoin, progress=progress, **others)
+
+    def test_study(self):
+        table = self.study([1, 2], processes=2)
+        self.assertEqual(self.called(), [1, 1, 2, 2])
+        self.assertEqual(list(zip(table["S/a"], table["b"], table["peak"])),
+                         [(1, 1, 1.), (1, 2, 2.), (2, 1, 2.), (2, 2, 4.)])
+        self.assertEqual(set(table["status"]), {"finished"})
+        with open(os.path.join(self.folder, "study", "study.csv")) as file:
+            self.assertEqual(len(file.readlines()), 5)
+
+    def test_finished_runs_are_not_made_again(self):
+        self.study([1, 2])
+        self.called()
+        table = self.study([1, 2, 6])
+        self.assertEqual(self.called(), [6, 6])
+        self.assertEqual(len(table), 6)
+        with open(self.case, "a") as file:
+            file.write("set Thickness = 2\n")
+        self.study([1])
+        self.assertEqual(self.called(), [1, 1])
+
+    def test_failures_are_kept(self):
+        says = io.StringIO()
+        table = self.study([3, 1, 4], (1,), says)
+        self.assertEqual(self.called(), [1, 3, 4])
+        self.assertEqual(list(table["status"]),
+                         ["failed", "finished", "failed"])
+        self.assertIn("a is 3", table["message"][0])
+        self.assertIn("it fell over", table["message"][2])
+        np.testing.assert_array_equal(table["peak"], [np.nan, 1., np.nan])
+        self.assertIn("3/3", says.getvalue())
+        self.assertIn("S/a=4", says.getvalue())
+        self.study([3, 1, 4], (1,))
+        self.assertEqual(self.called(), [])
+        self.study([3, 1, 4], (1,), again=True)
+        self.assertEqual(self.called(), [3, 4])
+
+    def test_a_study_that_was_stopped_goes_on(self):
+        with self.assertRaises(quoin.RunFailed):
+            self.study([1, 5], (1,))
+        self.assertEqual(self.called(), [1, 5])
+        with contextlib.suppress(quoin.RunFailed):
+            self.study([1, 5], (1,))
+        self.assertEqual(self.called(), [5])
+
+    def test_grids(self):
+        self.assertEqual(
+            studies.combinations({("a", "b"): [(1, 2), (3, 4)], "c": [5]}),
+            [{"a": 1, "b": 2, "c": 5}, {"a": 3, "b": 4, "c": 5}])
+        for grid in ({"a": []}, {("a", "b"): [(1, 2, 3)]}):
+            with self.assertRaisesRegex(ValueError, "one or more values"):
+                studies.combinations(grid)
+
+
+class Package(unittest.TestCase):
+    def test_reading_needs_no_matplotlib(self):
+        """ParaView's Python has none."""
+        subprocess.run(
+            [sys.executable, "-c", "import sys; sys.modules['matplotlib'] = "
+             "None; import quoin, quoin.commands.paraview_view"], check=True,
+            env=dict(os.environ, PYTHONPATH=os.path.join(ROOT, "python")))
+
+    @unittest.skipUnless(importlib.util.find_spec("pip")
+                         and importlib.util.find_spec("setuptools"),
+                         "pip and setuptools are not needed otherwise")
+    def test_installation(self):
+        with tempfile.TemporaryDirectory() as folder:
+            # pip builds in the folder of the sources
+            shutil.copytree(os.path.join(ROOT, "python"), folder + "/python",
+                            ignore=shutil.ignore_patterns("__pycache__"))
+            subprocess.run(
+                [sys.executable, "-m", "pip", "install", "--quiet",
+                 "--no-build-isolation", "--no-deps", "--no-index",
+                 "--target", folder + "/there", folder + "/python"],
+                check=True, stderr=subprocess.PIPE)
+            said = subprocess.run(
+                [folder + "/there/bin/quoin-plot", "--help"], check=True,
+                stdout=subprocess.PIPE, text=True,
+                env=dict(os.environ, PYTHONPATH=folder + "/there")).stdout
+            self.assertIn("usage: quoin-plot", said)
+
+    def test_version(self):
+        """That of the program."""
+        with open(os.path.join(ROOT, "CMakeLists.txt")) as file:
+            version = file.read().split("project(quoin VERSION ")[1].split()[0]
+        with open(os.path.join(ROOT, "python", "pyproject.toml")) as file:
+            self.assertIn(f'\nversion = "{version}"\n', file.read())
+
+
+if __name__ == "__main__":
+    unittest.main()
