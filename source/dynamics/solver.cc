@@ -167,7 +167,10 @@ namespace quoin
     refuse_absent_nodes(state);
     acting.nodal.clear();
     for (NodalLoad<dim> &load : all_loads)
+    {
       load.set_mass(model.mass());
+      load.begin_stage(false, 0.);
+    }
     for (const NodalLoad<dim> &load : all_loads)
       if (names_load(stage, load.name()))
         acting.nodal.push_back(&load);
@@ -192,7 +195,8 @@ namespace quoin
                                  const double automatic)
   {
     for (NodalLoad<dim> &load : all_loads)
-      load.begin_stage(!previous || !names_load(*previous, load.name()),
+      load.begin_stage(names_load(stage, load.name())
+                           && !(previous && names_load(*previous, load.name())),
                        automatic);
   }
 

@@ -27,7 +27,8 @@ namespace quoin
     double by_block = 0.;
   };
 
-  /** Of each joint set of @p model, at its largest stiffness. Collective. */
+  /** An impact of typical blocks for each joint set of @p model, at the set's
+      largest stiffness. Collective. */
   std::vector<TypicalImpact> typical_impacts(const Model<2> &model);
 
   /** A line for --check about each joint set that has dashpots or is for new

@@ -59,8 +59,9 @@ namespace quoin
                                          const PlaneStiffness &stiffness);
 
   /**
-   * The same of a cell with a yield law and a @p history that is up to date,
-   * initial stress included: an elastic cell with this stress has its forces.
+   * Stress xx, yy, xy, zz [Pa] in the rotating frame of a cell with a yield law
+   * and a @p history that is up to date, initial stress included: an elastic
+   * cell with this stress has its forces.
    */
   std::array<double, 4> turning_stress(const BlockForces<2> &blocks,
                                        const NodeRecord<2> *nodes,

@@ -141,7 +141,7 @@ namespace quoin
     /** One contact as it is written to files and tables. */
     struct Contact
     {
-      /** Of both ends of the overlap: x, y. */
+      /** Vectors x, y at both ends of the overlap. */
       using Ends = std::array<std::array<double, 2>, 2>;
 
       unsigned int set;

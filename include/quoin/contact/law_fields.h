@@ -19,8 +19,8 @@ namespace quoin
   double law_field(const MatchedJoints &joints, const std::string &name,
                    unsigned int point, const JointHistory &history);
 
-  /** The same of a general contact's @p point that follows the law of @p set.
-   */
+  /** The field @p name at the @p point of a general contact that follows the
+      law of @p set; 0 if the law has none. */
   double law_field(const MatchedJoints &joints, const std::string &name,
                    unsigned int set, const ContactPoint &point);
 } // namespace quoin

@@ -17,7 +17,8 @@ namespace quoin
   struct DashpotBlocks
   {
     MPI_Comm communicator = MPI_COMM_NULL;
-    /** Of each block of the mesh [1/kg]; 0: a load holds or moves it. */
+    /** One by the mass of each block of the mesh [1/kg]; 0: a load holds or
+        moves the block. */
     std::vector<double> inverse_mass;
     /** Whether several ranks have cells of the block. */
     std::vector<bool> is_divided;

@@ -107,7 +107,7 @@ namespace quoin
     /** Resultant of the loads with the factor 1 [N]; collective. */
     std::array<double, dim> resultant() const;
 
-    // Of the explicit solver.
+    // The rest is for the explicit solver.
 
     /** Finds what lambda moves: not what @p constraints move. @p mass: of local
         nodes, with mass scaling [kg]. Throws an InputError about constraints

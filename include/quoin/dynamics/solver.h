@@ -167,8 +167,9 @@ namespace quoin
      * are absent in @p state.
      */
     void activate(const StageParameters &stage, const State<dim> &state);
-    /** Lets gravity that @p previous, the stage before or null, has not grow
-        over @p automatic [s], unless its parameters say otherwise. */
+    /** Lets gravity that the stage names and @p previous, the stage before or
+        null, does not grow over @p automatic [s], unless its parameters say
+        otherwise; loads of a pattern are there at once. */
     void ramp_gravity(const StageParameters *previous, double automatic);
     /** Begins the load pattern, if the stage has one, once the stage has
         begun; it goes on with the factor of @p previous if that has the same

@@ -60,8 +60,8 @@ namespace quoin
            const std::vector<bool> &held, const State<2> &state,
            bool has_factor = false);
 
-    /** Of the factor of the load pattern; invalid without. The first rank owns
-        it. */
+    /** Number of the degree of freedom that is the factor of the load pattern;
+        invalid without a pattern. The first rank owns it. */
     Index factor() const
     {
       return factor_dof;

@@ -168,7 +168,7 @@ namespace quoin
                          + bears[3] };
     }
 
-    /** The same as Cauchy's stress, in the frame R_e. */
+    /** Cauchy's stress at a point in the frame R_e, xx, yy, xy, zz [Pa]. */
     std::array<double, 4>
     cauchy_stress(const PlasticPoint &point, const PlaneTensor &e,
                   const std::array<double, 4> &initial = {}) const;

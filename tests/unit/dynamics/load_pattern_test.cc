@@ -78,6 +78,31 @@ TEST(LoadPattern, ControlIsExactWithAnyDamping)
   }
 }
 
+TEST(LoadPattern, GravityOfAPatternIsThereAtOnce)
+{
+  // Gravity grows where it begins in a static stage; a pattern has its loads in
+  // full, whether that stage has them or not.
+  for (const bool acts_before : { false, true })
+  {
+    BlockMesh<2> mesh;
+    make_stack(mesh, 3, 2);
+    TestRun run(mesh, two_blocks(), held_and_pushed());
+    std::vector<std::string> loads = { "hold" };
+    if (acts_before)
+      loads.push_back("gravity");
+    StageParameters rest = stage_with(loads, DampingType::local);
+    rest.end             = StageEnd::static_ratio;
+    run.begin(rest);
+    run.step(10);
+    const double start = mean_x(run.model, run.state);
+    const double begun = run.state.time;
+    run.begin(pushed("1e-3 * t", DampingType::local), 0.5, &rest);
+    run.step(100);
+    EXPECT_NEAR(mean_x(run.model, run.state) - start,
+                1e-3 * (run.state.time - begun), 1e-15);
+  }
+}
+
 TEST(LoadPattern, SupportsTakeTheLoadAndEnergyIsKept)
 {
   BlockMesh<2> mesh;
