@@ -36,7 +36,7 @@ namespace quoin
      */
     constexpr unsigned int n_skins = 14;
     /** By how much an automatic skin may grow from one search to the next. */
-    constexpr double growth = 4.;
+    constexpr double growth = 2.;
     /** What a search costs for each edge, by what a step costs for each pair.
      */
     constexpr double cost_of_search = 60.;
@@ -46,9 +46,13 @@ namespace quoin
     constexpr std::uint64_t first_steps = 100;
     constexpr double patience           = 4.;
 
-    double automatic_skin(const double largest, const unsigned int k)
+    /** Those from @p largest on, descending. */
+    std::array<double, n_skins> automatic_skins(const double largest)
     {
-      return largest * std::pow(0.5, 0.5 * k);
+      std::array<double, n_skins> skins;
+      for (unsigned int k = 0; k < n_skins; ++k)
+        skins[k] = largest * std::pow(0.5, 0.5 * k);
+      return skins;
     }
 
     /** Of vectors on all ranks: the largest square, x, -x, y and -y. */
@@ -278,9 +282,10 @@ namespace quoin
   {
     dealii::Utilities::MPI::sum(sides, exchange.communicator(), sides);
     double best = search_distance(contacts), least = infinity;
+    const auto skins = automatic_skins(largest_skin);
     for (unsigned int k = 0; k < n_skins; ++k)
     {
-      const double skin = automatic_skin(largest_skin, k);
+      const double skin = skins[k];
       if (skin > 1.001 * search_distance(contacts))
         continue;
       const double cost
@@ -300,19 +305,17 @@ namespace quoin
                             ContactState &contacts) const
   {
     std::vector<std::array<unsigned int, 2>> found, result;
-    std::vector<double> distances;
+    std::vector<double> needed;
     std::vector<unsigned int> sides(n_skins, 0);
+    const auto skins = automatic_skins(largest_skin);
     for (const auto &[i, j] :
          near_edges(edges, ends, search_distance(contacts) + apart))
     {
       if (is_matched(contacts, ends[i].edge, ends[j].edge))
         continue;
       found.push_back({ { i, j } });
-      distances.push_back(distance(ends[i], ends[j]));
-      for (unsigned int k = 0;
-           k < n_skins
-           && distances.back() <= automatic_skin(largest_skin, k) + apart;
-           ++k)
+      needed.push_back(motion_to_touch(ends[i], ends[j], apart));
+      for (unsigned int k = 0; k < n_skins && needed.back() <= skins[k]; ++k)
         sides[k] += ends[i].is_own + ends[j].is_own;
     }
     if (parameters.skin > 0. || contacts.n_searches == 0)
@@ -320,7 +323,7 @@ namespace quoin
     else
       contacts.skin = cheapest_skin(sides, rate, contacts);
     for (unsigned int p = 0; p < found.size(); ++p)
-      if (distances[p] <= contacts.skin + apart)
+      if (needed[p] <= contacts.skin)
         result.push_back(found[p]);
     return result;
   }

@@ -53,7 +53,7 @@ namespace quoin
       if (blocks.first == blocks.second)
         continue;
       double &least = nearest.emplace(blocks, within).first->second;
-      least         = std::min(least, distance(ends[i], ends[j]));
+      least         = std::min(least, motion_to_touch(ends[i], ends[j], 0.));
     }
     for (const auto &joined : nodes.table().joined)
       nearest[{ joined[0], joined[1] }] = 0.;

@@ -163,8 +163,13 @@ TEST(Thickness, WaveIsReflectedByTheRatioOfSections)
           = { { step * c / (ramp * std::sqrt(M_PI)) * std::exp(-z * z), 0. } };
     }
     run.step(std::lround(125. / (c * run.dt())));
-    for (const double x : { 60., 80., 100., 120., 140. })
-      EXPECT_NEAR(run.state.nodes[run.node(x, 0.)].u[0],
+    // The mean of both sides: at the step their nodes have different masses.
+    // Fronts are at 25 m and 175 m, and about 75 m is what of the start does
+    // not go to the right in a discrete bar, back from the left end.
+    for (const double x : { 50., 100., 120., 140. })
+      EXPECT_NEAR(0.5
+                      * (run.state.nodes[run.node(x, 0.)].u[0]
+                         + run.state.nodes[run.node(x, 1.)].u[0]),
                   step * 2. * first / (first + other), 1e-4 * step)
           << x;
   }
@@ -202,9 +207,10 @@ TEST(Thickness, IsAFactorOfAllThatABlockIsAndBears)
     stage.mass_coefficient      = 10.;
     stage.stiffness_coefficient = 1e-6;
     run.begin(stage);
-    run.step(200, true);
+    run.step(200);
+    run.solver.step(run.state, { true, false });
     EXPECT_LT(std::abs(run.solver.energies().residual()),
-              1e-10 * run.solver.energies().throughput());
+              1e-9 * run.solver.energies().throughput());
     return std::make_pair(run.dt(), run.state);
   };
   for (const bool rigid : { false, true })
