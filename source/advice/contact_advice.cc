@@ -3,10 +3,12 @@
 
 #include <quoin/advice/contact_advice.h>
 #include <quoin/base/constants.h>
+#include <quoin/contact/block_gaps.h>
 #include <quoin/model/contact_bounds.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace quoin
 {
@@ -24,10 +26,12 @@ namespace quoin
                             const double thickness)
     {
       TypicalImpact result;
-      result.exists = true;
-      result.mass   = mass;
-      result.size   = std::sqrt(mass / (material.elastic.density * thickness));
-      const double kn = stiffness_bound(set.law)[0];
+      result.exists    = true;
+      result.mass      = mass;
+      result.density   = material.elastic.density;
+      result.size      = std::sqrt(mass / (result.density * thickness));
+      const double kn  = stiffness_bound(set.law)[0];
+      result.stiffness = kn;
       const double omega
           = std::sqrt(kn * result.size * thickness / (0.5 * mass));
       const double xi    = set.damping.normal;
@@ -39,6 +43,70 @@ namespace quoin
       result.by_block
           = material.rigid ? 0. : kn * result.size / material.elastic.young;
       return result;
+    }
+
+    /** Overlap of typical blocks that meet at 1 m/s, undamped [s]. */
+    double overlap_by_speed(const TypicalImpact &impact)
+    {
+      return 1. / (2. * constants::pi * impact.frequency);
+    }
+
+    /** Gaps between blocks, ascending [m]; wider ones than a share of the
+        largest typical block do not count. Collective. */
+    std::vector<double> gaps_of(const Model<2> &model, const State<2> &state,
+                                const std::vector<TypicalImpact> &impacts)
+    {
+      constexpr double widest = 0.2;
+      double size             = 0.;
+      for (const TypicalImpact &impact : impacts)
+        size = std::max(size, impact.size);
+      if (size == 0. || !model.parameters().large_displacements)
+        return {};
+      return block_gaps(model.nodes(), state, widest * size);
+    }
+
+    /** How high all blocks reach above the lowest point [m]. Collective. */
+    double height_of(const NodeMap<2> &nodes)
+    {
+      std::vector<double> ends(2, -std::numeric_limits<double>::infinity());
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      {
+        ends[0] = std::max(ends[0], nodes.point(i)[1]);
+        ends[1] = std::max(ends[1], -nodes.point(i)[1]);
+      }
+      dealii::Utilities::MPI::max(ends, nodes.communicator(), ends);
+      return ends[0] + ends[1];
+    }
+
+    /** Warns of contacts of @p set that close @p gap [m] softly. */
+    void check_gap(const JointSetParameters &set, const TypicalImpact &impact,
+                   const Agitation &loads, const double gap,
+                   const double height, Checks &checks)
+    {
+      /** Overlap by the gap above which it is wider than drawn. */
+      constexpr double wide = 0.1;
+      // What falls or slides freely through the gap has this speed behind it.
+      const double speed
+          = std::max(loads.speed, std::sqrt(2. * loads.acceleration * gap));
+      const double share = speed * overlap_by_speed(impact) / gap;
+      checks.warn_if(
+          share > wide, "the gaps between blocks are about ", gap,
+          " m wide, and blocks of ", impact.size, " m that meet at ", speed,
+          " m/s overlap by ", share * gap, " m at contacts of the set ",
+          set.name, ", ", share,
+          " times that: gaps act wider than they are. Raise their normal "
+          "stiffness, ",
+          std::pow(share / wide, 2), " times, unless it was measured.");
+      const double pressed
+          = impact.density * loads.acceleration * height / impact.stiffness;
+      checks.warn_if(
+          pressed > wide * gap, "the gaps between blocks are about ", gap,
+          " m wide, and under a column as high as the model, ", height,
+          " m, contacts of the set ", set.name, " close by ", pressed, " m, ",
+          pressed / gap,
+          " times that: blocks sink by as much as they may move. Raise their "
+          "normal stiffness, ",
+          pressed / (wide * gap), " times, unless it was measured.");
     }
   } // namespace
 
@@ -66,12 +134,14 @@ namespace quoin
       const unsigned int material
           = properties.material_of_group[table.group[*middle]];
       result[s] = impact_of(masses[*middle], properties.materials[material],
-                            properties.joints[s], model.parameters().thickness);
+                            properties.joints[s],
+                            model.thickness()[table.group[*middle]]);
     }
     return result;
   }
 
-  std::vector<std::string> contact_lines(const Model<2> &model)
+  std::vector<std::string> contact_lines(const Model<2> &model,
+                                         const State<2> &state)
   {
     std::vector<std::string> lines;
     const auto impacts = typical_impacts(model);
@@ -85,37 +155,57 @@ namespace quoin
             " kg: contact frequency ", impacts[s].frequency,
             " Hz, contact time ", impacts[s].duration, " s, restitution ",
             impacts[s].restitution, ", overlap at 1 m/s ",
-            1. / (2. * constants::pi * impacts[s].frequency), " m undamped"));
+            overlap_by_speed(impacts[s]), " m undamped"));
+    const auto gaps = gaps_of(model, state, impacts);
+    if (!gaps.empty())
+      lines.push_back(text_of(
+          count_text(gaps.size(), "block"), gaps.size() == 1 ? " has" : " have",
+          " a gap beside, ", range_text(gaps.front(), gaps.back()),
+          " m wide, half of them below ", gaps[gaps.size() / 2], " m"));
     return lines;
   }
 
-  void check_restitution(const Model<2> &model, Advice &advice)
+  void check_contacts(const Model<2> &model, Advice &advice)
   {
-    /** kn L/E of blocks above which they are no masses any more. */
-    constexpr double soft_block = 0.1;
-    const auto impacts          = typical_impacts(model);
-    const auto &sets            = model.properties().joints;
+    /** kn L/E of blocks above which they are no masses any more, and below
+        which they are nothing else. */
+    constexpr double soft_block = 0.1, rigid_block = 1e-3;
+    const auto impacts = typical_impacts(model);
+    const auto &sets   = model.properties().joints;
     for (unsigned int s = 0; s < sets.size(); ++s)
-      Checks(advice, "joints " + sets[s].name + ": ")
-          .warn_if(sets[s].damping.normal > 0.
-                       && impacts[s].by_block > soft_block,
-                   "their normal stiffness is ", impacts[s].by_block,
-                   " times E/L of the blocks, so that waves in the blocks "
-                   "decide with which velocity they part, not the restitution ",
-                   impacts[s].restitution,
-                   " alone. For blocks that rebound with that take a tenth of "
-                   "E/L or less, or rigid blocks.");
+    {
+      const double by_block = impacts[s].by_block;
+      Checks checks(advice, "joints " + sets[s].name + ": ");
+      checks.warn_if(
+          sets[s].damping.normal > 0. && by_block > soft_block,
+          "their normal stiffness is ", by_block,
+          " times E/L of the blocks, so that waves in the blocks "
+          "decide with which velocity they part, not the restitution ",
+          impacts[s].restitution,
+          " alone. For blocks that rebound with that take a tenth of "
+          "E/L or less, or rigid blocks.");
+      checks.warn_if(
+          sets[s].curves.empty() && by_block > 0. && by_block < rigid_block,
+          "their normal stiffness ", impacts[s].stiffness, " Pa/m is ",
+          by_block,
+          " times E/L of the blocks that they are contacts of: blocks hardly "
+          "deform. Check its unit, or make the blocks rigid, which takes far "
+          "fewer steps.");
+    }
   }
 
-  void check_soft_contacts(const Model<2> &model, const Shaking &shaking,
-                           const double speed, Checks &checks)
+  void check_soft_contacts(const Model<2> &model, const State<2> &state,
+                           const Agitation &loads, Checks &checks)
   {
+    const Shaking &shaking = loads.shaking;
     /** Contact time by the shortest period of a load. */
     constexpr double slow = 0.1;
     /** Overlap by the size of blocks. */
     constexpr double deep = 0.02;
     const auto impacts    = typical_impacts(model);
     const auto &sets      = model.properties().joints;
+    const auto gaps       = gaps_of(model, state, impacts);
+    const double height   = height_of(model.nodes());
     for (unsigned int s = 0; s < sets.size(); ++s)
     {
       const TypicalImpact &impact = impacts[s];
@@ -131,9 +221,12 @@ namespace quoin
           "stiffness, ",
           std::pow(impact.duration * shaking.frequency / slow, 2),
           " times, unless it was measured.");
-      const double overlap = speed / (2. * constants::pi * impact.frequency);
-      checks.warn_if(overlap > deep * impact.size, "blocks of ", impact.size,
-                     " m that meet at ", speed,
+      if (!gaps.empty())
+        check_gap(sets[s], impact, loads, gaps[gaps.size() / 2], height,
+                  checks);
+      const double overlap = loads.speed * overlap_by_speed(impact);
+      checks.warn_if(gaps.empty() && overlap > deep * impact.size, "blocks of ",
+                     impact.size, " m that meet at ", loads.speed,
                      " m/s, the largest speed of its loads, overlap by ",
                      overlap, " m at contacts of the set ", sets[s].name,
                      ": gaps between blocks that are not much wider close "

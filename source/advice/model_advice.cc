@@ -286,7 +286,7 @@ namespace quoin
     {
       check_joints(parameters, model, advice);
       if (!parameters.is_implicit)
-        check_restitution(model, advice);
+        check_contacts(model, advice);
     }
     check_output(parameters, advice);
     return advice;

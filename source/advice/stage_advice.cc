@@ -339,6 +339,20 @@ namespace quoin
         }
       return largest;
     }
+
+    /** Largest acceleration that a load of gravity has along an axis
+        [m/s^2]. */
+    double largest_acceleration(const StageOfRun &run)
+    {
+      double largest = 0.;
+      for (const LoadParameters *load : run.loads)
+        if (load->type == LoadType::gravity)
+          for (const auto &given : load->given_components())
+            for (const double a : sampled(run.function(given.component),
+                                          run.stage.duration, 1025))
+              largest = std::max(largest, std::abs(a));
+      return largest;
+    }
   } // namespace
 
   bool wants_hoop_stress(const Parameters &parameters)
@@ -390,8 +404,10 @@ namespace quoin
     check_edges(run, sizes, checks);
     if constexpr (dim == 2)
       if (run.stage.is_dynamic() && parameters.model.large_displacements)
-        check_soft_contacts(model, fastest_load(parameters, index),
-                            largest_speed(run), checks);
+        check_soft_contacts(model, state,
+                            { fastest_load(parameters, index),
+                              largest_speed(run), largest_acceleration(run) },
+                            checks);
     checks.warn_if(index == 0 && parameters.history_interval > 0.
                        && parameters.history_interval < time_step,
                    "'Interval = ", parameters.history_interval,

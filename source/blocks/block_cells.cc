@@ -77,13 +77,13 @@ namespace quoin
   template <int dim>
   std::vector<double> lumped_masses(const NodeMap<dim> &nodes,
                                     const std::vector<double> &density,
-                                    const double thickness)
+                                    const Thickness &thickness)
   {
     std::vector<NodeVector<dim>> mass(nodes.n_local());
     const LocalCells<dim> &cells = nodes.cells();
     for (unsigned int c = 0; c < cells.size(); ++c)
     {
-      const double share = volume(element(nodes, c)) * thickness
+      const double share = volume(element(nodes, c)) * thickness[cells.group[c]]
                            * density[cells.group[c]] / (dim + 1.);
       for (const unsigned int node : cells.mass_nodes(c))
         mass[node].v[0] += share;
@@ -98,8 +98,10 @@ namespace quoin
 
   template void take_cells(const NodeMap<2> &, BlockForcesData<2> &);
   template void take_cells(const NodeMap<3> &, BlockForcesData<3> &);
-  template std::vector<double>
-  lumped_masses(const NodeMap<2> &, const std::vector<double> &, double);
-  template std::vector<double>
-  lumped_masses(const NodeMap<3> &, const std::vector<double> &, double);
+  template std::vector<double> lumped_masses(const NodeMap<2> &,
+                                             const std::vector<double> &,
+                                             const Thickness &);
+  template std::vector<double> lumped_masses(const NodeMap<3> &,
+                                             const std::vector<double> &,
+                                             const Thickness &);
 } // namespace quoin

@@ -53,7 +53,7 @@ namespace quoin
       // With a third of its mass at each node; the density cancels out.
       const double share
           = largest_eigenvalue_squared_frequency(cell, data.stiffness_of(c), 1.)
-            * cell.area() * data.thickness / 3.;
+            * cell.area() * data.thickness_of(c) / 3.;
       for (const unsigned int node : data.cells[c])
         for (unsigned int d = 0; d < 2; ++d)
           stiffness[node][d] += share;
@@ -130,8 +130,8 @@ namespace quoin
     std::sort(groups, node_groups.end());
     node_groups.erase(std::unique(groups, node_groups.end()),
                       node_groups.end());
-    runs.push_back({ first, n, data.stiffness[s].bulk() * data.thickness,
-                     data.stiffness[s].c33 * data.thickness, s, first_group,
+    runs.push_back({ first, n, data.stiffness[s].bulk() * data.thickness[s],
+                     data.stiffness[s].c33 * data.thickness[s], s, first_group,
                      node_groups.size() - first_group });
 
     // The kernel begins two steps more than it ends.
@@ -164,12 +164,12 @@ namespace quoin
           lane_cells[row * n_lanes + lane] = strips[k].cell;
         if (!data.initial_stress.empty())
         {
-          const auto &s     = data.initial_stress[strips[k].cell];
-          double *to        = &lane_stress[3 * row * n_lanes + lane];
-          const double half = 0.5 * data.thickness;
-          to[0]             = half * 0.5 * (s[0] + s[1]);
-          to[n_lanes]       = half * 0.5 * (s[0] - s[1]);
-          to[2 * n_lanes]   = half * s[2];
+          const auto &stress = data.initial_stress[strips[k].cell];
+          double *to         = &lane_stress[3 * row * n_lanes + lane];
+          const double half  = 0.5 * data.thickness[s];
+          to[0]              = half * 0.5 * (stress[0] + stress[1]);
+          to[n_lanes]        = half * 0.5 * (stress[0] - stress[1]);
+          to[2 * n_lanes]    = half * stress[2];
         }
       }
     }
@@ -205,7 +205,8 @@ namespace quoin
         const auto add                   = [&](const auto intact)
         {
           const PlasticStrips<lanes, decltype(intact)::value> strips(
-              *yields, data.stiffness[run.stiffness], data.thickness, cells,
+              *yields, data.stiffness[run.stiffness],
+              data.thickness[run.stiffness], cells,
               lane_stress.empty() ? nullptr : data.initial_stress.data(),
               history);
           dissipated += strips.add_forces(sequence, tile_records, tile_force,

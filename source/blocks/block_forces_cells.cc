@@ -112,7 +112,7 @@ namespace quoin
         double area;
         const auto gradient = cell_gradient(data, nodes, k, &area);
         dissipated
-            += data.thickness * area
+            += data.thickness_of(k) * area
                * update_cell(data, k, elastic_strain(gradient, history, k).e,
                              history)
                      .dissipated;
@@ -138,7 +138,7 @@ namespace quoin
         const PlasticCell before     = history.cells[k];
         const CorotatedStrain strain = elastic_strain(gradient, history, k);
         const PlasticStep step       = update_cell(data, k, strain.e, history);
-        dissipated += data.thickness * triangle.area() * step.dissipated;
+        dissipated += data.thickness_of(k) * triangle.area() * step.dissipated;
         P = plastic_piola_stress(strain, step.stress, before);
       }
       else
@@ -148,7 +148,7 @@ namespace quoin
         P = piola_stress(strain, elastic_stress(data.stiffness_of(k), strain.e),
                          { s[0], s[1], s[2] });
       }
-      add_nodal_forces(triangle, data.thickness, P, force[a], force[b],
+      add_nodal_forces(triangle, data.thickness_of(k), P, force[a], force[b],
                        force[c]);
     }
     return dissipated;
@@ -175,7 +175,7 @@ namespace quoin
                               beta * (cs * L[3] - sn * L[1]),
                               0.5 * beta
                                   * (cs * (L[1] + L[2]) + sn * (L[3] - L[0])) };
-      add_nodal_forces(triangle, data.thickness,
+      add_nodal_forces(triangle, data.thickness_of(k),
                        piola_stress(strain,
                                     elastic_stress(data.stiffness_of(k), rate),
                                     { 0., 0., 0. }),
@@ -207,7 +207,7 @@ namespace quoin
         density = (0.5 * s[0] + s0[0]) * e[0] + (0.5 * s[1] + s0[1]) * e[1]
                   + 2. * (0.5 * s[2] + s0[2]) * e[2];
       }
-      energy += data.thickness * area * density;
+      energy += data.thickness_of(k) * area * density;
     }
     return energy;
   }

@@ -117,7 +117,7 @@ namespace quoin
         update_cell(data, cell, strain.e, history);
       return false;
     }
-    const double volume = data.thickness * point.area;
+    const double volume = data.thickness_of(cell) * point.area;
     const auto initial  = data.initial_stress_of(cell);
 
     PlaneTensor stress;

@@ -67,7 +67,7 @@ namespace quoin
 
   void RigidBlocks::prepare(const NodeMap<2> &nodes,
                             const std::vector<double> &density,
-                            const double thickness)
+                            const Thickness &thickness)
   {
     const LocalCells<2> &cells = nodes.cells();
     const LocalBlocks &local   = nodes.blocks();
@@ -92,7 +92,8 @@ namespace quoin
         const auto e1         = nodes.point(j) - nodes.point(i);
         const auto e2         = nodes.point(k) - nodes.point(i);
         cell_mass.push_back(0.5 * std::abs(e1[0] * e2[1] - e1[1] * e2[0])
-                            * thickness * density[cells.group[c]]);
+                            * thickness[cells.group[c]]
+                            * density[cells.group[c]]);
         mass += cell_mass.back();
         for (const unsigned int node : cells.nodes[c])
           centre += cell_mass.back() / 3. * (nodes.point(node) - origin);

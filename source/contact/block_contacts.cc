@@ -94,7 +94,8 @@ namespace quoin
     }
     const double fade
         = std::min(1., (cosine - least_cosine) / (1. - least_cosine));
-    const double area = 0.5 * length / half * fade * thickness * 0.5
+    const double area = 0.5 * length / half * fade
+                        * std::min(a.thickness, b.thickness) * 0.5
                         * (a.reference_ratio + b.reference_ratio);
 
     // By how far the vertex of a lies within b at either end.

@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <sstream>
 
 namespace quoin
@@ -24,17 +25,72 @@ namespace quoin
   namespace
   {
     constexpr unsigned int none = ContactEdges::none;
+    constexpr double infinity   = std::numeric_limits<double>::infinity();
 
-    /** Most steps between two looks at the motions. */
+    /** Most steps between two looks at the motions, with a skin not below the
+        first one; with a smaller one there are fewer. */
     constexpr double longest_interval = 50.;
-    /** Least and largest automatic skin by the median edge. */
-    constexpr double least_skin = 0.02, most_skin = 0.2;
-    /** Steps between two searches that an automatic skin is made for, at twice
-        the present speed. */
-    constexpr double skin_steps = 100.;
-    /** Skin by that for the present speed above which pairs are searched anew:
-        there are too many. */
-    constexpr double too_thick = 4.;
+    /** First and largest automatic skin by the median edge. */
+    constexpr double first_skin = 0.02, most_skin = 0.2;
+    /** Automatic skins are the largest one by powers of the square root of 2.
+     */
+    constexpr unsigned int n_skins = 14;
+    /** By how much an automatic skin may grow from one search to the next. */
+    constexpr double growth = 2.;
+    /** What a search costs for each edge, by what a step costs for each pair.
+     */
+    constexpr double cost_of_search = 60.;
+    /** Steps after which a first search is followed by another, which knows of
+        the motions, and, by the number of steps that a skin is made for, those
+        after which another one may be cheaper. */
+    constexpr std::uint64_t first_steps = 100;
+    constexpr double patience           = 4.;
+
+    /** Those from @p largest on, descending. */
+    std::array<double, n_skins> automatic_skins(const double largest)
+    {
+      std::array<double, n_skins> skins;
+      for (unsigned int k = 0; k < n_skins; ++k)
+        skins[k] = largest * std::pow(0.5, 0.5 * k);
+      return skins;
+    }
+
+    /** Of vectors on all ranks: the largest square, x, -x, y and -y. */
+    struct Spread
+    {
+      static constexpr double none_yet
+          = -std::numeric_limits<double>::infinity();
+      std::array<double, 5> largest{ { 0., none_yet, none_yet, none_yet,
+                                       none_yet } };
+
+      void take(const double x, const double y)
+      {
+        const std::array<double, 5> values{ { x * x + y * y, x, -x, y, -y } };
+        for (unsigned int i = 0; i < values.size(); ++i)
+          largest[i] = std::max(largest[i], values[i]);
+      }
+      /** A bound of the difference of two of them: what all share is none. */
+      double difference() const
+      {
+        return std::min(
+            2. * std::sqrt(largest[0]),
+            std::hypot(largest[1] + largest[2], largest[3] + largest[4]));
+      }
+    };
+
+    /** What ranks tell each other when they look at the motions. */
+    struct Look
+    {
+      Spread moved, speed;
+      double changed = 0.; /**< 1: joints go, or blocks have gone */
+      double deepest = 0.; /**< overlap by that at which the run ends */
+
+      void collect(const MPI_Comm communicator)
+      {
+        MPI_Allreduce(MPI_IN_PLACE, this, sizeof(Look) / sizeof(double),
+                      MPI_DOUBLE, MPI_MAX, communicator);
+      }
+    };
 
     /** Median of the edges of all ranks. Collective. */
     double median_length(const ContactEdges &edges, const MPI_Comm communicator)
@@ -145,61 +201,131 @@ namespace quoin
     gather(state);
   }
 
-  double BlockContacts::skin_for(const double step_length) const
-  {
-    return parameters.skin > 0.
-               ? parameters.skin
-               : std::clamp(4. * skin_steps * step_length,
-                            least_skin / most_skin * largest_skin,
-                            largest_skin);
-  }
-
   void BlockContacts::check(State<2> &state, const double dt)
   {
     ContactState &contacts = state.get<ContactState>();
     const bool is_first    = contacts.n_searches == 0;
     contacts.handed_over.resize(node_map.table().joined.size(), 0);
-    double moved = 0., fastest = 0.;
+    Look look;
     for (unsigned int i = 0; i < boundary_nodes.size() && !is_first; ++i)
     {
       const NodeRecord<2> &node = state.nodes[boundary_nodes[i]];
       const double *from        = contacts.search_positions[i].v;
       const double *v           = state.velocity[boundary_nodes[i]].v;
-      const double dx           = node.X[0] + node.u[0] - from[0];
-      const double dy           = node.X[1] + node.u[1] - from[1];
-      moved                     = std::max(moved, dx * dx + dy * dy);
-      fastest                   = std::max(fastest, v[0] * v[0] + v[1] * v[1]);
+      look.moved.take(node.X[0] + node.u[0] - from[0],
+                      node.X[1] + node.u[1] - from[1]);
+      look.speed.take(v[0], v[1]);
     }
-    const bool changed = find_handovers(state) || search_is_due;
-    search_is_due      = false;
-    double values[4]   = { std::sqrt(moved), std::sqrt(fastest),
-                         changed ? 1. : 0., deepest_ratio };
-    MPI_Allreduce(MPI_IN_PLACE, values, 4, MPI_DOUBLE, MPI_MAX,
-                  exchange.communicator());
-    if (values[2] > 0.)
+    look.changed  = find_handovers(state) || search_is_due ? 1. : 0.;
+    search_is_due = false;
+    look.deepest  = deepest_ratio;
+    look.collect(exchange.communicator());
+    if (look.changed > 0.)
       hand_over(state);
-    const double step_length = values[1] * dt;
-    if (values[3] > 1.)
-      refuse_depth(state, values[3]);
-    if (step_length > largest_skin)
-      refuse_speed(state, values[1], dt);
+    if (look.deepest > 1.)
+      refuse_depth(state, look.deepest);
+    const double fastest = std::sqrt(look.speed.largest[0]);
+    if (fastest * dt > largest_skin)
+      refuse_speed(state, fastest, dt);
 
-    // What it may move until the next look, were that as late as it can be.
-    const double ahead = 2. * step_length;
-    double left        = 0.5 * contacts.skin - values[0];
-    if (is_first || values[2] > 0. || left < ahead
-        || contacts.skin > too_thick * skin_for(step_length))
+    // What edges may approach in a step until the next look, at twice the
+    // present speed.
+    const double ahead    = 2. * look.speed.difference() * dt;
+    const double approach = look.moved.difference();
+    double left           = contacts.skin - approach;
+    if (is_first || look.changed > 0. || left < ahead
+        || state.step >= contacts.renewal)
     {
-      contacts.skin    = skin_for(step_length);
-      const auto start = WallClock::now();
-      search(state);
+      const auto start   = WallClock::now();
+      const double steps = state.step - contacts.searched;
+      const double rate  = approach / std::max(1., steps);
+      search(state, rate);
       seconds += seconds_since(start);
-      left = 0.5 * contacts.skin;
+      contacts.searched = state.step;
+      contacts.renewal  = renewal(contacts, rate);
+      left              = contacts.skin;
     }
-    const double interval = ahead > 0. ? std::clamp(std::floor(left / ahead),
-                                                    1., longest_interval)
-                                       : longest_interval;
-    contacts.next_check   = state.step + static_cast<std::uint64_t>(interval);
+    const double longest
+        = std::clamp(std::floor(longest_interval * most_skin / first_skin
+                                * contacts.skin / largest_skin),
+                     1., longest_interval);
+    const double interval
+        = ahead > 0. ? std::clamp(std::floor(left / ahead), 1., longest)
+                     : longest;
+    contacts.next_check = state.step + static_cast<std::uint64_t>(interval);
+  }
+
+  std::uint64_t BlockContacts::renewal(const ContactState &contacts,
+                                       const double rate) const
+  {
+    const double steps = patience * contacts.skin / rate;
+    if (parameters.skin > 0.)
+      return -1;
+    if (contacts.n_searches == 1)
+      return contacts.searched + first_steps;
+    return steps < 1e9 ? contacts.searched + static_cast<std::uint64_t>(steps)
+                       : -1;
+  }
+
+  double BlockContacts::search_distance(const ContactState &contacts) const
+  {
+    if (parameters.skin > 0.)
+      return parameters.skin;
+    return contacts.n_searches == 0
+               ? first_skin / most_skin * largest_skin
+               : std::min(largest_skin, growth * contacts.skin);
+  }
+
+  double BlockContacts::cheapest_skin(std::vector<unsigned int> sides,
+                                      const double rate,
+                                      const ContactState &contacts) const
+  {
+    dealii::Utilities::MPI::sum(sides, exchange.communicator(), sides);
+    double best = search_distance(contacts), least = infinity;
+    const auto skins = automatic_skins(largest_skin);
+    for (unsigned int k = 0; k < n_skins; ++k)
+    {
+      const double skin = skins[k];
+      if (skin > 1.001 * search_distance(contacts))
+        continue;
+      const double cost
+          = 0.5 * sides[k] + cost_of_search * edges.n_global() * rate / skin;
+      if (cost < least)
+      {
+        best  = skin;
+        least = cost;
+      }
+    }
+    return best;
+  }
+
+  std::vector<std::array<unsigned int, 2>>
+  BlockContacts::find_pairs(const std::vector<EdgeEnds> &ends,
+                            const double apart, const double rate,
+                            ContactState &contacts) const
+  {
+    std::vector<std::array<unsigned int, 2>> found, result;
+    std::vector<double> needed;
+    std::vector<unsigned int> sides(n_skins, 0);
+    const auto skins = automatic_skins(largest_skin);
+    for (const auto &[i, j] :
+         near_edges(edges, ends, search_distance(contacts) + apart))
+    {
+      if (is_matched(contacts, ends[i].edge, ends[j].edge))
+        continue;
+      found.push_back({ { i, j } });
+      needed.push_back(motion_to_touch(ends[i], ends[j], apart));
+      for (unsigned int k = 0; k < n_skins && needed.back() <= skins[k]; ++k)
+        sides[k] += ends[i].is_own + ends[j].is_own;
+    }
+    if (parameters.skin > 0. || contacts.n_searches == 0)
+      contacts.skin = search_distance(contacts);
+    else
+      contacts.skin = cheapest_skin(sides, rate, contacts);
+    for (unsigned int p = 0; p < found.size(); ++p)
+      if (needed[p] <= contacts.skin)
+        result.push_back(found[p]);
+    return result;
   }
 
   bool BlockContacts::find_handovers(State<2> &state) const
@@ -315,7 +441,7 @@ namespace quoin
     return pair;
   }
 
-  void BlockContacts::search(State<2> &state)
+  void BlockContacts::search(State<2> &state, const double rate)
   {
     ContactState &contacts = state.get<ContactState>();
     AlignedArray<std::uint8_t> left_out(node_map.table().n_blocks());
@@ -330,9 +456,10 @@ namespace quoin
           apart = std::max(apart, std::abs(point.opening));
     MPI_Allreduce(MPI_IN_PLACE, &apart, 1, MPI_DOUBLE, MPI_MAX,
                   exchange.communicator());
-    const double near = contacts.skin + apart;
-    const auto ends   = edges_within_reach(node_map, edges, state.nodes.data(),
-                                           left_out, near);
+    const auto ends
+        = edges_within_reach(node_map, edges, state.nodes.data(), left_out,
+                             search_distance(contacts) + apart);
+    const auto near = find_pairs(ends, apart, rate, contacts);
 
     std::sort(contacts.pairs.begin(), contacts.pairs.end(),
               [](const ContactPair &a, const ContactPair &b)
@@ -354,11 +481,9 @@ namespace quoin
       else
         state.energy.contact += share(pair) * release(pair);
     };
-    for (const auto &[i, j] : near_edges(edges, ends, near))
+    for (const auto &[i, j] : near)
     {
       const unsigned int a = ends[i].edge, b = ends[j].edge;
-      if (is_matched(contacts, a, b))
-        continue;
       const std::array<unsigned int, 2> found = { a, b };
       for (; next != old.end() && next->edges() < found; ++next)
         keep_or_drop(*next);
@@ -514,7 +639,8 @@ namespace quoin
     reference_lengths.clear();
     for (unsigned int e = 0; e < edge_numbers.size(); ++e)
     {
-      const ContactEdge &edge = edges[edge_numbers[e]];
+      const ContactEdge &edge  = edges[edge_numbers[e]];
+      local_edges[e].thickness = thickness[edge.group];
       for (unsigned int k = 0; k < 2; ++k)
       {
         local_edges[e].corner[k] = edge.corner[k];

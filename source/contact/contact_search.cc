@@ -26,9 +26,6 @@ namespace quoin
     using Entry   = std::pair<Box, unsigned int>;
     using Tree    = bgi::rtree<Entry, bgi::linear<16>>;
 
-    /** Edges whose normals enclose less than 80 degrees never meet. */
-    constexpr double facing_cosine = 0.174;
-
     Box box_of(const EdgeEnds &ends, const double margin)
     {
       return { Point(std::min(ends.x[0], ends.x[1]) - margin,
@@ -52,12 +49,34 @@ namespace quoin
              && side(b, a.x[0], a.y[0]) * side(b, a.x[1], a.y[1]) < 0.;
     }
 
-    bool face_each_other(const EdgeEnds &a, const EdgeEnds &b)
+    /** Of two edges [m]; 0 if they cross. */
+    double distance(const EdgeEnds &a, const EdgeEnds &b)
+    {
+      if (cross(a, b))
+        return 0.;
+      double nearest = std::numeric_limits<double>::max();
+      for (unsigned int k = 0; k < 2; ++k)
+        nearest = std::min(
+            { nearest, distance_to_segment(end(b, k), end(a, 0), end(a, 1)),
+              distance_to_segment(end(a, k), end(b, 0), end(b, 1)) });
+      return nearest;
+    }
+
+    /** By how much nodes have to move against each other before two edges turn
+        until their outward normals enclose a right angle [m]. */
+    double motion_to_face(const EdgeEnds &a, const EdgeEnds &b)
     {
       const double ax = a.x[1] - a.x[0], ay = a.y[1] - a.y[0];
       const double bx = b.x[1] - b.x[0], by = b.y[1] - b.y[0];
-      return ax * bx + ay * by
-             <= facing_cosine * std::hypot(ax, ay) * std::hypot(bx, by);
+      const double product = ax * bx + ay * by;
+      if (product <= 0.)
+        return 0.;
+      // Ends that move by d against each other turn an edge of length l by
+      // asin(d/l), which is at most pi/2 d/l.
+      const double la = std::sqrt(ax * ax + ay * ay);
+      const double lb = std::sqrt(bx * bx + by * by);
+      return std::asin(std::min(1., product / (la * lb))) * M_2_PI * la * lb
+             / (la + lb);
     }
 
     /** xmin, ymin, xmax, ymax [m]; far inside out: empty. */
@@ -202,16 +221,10 @@ namespace quoin
     }
   } // namespace
 
-  double distance(const EdgeEnds &a, const EdgeEnds &b)
+  double motion_to_touch(const EdgeEnds &a, const EdgeEnds &b,
+                         const double apart)
   {
-    if (cross(a, b))
-      return 0.;
-    double nearest = std::numeric_limits<double>::max();
-    for (unsigned int k = 0; k < 2; ++k)
-      nearest = std::min(
-          { nearest, distance_to_segment(end(b, k), end(a, 0), end(a, 1)),
-            distance_to_segment(end(a, k), end(b, 0), end(b, 1)) });
-    return nearest;
+    return std::max(motion_to_face(a, b), distance(a, b) - apart);
   }
 
   std::vector<EdgeEnds>
@@ -314,7 +327,7 @@ namespace quoin
           continue;
         const auto &[c, d] = nodes[j];
         if (a != c && a != d && b != c && b != d
-            && face_each_other(ends[i], ends[j])
+            && motion_to_face(ends[i], ends[j]) <= skin
             && distance(ends[i], ends[j]) <= skin)
           pairs.push_back({ { i, j } });
       }

@@ -70,7 +70,7 @@ namespace quoin
 
   void MatchedJoints::prepare(const NodeMap<2> &nodes,
                               const std::vector<JointSetParameters> &sets,
-                              const double thickness)
+                              const Thickness &thickness)
   {
     set_laws(sets);
     all_segments.clear();
@@ -90,7 +90,8 @@ namespace quoin
       JointSegment segment;
       for (unsigned int k = 0; k < 2; ++k)
         segment.area[k]
-            = face_share(nodes, face.lower[k]) * thickness
+            = face_share(nodes, face.lower[k])
+              * thickness.common(face.groups[0], face.groups[1])
               * nodes.point(face.lower[0]).distance(nodes.point(face.lower[1]));
       segment.lower = face.lower;
       segment.upper = face.upper;

@@ -161,6 +161,11 @@ namespace quoin
                        + "' differ: blocks that are there keep their mass. "
                          "Give both the same 'Density', or change the material "
                          "in the stage that places the blocks by 'Fill'.");
+    if (materials[m].thickness != materials[now].thickness)
+      throw InputError(where + ", but the thicknesses of '"
+                       + materials[now].name + "' and '" + material
+                       + "' differ: blocks, joints and boundaries keep theirs. "
+                         "Give both the same 'Thickness'.");
     now = m;
   }
 

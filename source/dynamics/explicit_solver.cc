@@ -22,7 +22,7 @@ namespace quoin
       for (const MaterialParameters &material : properties.materials)
         result.materials.push_back(material.name);
       result.material_of_group = properties.material_of_group;
-      result.thickness         = model.parameters().thickness;
+      result.thickness         = model.thickness();
       return result;
     }
   } // namespace

@@ -51,8 +51,7 @@ namespace quoin
       {
       case LoadType::viscous_boundary:
         all_constraints.push_back(std::make_unique<ViscousBoundary<dim>>(
-            load, nodes, impedance_beyond(model, load),
-            model.parameters().thickness));
+            load, nodes, impedance_beyond(model, load), model.thickness()));
         break;
       case LoadType::prescribed_motion:
         all_constraints.push_back(
@@ -60,8 +59,7 @@ namespace quoin
         break;
       case LoadType::traction:
       case LoadType::gravity:
-        all_loads.emplace_back(load, nodes, model.mass(),
-                               model.parameters().thickness);
+        all_loads.emplace_back(load, nodes, model.mass(), model.thickness());
         break;
       case LoadType::platen:
         if constexpr (dim == 2)

@@ -37,7 +37,7 @@ namespace quoin
         = faces_of_curves(node_map, parameters.boundaries, load_name);
     node_list = nodes_of_faces(node_map, faces);
     make_column(faces, ground);
-    make_shares(node_map, faces, ground.thickness);
+    make_shares(node_map, faces);
     const auto base_faces = make_foot(node_map, given);
 
     std::vector<Impedance> impedance;
@@ -124,10 +124,11 @@ namespace quoin
                              + " and " + at(x, edge.bottom)
                              + ": the column needs all of the side.");
       const LinearElastic &material = ground.materials[edge.group];
-      const double half             = 0.5 * material.density * height;
+      const double thickness        = ground.thickness[edge.group];
+      const double half = 0.5 * material.density * height * thickness;
       node_mass[layers.size()] += half;
       node_mass[layers.size() + 1] += half;
-      layers.push_back({ height, material.density,
+      layers.push_back({ height, thickness, material.density,
                          plane_stiffness(material, ground.plane) });
       node_height.push_back(edge.top);
     }
@@ -147,8 +148,7 @@ namespace quoin
   }
 
   void FreeFieldBoundary::make_shares(const NodeMap<2> &node_map,
-                                      const std::vector<BoundaryFace<2>> &faces,
-                                      const double thickness)
+                                      const std::vector<BoundaryFace<2>> &faces)
   {
     column_node.resize(node_list.size());
     for (const BoundaryFace<2> &face : faces)
@@ -166,7 +166,8 @@ namespace quoin
               - node_list.begin();
         column_node[node] = node_at(face.points[k][1]);
         shares.push_back(
-            { node, layer, 0.5 * outward * layers[layer].height * thickness });
+            { node, layer,
+              0.5 * outward * layers[layer].height * layers[layer].thickness });
       }
     }
   }
@@ -195,7 +196,8 @@ namespace quoin
                            + at(x, foot)
                            + ": waves would not run upright from it.");
         const Impedance &z = given.impedance[face.group];
-        base.impedance     = { { z.shear, z.normal } };
+        const double width = layers.front().thickness;
+        base.impedance     = { { width * z.shear, width * z.normal } };
         return faces;
       }
     }
@@ -287,10 +289,10 @@ namespace quoin
       const double shear   = layer.stiffness.c33 * strain[0];
       const double upright = layer.stiffness.c11 * strain[1];
       traction[e]          = { { layer.stiffness.c12 * strain[1], shear } };
-      force[2 * e] += shear;
-      force[2 * e + 1] += upright;
-      force[2 * e + 2] -= shear;
-      force[2 * e + 3] -= upright;
+      force[2 * e] += layer.thickness * shear;
+      force[2 * e + 1] += layer.thickness * upright;
+      force[2 * e + 2] -= layer.thickness * shear;
+      force[2 * e + 3] -= layer.thickness * upright;
     }
 
     mean_velocity  = v;

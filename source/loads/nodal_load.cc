@@ -92,7 +92,7 @@ namespace quoin
   NodalLoad<dim>::NodalLoad(const LoadParameters &parameters,
                             const NodeMap<dim> &node_map,
                             const std::vector<double> &mass,
-                            const double thickness)
+                            const Thickness &thickness)
     : load_name(parameters.name),
       is_gravity(parameters.type == LoadType::gravity),
       components(parameters.components), pressure(parameters.pressure),
@@ -112,15 +112,16 @@ namespace quoin
     for (const BoundaryFace<dim> &face :
          faces_of_curves(node_map, parameters.boundaries, parameters.name))
     {
-      const dealii::Tensor<1, dim> outward = outward_area(face.points);
+      const dealii::Tensor<1, dim> outward
+          = thickness[face.group] * outward_area(face.points);
       for (unsigned int k = 0; k < dim; ++k)
         if (node_map.exchange().owns(face.nodes[k]))
         {
           const unsigned int node = node_map.exchange().local(face.nodes[k]);
           const double share      = face.shares[k];
-          area[node] += share * outward.norm() * thickness;
+          area[node] += share * outward.norm();
           for (unsigned int d = 0; d < dim; ++d)
-            inward_area[node].v[d] -= share * outward[d] * thickness;
+            inward_area[node].v[d] -= share * outward[d];
         }
     }
     for (const auto &[node, weight] : area)

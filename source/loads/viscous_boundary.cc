@@ -67,16 +67,16 @@ namespace quoin
   void add_dashpots(const NodeMap<dim> &node_map,
                     const std::vector<BoundaryFace<dim>> &faces,
                     const std::vector<Impedance> &impedance,
-                    const double thickness,
+                    const Thickness &thickness,
                     const std::vector<unsigned int> &nodes,
                     std::vector<Dashpot<dim>> &dashpots)
   {
     for (const BoundaryFace<dim> &face : faces)
     {
       const dealii::Tensor<1, dim> outward = outward_area(face.points);
-      const double share                   = outward.norm() * thickness / dim;
-      const auto n                         = outward / outward.norm();
-      const Impedance &z                   = impedance[face.group];
+      const double share = outward.norm() * thickness[face.group] / dim;
+      const auto n       = outward / outward.norm();
+      const Impedance &z = impedance[face.group];
       for (const unsigned int v : face.nodes)
       {
         if (!node_map.exchange().owns(v))
@@ -165,7 +165,7 @@ namespace quoin
   ViscousBoundary<dim>::ViscousBoundary(const LoadParameters &parameters,
                                         const NodeMap<dim> &node_map,
                                         const std::vector<Impedance> &impedance,
-                                        const double thickness)
+                                        const Thickness &thickness)
     : components(parameters.components)
   {
     this->load_name = parameters.name;
@@ -261,7 +261,7 @@ namespace quoin
   template class ViscousBoundary<3>;
   template void add_dashpots(const NodeMap<2> &,
                              const std::vector<BoundaryFace<2>> &,
-                             const std::vector<Impedance> &, double,
+                             const std::vector<Impedance> &, const Thickness &,
                              const std::vector<unsigned int> &,
                              std::vector<Dashpot<2>> &);
   template void move_with_dashpot(const StepContext &, const CapturedNode<2> &,

@@ -68,6 +68,16 @@ namespace quoin
                      "needs only the density.");
       entries.positive("Density", material.elastic.density,
                        "Density rho [kg/m^3]");
+      entries.other("Thickness", "",
+                    "Thickness of blocks of this material, out of the plane; "
+                    "empty: that of the model, 'Thickness' at the top of the "
+                    "file. Where two materials touch, the smaller one bears "
+                    "[m]",
+                    [&](const ParameterSection &section)
+                    {
+                      if (!section.text("Thickness").empty())
+                        material.thickness = section.positive("Thickness");
+                    });
       material.rigid = law == rigid;
       if (entries.reads_if(!material.rigid))
       {
@@ -104,13 +114,18 @@ namespace quoin
   {
     using constants::degree;
     const LinearElastic &elastic = material.elastic;
+    const std::string thickness
+        = material.thickness > 0.
+              ? text_of(", thickness ", material.thickness, " m")
+              : "";
     if (material.rigid)
-      return text_of("rigid, density ", elastic.density, " kg/m^3");
+      return text_of("rigid, density ", elastic.density, " kg/m^3", thickness);
     const WaveSpeeds speeds = wave_speeds(elastic, plane);
-    const std::string text  = text_of(
-         material.strength ? "Mohr-Coulomb" : "elastic", ", E ", elastic.young,
-        " Pa, nu ", elastic.poisson, ", density ", elastic.density,
-        " kg/m^3, P waves ", speeds.p, " m/s, S waves ", speeds.s, " m/s");
+    const std::string text
+        = text_of(material.strength ? "Mohr-Coulomb" : "elastic", ", E ",
+                  elastic.young, " Pa, nu ", elastic.poisson, ", density ",
+                  elastic.density, " kg/m^3, P waves ", speeds.p,
+                  " m/s, S waves ", speeds.s, " m/s", thickness);
     if (!material.strength)
       return text;
     const MohrCoulombStrength &strength = *material.strength;

@@ -103,21 +103,26 @@ namespace quoin
 
   namespace
   {
-    /** Calls @p use (nodes, half of the length [m]) for the edges of own blocks
+    /** Calls @p use (nodes, half of the area [m^2]) for the edges of own blocks
         on their boundaries. */
     template <typename Use>
-    void for_each_boundary_edge(const NodeMap<2> &nodes, const Use &use)
+    void for_each_boundary_edge(const NodeMap<2> &nodes,
+                                const Thickness &thickness, const Use &use)
     {
-      const auto take = [&](const std::array<unsigned int, 2> &edge)
-      { use(edge, 0.5 * nodes.point(edge[0]).distance(nodes.point(edge[1]))); };
+      const auto take =
+          [&](const std::array<unsigned int, 2> &edge, const unsigned int group)
+      {
+        use(edge, 0.5 * nodes.point(edge[0]).distance(nodes.point(edge[1]))
+                      * thickness[group]);
+      };
       for (const OuterFace<2> &face : nodes.faces().outer)
-        take(face.nodes);
+        take(face.nodes, nodes.cells().group[face.cell]);
       for (const JointNodes<2> &face : nodes.faces().joints)
       {
         if (face.is_own[0])
-          take(face.lower);
+          take(face.lower, face.groups[0]);
         if (face.is_own[1])
-          take(face.upper);
+          take(face.upper, face.groups[1]);
       }
     }
   } // namespace
@@ -135,13 +140,13 @@ namespace quoin
           for (const double largest : stiffness_bound(now.joints[s].law))
             stiffness[b] = std::max(stiffness[b], largest);
     for_each_boundary_edge(
-        node_map,
+        node_map, group_thickness,
         [&](const std::array<unsigned int, 2> &edge, const double tributary)
         {
           for (const unsigned int node : edge)
             for (unsigned int c = 0; c < 2; ++c)
-              bound[node][c] += 2. * stiffness[node_map.block_of_node(node)]
-                                * tributary * given.thickness;
+              bound[node][c]
+                  += 2. * stiffness[node_map.block_of_node(node)] * tributary;
         });
   }
 
@@ -168,11 +173,11 @@ namespace quoin
     std::vector<NodeVector<1>> area(node_map.n_local(),
                                     NodeVector<1>{ { 0. } });
     for_each_boundary_edge(
-        node_map,
+        node_map, group_thickness,
         [&](const std::array<unsigned int, 2> &edge, const double tributary)
         {
           for (const unsigned int node : edge)
-            area[node].v[0] += tributary * given.thickness;
+            area[node].v[0] += tributary;
         });
     node_map.exchange().add_to_owners(area.data());
     double impedance = 0.;

@@ -65,7 +65,7 @@ namespace quoin
       ground.yields.push_back(material.strength.has_value());
     }
     ground.plane     = model.parameters().plane;
-    ground.thickness = model.parameters().thickness;
+    ground.thickness = model.thickness();
     return ground;
   }
 

@@ -27,6 +27,7 @@ namespace quoin
             "'Joints along' and 'Joints between' empty, and let "
             "volumes that touch share their surface.");
     find_materials();
+    find_thickness();
     absent_group
         = find_groups(table, parameters.absent_groups, "section 'Stages'");
     find_masses();
@@ -34,7 +35,7 @@ namespace quoin
       find_initial_stress();
     pack_blocks({});
     if constexpr (dim == 2)
-      matched_joints.prepare(nodes, now.joints, parameters.thickness);
+      matched_joints.prepare(nodes, now.joints, group_thickness);
     if (!table.is_quadratic)
       find_stable_step();
   }
@@ -76,14 +77,26 @@ namespace quoin
   }
 
   template <int dim>
+  void Model<dim>::find_thickness()
+  {
+    for (MaterialParameters &material : now.materials)
+      if (material.thickness == 0.)
+        material.thickness = given.thickness;
+    std::vector<double> of_groups;
+    for (const unsigned int material : now.material_of_group)
+      of_groups.push_back(now.materials[material].thickness);
+    group_thickness = Thickness(of_groups);
+  }
+
+  template <int dim>
   void Model<dim>::find_masses()
   {
     std::vector<double> density;
     for (const unsigned int material : now.material_of_group)
       density.push_back(now.materials[material].elastic.density);
-    node_mass = lumped_masses(node_map, density, given.thickness);
+    node_mass = lumped_masses(node_map, density, group_thickness);
     if constexpr (dim == 2)
-      rigid.prepare(node_map, density, given.thickness);
+      rigid.prepare(node_map, density, group_thickness);
   }
 
   template <int dim>
@@ -108,14 +121,16 @@ namespace quoin
     if constexpr (dim == 2)
     {
       data.quadratic = node_map.table().is_quadratic;
-      data.thickness = given.thickness;
+      std::vector<double> thickness;
       for (const MaterialParameters &material : now.materials)
       {
+        thickness.push_back(material.thickness);
         data.laws.emplace_back();
         if (material.strength)
           data.laws.back().emplace(material.elastic, *material.strength,
                                    given.plane);
       }
+      data.thickness                    = Thickness(thickness);
       const AlignedArray<double> stress = construction.initial_stress.empty()
                                               ? packed_initial_stress()
                                               : construction.initial_stress;

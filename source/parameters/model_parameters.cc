@@ -49,6 +49,15 @@ namespace quoin
       check_plane_strain(top, parameters);
       parameters.boundary = BoundaryElementParameters::read(
           top, parameters.model.materials, true);
+      const MaterialParameters &beyond = *find_named(
+          parameters.model.materials, parameters.boundary.material);
+      if (beyond.thickness > 0.
+          && beyond.thickness != parameters.model.thickness)
+        ParameterSection(ParameterSection(top, "Materials"), beyond.name)
+            .fail("Thickness", "is not that of the model, which boundary "
+                               "elements of this material have: leave it "
+                               "empty, or give the blocks a material of "
+                               "their own.");
       if (!parameters.boundary.has(BoundaryShape::interface))
         ParameterSection(top, "Boundary elements")
             .fail("Names", "has no boundary with 'Shape = interface': nothing "
@@ -234,6 +243,11 @@ namespace quoin
         section.fail(name, "has no meaning with 'Model = boundary "
                            "elements': it is that of blocks. Remove it.");
     check_plane_strain(top, parameters);
+    for (const MaterialParameters &material : parameters.model.materials)
+      if (material.thickness > 0.)
+        ParameterSection(ParameterSection(top, "Materials"), material.name)
+            .fail("Thickness", "is that of blocks: leave it empty, and give "
+                               "'Thickness' at the top of the file.");
     parameters.boundary = BoundaryElementParameters::read(
         top, parameters.model.materials, false);
     const BoundaryElementParameters &boundary = parameters.boundary;

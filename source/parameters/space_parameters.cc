@@ -34,11 +34,17 @@ namespace quoin
     void check_materials(const Parameters &parameters, const Refusals &refusals)
     {
       for (const MaterialParameters &material : parameters.model.materials)
+      {
+        const std::string section
+            = "section 'Materials/" + material.name + "': ";
         refusals.refuse_if(material.rigid || material.strength,
-                           "section 'Materials/" + material.name + "': 'Law = "
+                           section + "'Law = "
                                + (material.rigid ? "rigid" : "Mohr-Coulomb")
                                + "'",
                            "Take 'linear elastic'.");
+        refusals.refuse_if(material.thickness > 0., section + "'Thickness'",
+                           "Leave it empty.");
+      }
     }
 
     void check_loads(const Parameters &parameters, const Refusals &refusals)

@@ -102,7 +102,7 @@ namespace quoin
     if constexpr (dim == 2)
       if (run.options.check)
       {
-        run.log.messages(contact_lines(*system.model));
+        run.log.messages(contact_lines(*system.model, state));
         run.log.messages(named_block_lines(*system.model, system.named_blocks));
         run.log.messages(face_lines(parameters, *system.nodes));
       }

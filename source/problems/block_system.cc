@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/number_text.h>
+#include <quoin/base/point_text.h>
 #include <quoin/dynamics/initial_block_motion.h>
 #include <quoin/dynamics/initial_energy.h>
 #include <quoin/farfield/boundary_values.h>
@@ -16,6 +18,37 @@
 
 namespace quoin
 {
+  namespace
+  {
+    /** The blocks' faces at boundary elements of the load @p name, which
+        continue blocks of their thickness alone. Collective. */
+    std::vector<BoundaryFace<2>>
+    interface_faces(const Model<2> &model,
+                    const BoundaryElementParameters &settings,
+                    const std::string &name)
+    {
+      auto faces
+          = faces_of_curves(model.nodes(), settings.interface_curves(), name);
+      const ModelProperties &properties = model.properties();
+      const double thickness            = model.parameters().thickness;
+      for (const BoundaryFace<2> &face : faces)
+      {
+        const MaterialParameters &material
+            = properties.materials[properties.material_of_group[face.group]];
+        if (material.thickness != thickness)
+          throw InputError(
+              text_of("the load '", name,
+                      "' continues the model of 'Thickness = ", thickness,
+                      "' [m], but meets blocks of 'Materials/", material.name,
+                      "' with 'Thickness = ", material.thickness, "' at ",
+                      point_text(face.points[0]),
+                      " m. Leave the latter empty, or give "
+                      "the blocks there a material of their own."));
+      }
+      return faces;
+    }
+  } // namespace
+
   template <int dim>
   BlockSystem<dim>::BlockSystem(const Parameters &parameters,
                                 MeshData<dim> as_read,
@@ -134,7 +167,7 @@ namespace quoin
     {
       return std::make_unique<FarField>(
           load->name, std::move(domain), *nodes,
-          faces_of_curves(*nodes, settings.interface_curves(), load->name),
+          interface_faces(*model, settings, load->name),
           model->parameters().thickness);
     }
     catch (const InputError &error)
@@ -159,8 +192,7 @@ namespace quoin
       return nullptr;
     return std::make_unique<StaticFarField>(
         far->name(), far->domain(), *nodes,
-        faces_of_curves(*nodes, parameters.boundary.interface_curves(),
-                        far->name()),
+        interface_faces(*model, parameters.boundary, far->name()),
         model->parameters().thickness);
   }
 

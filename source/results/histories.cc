@@ -551,14 +551,19 @@ namespace quoin
   double Histories<2>::open_length(const State<2> &state) const
   {
     const auto &segments        = model.joints().segments();
+    const auto &faces           = model.nodes().faces().joints;
     const JointHistory &history = state.get<JointHistory>();
     double length               = 0.;
     for (unsigned int i = 0; i < segments.size(); ++i)
       if (!history.handed_over[i] && !is_at_absent_block(model, i, state))
+      {
+        const auto &[a, b]     = faces[segments[i].face].groups;
+        const double thickness = model.thickness().common(a, b);
         for (unsigned int k = 0; k < 2; ++k)
           if (history.state[2 * i + k] == JointState::open)
-            length += segments[i].area[k] * segments[i].share;
-    return length / model.parameters().thickness;
+            length += segments[i].area[k] / thickness * segments[i].share;
+      }
+    return length;
   }
 
   template <int dim>

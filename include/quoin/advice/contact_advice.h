@@ -20,6 +20,8 @@ namespace quoin
     bool exists        = false; /**< whether the set acts on a block */
     double mass        = 0.;    /**< of a block [kg] */
     double size        = 0.;    /**< of its side [m] */
+    double density     = 0.;    /**< [kg/m^3] */
+    double stiffness   = 0.;    /**< normal one of the set [Pa/m] */
     double frequency   = 0.;    /**< undamped [Hz] */
     double duration    = 0.;    /**< of the contact [s] */
     double restitution = 1.;    /**< [-] */
@@ -32,16 +34,27 @@ namespace quoin
   std::vector<TypicalImpact> typical_impacts(const Model<2> &model);
 
   /** A line for --check about each joint set that has dashpots or is for new
-      contacts. Collective. */
-  std::vector<std::string> contact_lines(const Model<2> &model);
+      contacts, and with large displacements one about the gaps between the
+      blocks of @p state. Collective. */
+  std::vector<std::string> contact_lines(const Model<2> &model,
+                                         const State<2> &state);
 
-  /** Warns of restitution that the waves in blocks will not let be. */
-  void check_restitution(const Model<2> &model, Advice &advice);
+  /** Warns of restitution that the waves in blocks will not let be, and of sets
+      for new contacts alone beside which blocks do not deform. */
+  void check_contacts(const Model<2> &model, Advice &advice);
 
-  /** Warns of new contacts too soft to follow @p shaking of a stage, which
-      brings up to the speed @p speed [m/s], 0 if that is not known. */
-  void check_soft_contacts(const Model<2> &model, const Shaking &shaking,
-                           double speed, Checks &checks);
+  /** What the loads of a stage do to blocks; 0: not known. */
+  struct Agitation
+  {
+    Shaking shaking;          /**< the fastest of them */
+    double speed        = 0.; /**< largest one that they prescribe [m/s] */
+    double acceleration = 0.; /**< largest one of gravity [m/s^2] */
+  };
+
+  /** Warns of new contacts too soft for @p loads of a stage, for the gaps
+      between the blocks of @p state and for the blocks. Collective. */
+  void check_soft_contacts(const Model<2> &model, const State<2> &state,
+                           const Agitation &loads, Checks &checks);
 } // namespace quoin
 
 #endif

@@ -20,13 +20,12 @@ namespace quoin
 
   /**
    * Lumped masses of the local nodes, rigid blocks included [kg]. @p density:
-   * of each cell group [kg/m^3]; @p thickness: in two dimensions [m].
-   * Collective.
+   * of each cell group [kg/m^3]; @p thickness: the same. Collective.
    */
   template <int dim>
   std::vector<double> lumped_masses(const NodeMap<dim> &nodes,
                                     const std::vector<double> &density,
-                                    double thickness = 1.);
+                                    const Thickness &thickness = {});
 
   /** Elastic stiffness of a cell: in the plane or in space. */
   template <int dim>

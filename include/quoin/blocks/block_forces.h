@@ -4,6 +4,7 @@
 #ifndef quoin_blocks_block_forces_h
 #define quoin_blocks_block_forces_h
 
+#include <quoin/base/thickness.h>
 #include <quoin/materials/plastic_history.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/blocks/triangle.h>
@@ -51,7 +52,7 @@ namespace quoin
      */
     AlignedArray<std::array<double, 4>> initial_stress;
 
-    double thickness = 1.; /**< [m] */
+    Thickness thickness; /**< of cells of each stiffness */
 
     /**
      * Whether each four cells are one six-node triangle, cut as by NodeMap.
@@ -64,6 +65,11 @@ namespace quoin
     const PlaneStiffness &stiffness_of(const unsigned int cell) const
     {
       return stiffness[cell_stiffness.empty() ? 0 : cell_stiffness[cell]];
+    }
+
+    double thickness_of(const unsigned int cell) const
+    {
+      return thickness[cell_stiffness.empty() ? 0 : cell_stiffness[cell]];
     }
 
     /** Stress xx, yy, xy, zz of a cell without strain [Pa]. */

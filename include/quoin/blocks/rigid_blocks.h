@@ -4,6 +4,7 @@
 #ifndef quoin_blocks_rigid_blocks_h
 #define quoin_blocks_rigid_blocks_h
 
+#include <quoin/base/thickness.h>
 #include <quoin/operators/state.h>
 #include <quoin/blocks/node_update.h>
 #include <quoin/operators/step_context.h>
@@ -96,10 +97,10 @@ namespace quoin
 
     /**
      * Sets up the rigid blocks of @p nodes. @p density: of each cell group
-     * [kg/m^3]; @p thickness [m].
+     * [kg/m^3]; @p thickness: the same.
      */
     void prepare(const NodeMap<2> &nodes, const std::vector<double> &density,
-                 double thickness);
+                 const Thickness &thickness);
 
     unsigned int n_blocks() const
     {

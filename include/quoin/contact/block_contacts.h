@@ -30,7 +30,7 @@ namespace quoin
     std::vector<JointSetParameters> sets;
     std::vector<std::string> materials;
     std::vector<unsigned int> material_of_group;
-    double thickness = 1.; /**< [m] */
+    Thickness thickness; /**< of each cell group */
   };
 
   /**
@@ -84,8 +84,9 @@ namespace quoin
 
     /**
      * Takes the present positions. When due, hands over joints that slipped or
-     * opened too far, and searches pairs if something moved more than half of
-     * the skin. Throws a RunError about deep overlap and runaway velocities.
+     * opened too far, and searches pairs if edges may have approached by more
+     * than the skin. Throws a RunError about deep overlap and runaway
+     * velocities.
      */
     void update(const StepContext &step, State<2> &state) override;
 
@@ -179,6 +180,7 @@ namespace quoin
       double x, y; /**< of its first node [m] */
       double tangent[2];
       double length;              /**< [m] */
+      double thickness;           /**< of the cell behind it [m] */
       double reference_ratio;     /**< reference length by length */
       double corner[2];           /**< see ContactEdge */
       unsigned int nodes[2];      /**< compact */
@@ -221,10 +223,23 @@ namespace quoin
     /** Makes general contacts of the joints of marked interfaces. Collective.
      */
     void hand_over(State<2> &state) const;
-    void search(State<2> &state);
-    /** Skin [m] to search with where nodes move by @p step_length [m] a step.
-     */
-    double skin_for(double step_length) const;
+    /** @p rate: by what edges may have approached in a step since the last
+        search [m]. */
+    void search(State<2> &state, double rate);
+    /** The pairs within the skin and by how much contacts are @p apart [m], by
+        their places in @p ends; sets the skin. */
+    std::vector<std::array<unsigned int, 2>>
+    find_pairs(const std::vector<EdgeEnds> &ends, double apart, double rate,
+               ContactState &contacts) const;
+    /** Step after which another search may be cheaper; largest: none. */
+    std::uint64_t renewal(const ContactState &contacts, double rate) const;
+    /** Distance within which a search looks for pairs [m]. */
+    double search_distance(const ContactState &contacts) const;
+    /** Of the skins within search_distance() that for which searches and pairs
+       that stay apart cost least. @p sides: of each skin, sides of pairs of
+       this rank that it takes in. */
+    double cheapest_skin(std::vector<unsigned int> sides, double rate,
+                         const ContactState &contacts) const;
     bool is_matched(const ContactState &contacts, unsigned int a,
                     unsigned int b) const;
     ContactPair new_pair(const EdgeEnds &a, const EdgeEnds &b) const;
@@ -342,7 +357,7 @@ namespace quoin
     ContactEdges edges;
     PairCopies copies;
     const ContactParameters parameters;
-    const double thickness;
+    const Thickness thickness;
     double largest_skin;                /**< [m] */
     std::vector<JointLaw> laws;         /**< of each set */
     std::vector<JointDamping> dampings; /**< the same */

@@ -35,19 +35,22 @@ namespace quoin
                      const AlignedArray<std::uint8_t> &left_out, double skin);
 
   /**
-   * All pairs of edges of @p ends nearer to each other than @p skin of which
-   * this rank has one at least, given by their positions in @p ends, ascending,
-   * the smaller first: found in an R-tree, decided by the distance of the two
-   * segments. Edges that share a node are no pair, nor are those which do not
-   * face each other, that is whose outward normals enclose less than 80
-   * degrees.
+   * All pairs of edges of @p ends with a motion_to_touch() of @p skin or less
+   * [m] of which this rank has one at least, given by their positions in
+   * @p ends, ascending, the smaller first: found in an R-tree. Edges that share
+   * a node are no pair.
    */
   std::vector<std::array<unsigned int, 2>>
   near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
              double skin);
 
-  /** Distance of two edges [m]; 0 if they cross. */
-  double distance(const EdgeEnds &a, const EdgeEnds &b);
+  /**
+   * By how much nodes have to move against each other before two edges may
+   * touch that are @p apart where they do [m]: what brings them there, their
+   * distance, which is 0 if they cross, and what turns them until their outward
+   * normals enclose a right angle, whichever is more.
+   */
+  double motion_to_touch(const EdgeEnds &a, const EdgeEnds &b, double apart);
 } // namespace quoin
 
 #endif

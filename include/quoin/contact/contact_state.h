@@ -74,6 +74,9 @@ namespace quoin
     std::uint64_t next_check = 0; /**< step of the next look at motions */
     std::uint64_t n_searches = 0;
     double skin              = 0.; /**< of the last search [m] */
+    std::uint64_t searched   = 0;  /**< step of the last search */
+    /** Step from which on there are more searches to gain than to lose. */
+    std::uint64_t renewal = 0;
 
     template <typename Visitor>
     void visit(Visitor &visitor)
@@ -81,7 +84,7 @@ namespace quoin
       visitor.between(pairs);
       visitor.same(handed_over);
       visitor.own(search_positions);
-      visitor.same(next_check, n_searches, skin);
+      visitor.same(next_check, n_searches, skin, searched, renewal);
     }
 
     template <typename Archive>

@@ -4,6 +4,7 @@
 #ifndef quoin_contact_matched_joints_h
 #define quoin_contact_matched_joints_h
 
+#include <quoin/base/thickness.h>
 #include <quoin/contact/pair_dashpots.h>
 #include <quoin/joints/joint_history.h>
 #include <quoin/operators/force_operator.h>
@@ -90,12 +91,13 @@ namespace quoin
   {
   public:
     /**
-     * Takes the joint faces of @p nodes.
+     * Takes the joint faces of @p nodes; @p thickness: of each cell group.
      * Throws an InputError about a joint face that belongs to no set, or a
      * curve named by two sets.
      */
     void prepare(const NodeMap<2> &nodes,
-                 const std::vector<JointSetParameters> &sets, double thickness);
+                 const std::vector<JointSetParameters> &sets,
+                 const Thickness &thickness);
 
     const char *kind() const override
     {

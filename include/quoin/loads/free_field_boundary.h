@@ -4,6 +4,7 @@
 #ifndef quoin_loads_free_field_boundary_h
 #define quoin_loads_free_field_boundary_h
 
+#include <quoin/base/thickness.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/viscous_boundary.h>
@@ -23,7 +24,7 @@ namespace quoin
     std::vector<bool> is_rigid;           /**< of each cell group */
     std::vector<bool> yields;             /**< of each cell group */
     PlaneAssumption plane = PlaneAssumption::plane_strain;
-    double thickness      = 1.; /**< [m] */
+    Thickness thickness; /**< of each cell group */
   };
 
   /** The load that drives the foot of the columns. */
@@ -104,8 +105,9 @@ namespace quoin
     /** A layer between two nodes of the column. */
     struct Layer
     {
-      double height;  /**< [m] */
-      double density; /**< [kg/m^3] */
+      double height;    /**< [m] */
+      double thickness; /**< [m] */
+      double density;   /**< [kg/m^3] */
       PlaneStiffness stiffness;
     };
 
@@ -122,8 +124,7 @@ namespace quoin
     void make_column(const std::vector<BoundaryFace<2>> &faces,
                      const FreeFieldGround &ground);
     void make_shares(const NodeMap<2> &node_map,
-                     const std::vector<BoundaryFace<2>> &faces,
-                     double thickness);
+                     const std::vector<BoundaryFace<2>> &faces);
     /** Sets up the foot and returns the base's faces. */
     std::vector<BoundaryFace<2>> make_foot(const NodeMap<2> &node_map,
                                            const FreeFieldBase &given);
@@ -138,7 +139,7 @@ namespace quoin
     double x       = 0.; /**< of the side [m] */
     double outward = 0.; /**< n_x: 1 or -1 */
     std::vector<double> node_height;
-    std::vector<double> node_mass; /**< mass by area of the column [kg/m^2] */
+    std::vector<double> node_mass; /**< mass by width of the column [kg/m] */
     std::vector<Layer> layers;
 
     /** Load at the foot of the column. */
@@ -147,7 +148,7 @@ namespace quoin
       std::string name; /**< of the load */
       bool is_prescribed = false;
       std::array<LoadComponent, 3> components;
-      std::array<double, 2> impedance{}; /**< for x, y [Pa s/m] */
+      std::array<double, 2> impedance{}; /**< for x, y, by width [Pa s] */
     } base;
 
     std::vector<unsigned int> column_node; /**< of each of nodes() */
@@ -156,8 +157,8 @@ namespace quoin
     std::vector<Dashpot<2>> base_dashpots; /**< the same, of the base's edges */
 
     std::vector<std::array<double, 2>> traction; /**< xx, xy of layers [Pa] */
-    std::vector<double> force;                   /**< on the column [N/m^2] */
-    std::vector<double> mean_velocity;          /**< of the column at t [m/s] */
+    std::vector<double> force;         /**< on the column, by width [N/m] */
+    std::vector<double> mean_velocity; /**< of the column at t [m/s] */
     std::vector<std::array<double, 2>> pull;    /**< of each of nodes() [N] */
     std::vector<std::array<double, 3>> damping; /**< of each of nodes() */
   };

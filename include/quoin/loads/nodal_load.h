@@ -4,6 +4,7 @@
 #ifndef quoin_loads_nodal_load_h
 #define quoin_loads_nodal_load_h
 
+#include <quoin/base/thickness.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/mesh/global_geometry.h>
@@ -25,9 +26,10 @@ namespace quoin
   class NodalLoad : public ForceOperator<dim>
   {
   public:
-    /** @p mass is that of the local nodes, unscaled [kg]. */
+    /** @p mass is that of the local nodes, unscaled [kg]; @p thickness: of
+        each cell group. */
     NodalLoad(const LoadParameters &parameters, const NodeMap<dim> &node_map,
-              const std::vector<double> &mass, double thickness);
+              const std::vector<double> &mass, const Thickness &thickness);
 
     /** Updates the weights of gravity; @p mass as in the constructor. */
     void set_mass(const std::vector<double> &mass);

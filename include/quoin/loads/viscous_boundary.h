@@ -4,6 +4,7 @@
 #ifndef quoin_loads_viscous_boundary_h
 #define quoin_loads_viscous_boundary_h
 
+#include <quoin/base/thickness.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/materials/linear_elastic.h>
@@ -51,14 +52,15 @@ namespace quoin
    * Adds to @p dashpots, those of the local nodes @p nodes (ascending), the
    * shares of the @p faces of @p node_map; nodes that are not listed are left
    * out.
-   * @p impedance: of each cell group. The shear velocity of an incident wave
-   * is along the boundary curve; in three dimensions it has no direction and
-   * is left out.
+   * @p impedance, @p thickness: of each cell group. The shear velocity of an
+   * incident wave is along the boundary curve; in three dimensions it has no
+   * direction and is left out.
    */
   template <int dim>
   void add_dashpots(const NodeMap<dim> &node_map,
                     const std::vector<BoundaryFace<dim>> &faces,
-                    const std::vector<Impedance> &impedance, double thickness,
+                    const std::vector<Impedance> &impedance,
+                    const Thickness &thickness,
                     const std::vector<unsigned int> &nodes,
                     std::vector<Dashpot<dim>> &dashpots);
 
@@ -124,12 +126,14 @@ namespace quoin
   {
   public:
     /**
-     * @p impedance: beyond each cell group of @p node_map. Throws an InputError
+     * @p impedance: beyond each cell group of @p node_map; @p thickness: of
+     * each. Throws an InputError
      * about an incident shear velocity in three dimensions.
      */
     ViscousBoundary(const LoadParameters &parameters,
                     const NodeMap<dim> &node_map,
-                    const std::vector<Impedance> &impedance, double thickness);
+                    const std::vector<Impedance> &impedance,
+                    const Thickness &thickness);
 
     void prepare(State<dim> &state) const override;
     void begin_stage(State<dim> &state, bool continues) override;

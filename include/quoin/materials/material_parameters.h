@@ -19,7 +19,8 @@ namespace quoin
   {
     std::string name;
     std::vector<std::string> groups; /**< physical surfaces of the mesh */
-    bool rigid = false;              /**< then only the density counts */
+    bool rigid       = false;        /**< then only the density counts */
+    double thickness = 0.;           /**< 0: that of the model [m] */
     LinearElastic elastic{};
     std::optional<MohrCoulombStrength> strength; /**< none: elastic */
 

@@ -4,6 +4,7 @@
 #ifndef quoin_model_model_h
 #define quoin_model_model_h
 
+#include <quoin/base/thickness.h>
 #include <quoin/model/construction_state.h>
 #include <quoin/operators/state.h>
 #include <quoin/contact/contact_parameters.h>
@@ -26,7 +27,7 @@ namespace quoin
   struct ModelParameters
   {
     PlaneAssumption plane = PlaneAssumption::plane_strain;
-    double thickness      = 1.; /**< [m] */
+    double thickness      = 1.; /**< of materials that give none [m] */
     std::vector<MaterialParameters> materials;
     std::vector<JointSetParameters> joints;
     std::vector<LoadParameters> initial_stresses;
@@ -104,6 +105,11 @@ namespace quoin
     {
       return node_map;
     }
+    /** That of each physical surface. */
+    const Thickness &thickness() const
+    {
+      return group_thickness;
+    }
     /** The deformable blocks: their nodes, cells and numbers come first. */
     const BlockForces<dim> &blocks() const
     {
@@ -145,6 +151,7 @@ namespace quoin
   private:
     CellStiffness<dim> stiffness_of(const MaterialParameters &material) const;
     void find_materials();
+    void find_thickness();
     void find_masses();
     void find_initial_stress();
     AlignedArray<double> packed_initial_stress() const;
@@ -164,6 +171,7 @@ namespace quoin
     const ModelParameters given;
 
     ModelProperties now;
+    Thickness group_thickness;
     std::vector<bool> absent_group; /**< of physical surfaces, at the start */
     std::vector<double> node_mass;
     std::vector<std::array<double, 4>> cell_stress; /**< or empty */

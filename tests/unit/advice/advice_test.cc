@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../model/test_models.h"
+#include "../contact/test_contacts.h"
 
 #include <quoin/farfield/boundary_report.h>
-#include <quoin/advice/advice.h>
+#include <quoin/advice/contact_advice.h>
 #include <quoin/advice/model_summary.h>
 
 using namespace quoin;
@@ -264,4 +264,83 @@ TEST(ModelSummary, SaysWhatThereIs)
                       "0 to 1000 Pa");
   EXPECT_EQ(parameters.stages[0].text(false),
             "stage stage: loads base, push; lasts 1 s; no damping");
+}
+
+namespace
+{
+  /** Warnings about two blocks of 1 m, 10 mm apart, of 2500 kg, whose contacts
+      have 1e7 Pa/m: 1250 kg on a spring of 1e7 N/m, 89.4 rad/s. */
+  Advice soft_contacts(const Agitation &loads)
+  {
+    BlockMesh<2> mesh;
+    make_blocks(mesh, { { 0., 0., 1., 1., 2, 2 }, { 1.01, 0., 1., 1., 3, 3 } });
+    ModelParameters parameters;
+    parameters.plane     = PlaneAssumption::plane_stress;
+    parameters.materials = { material("stone") };
+    parameters.joints    = { touching() };
+    coulomb_law(parameters.joints[0]).normal_stiffness = 1e7;
+    parameters.large_displacements                     = true;
+    parameters.contact.large_displacements             = true;
+    const TestNodes nodes(mesh, parameters.materials);
+    const Model<2> model(nodes, parameters);
+    Advice advice;
+    Checks checks(advice, "");
+    check_soft_contacts(model, model.initial_state(), loads, checks);
+    const auto lines = contact_lines(model, model.initial_state());
+    EXPECT_EQ(lines.back(),
+              "2 blocks have a gap beside, 0.01 m wide, half of them below "
+              "0.01 m");
+    return advice;
+  }
+} // namespace
+
+TEST(ContactAdvice, OverlapAgainstGaps)
+{
+  // At 0.08 m/s 0.894 mm, at 0.1 m/s 1.118 mm.
+  EXPECT_TRUE(soft_contacts({ {}, 0.08, 0. }).empty());
+  const Advice fast = soft_contacts({ {}, 0.1, 0. });
+  ASSERT_EQ(fast.size(), 1U);
+  EXPECT_NE(fast[0].find("overlap by 0.001118 m"), std::string::npos)
+      << fast[0];
+  EXPECT_NE(fast[0].find("1.25 times"), std::string::npos) << fast[0];
+  // Through 10 mm at 0.1 m/s^2: 0.0447 m/s. Their weight: 25 microns.
+  EXPECT_TRUE(soft_contacts({ {}, 0., 0.1 }).empty());
+  // 0.447 m/s: 5 mm, and 2.5 mm by the weight of 1 m.
+  const Advice heavy = soft_contacts({ {}, 0., 10. });
+  ASSERT_EQ(heavy.size(), 2U);
+  EXPECT_NE(heavy[0].find("overlap by 0.005 m"), std::string::npos) << heavy[0];
+  EXPECT_NE(heavy[1].find("close by 0.0025 m"), std::string::npos) << heavy[1];
+}
+
+TEST(ContactAdvice, PeriodOfTheLoad)
+{
+  // A contact of pi/89.4 s = 0.0351 s.
+  EXPECT_TRUE(soft_contacts({ { "the load push", 2.8 }, 0., 0. }).empty());
+  const Advice advice = soft_contacts({ { "the load push", 2.9 }, 0., 0. });
+  ASSERT_EQ(advice.size(), 1U);
+  EXPECT_NE(advice[0].find("a tenth of the shortest period of the load push"),
+            std::string::npos)
+      << advice[0];
+}
+
+TEST(ContactAdvice, ContactsAgainstBlocks)
+{
+  // E/L is 1e10 Pa/m.
+  for (const double kn : { 0.9e7, 1.1e7 })
+  {
+    BlockMesh<2> mesh;
+    make_blocks(mesh, { { 0., 0., 1., 1., 2, 2 } });
+    ModelParameters parameters;
+    parameters.materials                               = { material("stone") };
+    parameters.joints                                  = { touching() };
+    coulomb_law(parameters.joints[0]).normal_stiffness = kn;
+    parameters.large_displacements                     = true;
+    const TestNodes nodes(mesh, parameters.materials);
+    const Model<2> model(nodes, parameters);
+    Advice advice;
+    check_contacts(model, advice);
+    ASSERT_EQ(advice.size(), kn < 1e7 ? 1U : 0U);
+    for (const std::string &line : advice)
+      EXPECT_NE(line.find("hardly deform"), std::string::npos) << line;
+  }
 }

@@ -113,7 +113,7 @@ TEST(BlockForces, RigidMotionMakesNoForce)
   for (const double angle : { 1e-6, 0.3, 1.5707, 3.1415926535897931, -2.5 })
   {
     mesh.move_rigidly(angle, 0.7, -1.3);
-    const double scale = stone.young * mesh.data.thickness;
+    const double scale = stone.young * mesh.data.thickness[0];
     EXPECT_LT(largest(strip_forces(blocks, mesh)), 1e-12 * scale) << angle;
     EXPECT_LT(largest(cell_forces(blocks, mesh)), 1e-12 * scale) << angle;
   }
@@ -171,7 +171,7 @@ TEST(BlockForces, UniformStrainPatch)
     const double sxx        = C.c11 * exx + C.c12 * eyy;
     const double syy        = C.c12 * exx + C.c11 * eyy;
     const double sxy        = 2. * C.c33 * exy;
-    const double h = 2. / 8., t = mesh.data.thickness;
+    const double h = 2. / 8., t = mesh.data.thickness[0];
     const double scale = std::abs(sxx) * h * t;
     for (std::size_t i = 0; i < force.size(); ++i)
     {
@@ -427,7 +427,7 @@ TEST(BlockForces, ViscousForcesIgnoreRigidMotion)
     velocity[i]
         = { { 1. - 7. * (n.X[1] + n.u[1]), 2. + 7. * (n.X[0] + n.u[0]) } };
   }
-  const double scale = 2e-5 * 7. * stone.young * mesh.data.thickness;
+  const double scale = 2e-5 * 7. * stone.young * mesh.data.thickness[0];
   EXPECT_LT(largest(viscous_forces(blocks, mesh, velocity)), 1e-11 * scale);
 }
 

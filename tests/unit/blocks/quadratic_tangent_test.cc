@@ -96,7 +96,7 @@ namespace
       const SixNodes element(mesh, t);
       const PlaneStiffness &stiffness
           = mesh.data.stiffness[mesh.data.cell_stiffness[4 * t]];
-      const double volume = mesh.data.thickness * element.area / 3.;
+      const double volume = mesh.data.thickness[0] * element.area / 3.;
       for (unsigned int q = 0; q < 3; ++q)
       {
         double l[3] = { 0.5, 0.5, 0.5 }, x = 0., y = 0.;
@@ -189,7 +189,7 @@ TEST(QuadraticTangent, LinearFieldsPullAtTheEdgesAlone)
     const double P[2][2] = { { c * S[0] - s * S[2], c * S[2] - s * S[1] },
                              { s * S[0] + c * S[2], s * S[2] + c * S[1] } };
     const double side    = 1.3;
-    const double edge    = mesh.data.thickness * side / 3.; // of an element
+    const double edge    = mesh.data.thickness[0] * side / 3.; // of an element
     const auto is_at
         = [](const double a, const double b) { return std::abs(a - b) < 1e-9; };
     for (unsigned int i = 0; i < mesh.nodes.size(); ++i)

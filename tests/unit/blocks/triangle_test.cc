@@ -31,7 +31,7 @@ namespace
       const Triangle triangle(mesh.nodes[a], mesh.nodes[b], mesh.nodes[c]);
       for (const unsigned int node : { a, b, c })
         mass[node]
-            += stone.density * triangle.area() * mesh.data.thickness / 3.;
+            += stone.density * triangle.area() * mesh.data.thickness[0] / 3.;
     }
     RandomBlocks x = mesh;
     for (NodeRecord<2> &node : x.nodes)
