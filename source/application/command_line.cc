@@ -156,8 +156,9 @@ namespace quoin
         throw InputError(message);
       if (!arguments.output.empty())
         parameters.output_directory = arguments.output;
-      Run(parameters, arguments.run, MPI_COMM_WORLD).run();
-      return 0;
+      const int signal = Run(parameters, arguments.run, MPI_COMM_WORLD).run();
+      // As shells say it of a process that a signal has ended.
+      return signal == 0 ? 0 : 128 + signal;
     }
     catch (const InputError &error)
     {

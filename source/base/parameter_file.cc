@@ -9,6 +9,7 @@
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -228,6 +229,54 @@ namespace quoin
       return text;
     }
   } // namespace
+
+  namespace
+  {
+    /** Values by the names of entries, with those of their sections. */
+    std::map<std::string, std::string> values_of(const std::string &text)
+    {
+      std::map<std::string, std::string> values;
+      std::vector<std::string> path;
+      for (const Line &line : lines_of(text))
+        if (line.keyword == "subsection")
+          path.push_back(line.rest + "/");
+        else if (line.keyword == "end" && !path.empty())
+          path.pop_back();
+        else if (const auto equals = line.rest.find('=');
+                 line.keyword == "set" && equals != std::string::npos)
+          values[boost::algorithm::join(path, "")
+                 + dealii::Utilities::trim(line.rest.substr(0, equals))]
+              = dealii::Utilities::trim(line.rest.substr(equals + 1));
+      return values;
+    }
+  } // namespace
+
+  std::string parameter_changes(const std::string &before,
+                                const std::string &now)
+  {
+    constexpr unsigned int most = 5;
+    auto old                    = values_of(before);
+    std::vector<std::string> changes;
+    for (const auto &[name, value] : values_of(now))
+    {
+      const auto found = old.find(name);
+      if (found == old.end())
+        changes.push_back("'" + name + "' is new");
+      else if (found->second != value)
+        changes.push_back("'" + name + "' was '" + found->second + "' and is '"
+                          + value + "'");
+      old.erase(name);
+    }
+    for (const auto &[name, value] : old)
+      changes.push_back("'" + name + "' is gone");
+    const std::size_t n = changes.size();
+    if (n > most)
+    {
+      changes.resize(most);
+      changes.push_back(std::to_string(n - most) + " more");
+    }
+    return boost::algorithm::join(changes, ", ");
+  }
 
   ParameterFile::ParameterFile(std::string file_,
                                std::vector<std::string> overrides_)

@@ -349,7 +349,10 @@ def other_parameters(quoin, folder):
     expect(status, printed, 0, [])
     status, printed = run([quoin, prm, "--output", output, "--resume",
                            "--set", "Joints/bed/Friction angle=20"])
-    expect(status, printed, 1, ["parameters", "without --resume"])
+    expect(status, printed, 1, [
+        "'Joints/bed/Friction angle' was '30' and is '20'",
+        "without --resume"])
+    return printed
 
 
 def nothing_to_resume(quoin, folder):

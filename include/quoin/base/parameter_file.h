@@ -34,6 +34,14 @@ namespace quoin
     std::string text;
     std::vector<std::string> overrides;
   };
+
+  /**
+   * What differs between two texts of the parameters of a run, as
+   * ParameterHandler prints them in short: "'Loads/push/Vertical' was '-1' and
+   * is '-2'", at most five of them; empty if nothing does.
+   */
+  std::string parameter_changes(const std::string &before,
+                                const std::string &now);
 } // namespace quoin
 
 #endif
