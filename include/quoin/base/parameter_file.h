@@ -29,6 +29,10 @@ namespace quoin
      */
     void parse(dealii::ParameterHandler &prm, bool skip_undefined) const;
 
+    /** The names of the subsections that it has in @p section, in their order.
+     */
+    std::vector<std::string> subsections(const std::string &section) const;
+
   private:
     std::string file;
     std::string text;
