@@ -3,6 +3,7 @@
 
 #include <quoin/base/known_names.h>
 #include <quoin/advice/contact_advice.h>
+#include <quoin/parameters/plausibility.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,6 +103,7 @@ namespace quoin
       bool exist           = false;
       double stiffest_cell = 0.;       /**< E by shortest edge [Pa/m] */
       double softest_block = infinity; /**< E by size of the block [Pa/m] */
+      double softest       = infinity; /**< E [Pa] */
     };
 
     /** Collective. */
@@ -133,6 +135,7 @@ namespace quoin
             shortest = std::min(
                 shortest, nodes.point(corners[k])
                               .distance(nodes.point(corners[(k + 1) % 3])));
+          result.softest = std::min(result.softest, young);
           result.stiffest_cell
               = std::max(result.stiffest_cell, young / shortest);
           result.softest_block = std::min(result.softest_block,
@@ -143,6 +146,7 @@ namespace quoin
       result.exist         = MPI::logical_or(result.exist, all);
       result.stiffest_cell = MPI::max(result.stiffest_cell, all);
       result.softest_block = MPI::min(result.softest_block, all);
+      result.softest       = MPI::min(result.softest, all);
       return result;
     }
 
@@ -170,7 +174,8 @@ namespace quoin
                        "there are none on its curves: they act on nothing. "
                        "Name the curves in 'Joints along' of section 'Mesh', "
                        "or remove the set.");
-        if (!beside.exist)
+        // Where a block is in doubt it is said of the block.
+        if (!beside.exist || beside.softest < softest_modulus)
           continue;
         const double kn      = stiffness_bound(set.law)[0];
         const double by_cell = kn / beside.stiffest_cell;

@@ -4,6 +4,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/base/number_text.h>
 #include <quoin/dynamics/solver.h>
+#include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/signal_frequency.h>
 #include <quoin/mesh/global_geometry.h>
@@ -21,7 +22,8 @@ namespace quoin
 {
   namespace
   {
-    /** Smallest to largest value over the stages in which @p load acts. */
+    /** Smallest to largest value, or level of the water, over the stages in
+     * which @p load acts. */
     std::string value_text(const Parameters &parameters,
                            const LoadParameters &load,
                            const LoadComponent &component)
@@ -185,9 +187,19 @@ namespace quoin
       std::string text = "load " + load.name + ": " + load.type_text()
                          + place_text(load, nodes);
       for (const auto &given : load.given_components())
-        text += ", " + given.name + " "
-                + value_text(parameters, load, given.component) + " "
-                + given.unit;
+      {
+        text += ", " + given.name + " ";
+        const bool is_water
+            = given.component.field && given.component.field->level();
+        if (given.component.field && !is_water)
+          text += "by place";
+        else
+          text += (is_water ? "of water, level " : "")
+                  + value_text(parameters, load, given.component) + " "
+                  + (is_water ? "m" : given.unit);
+      }
+      if (load.shape)
+        text += text_of(", moving, over ", load.shape->width, " m");
       if (load.type == LoadType::free_field)
         text += ", on the base " + load.base;
       lines.push_back(text);

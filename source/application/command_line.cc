@@ -4,6 +4,7 @@
 #include <quoin/application/command_line.h>
 #include <quoin/application/run.h>
 #include <quoin/parameters/parameters.h>
+#include <quoin/parameters/schema.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
 #include <quoin/results/collective.h>
@@ -30,6 +31,7 @@ namespace quoin
       std::vector<std::string> overrides;
       std::string output;
       bool print_parameters = false;
+      bool print_schema     = false;
       RunOptions run;
     };
 
@@ -51,6 +53,8 @@ namespace quoin
                    "Read everything, report sizes and steps, do not run");
       app.add_flag("--print-parameters", arguments.print_parameters,
                    "Print all parameters with defaults and meaning");
+      app.add_flag("--print-schema", arguments.print_schema,
+                   "Print all parameters as JSON, for other programs");
       app.add_flag("--quiet", arguments.run.quiet, "Nothing on the screen");
       app.set_version_flag("--version", std::string(QUOIN_VERSION));
       try
@@ -64,6 +68,11 @@ namespace quoin
       if (arguments.print_parameters)
       {
         std::cout << describe_parameters();
+        return 0;
+      }
+      if (arguments.print_schema)
+      {
+        std::cout << parameter_schema();
         return 0;
       }
       if (arguments.file.empty())
@@ -156,8 +165,9 @@ namespace quoin
         throw InputError(message);
       if (!arguments.output.empty())
         parameters.output_directory = arguments.output;
-      Run(parameters, arguments.run, MPI_COMM_WORLD).run();
-      return 0;
+      const int signal = Run(parameters, arguments.run, MPI_COMM_WORLD).run();
+      // As shells say it of a process that a signal has ended.
+      return signal == 0 ? 0 : 128 + signal;
     }
     catch (const InputError &error)
     {

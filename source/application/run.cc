@@ -3,12 +3,16 @@
 
 #include <quoin/application/output_directory.h>
 #include <quoin/application/run.h>
+#include <quoin/base/parameter_file.h>
 #include <quoin/base/wall_clock.h>
 #include <quoin/results/atomic_file.h>
 #include <quoin/results/checkpoint.h>
 #include <quoin/results/json_file.h>
 
 #include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <sstream>
 
 namespace quoin
 {
@@ -25,17 +29,19 @@ namespace quoin
   {
   }
 
-  void Run::run()
+  int Run::run()
   {
     problem = make_problem(parameters, context);
     problem->report();
     if (options.check)
-      return;
+      return 0;
+    // Until here there is nothing to keep, and a signal ends the process.
+    const Interruption interruption;
     open_outputs();
     if (has_ended())
     {
       log.message("the run had finished: nothing is left to do");
-      return;
+      return 0;
     }
     checkpoint_clock.restart();
     if (stage_begun)
@@ -45,8 +51,9 @@ namespace quoin
     }
     else if (options.resume)
       problem->restore(stage_index);
-    while (!has_ended())
+    while (!has_ended() && signal == 0)
       run_stage();
+    return signal;
   }
 
   void Run::open_outputs()
@@ -64,7 +71,8 @@ namespace quoin
             archive_progress(archive);
             problem->load(archive, origin);
             n_writers = origin.n_ranks;
-          });
+          },
+          changed_parameters());
     all_or_none<RunError>(communicator, [&]()
                           { log.open(output + "/log.txt", options.resume); });
     if (options.resume)
@@ -77,9 +85,18 @@ namespace quoin
     }
     tables.open(options.resume);
     context.on_first_rank(
-        [&]()
-        { write_text(output + "/used_parameters.prm", parameters.effective); });
+        [&]() { write_text(used_parameters(), parameters.effective); });
     problem->open_outputs();
+  }
+
+  std::string Run::changed_parameters() const
+  {
+    std::ifstream before(used_parameters());
+    if (!before)
+      return "used_parameters.prm, which listed them, is gone";
+    std::ostringstream text;
+    text << before.rdbuf();
+    return parameter_changes(text.str(), parameters.effective);
   }
 
   bool Run::has_ended() const
@@ -96,8 +113,10 @@ namespace quoin
     }
     stage_begun = true;
     progress.start(stage->figures());
-    while (!stage->has_ended())
+    while (!stage->has_ended() && signal == 0)
       take_step();
+    if (signal != 0)
+      return;
     progress.finish(stage->figures());
     stage->end();
     stage_begun = false;
@@ -105,6 +124,20 @@ namespace quoin
     // Written before the checkpoint, which leaves nothing to resume.
     write_summary();
     save_checkpoint();
+    if (!has_ended())
+      end_at(checkpoint_clock.look().signal);
+  }
+
+  void Run::end_at(const int received)
+  {
+    if (received == 0)
+      return;
+    signal                        = received;
+    const ProgressFigures figures = stage->figures();
+    log.status("");
+    log.message("interrupted by ", signal_name(signal), " at time ",
+                figures.time, " s, step ", figures.step,
+                ": the same command with --resume goes on from the checkpoint");
   }
 
   void Run::take_step()
@@ -131,10 +164,19 @@ namespace quoin
     count();
     if (progress.due())
       progress.update(stage->figures());
+    // The end of a stage has a checkpoint of its own.
+    if (checkpoint == Stage::Checkpoint::no
+        || (checkpoint == Stage::Checkpoint::possible && stage->has_ended()))
+      return;
+    const CheckpointClock::Look now = checkpoint_clock.look();
     if (checkpoint == Stage::Checkpoint::wanted
         || (checkpoint == Stage::Checkpoint::possible
-            && checkpoint_clock.is_due()))
+            && (now.is_due || now.signal != 0)))
       save_checkpoint();
+    if (now.signal == 0 || stage->has_ended())
+      return;
+    write_summary();
+    end_at(now.signal);
   }
 
   void Run::write_summary()

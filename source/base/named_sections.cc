@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/known_names.h>
 #include <quoin/base/named_sections.h>
+#include <quoin/base/nearest_name.h>
 
 #include <set>
 
@@ -34,6 +36,18 @@ namespace quoin
       {
         return false;
       }
+    }
+
+    std::vector<std::string> listed_names(const SectionEntries &section,
+                                          ParameterHandler &names)
+    {
+      std::vector<std::string> listed;
+      in_section(names, section.name,
+                 [&](ParameterHandler &all) {
+                   listed = dealii::Utilities::split_string_list(
+                       all.get("Names"), ',');
+                 });
+      return listed;
     }
 
     /** Declares the subsections named in @p listed. */
@@ -85,16 +99,39 @@ namespace quoin
   {
     for (const SectionEntries &section : sections)
     {
-      std::vector<std::string> listed;
-      in_section(names, section.name,
-                 [&](ParameterHandler &all) {
-                   listed = dealii::Utilities::split_string_list(
-                       all.get("Names"), ',');
-                 });
+      const auto listed = listed_names(section, names);
       in_section(prm, section.name,
                  [&](ParameterHandler &all)
                  { declare_listed(section, file, listed, all); });
     }
+  }
+
+  std::vector<std::string>
+  declare_unlisted(const SectionEntries &section, const std::string &file,
+                   const std::vector<std::string> &found,
+                   ParameterHandler &names, ParameterHandler &prm)
+  {
+    /** Letters by which a misspelled name differs. */
+    constexpr unsigned int near = 2;
+    const auto listed           = listed_names(section, names);
+    std::vector<std::string> warnings;
+    for (const std::string &name : found)
+    {
+      if (is_among(name, listed))
+        continue;
+      const std::string what = "section '" + section.name
+                               + "': 'Names' does not list its subsection '"
+                               + name + "'";
+      for (const std::string &other : listed)
+        if (!is_among(other, found) && edit_distance(name, other) <= near)
+          throw InputError(file + ", " + what + ", but '" + other
+                           + "', which has none. Spell them alike.");
+      in_section(prm, section.name,
+                 [&](ParameterHandler &all)
+                 { in_section(all, name, section.declare); });
+      warnings.push_back(what + ", which is left out.");
+    }
+    return warnings;
   }
 
   void declare_examples(const std::vector<SectionEntries> &sections,

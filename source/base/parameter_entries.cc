@@ -4,11 +4,42 @@
 #include <quoin/base/parameter_entries.h>
 
 #include <charconv>
+#include <memory>
+#include <utility>
 
 namespace quoin
 {
   using dealii::Patterns::Anything;
   using dealii::Patterns::Double;
+
+  namespace
+  {
+    /** The pattern @p Base with words of our own about what is meant, which
+        messages and the schema have. Ranges are checked where entries are
+        read, with a sentence about the value. */
+    template <typename Base>
+    class Described : public Base
+    {
+    public:
+      explicit Described(std::string words) : words(std::move(words))
+      {
+      }
+      std::string description(const typename Base::OutputStyle
+                              = Base::Machine) const override
+      {
+        return words;
+      }
+      std::unique_ptr<dealii::Patterns::PatternBase> clone() const override
+      {
+        return std::make_unique<Described>(words);
+      }
+
+    private:
+      std::string words;
+    };
+    using Number = Described<Double>;
+    using Text   = Described<Anything>;
+  } // namespace
 
   bool ParameterEntries::declare(const std::string &name,
                                  const std::string &preset,
@@ -43,21 +74,24 @@ namespace quoin
   void ParameterEntries::number(const std::string &name, double &value,
                                 const std::string &sentence, const double unit)
   {
-    if (!declare(name, default_text({ value / unit }), Double(), sentence))
+    if (!declare(name, default_text({ value / unit }), Number("number"),
+                 sentence))
       value = section->number(name) * unit;
   }
 
   void ParameterEntries::positive(const std::string &name, double &value,
                                   const std::string &sentence)
   {
-    if (!declare(name, default_text({ value }), Double(), sentence))
+    if (!declare(name, default_text({ value }), Number("number above 0"),
+                 sentence))
       value = section->positive(name);
   }
 
   void ParameterEntries::nonnegative(const std::string &name, double &value,
                                      const std::string &sentence)
   {
-    if (!declare(name, default_text({ value }), Double(), sentence))
+    if (!declare(name, default_text({ value }), Number("number of at least 0"),
+                 sentence))
       value = section->nonnegative(name);
   }
 
@@ -65,7 +99,10 @@ namespace quoin
                                 const double low, const double high,
                                 const std::string &sentence, const double unit)
   {
-    if (!declare(name, default_text({ value / unit }), Double(), sentence))
+    if (!declare(name, default_text({ value / unit }),
+                 Number("number from " + default_text({ low }) + " to "
+                        + default_text({ high })),
+                 sentence))
       value = section->within(name, low, high) * unit;
   }
 
@@ -99,7 +136,7 @@ namespace quoin
                               std::vector<std::string> &value,
                               const std::string &sentence)
   {
-    if (!declare(name, "", Anything(), sentence))
+    if (!declare(name, "", Text("list of words"), sentence))
       value = section->list(name);
   }
 
@@ -108,7 +145,7 @@ namespace quoin
       std::vector<std::pair<std::string, std::string>> &value,
       const std::string &must_be, const std::string &sentence, bool *const all)
   {
-    if (!declare(name, "", Anything(), sentence))
+    if (!declare(name, "", Text("list of pairs a:b"), sentence))
       value = section->pairs(name, must_be, all);
   }
 } // namespace quoin

@@ -3,12 +3,18 @@
 
 #include <quoin/base/parameter_file.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 
 #include <boost/algorithm/string/join.hpp>
 
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -48,9 +54,24 @@ namespace quoin
       return lines;
     }
 
-    /** "section 'A/B'" of line @p number of @p text. */
-    std::string section_of_line(const std::string &text,
-                                const unsigned int number)
+    /** A line of the file or of one that it includes. */
+    struct Origin
+    {
+      std::string file;
+      unsigned int line;
+    };
+
+    /** A text without comments, with the files that it includes. */
+    struct FullText
+    {
+      std::string text;
+      std::vector<Origin> origins; /**< of each line */
+    };
+
+    /** The subsections around line @p number of @p text, or all of its last
+        one, from the outermost. */
+    std::vector<std::string> path_of_line(const std::string &text,
+                                          const unsigned int number)
     {
       std::vector<std::string> path;
       for (const Line &line : lines_of(text))
@@ -62,8 +83,7 @@ namespace quoin
         else if (line.keyword == "end" && !path.empty())
           path.pop_back();
       }
-      return "section '"
-             + (path.empty() ? "/" : boost::algorithm::join(path, "/")) + "'";
+      return path;
     }
 
     /** The text in one line, cut to a readable length. */
@@ -82,34 +102,80 @@ namespace quoin
       return line;
     }
 
+    /** Names of the entries, or of the subsections, that @p prm declares in the
+        section @p path; none if it does not exist. */
+    std::vector<std::string> declared_names(const ParameterHandler &prm,
+                                            std::vector<std::string> path,
+                                            const bool of_sections)
+    {
+      std::stringstream stream;
+      prm.print_parameters(stream, ParameterHandler::JSON);
+      const nlohmann::json all    = nlohmann::json::parse(stream);
+      const nlohmann::json *inner = &all;
+      for (const std::string &section : path)
+      {
+        if (!inner->contains(section))
+          return {};
+        inner = &inner->at(section);
+      }
+      std::vector<std::string> names;
+      for (const auto &[name, item] : inner->items())
+        if (item.is_object() && item.contains("pattern") != of_sections)
+          names.push_back(name);
+      return names;
+    }
+
+    /** "The nearest known one is 'a'. ", of what a line names that does not
+        exist; empty if it does, or if there is nothing near. */
+    std::string nearest_text(const ParameterHandler &prm, const Line &line,
+                             std::vector<std::string> path)
+    {
+      const bool is_section = line.keyword == "subsection";
+      if (is_section && !path.empty())
+        path.pop_back();
+      const std::string name
+          = dealii::Utilities::trim(line.rest.substr(0, line.rest.find('=')));
+      const auto known
+          = nearest_first(name, declared_names(prm, path, is_section));
+      return known.empty() || known.front() == name
+                 ? ""
+                 : "The nearest known one is '" + known.front() + "'. ";
+    }
+
     /** The reason of a library's error in one line, and its place. */
     std::string describe(const dealii::ExceptionBase &error,
-                         const std::string &source, const std::string &text)
+                         const ParameterHandler &prm, const std::string &source,
+                         const FullText &full)
     {
       std::ostringstream reason;
       error.print_info(reason);
       std::string message = one_line(reason.str());
       std::smatch match;
-      std::string where = source;
+      std::string where = source, nearest;
       if (std::regex_search(message, match,
                             std::regex("[Ll]ine <?(\\d{1,9})>?")))
       {
-        const unsigned int line = std::stoul(match[1]);
-        where += (source.rfind("--set", 0) == 0
-                      ? std::string()
-                      : ", line " + std::to_string(line))
-                 + ", " + section_of_line(text, line);
+        const unsigned int number
+            = std::min<std::size_t>(std::stoul(match[1]), full.origins.size());
+        const Origin origin
+            = number > 0 ? full.origins[number - 1] : Origin{ source, 0 };
+        const auto path = path_of_line(full.text, number);
+        where           = origin.file
+                + (source.rfind("--set", 0) == 0
+                       ? std::string()
+                       : ", line " + std::to_string(origin.line))
+                + ", section '"
+                + (path.empty() ? "/" : boost::algorithm::join(path, "/"))
+                + "'";
         message = std::regex_replace(
             message,
-            std::regex("^ *[Ll]ine <?\\d{1,9}>? of (input )?file <[^>]*>: *"),
+            std::regex("^ *[Ll]ine <?\\d{1,9}>? of (input )?file <[^>:]*>?: *"),
             "");
+        if (number > 0)
+          nearest = nearest_text(prm, lines_of(full.text)[number - 1], path);
       }
-      const bool lacks_section
-          = message.find("no such subsection") != std::string::npos;
-      return where + ": " + message + " Correct it"
-             + (lacks_section ? ", or list its name in 'Names' of its section"
-                              : "")
-             + "; --print-parameters shows what exists.";
+      return where + ": " + message + " " + nearest
+             + "Correct it; --print-parameters shows what exists.";
     }
 
     std::string read_text(const std::string &file)
@@ -141,28 +207,58 @@ namespace quoin
                              "commands with --set.");
     }
 
-    /** Refuses a file that includes itself, which would never end. */
-    void check_includes(const std::string &file, const std::string &text,
-                        std::set<std::filesystem::path> &open)
+    /**
+     * Adds @p text of @p file to @p full, with what it includes from @p folder.
+     * Refuses a file that includes itself, which would never end: those in
+     * @p open are being read.
+     */
+    void expand(const std::string &file, const std::string &text,
+                const std::filesystem::path &folder,
+                std::set<std::filesystem::path> &open, FullText &full)
     {
+      refuse_braces(file, text);
       for (const Line &line : lines_of(text))
       {
-        const std::string &name = line.rest;
         if (line.keyword != "include")
+        {
+          full.text += line.text + "\n";
+          full.origins.push_back({ file, line.number });
           continue;
+        }
+        const std::string where = file + ", line " + std::to_string(line.number)
+                                  + ": it includes '" + line.rest + "', which ";
+        const std::filesystem::path path = folder / line.rest;
         std::error_code error;
-        if (!std::filesystem::is_regular_file(name, error))
-          continue;
-        const auto path = std::filesystem::canonical(name, error);
-        if (!open.insert(path).second)
-          throw InputError(file + ": it includes '" + name
-                           + "', which is being read already: this would never "
-                             "end. Remove one of the lines 'include'.");
-        const std::string included = read_text(name);
-        refuse_braces(name, included);
-        check_includes(name, included, open);
-        open.erase(path);
+        if (!std::filesystem::is_regular_file(path, error))
+          throw InputError(where
+                           + "is no file in the folder of the parameter file. "
+                             "Check the path.");
+        const auto inner = std::filesystem::canonical(path, error);
+        if (!open.insert(inner).second)
+          throw InputError(where
+                           + "is being read already: this would never end. "
+                             "Remove one of the lines 'include'.");
+        const std::string included = read_text(path.string());
+        if (!path_of_line(included, -1).empty())
+          throw InputError(where + "leaves the subsection '"
+                           + path_of_line(included, -1).back()
+                           + "' open. Close it by a line 'end' there.");
+        expand(path.string(), included, folder, open, full);
+        open.erase(inner);
       }
+    }
+
+    /** @p text of the file or the option @p source, with what it includes. */
+    FullText full_text(const std::string &file, const std::string &source,
+                       const std::string &text)
+    {
+      std::error_code error;
+      std::set<std::filesystem::path> open{ std::filesystem::canonical(file,
+                                                                       error) };
+      FullText full;
+      expand(source, text, std::filesystem::path(file).parent_path(), open,
+             full);
+      return full;
     }
 
     /** @p source: the file or the option that contains @p text. */
@@ -170,41 +266,15 @@ namespace quoin
                     const std::string &source, const std::string &text,
                     const bool skip_undefined)
     {
-      // 'include' resolves against the folder of the file.
-      namespace fs = std::filesystem;
-      struct Return
-      {
-        fs::path to;
-        ~Return()
-        {
-          std::error_code error;
-          if (!to.empty())
-            fs::current_path(to, error);
-        }
-      } back;
+      const FullText full = full_text(file, source, text);
       try
       {
-        const auto folder = fs::path(file).parent_path();
-        std::error_code error;
-        std::set<fs::path> open{ fs::canonical(file, error) };
-        if (!folder.empty())
-        {
-          back.to = fs::current_path();
-          fs::current_path(folder);
-        }
-        refuse_braces(source, text);
-        check_includes(source, text, open);
-        std::istringstream stream(text);
+        std::istringstream stream(full.text);
         prm.parse_input(stream, source, "", skip_undefined);
       }
       catch (const dealii::ExceptionBase &error)
       {
-        throw InputError(describe(error, source, text));
-      }
-      catch (const fs::filesystem_error &error)
-      {
-        throw InputError(file + ": its folder cannot be entered: "
-                         + error.code().message() + ". Check the path.");
+        throw InputError(describe(error, prm, source, full));
       }
     }
 
@@ -229,11 +299,79 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    /** Values by the names of entries, with those of their sections. */
+    std::map<std::string, std::string> values_of(const std::string &text)
+    {
+      std::map<std::string, std::string> values;
+      std::vector<std::string> path;
+      for (const Line &line : lines_of(text))
+        if (line.keyword == "subsection")
+          path.push_back(line.rest + "/");
+        else if (line.keyword == "end" && !path.empty())
+          path.pop_back();
+        else if (const auto equals = line.rest.find('=');
+                 line.keyword == "set" && equals != std::string::npos)
+          values[boost::algorithm::join(path, "")
+                 + dealii::Utilities::trim(line.rest.substr(0, equals))]
+              = dealii::Utilities::trim(line.rest.substr(equals + 1));
+      return values;
+    }
+  } // namespace
+
+  std::string parameter_changes(const std::string &before,
+                                const std::string &now)
+  {
+    constexpr unsigned int most = 5;
+    auto old                    = values_of(before);
+    std::vector<std::string> changes;
+    for (const auto &[name, value] : values_of(now))
+    {
+      const auto found = old.find(name);
+      if (found == old.end())
+        changes.push_back("'" + name + "' is new");
+      else if (found->second != value)
+        changes.push_back("'" + name + "' was '" + found->second + "' and is '"
+                          + value + "'");
+      old.erase(name);
+    }
+    for (const auto &[name, value] : old)
+      changes.push_back("'" + name + "' is gone");
+    const std::size_t n = changes.size();
+    if (n > most)
+    {
+      changes.resize(most);
+      changes.push_back(std::to_string(n - most) + " more");
+    }
+    return boost::algorithm::join(changes, ", ");
+  }
+
   ParameterFile::ParameterFile(std::string file_,
                                std::vector<std::string> overrides_)
     : file(std::move(file_)), text(read_text(file)),
       overrides(std::move(overrides_))
   {
+  }
+
+  std::vector<std::string>
+  ParameterFile::subsections(const std::string &section) const
+  {
+    std::string all = full_text(file, file, text).text;
+    for (const std::string &option : overrides)
+      all += override_text(option);
+    std::vector<std::string> names;
+    unsigned int depth = 0;
+    bool is_inside     = false;
+    for (const Line &line : lines_of(all))
+      if (line.keyword == "subsection" && depth++ == 0)
+        is_inside = line.rest == section;
+      else if (line.keyword == "subsection" && depth == 2 && is_inside
+               && !is_among(line.rest, names))
+        names.push_back(line.rest);
+      else if (line.keyword == "end" && depth > 0)
+        --depth;
+    return names;
   }
 
   void ParameterFile::parse(ParameterHandler &prm,

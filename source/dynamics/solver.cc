@@ -113,6 +113,13 @@ namespace quoin
                          + "' must name the load that drives the base of the "
                            "model, of type 'viscous boundary' or 'prescribed "
                            "motion'.");
+      if (base->differs_by_place())
+        throw InputError("section 'Loads/" + load.name
+                         + "': 'Base = " + load.base
+                         + "' is a motion that differs from place to place, "
+                           "but waves in the column beside the model are those "
+                           "of one motion. Give the base a function of time "
+                           "alone.");
       all_constraints.push_back(std::make_unique<FreeFieldBoundary>(
           load, model.nodes(), free_field_ground(model),
           FreeFieldBase{ *base, impedance_beyond(model, *base) }));

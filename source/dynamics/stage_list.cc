@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace quoin
 {
@@ -124,14 +123,10 @@ namespace quoin
                      const std::vector<StageParameters> &stages,
                      const std::vector<LoadParameters> &loads)
     {
-      std::set<std::string> used;
       for (const StageParameters &stage : stages)
       {
         if (stage.pattern)
-        {
           check_pattern(file, stage, loads);
-          used.insert(stage.pattern->loads.begin(), stage.pattern->loads.end());
-        }
         for (const std::string &name : stage.loads)
         {
           const std::string what = file + ", section 'Stages/" + stage.name
@@ -148,14 +143,8 @@ namespace quoin
             throw InputError(what
                              + "', an initial stress, which acts from the "
                                "start and does not end. Leave it out there.");
-          used.insert(name);
         }
       }
-      for (const LoadParameters &load : loads)
-        if (load.type != LoadType::initial_stress && used.count(load.name) == 0)
-          throw InputError(file + ", section 'Loads/" + load.name
-                           + "': no stage uses this load. Name it in the "
-                             "'Loads' of a stage or remove it.");
     }
 
     /** Checks that the history of the waves has no gap. */

@@ -23,18 +23,18 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  std::vector<std::array<double, 4>>
+  std::vector<std::array<double, 5>>
   StageLoads<dim>::values(const double stage_start,
                           const double load_time) const
   {
     const TimePoint time{ load_time, stage_start + load_time };
-    std::vector<std::array<double, 4>> result;
+    std::vector<std::array<double, 5>> result;
     for (const NodalLoad<dim> *load : nodal)
       result.push_back(load->amplitude(time));
     for (const MotionConstraint<dim> *constraint : constraints)
     {
       const auto [x, y, rotation] = values_of(*constraint, time);
-      result.push_back({ x, y, rotation, 0. });
+      result.push_back({ x, y, rotation, 0., 0. });
     }
     return result;
   }

@@ -34,10 +34,12 @@ namespace quoin
   } // namespace
 
   double given_change(const LoadComponent &component, const double from,
-                      const double to, const double stage_start)
+                      const double to, const double stage_start,
+                      const dealii::Point<2> &place)
   {
+    const dealii::Point<3> at(place[0], place[1], 0.);
     const auto value = [&](const double t) {
-      return component.value({ t, stage_start + t });
+      return component.at(at, { t, stage_start + t });
     };
     if (component.quantity == LoadQuantity::displacement)
       return value(to) - value(from);
@@ -215,8 +217,8 @@ namespace quoin
     update_arms(configuration);
     const double before = configuration.load_time;
     for (const Prescribed &p : prescribed_list)
-      ties[p.node].motion[p.component]
-          = given_change(*p.part, before, load_time, stage_start);
+      ties[p.node].motion[p.component] = given_change(
+          *p.part, before, load_time, stage_start, model.nodes().point(p.node));
     for (const RigidBody &body : body_list)
       for (unsigned int i = 0; i < body.nodes.size(); ++i)
         ties[body.nodes[i]].motion = body.present_arms[i];
@@ -275,8 +277,8 @@ namespace quoin
         if (is_free(i, d))
           configuration.nodes[i].u[d] += share * increment(dof(i, d));
     for (const Prescribed &p : prescribed_list)
-      configuration.nodes[p.node].u[p.component]
-          += given_change(*p.part, before, load_time, stage_start);
+      configuration.nodes[p.node].u[p.component] += given_change(
+          *p.part, before, load_time, stage_start, model.nodes().point(p.node));
 
     // All ranks have the platens; the first one solves for their motion.
     BodyValues changes(body_list.size(), { { 0., 0., 0. } });

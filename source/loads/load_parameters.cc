@@ -5,6 +5,7 @@
 #include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/base/unread_parameters.h>
+#include <quoin/loads/load_field.h>
 #include <quoin/loads/load_parameters.h>
 
 #include <boost/algorithm/string/case_conv.hpp>
@@ -68,8 +69,44 @@ namespace quoin
     TimeFunction time_function(const ParameterSection &section,
                                const std::string &name, const std::string &text)
     {
+      if (SpaceTimeFunction::names_place(text))
+        section.fail(name,
+                     "differs from place to place, as only tractions and "
+                     "prescribed motions may. Give a function of t and T"
+                         + std::string(section.text("Type") == "gravity"
+                                           ? ", and its factor by place as "
+                                             "'Distribution'."
+                                           : "."));
       return section.made(name, [&]()
                           { return TimeFunction(text, section.folder()); });
+    }
+
+    /** A component from @p text, by place if the load may differ there. */
+    LoadComponent made_component(const ParameterSection &section,
+                                 const std::string &name,
+                                 const LoadQuantity quantity,
+                                 const std::string &text)
+    {
+      const std::string type = section.text("Type");
+      if ((type != "traction" && type != "prescribed motion")
+          || !SpaceTimeFunction::names_place(text))
+        return { quantity, time_function(section, name, text) };
+      // In two dimensions z is 0.
+      const auto function = section.made(
+          name,
+          [&]() { return SpaceTimeFunction(text, section.folder(), 3, true); });
+      return { quantity, {}, std::make_shared<LoadField>(function) };
+    }
+
+    const std::string water_word = "water ";
+
+    /** The pressure of "water LEVEL". */
+    LoadComponent water_pressure(const ParameterSection &section,
+                                 const std::string &name)
+    {
+      const TimeFunction level = time_function(
+          section, name, section.text(name).substr(water_word.size()));
+      return { LoadQuantity::force, level, std::make_shared<LoadField>(level) };
     }
 
     /** Refuses a record of the PEER database, whose name says what it is, as
@@ -140,7 +177,7 @@ namespace quoin
           if (quantity != LoadQuantity::force)
             refuse_other_derivative(section, name, function,
                                     derivative_of(quantity));
-          return { quantity, time_function(section, name, function) };
+          return made_component(section, name, quantity, function);
         }
         known += " or begin with '" + word + "'";
       }
@@ -177,7 +214,7 @@ namespace quoin
         }
       if (quantity != LoadQuantity::force || type == "gravity")
         refuse_other_derivative(section, name, text, derivative_of(quantity));
-      return { quantity, time_function(section, name, text) };
+      return made_component(section, name, quantity, text);
     }
 
     void refuse_unread_parameters(const ParameterSection &section)
@@ -204,6 +241,10 @@ namespace quoin
                       { "Pressure", "free", { "traction" } },
                       { "Ramp duration", "automatic", { "gravity" } },
                       { "Distribution", "1", { "traction", "gravity" } },
+                      { "Moving shape", "none", { "traction" } },
+                      { "Moving centre", "", { "traction" } },
+                      { "Moving width", "0", { "traction" } },
+                      { "Moving axis", "x", { "traction" } },
                       { "Incident normal velocity", "0", viscous },
                       { "Incident shear velocity", "0", viscous },
                       { "Far field material", "", viscous },
@@ -237,6 +278,21 @@ namespace quoin
         section.fail("Boundary", "must name a physical curve of the mesh.");
     }
   } // namespace
+
+  double LoadComponent::at(const dealii::Point<3> &place,
+                           const TimePoint &time) const
+  {
+    return field ? (*field)(place, time, 1) : value(time);
+  }
+
+  bool LoadParameters::differs_by_place() const
+  {
+    const auto all = functions();
+    return shape
+           || std::any_of(all.begin(), all.end(),
+                          [](const LoadComponent &part)
+                          { return part.field != nullptr; });
+  }
 
   std::array<double, 3>
   component_values(const std::array<LoadComponent, 3> &components,
@@ -280,6 +336,10 @@ namespace quoin
                        + "': 'Lateral' is along the third axis, which a model "
                          "in two dimensions does not have. Remove it, or take "
                          "a mesh of tetrahedra.");
+    if (shape && shape->axis == 2)
+      throw InputError("section 'Loads/" + name
+                       + "': 'Moving axis = z' does not exist in two "
+                         "dimensions. Take x or y.");
     return *this;
   }
 
@@ -300,10 +360,15 @@ namespace quoin
     if (in_situ)
       return in_situ->stress(x, y);
     std::array<double, 4> result{};
+    const Eigen::Vector2d place(x, y);
     for (unsigned int k = 0; k < 3; ++k)
-      result[k] = stress[k] + y * stress_gradient[k];
-    result[3] = stress_zz ? (*stress_zz)[0] + y * (*stress_zz)[1]
-                          : poisson * (result[0] + result[1]);
+      result[k] = stress_fields.empty() ? stress[k] + y * stress_gradient[k]
+                                        : stress_fields[k](place, 0.);
+    if (stress_fields.size() == 4)
+      result[3] = stress_fields[3](place, 0.);
+    else
+      result[3] = stress_zz ? (*stress_zz)[0] + y * (*stress_zz)[1]
+                            : poisson * (result[0] + result[1]);
     return result;
   }
 
@@ -343,6 +408,112 @@ namespace quoin
                            "the course in time as 'Horizontal', 'Vertical', "
                            "'Lateral' or 'Pressure'.");
       return factor;
+    }
+
+    void read_shape(const ParameterSection &section, MovingShape shape,
+                    LoadParameters &load)
+    {
+      const std::string centres = section.text("Moving centre");
+      if (shape.kind == MovingShape::Kind::none)
+      {
+        if (!centres.empty() || shape.width != 0.)
+          section.fail(centres.empty() ? "Moving width" : "Moving centre",
+                       "has no effect with 'Moving shape = none'. Give the "
+                       "shape of the load that moves.");
+        return;
+      }
+      if (centres.empty())
+        section.fail("Moving centre",
+                     "must be the place of the load as a function of time, "
+                     "such as 2 + 10*t, or those of several with semicolons "
+                     "between them [m].");
+      if (shape.width == 0.)
+        section.fail("Moving width", "must be positive: give the length over "
+                                     "which the load is spread [m].");
+      for (const std::string &text :
+           dealii::Utilities::split_string_list(centres, ';'))
+        shape.centres.push_back(time_function(section, "Moving centre", text));
+      load.shape = std::make_shared<MovingShape>(shape);
+    }
+
+    void enter_shape(ParameterEntries &entries, LoadParameters &load)
+    {
+      using Kind = MovingShape::Kind;
+      MovingShape shape;
+      entries.choice("Moving shape", shape.kind,
+                     { { "none", Kind::none },
+                       { "uniform", Kind::uniform },
+                       { "triangular", Kind::triangular },
+                       { "cosine", Kind::cosine } },
+                     "Traction that travels along its boundary: its shape, a "
+                     "factor with the mean 1 over its width and 0 beyond, so "
+                     "that the force is traction times width times thickness "
+                     "whatever the shape.");
+      std::string centres;
+      entries.text("Moving centre", centres,
+                   "Traction that travels: coordinate of its centre, a "
+                   "function of time as 'Horizontal'; of several axles "
+                   "functions with semicolons between them [m]");
+      entries.nonnegative("Moving width", shape.width,
+                          "Traction that travels: length along the axis over "
+                          "which it is spread [m]");
+      entries.choice("Moving axis", shape.axis,
+                     { { "x", 0U }, { "y", 1U }, { "z", 2U } },
+                     "Traction that travels: axis of its coordinate.");
+      if (const ParameterSection *section = entries.read_section())
+        read_shape(*section, shape, load);
+    }
+
+    /** The functions of @p name with semicolons between them, by place. */
+    std::vector<SpaceTimeFunction>
+    stress_fields(const ParameterSection &section, const std::string &name)
+    {
+      std::vector<SpaceTimeFunction> fields;
+      for (const std::string &text :
+           dealii::Utilities::split_string_list(section.text(name), ';'))
+      {
+        fields.push_back(section.made(
+            name, [&]() { return SpaceTimeFunction(text, section.folder()); }));
+        if (fields.back().depends_on_time())
+          section.fail(name, "depends on time, but it is the stress where the "
+                             "run begins. Give expressions of x and y alone.");
+      }
+      return fields;
+    }
+
+    void read_stress(const ParameterSection &section, LoadParameters &load)
+    {
+      if (section.text("Stress").find(';') == std::string::npos)
+      {
+        load.stress = section.numbers<3>("Stress");
+        return;
+      }
+      load.stress_fields = stress_fields(section, "Stress");
+      if (load.stress_fields.size() != 3)
+        section.fail("Stress", "must be three numbers with commas between "
+                               "them, or three expressions of x and y with "
+                               "semicolons.");
+      if (section.numbers<3>("Stress gradient") != std::array<double, 3>{})
+        section.fail("Stress gradient",
+                     "goes with numbers for 'Stress'; it has expressions: "
+                     "write the change with y into these.");
+    }
+
+    void read_stress_zz(const ParameterSection &section, LoadParameters &load)
+    {
+      const std::string text = section.text("Stress zz");
+      if (text == "elastic")
+        return;
+      if (load.stress_fields.empty())
+      {
+        load.stress_zz = section.numbers<2>("Stress zz");
+        return;
+      }
+      const auto zz = stress_fields(section, "Stress zz");
+      if (zz.size() != 1)
+        section.fail("Stress zz", "must be 'elastic' or one expression of x "
+                                  "and y, as 'Stress' has such.");
+      load.stress_fields.push_back(zz.front());
     }
 
     /** Enters a component that @p read makes from section and name. */
@@ -385,7 +556,9 @@ namespace quoin
               entries, names[d], "free", load.components[d],
               names[d]
                   + " component: function of t (time in the stage) and T "
-                    "(total time) [s], 'table FILE', a signal or 'free'. "
+                    "(total time) [s], 'table FILE', a signal or 'free'; of "
+                    "tractions and prescribed motions also of x, y and, in "
+                    "three dimensions, z in the mesh [m]. "
                     "Traction [Pa], gravity [m/s^2], motion [m/s] or [m]; for "
                     "a platen preceded by 'velocity' [m/s], 'displacement' [m] "
                     "or 'force' [N].",
@@ -405,12 +578,20 @@ namespace quoin
             [](const ParameterSection &section, const std::string &name)
             { return platen_component(section, name, rotation_words); });
       if (entries.reads_if(is_force))
-        enter_component(entries, "Pressure", "free", load.pressure,
-                        "Traction: pressure that pushes on the block, against "
-                        "its outward normal in the mesh, and adds to "
-                        "'Horizontal' and 'Vertical'; a function of time as "
-                        "those [Pa]",
-                        plain);
+        enter_component(
+            entries, "Pressure", "free", load.pressure,
+            "Traction: pressure that pushes on the block, against "
+            "its outward normal in the mesh, and adds to "
+            "'Horizontal' and 'Vertical'; a function of place and "
+            "time as those, or 'water LEVEL', that of water up to "
+            "a height which is a function of time [m]: 9810 N/m^3 "
+            "times the depth below it [Pa]",
+            [&](const ParameterSection &section, const std::string &name)
+            {
+              return section.text(name).rfind(water_word, 0) == 0
+                         ? water_pressure(section, name)
+                         : plain(section, name);
+            });
       if (entries.reads_if(load.type == LoadType::gravity))
         entries.number_or(
             "automatic", -1., "Ramp duration", load.ramp_duration,
@@ -428,6 +609,8 @@ namespace quoin
                       "one that grows with the height [-]",
                       [&](const ParameterSection &from)
                       { load.distribution = distribution(from); });
+      if (entries.reads_if(load.type == LoadType::traction))
+        enter_shape(entries, load);
       const ParameterSection *section = entries.read_section();
       if (section && is_platen
           && load.groups.empty() == load.boundaries.empty())
@@ -482,22 +665,23 @@ namespace quoin
           = section && section->text("Type") == "in-situ stress";
       if (entries.reads_if(!is_in_situ))
       {
-        entries.numbers("Stress", load.stress,
-                        "Initial stress xx, yy, xy at y = 0, tension positive "
-                        "[Pa]");
+        entries.other("Stress", "0, 0, 0",
+                      "Initial stress xx, yy, xy at y = 0, tension positive; "
+                      "or three expressions of x and y [m] with semicolons "
+                      "between them [Pa]",
+                      [&](const ParameterSection &from)
+                      { read_stress(from, load); });
         entries.numbers("Stress gradient", load.stress_gradient,
                         "Change of the initial stress xx, yy, xy with y "
                         "[Pa/m]");
         entries.other("Stress zz", "elastic",
                       "Initial stress out of the plane, in plane strain: its "
                       "value at y = 0 [Pa] and its change with y [Pa/m]; "
+                      "if 'Stress' has expressions, another one; "
                       "'elastic': Poisson's ratio times (xx + yy). Laws that "
                       "yield depend on it.",
                       [&](const ParameterSection &from)
-                      {
-                        if (from.text("Stress zz") != "elastic")
-                          load.stress_zz = from.numbers<2>("Stress zz");
-                      });
+                      { read_stress_zz(from, load); });
       }
       if (entries.reads_if(is_in_situ))
         load.in_situ.emplace().enter(entries);

@@ -3,8 +3,10 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
+#include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/time_function.h>
+#include <quoin/loads/traction_field.h>
 #include <quoin/mesh/kind_text.h>
 
 #include <algorithm>
@@ -107,10 +109,16 @@ namespace quoin
       set_mass(mass);
       return;
     }
+    const auto faces
+        = faces_of_curves(node_map, parameters.boundaries, parameters.name);
+    if (parameters.differs_by_place())
+    {
+      make_field(parameters, node_map, faces, thickness);
+      return;
+    }
     std::map<unsigned int, double> area;
     std::map<unsigned int, NodeVector<dim>> inward_area;
-    for (const BoundaryFace<dim> &face :
-         faces_of_curves(node_map, parameters.boundaries, parameters.name))
+    for (const BoundaryFace<dim> &face : faces)
     {
       const dealii::Tensor<1, dim> outward
           = thickness[face.group] * outward_area(face.points);
@@ -139,6 +147,27 @@ namespace quoin
         for (double &area_component : inward[i].v)
           area_component *= node_factors[i];
     }
+  }
+
+  template <int dim>
+  void NodalLoad<dim>::make_field(const LoadParameters &parameters,
+                                  const NodeMap<dim> &node_map,
+                                  const std::vector<BoundaryFace<dim>> &faces,
+                                  const double thickness)
+  {
+    shape             = parameters.shape;
+    const auto places = sample_places(faces);
+    for (LoadComponent *part :
+         { &components[0], &components[1], &components[2], &pressure })
+      if (part->field)
+        part->value = mixture(*part->field, places, dim - 1);
+    LoadParameters sampled = parameters;
+    sampled.components     = components;
+    sampled.pressure       = pressure;
+    field = std::make_shared<TractionField<dim>>(sampled, node_map, faces,
+                                                 thickness);
+    nodes = field->nodes();
+    find_factors(parameters, node_map);
   }
 
   template <int dim>
@@ -176,20 +205,33 @@ namespace quoin
   }
 
   template <int dim>
-  std::array<double, 4> NodalLoad<dim>::amplitude(const TimePoint &time) const
+  std::array<double, 5> NodalLoad<dim>::amplitude(const TimePoint &time) const
   {
+    double place = 0.;
+    if (shape)
+      for (const double centre : shape->at(time))
+        place = 0.5 * place + centre;
     const auto [x, y, z] = component_values(components, time);
     const double share   = half_cosine(time.stage, ramp_duration);
     return { share * x, share * y, share * z,
              pressure.quantity == LoadQuantity::free
                  ? 0.
-                 : share * pressure.value(time) };
+                 : share * pressure.value(time),
+             place };
   }
 
   template <int dim>
   void NodalLoad<dim>::add_forces(const TimePoint &time,
                                   NodeVector<dim> *force) const
   {
+    if (field)
+    {
+      const auto &forces = field->forces(time);
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          force[nodes[i]].v[d] += forces[i].v[d];
+      return;
+    }
     const auto values = amplitude(time);
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)
@@ -203,6 +245,15 @@ namespace quoin
   double NodalLoad<dim>::external_power(const TimePoint &time,
                                         const NodeVector<dim> *velocity) const
   {
+    if (field)
+    {
+      double power       = 0.;
+      const auto &forces = field->forces(time);
+      for (unsigned int i = 0; i < nodes.size(); ++i)
+        for (unsigned int d = 0; d < dim; ++d)
+          power += forces[i].v[d] * velocity[nodes[i]].v[d];
+      return power;
+    }
     double sum[dim]{}, inflow = 0.;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < dim; ++d)

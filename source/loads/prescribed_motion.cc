@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/prescribed_motion.h>
+#include <quoin/loads/traction_field.h>
 
 #include <algorithm>
 
@@ -32,9 +34,13 @@ namespace quoin
     this->own_traits.kind = MotionKind::prescribed;
     for (unsigned int d = 0; d < dim; ++d)
       this->own_traits.holds[d] = components[d].quantity != LoadQuantity::free;
-    this->node_list = nodes_of_faces(
-        node_map,
-        faces_of_curves(node_map, parameters.boundaries, parameters.name));
+    const auto faces
+        = faces_of_curves(node_map, parameters.boundaries, parameters.name);
+    for (LoadComponent &component : components)
+      if (component.field)
+        component.value
+            = mixture(*component.field, sample_places(faces), dim - 1);
+    this->node_list = nodes_of_faces(node_map, faces);
   }
 
   template <int dim>
@@ -48,14 +54,21 @@ namespace quoin
       const LoadComponent &component = components[d];
       if (component.quantity == LoadQuantity::free)
         continue;
-      const double velocity
-          = component.quantity == LoadQuantity::velocity
-                ? step.load_rate * component.value(step.middle)
-                : (component.value(step.end) - component.value(step.begin))
-                      / step.dt;
+      const auto velocity_at = [&](const dealii::Point<3> &place)
+      {
+        return component.quantity == LoadQuantity::velocity
+                   ? step.load_rate * component.at(place, step.middle)
+                   : (component.at(place, step.end)
+                      - component.at(place, step.begin))
+                         / step.dt;
+      };
+      const double common = component.field ? 0. : velocity_at({});
       for (const unsigned int c : this->captured_positions)
       {
-        const CapturedNode<dim> &before  = captured[c];
+        const CapturedNode<dim> &before = captured[c];
+        dealii::Point<3> place;
+        std::copy_n(state.nodes[before.node].X, dim, &place[0]);
+        const double velocity = component.field ? velocity_at(place) : common;
         state.velocity[before.node].v[d] = velocity;
         state.nodes[before.node].u[d]
             = before.displacement.v[d] + step.dt * velocity;

@@ -35,7 +35,8 @@ namespace quoin
     face_stress.assign(node_map.faces().joints.size(), {});
     for (const LoadParameters &load : given.initial_stresses)
     {
-      if (given.plane == PlaneAssumption::plane_stress && load.stress_zz)
+      if (given.plane == PlaneAssumption::plane_stress
+          && (load.stress_zz || load.stress_fields.size() == 4))
         throw InputError("section 'Loads/" + load.name
                          + "': 'Stress zz' is the stress out of the plane, "
                            "which is zero with 'Plane assumption = plane "

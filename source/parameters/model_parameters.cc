@@ -67,6 +67,26 @@ namespace quoin
             .fail("Box", "needs 'Model = boundary elements': leave it empty.");
     }
 
+    /** Warns of loads that no stage uses. */
+    void warn_of_idle_loads(Parameters &parameters)
+    {
+      const auto uses
+          = [](const StageParameters &stage, const std::string &load)
+      {
+        return names_load(stage, load)
+               || (stage.pattern && is_among(load, stage.pattern->loads));
+      };
+      for (const LoadParameters &load : parameters.loads)
+        if (load.type != LoadType::initial_stress
+            && std::none_of(parameters.stages.begin(), parameters.stages.end(),
+                            [&](const StageParameters &stage)
+                            { return uses(stage, load.name); }))
+          parameters.warnings.push_back("load " + load.name
+                                        + ": no stage uses it. Name it in the "
+                                          "'Loads' of a stage, unless that is "
+                                          "meant.");
+    }
+
     /** Checks histories of boundary elements beyond blocks. */
     void check_coupled_histories(const ParameterSection &top,
                                  const Parameters &parameters)
@@ -210,6 +230,7 @@ namespace quoin
         = read_stages(top, parameters.loads, parameters.is_implicit);
     parameters.model.absent_groups = groups_placed_later(parameters.stages);
     parameters.named_blocks        = read_named<NamedBlock>(top, "Blocks");
+    warn_of_idle_loads(parameters);
     check_coupled_histories(top, parameters);
     check_block_histories(top, parameters);
     check_end_conditions(top, parameters);

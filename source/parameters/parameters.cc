@@ -7,6 +7,8 @@
 #include <quoin/layout/rock_parameters.h>
 #include <quoin/layout/wall_parameters.h>
 #include <quoin/parameters/model_parameters.h>
+#include <quoin/parameters/plausibility.h>
+#include <quoin/parameters/schema.h>
 
 #include <filesystem>
 #include <sstream>
@@ -162,9 +164,13 @@ namespace quoin
     ParameterHandler prm;
     declare_fixed(prm);
     declare_listed(named_sections, file, names, prm);
+    Parameters parameters;
+    for (const SectionEntries &section : named_sections)
+      for (const std::string &warning : declare_unlisted(
+               section, file, input.subsections(section.name), names, prm))
+        parameters.warnings.push_back(warning);
     input.parse(prm, false);
 
-    Parameters parameters;
     parameters.file = file;
     const ParameterSection top(prm, file);
     ParameterEntries entries(top);
@@ -191,6 +197,10 @@ namespace quoin
     else
       read_block_model(top, parameters);
 
+    const auto doubts = implausible_values(top, parameters);
+    parameters.warnings.insert(parameters.warnings.end(), doubts.begin(),
+                               doubts.end());
+
     std::ostringstream effective;
     prm.print_parameters(effective, ParameterHandler::ShortPRM);
     parameters.effective  = effective.str();
@@ -198,11 +208,27 @@ namespace quoin
     return parameters;
   }
 
+  namespace
+  {
+    /** Declares all entries, with an example of each named subsection. */
+    void declare_all(ParameterHandler &prm)
+    {
+      declare_fixed(prm);
+      declare_examples(named_sections, prm);
+    }
+  } // namespace
+
+  std::string parameter_schema()
+  {
+    ParameterHandler prm;
+    declare_all(prm);
+    return schema_text(prm);
+  }
+
   std::string describe_parameters()
   {
     ParameterHandler prm;
-    declare_fixed(prm);
-    declare_examples(named_sections, prm);
+    declare_all(prm);
     std::ostringstream text;
     prm.print_parameters(text, ParameterHandler::PRM
                                    | ParameterHandler::KeepDeclarationOrder);

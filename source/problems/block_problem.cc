@@ -416,6 +416,29 @@ namespace quoin
   }
 
   template <int dim>
+  std::string BlockProblem<dim>::residual_advice() const
+  {
+    /** Error beyond which results are wrong, whatever is asked of them. */
+    constexpr double useless = 0.05;
+    const std::string judged
+        = std::abs(context.energy_residual()) > useless
+              ? "Do not use the result: forces have done work that nothing "
+                "accounts for. "
+              : "Equilibria and what has come to rest can be used; motion, "
+                "peaks and what is left of energy only if they stay the same "
+                "with smaller steps. ";
+    if (system.implicit_solver)
+      return judged
+             + "Halve 'Largest step' in section 'Implicit', which follows "
+               "loads and joints more closely, and compare.";
+    return judged + "Halve 'Share of critical time step' and compare"
+           + (dim == 3 || system.model->parameters().large_displacements
+                  ? "."
+                  : "; blocks that turn or slide far need 'Displacements = "
+                    "large' in section 'Contact'.");
+  }
+
+  template <int dim>
   Problem::ClosingLines
   BlockProblem<dim>::closing_lines(const nlohmann::json &summary) const
   {
@@ -426,14 +449,9 @@ namespace quoin
     constexpr double largest = 1e-3;
     const double residual    = context.energy_residual();
     if (std::abs(residual) > largest)
-      run.log.warning(
-          "the energy balance error is ", 100. * residual,
-          " % of the energy throughput, more than 0.1 %. Compare with a run "
-          "with half the 'Share of critical time step'",
-          dim == 3 || system.model->parameters().large_displacements
-              ? "."
-              : "; blocks that turn or slide far need 'Displacements = large' "
-                "in section 'Contact'.");
+      run.log.warning("the energy balance error is ", 100. * residual,
+                      " % of the energy throughput, more than 0.1 %. ",
+                      residual_advice());
     /** Largest energy that changing areas and normals of contacts may take or
         give, by the energy throughput. */
     constexpr double largest_of_contacts = 0.05;

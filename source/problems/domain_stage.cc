@@ -48,7 +48,7 @@ namespace quoin
       Checkpoint take_step() override
       {
         rows.empty() ? sample() : write_histories();
-        return Checkpoint::no;
+        return Checkpoint::kept;
       }
       ProgressFigures figures() const override;
       void end() override

@@ -14,6 +14,7 @@ namespace quoin
   {
     run.log.message(parameters.title.empty() ? parameters.file
                                              : parameters.title);
+    run.log.warnings(parameters.warnings);
     report_model();
     // Costs are not measured if they are not shown.
     if (run.options.check && !run.options.quiet)

@@ -5,6 +5,7 @@
 #include <quoin/model/model_box.h>
 #include <quoin/problems/block_stage.h>
 #include <quoin/results/atomic_file.h>
+#include <quoin/results/interruption.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,6 +69,9 @@ namespace quoin
       /** Whether a failure may come from joints that chatter under adaptive
           damping, so that a trial with local damping must confirm it. */
       bool needs_confirmation() const;
+      /** Looks whether a signal asks the run to end, which gives up the trial:
+          a resumed run begins it anew. Collective. */
+      bool is_interrupted();
       /** Displacement beyond which a trial may fail [m]; collective. */
       double failure_displacement() const;
       /** Largest one since the start of the stage [m]; collective. */
@@ -78,12 +82,18 @@ namespace quoin
       const State<2> base;
       const Energies energies = system.solver->energies(); /**< at its start */
       ModelProperties strong;
-      double raised = 1.; /**< their strength by that of the parameters */
+      double raised    = 1.;    /**< their strength by that of the parameters */
+      bool interrupted = false; /**< the present trial */
     };
 
     Stage::Checkpoint SafetyStage::take_step()
     {
       const SafetyTrial trial = try_factor(search.next(safety));
+      if (interrupted)
+      {
+        state = base;
+        return Checkpoint::kept;
+      }
       log.message("stage ", stage.name, ": factor ", trial.factor, " is ",
                   verdict_text(trial.verdict), " after ", trial.n_steps,
                   " steps, largest displacement ", trial.displacement, " m");
@@ -126,7 +136,8 @@ namespace quoin
         find_equilibrium(trial);
       else
         come_to_rest(stage, trial);
-      if (trial.verdict != Verdict::stable && needs_confirmation())
+      if (trial.verdict != Verdict::stable && !interrupted
+          && needs_confirmation())
       {
         log.message("stage ", stage.name, ": factor ", factor, " is ",
                     verdict_text(trial.verdict),
@@ -139,6 +150,8 @@ namespace quoin
         begin_trial(local);
         come_to_rest(local, trial);
       }
+      if (interrupted)
+        return trial;
       context.run.progress.finish(figures());
       trial.n_steps += state.stage_step;
       trial.unbalanced_ratio = state.unbalanced_ratio;
@@ -152,6 +165,14 @@ namespace quoin
       return system.explicit_solver && stage.damping == DampingType::adaptive
              && (system.nodes->faces().n_global_joints > 0
                  || system.solver->contacts());
+    }
+
+    bool SafetyStage::is_interrupted()
+    {
+      interrupted = dealii::Utilities::MPI::max(Interruption::received(),
+                                                context.run.communicator)
+                    != 0;
+      return interrupted;
     }
 
     void SafetyStage::come_to_rest(const StageParameters &variant,
@@ -191,7 +212,7 @@ namespace quoin
           else if (share >= 1. && has_settled())
             trial.verdict = Verdict::stable;
           if (trial.verdict != Verdict::undecided
-              || state.stage_step >= stage.maximum_steps)
+              || state.stage_step >= stage.maximum_steps || is_interrupted())
             return;
           if (context.run.progress.due())
             context.run.progress.update(figures());
@@ -230,6 +251,8 @@ namespace quoin
       {
         while (!solver.has_ended(state))
         {
+          if (is_interrupted())
+            return;
           solver.step(state);
           outputs.write_iterations();
           solver.record().jumps.clear();

@@ -207,7 +207,8 @@ namespace quoin
     /** Checks that need no archive. */
     Manifest acceptable_manifest(const std::string &output_directory,
                                  const std::string &version,
-                                 const std::string &parameters)
+                                 const std::string &parameters,
+                                 const std::string &changes)
     {
       const fs::path root     = root_of(output_directory);
       const std::string where = "The checkpoint in '" + root.string() + "' ";
@@ -230,11 +231,11 @@ namespace quoin
                          + version + ": use that version or " + fresh);
       if (manifest.info.parameters != parameters)
         throw InputError(where
-                         + "belongs to other parameters than those of "
-                           "this run (compare used_parameters.prm), or to "
-                           "another mesh, table or record: use the same "
-                           "ones or "
-                         + fresh);
+                         + (changes.empty()
+                                ? std::string("belongs to another mesh, table "
+                                              "or record than that of this run")
+                                : "belongs to other parameters: " + changes)
+                         + ". Use the same ones or " + fresh);
       return manifest;
     }
   } // namespace
@@ -321,7 +322,8 @@ namespace quoin
   CheckpointInfo load_checkpoint_archives(
       const std::string &output_directory, const MPI_Comm communicator,
       const std::string &version, const std::string &parameters,
-      const std::function<void(std::streambuf &, const ArchiveOrigin &)> &read)
+      const std::function<void(std::streambuf &, const ArchiveOrigin &)> &read,
+      const std::string &changes)
   {
     int rank, n_ranks;
     MPI_Comm_rank(communicator, &rank);
@@ -338,7 +340,8 @@ namespace quoin
         communicator,
         [&]()
         {
-          manifest = acceptable_manifest(output_directory, version, parameters);
+          manifest = acceptable_manifest(output_directory, version, parameters,
+                                         changes);
           for (unsigned int writer = rank; writer < manifest.archives.size();
                writer += n_ranks)
             examine(path_of(writer), manifest.archives[writer]);

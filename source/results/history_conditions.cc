@@ -5,6 +5,7 @@
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 
 #include <deal.II/base/function_parser.h>
 
@@ -12,7 +13,6 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <regex>
 #include <sstream>
 
@@ -30,33 +30,6 @@ namespace quoin
         result += is_digit_or_letter(c) ? c : '_';
       return !result.empty() && std::isdigit(result.front()) ? "_" + result
                                                              : result;
-    }
-
-    /** Fewest letters to insert, remove or replace between @p a and @p b. */
-    std::size_t edit_distance(const std::string &a, const std::string &b)
-    {
-      std::vector<std::size_t> row(b.size() + 1);
-      std::iota(row.begin(), row.end(), 0);
-      for (std::size_t i = 0; i < a.size(); ++i)
-      {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 0; j < b.size(); ++j)
-          diagonal = std::exchange(
-              row[j + 1], std::min({ row[j] + 1, row[j + 1] + 1,
-                                     diagonal + (a[i] == b[j] ? 0 : 1) }));
-      }
-      return row.back();
-    }
-
-    /** "a, b" of @p names, those like @p wanted first. */
-    std::string nearest_first(const std::string &wanted,
-                              std::vector<std::string> names)
-    {
-      std::stable_sort(
-          names.begin(), names.end(),
-          [&](const std::string &a, const std::string &b)
-          { return edit_distance(wanted, a) < edit_distance(wanted, b); });
-      return known_names(names);
     }
   } // namespace
 
@@ -97,7 +70,7 @@ namespace quoin
       const auto found = std::find(known.begin(), known.end(), name);
       if (found == known.end())
         throw InputError(begin + "but '" + name + "' is no history. Known are: "
-                         + nearest_first(name, known) + ".");
+                         + known_names(nearest_first(name, known)) + ".");
       if (std::count(known.begin(), known.end(), name) > 1)
         throw InputError(begin + "but '" + name
                          + "' may mean two of the histories, of the time and "

@@ -78,6 +78,9 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                             "Histories/turned/Second point=1, 1",
                             "Histories/open/Quantity=open joints"]),
             "sled": (common.SLED, []),
+            # forces by place, on faces between ranks
+            "moving load": (os.path.join(common.VERIFICATION, "moving_load",
+                                         "case.prm"), []),
             "couplet": (os.path.join(common.MASONRY, "couplet",
                                      "tension.prm"), []),
             # a column in each rank, and joints across it

@@ -198,6 +198,80 @@ def check_writes_nothing(quoin, folder):
         raise Failure("--check left behind %s" % ", ".join(sorted(stray)))
 
 
+def error_in_an_included_file(quoin, folder):
+    """The message names the file that is included, and the line there."""
+    prm = prepare(folder)
+    with open(os.path.join(folder, "inner.inc"), "w") as stream:
+        stream.write("# a comment\nsubsection Joints\n  subsection bed\n"
+                     "    set Cohesionn = 1e5\n  end\nend\n")
+    with open(os.path.join(folder, "outer.inc"), "w") as stream:
+        stream.write("set Title = x\ninclude inner.inc\n")
+    with open(prm) as stream:
+        text = stream.read()
+    with open(prm, "w") as stream:
+        stream.write("include outer.inc\n" + text)
+    status, printed = run([quoin, prm, "--check"])
+    expect(status, printed, 1, [
+        "inner.inc, line 4, section 'Joints/bed'", "Cohesionn",
+        "nearest known one is 'Cohesion'"])
+    # what comes after it is numbered as in its own file
+    status, printed = run([quoin, prm, "--check", "--set", "Title=y"])
+    with open(prm, "w") as stream:
+        stream.write("set Title = y\n" + text + "set Titel = z\n")
+    n = text.count("\n") + 2
+    status, printed = run([quoin, prm, "--check"])
+    expect(status, printed, 1, ["case.prm, line %d, section '/'" % n])
+    with open(prm, "w") as stream:
+        stream.write("include nothing.inc\n" + text)
+    status, printed = run([quoin, prm, "--check"])
+    expect(status, printed, 1, ["case.prm, line 1", "nothing.inc", "no file"])
+    with open(os.path.join(folder, "open.inc"), "w") as stream:
+        stream.write("subsection Joints\n")
+    with open(prm, "w") as stream:
+        stream.write("include open.inc\n" + text)
+    status, printed = run([quoin, prm, "--check"])
+    expect(status, printed, 1, ["open.inc", "'Joints' open"])
+    return printed
+
+
+def schema(quoin, folder):
+    """The schema has all entries of the reference, with type, unit, default
+    and range."""
+    status, printed = run([quoin, "--print-schema"])
+    expect(status, printed, 0, [])
+    schema = json.loads(printed)
+    groups = {"": schema["entries"]}
+    for section in schema["sections"]:
+        groups[section["name"]] = section["entries"]
+        groups[section["name"] + "/"] = section.get("each", [])
+    entries = [entry for group in groups.values() for entry in group]
+    reference = run([quoin, "--print-parameters"])[1]
+    names = re.findall(r"^ *set (.*?) *=", reference, re.M)
+    if sorted(names) != sorted(entry["name"] for entry in entries):
+        raise Failure("the schema has other entries than the reference")
+    for entry in entries:
+        if not {"name", "type", "default", "description"} <= set(entry):
+            raise Failure("incomplete: %s" % entry)
+    for group, wanted in (
+            ("", {"name": "Thickness", "type": "number", "above": 0.0,
+                  "unit": "m", "default": "1"}),
+            ("", {"name": "Solver", "type": "choice",
+                  "choices": ["explicit", "implicit"]}),
+            ("Output", {"name": "Checkpoint interval", "type": "number",
+                        "minimum": 0.0, "unit": "s", "default": "60"}),
+            ("Output", {"name": "Measure bandwidth", "type": "flag",
+                        "default": "no"}),
+            ("Time stepping", {"name": "Share of critical time step",
+                               "minimum": 1e-6, "maximum": 1.0, "unit": "-"}),
+            ("Loads", {"name": "Names", "type": "text", "default": ""}),
+            ("Loads/", {"name": "Boundary", "type": "list", "default": ""}),
+            ("Materials/", {"name": "Density", "type": "number",
+                            "unit": "kg/m^3"}),
+            ("Stages/", {"name": "Maximum steps", "type": "integer"})):
+        if not any(wanted.items() <= entry.items() for entry in groups[group]):
+            raise Failure("section '%s' has no entry %s" % (group, wanted))
+
+
 def no_arguments(quoin, folder):
     """No parameter file at all: how to call it."""
     status, printed = run([quoin])
@@ -349,7 +423,10 @@ def other_parameters(quoin, folder):
     expect(status, printed, 0, [])
     status, printed = run([quoin, prm, "--output", output, "--resume",
                            "--set", "Joints/bed/Friction angle=20"])
-    expect(status, printed, 1, ["parameters", "without --resume"])
+    expect(status, printed, 1, [
+        "'Joints/bed/Friction angle' was '30' and is '20'",
+        "without --resume"])
+    return printed
 
 
 def nothing_to_resume(quoin, folder):
@@ -862,7 +939,8 @@ def full_disk_on_two_ranks(quoin, folder):
     return fill_disk(quoin, folder, 2)
 
 
-FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing, no_arguments,
+FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing,
+             error_in_an_included_file, schema, no_arguments,
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
              no_number_at_the_end, runaway, reported_block, deleted_block,

@@ -67,6 +67,8 @@ KINDS = {
                  " --steps 2000 --ratios {what}"),
     "resume": ("quoin", "{tree}/tests/cases/resume.py --quoin {quoin} "
                "--only {what}"),
+    "interrupt": ("quoin", "{tree}/tests/cases/interrupt.py --quoin {quoin} "
+                  "--only {what}"),
     "other ranks": ("quoin", "{tree}/tests/cases/resume_ranks.py --quoin "
                     "{quoin} --only {what}"),
     "errors": ("quoin", "{tree}/tests/errors/errors.py --quoin {quoin} "
@@ -181,7 +183,8 @@ def group_of(test, known, cases):
             read(os.path.join(ROOT, "tests/errors/errors.py")), re.M))
         if not any(what in name for name in known_errors):
             raise Failure("errors.py has no test '%s'" % what)
-    script = {"resume": "resume.py", "other ranks": "resume_ranks.py"}.get(kind)
+    script = {"resume": "resume.py", "interrupt": "interrupt.py",
+              "other ranks": "resume_ranks.py"}.get(kind)
     if script and '    "%s' % what not in read(
             os.path.join(ROOT, "tests/cases", script)):
         raise Failure("%s has no case '%s'" % (script, what))
@@ -199,7 +202,8 @@ def wanted_groups(known, cases):
             text = name.endswith(".py") and read(
                 os.path.join(ROOT, "tests", kind, name))
             if text and "__main__" in text and name not in (
-                    "compare.py", "bracket.py", "resume.py", "resume_ranks.py",
+                    "compare.py", "bracket.py", "interrupt.py", "resume.py",
+                    "resume_ranks.py",
                     "hybrid_long_run.py", "wall_stability.py", "figures.py"):
                 groups.add("%s/%s" % (kind, name))
     return groups | {"unit tests on two ranks"} | (

@@ -8,7 +8,7 @@ namespace quoin
 {
   /**
    * The program quoin. Returns its exit status: 0 finished, 1 wrong input, 2
-   * the run failed.
+   * the run failed, 128 and the number of a signal: that has interrupted it.
    */
   int run_command_line(int argc, char **argv);
 } // namespace quoin

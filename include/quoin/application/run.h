@@ -23,13 +23,22 @@ namespace quoin
     Run(const Parameters &parameters, const RunOptions &options,
         MPI_Comm communicator);
 
-    /** Throws InputError or RunError. */
-    void run();
+    /** Returns the number of the signal that has interrupted the run; 0: none.
+        Throws InputError or RunError. */
+    int run();
 
   private:
     void open_outputs();
+    std::string used_parameters() const
+    {
+      return output + "/used_parameters.prm";
+    }
+    /** How the parameters differ from those that the folder's run used. */
+    std::string changed_parameters() const;
     void run_stage();
     void take_step();
+    /** Says that the signal @p received, if it is not 0, ends the run. */
+    void end_at(int received);
     void write_summary();
     void save_checkpoint();
     bool has_ended() const;
@@ -54,6 +63,7 @@ namespace quoin
 
     unsigned int stage_index = 0; /**< of the current or next stage */
     bool stage_begun         = false;
+    int signal               = 0;  /**< that ends the run; 0: none */
     double wall_time         = 0.; /**< of all steps [s] */
     double seconds           = 0.; /**< of the steps of this process [s] */
   };

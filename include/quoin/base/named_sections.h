@@ -36,6 +36,18 @@ namespace quoin
                       const std::string &file, dealii::ParameterHandler &names,
                       dealii::ParameterHandler &prm);
 
+  /**
+   * Declares the subsections of @p found of @p section that 'Names' in
+   * @p names does not list, whose values are read and not used. Returns a
+   * warning about each. Throws an InputError that begins with @p file about
+   * one that may be meant by a listed name that has no subsection.
+   */
+  std::vector<std::string>
+  declare_unlisted(const SectionEntries &section, const std::string &file,
+                   const std::vector<std::string> &found,
+                   dealii::ParameterHandler &names,
+                   dealii::ParameterHandler &prm);
+
   /** Declares a subsection NAME in each of @p sections, for a reference. */
   void declare_examples(const std::vector<SectionEntries> &sections,
                         dealii::ParameterHandler &prm);

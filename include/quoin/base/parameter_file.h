@@ -29,11 +29,23 @@ namespace quoin
      */
     void parse(dealii::ParameterHandler &prm, bool skip_undefined) const;
 
+    /** The names of the subsections that it has in @p section, in their order.
+     */
+    std::vector<std::string> subsections(const std::string &section) const;
+
   private:
     std::string file;
     std::string text;
     std::vector<std::string> overrides;
   };
+
+  /**
+   * What differs between two texts of the parameters of a run, as
+   * ParameterHandler prints them in short: "'Loads/push/Vertical' was '-1' and
+   * is '-2'", at most five of them; empty if nothing does.
+   */
+  std::string parameter_changes(const std::string &before,
+                                const std::string &now);
 } // namespace quoin
 
 #endif

@@ -29,7 +29,7 @@ namespace quoin
     std::shared_ptr<LoadPattern<dim>> pattern;
 
     /** Values of all of them but the release at @p load_time [s]. */
-    std::vector<std::array<double, 4>> values(double stage_start,
+    std::vector<std::array<double, 5>> values(double stage_start,
                                               double load_time) const;
     /**
      * Whether they have changed in the last @p duration of the stage [s], or

@@ -176,10 +176,11 @@ namespace quoin
 
   /**
    * Increment of a driven component between two times of the stage [m or
-   * degrees]: of a displacement the difference, of a velocity the integral.
+   * degrees]: of a displacement the difference, of a velocity the integral. The
+   * @p place counts if it differs from place to place.
    */
   double given_change(const LoadComponent &component, double from, double to,
-                      double stage_start);
+                      double stage_start, const dealii::Point<2> &place = {});
 } // namespace quoin
 
 #endif

@@ -10,6 +10,7 @@
 #include <quoin/loads/time_function.h>
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,10 +38,20 @@ namespace quoin
     displacement /**< since the stage began */
   };
 
+  class LoadField;
+  struct MovingShape;
+
   struct LoadComponent
   {
     LoadQuantity quantity = LoadQuantity::free;
+    /** Where it differs from place to place: a function that changes when it
+        does; of water the level. */
     TimeFunction value;
+    /** Value by place and time; null: it is the same everywhere. */
+    std::shared_ptr<const LoadField> field = nullptr;
+
+    /** Value at @p place in the mesh [m]. */
+    double at(const dealii::Point<3> &place, const TimePoint &time) const;
   };
 
   /** Values of the functions; zero for free components. */
@@ -79,6 +90,12 @@ namespace quoin
     /** Tractions and gravity: factor by which they differ from place to place,
         of the position in the mesh alone [-]; none: 1. */
     std::optional<SpaceTimeFunction> distribution;
+    /** Tractions: factor that travels along the boundary; null: 1. */
+    std::shared_ptr<const MovingShape> shape;
+
+    /** Whether tractions or motions differ from place to place, but for
+        'distribution'. */
+    bool differs_by_place() const;
 
     /** All functions of time: the components, lateral and pressure. */
     std::array<LoadComponent, 5> functions() const
@@ -100,6 +117,9 @@ namespace quoin
     std::array<double, 3> stress_gradient{}; /**< per metre of y [Pa/m] */
     /** zz at y = 0 [Pa] and its gradient [Pa/m]; none: nu (xx + yy). */
     std::optional<std::array<double, 2>> stress_zz;
+    /** xx, yy, xy [Pa] as functions of the place and, if it is one, zz; empty:
+        the numbers above. */
+    std::vector<SpaceTimeFunction> stress_fields;
     /** Stress by depth, instead of all of these. */
     std::optional<InSituStress> in_situ;
 

@@ -9,16 +9,21 @@
 #include <quoin/loads/load_parameters.h>
 #include <quoin/mesh/global_geometry.h>
 
+#include <memory>
 #include <vector>
 
 namespace quoin
 {
+  template <int dim>
+  class TractionField;
+
   /**
    * A traction or gravity: forces a(t) w_i on nodes i with fixed weights w_i,
    * the tributary area [m^2] (face_share()) or the mass [kg]. A
    * pressure adds p(t) n_i, with n_i the tributary area times the inward
    * normal. A distribution of the load is a factor of w_i and n_i by the
-   * position of the node in the mesh.
+   * position of the node in the mesh. Tractions that are functions of the place
+   * themselves, or have a moving shape, are integrated by a TractionField.
    * Tractions and pressures act on the reference area and keep their
    * direction.
    */
@@ -54,8 +59,10 @@ namespace quoin
     double external_power(const TimePoint &time,
                           const NodeVector<dim> *velocity) const override;
 
-    /** Traction x, y, z [Pa] or acceleration [m/s^2], and pressure [Pa]. */
-    std::array<double, 4> amplitude(const TimePoint &time) const;
+    /** Traction x, y, z [Pa] or acceleration [m/s^2], pressure [Pa] and place
+        of moving shapes [m]; where they differ from place to place, numbers
+        that change when they do. */
+    std::array<double, 5> amplitude(const TimePoint &time) const;
 
     const std::string &name() const
     {
@@ -66,6 +73,15 @@ namespace quoin
     void find_factors(const LoadParameters &parameters,
                       const NodeMap<dim> &node_map);
 
+    /** Takes over the integration of a load that differs by place. */
+    void make_field(const LoadParameters &parameters,
+                    const NodeMap<dim> &node_map,
+                    const std::vector<BoundaryFace<dim>> &faces,
+                    double thickness);
+
+    /** Null: the load does not differ by place, but for the distribution. */
+    std::shared_ptr<const TractionField<dim>> field;
+    std::shared_ptr<const MovingShape> shape;
     /** The distribution at each of its nodes; empty: 1. */
     std::vector<double> node_factors;
     std::string load_name;

@@ -5,6 +5,7 @@
 #define quoin_loads_space_time_function_h
 
 #include <quoin/base/eigen_core.h>
+#include <quoin/operators/step_context.h>
 
 #include <deal.II/base/point.h>
 
@@ -28,20 +29,30 @@ namespace quoin
 
     /**
      * Reads @p text, of x and y or, with @p dim = 3, of x, y and z. File names
-     * are relative to @p folder. Throws an InputError that says what is wrong,
-     * without naming section or parameter.
+     * are relative to @p folder. With @p of_stage the time t is that in the
+     * stage, and T, the total time, may stand in expressions without z. Throws
+     * an InputError that says what is wrong, without naming section or
+     * parameter.
      */
     SpaceTimeFunction(const std::string &text, const std::string &folder,
-                      unsigned int dim = 2);
+                      unsigned int dim = 2, bool of_stage = false);
 
-    /** Value at the position @p x [m] and the time @p t [s]. */
+    /** Whether the expression in @p text, which may be none, names x, y or z.
+     */
+    static bool names_place(const std::string &text);
+
+    /** Value at the position @p x [m] and the time [s]. */
+    double operator()(const dealii::Point<3> &x, const TimePoint &time) const
+    {
+      return evaluate(x, time);
+    }
     double operator()(const dealii::Point<3> &x, const double t) const
     {
-      return evaluate(x, t);
+      return evaluate(x, { t, t });
     }
     double operator()(const Eigen::Vector2d &x, const double t) const
     {
-      return evaluate({ x[0], x[1], 0. }, t);
+      return evaluate({ x[0], x[1], 0. }, { t, t });
     }
 
     /** Whether the value may differ between points. */
@@ -57,8 +68,8 @@ namespace quoin
     }
 
   private:
-    std::function<double(const dealii::Point<3> &, double)> evaluate
-        = [](const dealii::Point<3> &, double) { return 0.; };
+    std::function<double(const dealii::Point<3> &, const TimePoint &)> evaluate
+        = [](const dealii::Point<3> &, const TimePoint &) { return 0.; };
     bool on_place = false;
     bool on_time  = false;
   };

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
 namespace quoin
 {
@@ -37,6 +38,11 @@ namespace quoin
      * that says what is wrong, without naming section or parameter.
      */
     TimeFunction(const std::string &text, const std::string &folder);
+
+    explicit TimeFunction(std::function<double(const TimePoint &)> function)
+      : evaluate(std::move(function))
+    {
+    }
 
     /** Whether @p text begins like a table or a signal. */
     static bool is_named(const std::string &text);

@@ -79,6 +79,8 @@ namespace quoin
     std::string effective;
     /** Files of tables and records, relative to the working directory. */
     std::vector<std::string> time_files;
+    /** About what the file has and the run does not use. */
+    std::vector<std::string> warnings;
   };
 
   /**

@@ -46,6 +46,9 @@ namespace quoin
     void summarise_time(nlohmann::json &summary, double seconds) const;
     void summarise_contacts(nlohmann::json &summary, double seconds) const;
     void summarise_bandwidth(nlohmann::json &summary, double seconds) const;
+    /** Whether a result with a large energy residual can be used, and what to
+        change. */
+    std::string residual_advice() const;
 
     /** Archives what a resumed run needs, @p archived in place of state. */
     template <typename Archive>

@@ -79,6 +79,8 @@ namespace quoin
     enum class Checkpoint
     {
       no,
+      kept,     /**< the last one is where a resumed run begins: the run may
+                     end here */
       possible, /**< if it is due */
       wanted
     };

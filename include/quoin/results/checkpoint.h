@@ -60,13 +60,16 @@ namespace quoin
    * Collective. Checks the archives that save_checkpoint_archives() wrote and
    * gives them to @p read: to each rank its own or, if the number of ranks
    * differs, to each rank all of them in turn, that of the highest rank first.
+   * @p changes: how the parameters differ from those of the run that wrote
+   * them, for the message if their fingerprints do.
    *
    * @throws InputError on all ranks, as load_checkpoint()
    */
   CheckpointInfo load_checkpoint_archives(
       const std::string &output_directory, const MPI_Comm communicator,
       const std::string &version, const std::string &parameters,
-      const std::function<void(std::streambuf &, const ArchiveOrigin &)> &read);
+      const std::function<void(std::streambuf &, const ArchiveOrigin &)> &read,
+      const std::string &changes = "");
 
   /**
    * Collective. Writes @p data of every rank as a binary archive

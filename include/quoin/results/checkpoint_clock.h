@@ -5,6 +5,7 @@
 #define quoin_results_checkpoint_clock_h
 
 #include <quoin/base/wall_clock.h>
+#include <quoin/results/interruption.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -12,12 +13,13 @@
 
 namespace quoin
 {
-  /** Tells when the next checkpoint is due. */
+  /** Tells when the next checkpoint is due, and that a signal asks the run to
+      end. */
   class CheckpointClock
   {
   public:
-    /** Short steps between readings of the clock, which are collective and cost
-        more with more ranks. */
+    /** Short steps between looks, which are collective and cost more with more
+        ranks. */
     static constexpr std::uint64_t steps_between_looks = 16;
 
     /** @p interval: from one checkpoint to the next [s]; 0: none is due. */
@@ -32,12 +34,22 @@ namespace quoin
       last = WallClock::now();
     }
 
-    /** Collective: the first rank's clock counts for all. */
-    bool is_due() const
+    /** What all ranks have to know. */
+    struct Look
     {
-      return interval > 0.
-             && dealii::Utilities::MPI::broadcast(
-                 communicator, seconds_since(last) > interval);
+      bool is_due = false; /**< a checkpoint */
+      int signal  = 0;     /**< that a rank has received; 0: none */
+    };
+    /** Collective: the first rank's clock counts for all, and a signal to any
+        of them. */
+    Look look() const
+    {
+      const bool is_due
+          = dealii::Utilities::MPI::this_mpi_process(communicator) == 0
+            && interval > 0. && seconds_since(last) > interval;
+      int values[2] = { is_due, Interruption::received() };
+      MPI_Allreduce(MPI_IN_PLACE, values, 2, MPI_INT, MPI_MAX, communicator);
+      return { values[0] != 0, values[1] };
     }
 
   private:

@@ -3,6 +3,7 @@
 
 #include "boundary_square.h"
 
+#include <quoin/loads/load_field.h>
 #include <quoin/loads/prescribed_motion.h>
 
 #include <gtest/gtest.h>
@@ -68,6 +69,24 @@ TEST(PrescribedMotion, ADisplacementMovesByItsChange)
   square.move(motion);
   EXPECT_NEAR(square.state.velocity[1].v[0], 2., 1e-9);
   EXPECT_NEAR(square.state.nodes[1].u[0], 2. * square.dt, 1e-12);
+}
+
+// By the place in the mesh: at heights of 2 m and 3 m, whatever has moved.
+TEST(PrescribedMotion, AVelocityByPlace)
+{
+  BoundarySquare square;
+  LoadParameters parameters      = to_the_right(LoadQuantity::velocity, "0");
+  parameters.components[0].field = std::make_shared<LoadField>(
+      SpaceTimeFunction("y * (10 + 1000 * t)", "./", 3, true));
+  PrescribedMotion<2> motion(parameters, square.nodes);
+  square.state.nodes[2].u[1] = 0.5;
+  square.capture(motion,
+                 std::vector<NodeVector<2>>(4, NodeVector<2>{ { 0., 0. } }));
+  square.move(motion);
+  EXPECT_DOUBLE_EQ(square.state.velocity[1].v[0], 21.);
+  EXPECT_DOUBLE_EQ(square.state.velocity[2].v[0], 31.5);
+  const LoadComponent &part = (*motion.parts())[0];
+  EXPECT_NE(part.value({ 0., 0. }), part.value({ 1., 1. }));
 }
 
 // Where another load moves a component later, the work is that load's.

@@ -6,6 +6,7 @@
 
 #include <quoin/parameters/parameters.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
 
 using namespace quoin;
 
@@ -284,8 +285,41 @@ TEST(Parameters, UnknownParameter)
   expect_refused(with("set Density = 1900", "set Densty = 1900"),
                  { "Materials", "brick", "Densty" });
   expect_refused(with("subsection Output", "subsection Outpt"), { "Outpt" });
-  // A subsection that 'Names' does not list.
-  expect_refused(with("set Names = bed", "set Names ="), { "bed" });
+  // One that is listed by another name.
+  expect_refused(with("set Names = bed", "set Names = beds"),
+                 { "section 'Joints'", "'bed'", "'beds'", "alike" });
+}
+
+// What no name lists and no stage uses is left out, with a warning.
+TEST(Parameters, WhatIsNotUsed)
+{
+  const auto warnings = [](const std::string &from, const std::string &to)
+  { return Case(with(from, to)).read().warnings; };
+  EXPECT_TRUE(Case(good).read().warnings.empty());
+  const auto subsection = warnings("set Names = bed", "set Names =");
+  ASSERT_EQ(subsection.size(), 1U);
+  EXPECT_NE(subsection[0].find("section 'Joints': 'Names' does not list its "
+                               "subsection 'bed'"),
+            std::string::npos);
+  const auto load = warnings("set Loads = base, pull", "set Loads = base");
+  ASSERT_EQ(load.size(), 1U);
+  EXPECT_NE(load[0].find("load pull: no stage uses it"), std::string::npos);
+}
+
+TEST(Parameters, ImplausibleValues)
+{
+  const auto warning = [](const std::string &from, const std::string &to)
+  {
+    const auto all = Case(with(from, to)).read().warnings;
+    return all.size() == 1 ? all[0] : text_of(all.size(), " warnings");
+  };
+  EXPECT_EQ(warning("set Density = 1900", "set Density = 19"),
+            "material brick: 'Density = 19' kg/m^3 is far less than usual: as "
+            "a unit weight in kN/m^3 it would be 1937 kg/m^3. Check the unit.");
+  EXPECT_EQ(
+      warning("set Young's modulus = 16.7e9", "set Young's modulus = 16700"),
+      "material brick: 'Young's modulus = 1.67e+04' Pa is far less than "
+      "usual: in MPa it would be 1.67e+10 Pa. Check the unit.");
 }
 
 TEST(Parameters, WrongWord)
@@ -353,8 +387,6 @@ TEST(Parameters, LoadsAndStagesMustMatch)
 {
   expect_refused(with("set Loads = base, pull", "set Loads = base, push, pull"),
                  { "section 'Stages/shear'", "'push'" });
-  expect_refused(with("set Loads = base, pull", "set Loads = base"),
-                 { "section 'Loads/pull'", "no stage uses" });
 }
 
 TEST(Parameters, NamesMustDiffer)

@@ -175,7 +175,7 @@ TEST(Checkpoint, Refusals)
                   example_state(10));
   expect_mention(refusal(directory), "nothing was thrown");
   expect_mention(refusal(directory, "9.9.9"), "version 1.2.3 (test)");
-  expect_mention(refusal(directory, version, "other"), "other parameters");
+  expect_mention(refusal(directory, version, "other"), "another mesh");
 
   const std::string latest = directory / "checkpoint/latest";
   std::string manifest     = contents(latest);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_load_field_h
+#define quoin_loads_load_field_h
+
+#include <quoin/loads/space_time_function.h>
+#include <quoin/loads/time_function.h>
+
+#include <optional>
+#include <vector>
+
+namespace quoin
+{
+  /** Unit weight of water [N/m^3], 1000 kg/m^3 times 9.81 m/s^2. */
+  constexpr double weight_of_water = 9810.;
+
+  /**
+   * A value of a load that differs from place to place: a function of place and
+   * time; or the pressure of water at rest, its unit weight times the depth
+   * below a level that is a function of time, and 0 above it.
+   */
+  class LoadField
+  {
+  public:
+    explicit LoadField(const SpaceTimeFunction &function) : function(function)
+    {
+    }
+    /** Water up to the height @p level [m]. */
+    explicit LoadField(const TimeFunction &level) : water_level(level)
+    {
+    }
+
+    /** Value at @p place in the mesh [m], where the coordinate @p up is the
+        height. */
+    double operator()(const dealii::Point<3> &place, const TimePoint &time,
+                      unsigned int up) const;
+
+    /** The height of the water [m], if it is its pressure. */
+    const std::optional<TimeFunction> &level() const
+    {
+      return water_level;
+    }
+    /** Whether it is a function that may change in time. */
+    bool is_function_of_time() const
+    {
+      return function.depends_on_time();
+    }
+
+  private:
+    SpaceTimeFunction function;
+    std::optional<TimeFunction> water_level;
+  };
+
+  /**
+   * A function of time that changes when @p field does at one of @p places: a
+   * sum of the values there, each with a weight of its own.
+   */
+  TimeFunction mixture(const LoadField &field,
+                       const std::vector<dealii::Point<3>> &places,
+                       unsigned int up);
+
+  /**
+   * Shapes that travel along a coordinate s, one at each of the centres c(t).
+   * A shape is a factor of a traction, with the mean 1 over its width b: with
+   * u = |s - c| / b, 1 if it is uniform, 2 (1 - 2 u) if it is triangular, and
+   * 1 + cos(2 pi u) if it is a cosine, up to u = 1/2, and 0 beyond. Whatever
+   * the shape, the resultant is that of the traction over the width.
+   */
+  struct MovingShape
+  {
+    enum class Kind
+    {
+      none,
+      uniform,
+      triangular,
+      cosine
+    };
+    Kind kind         = Kind::none;
+    unsigned int axis = 0;  /**< of s: 0 is x */
+    double width      = 0.; /**< b [m] */
+    std::vector<TimeFunction> centres;
+
+    /** Places of the centres [m]. */
+    std::vector<double> at(const TimePoint &time) const;
+    /** The sum of the shapes at @p s [m] with @p centres there. */
+    double factor(double s, const std::vector<double> &centres) const;
+    /** Adds the places [m] at which factor() has a jump or a kink, and the
+        quarters of a cosine, between which it is nearly a polynomial. */
+    void add_kinks(const std::vector<double> &centres,
+                   std::vector<double> &places) const;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_loads_traction_field_h
+#define quoin_loads_traction_field_h
+
+#include <quoin/loads/load_parameters.h>
+#include <quoin/mesh/global_geometry.h>
+
+#include <array>
+#include <memory>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * Nodal forces of tractions and pressures that differ from place to place,
+   * f_i = integral of phi_i t over the faces. The functions phi_i are linear on
+   * a face, have the sum 1, and the shares of BoundaryFace are their means, so
+   * that the resultant of forces is that of the tractions, and with triangles
+   * or tetrahedra of degree 1 that of moments, too.
+   *
+   * A face in two dimensions is divided where a moving shape has a jump or a
+   * kink and at the level of water; each part has a Gauss rule of three points,
+   * which is exact for a traction of degree 4. In three dimensions a face has a
+   * rule of three points, exact for a linear traction, and is divided into 64
+   * such faces where one of these cuts it.
+   */
+  template <int dim>
+  class TractionField
+  {
+  public:
+    /** @p faces are those of all ranks. */
+    TractionField(const LoadParameters &parameters,
+                  const NodeMap<dim> &node_map,
+                  const std::vector<BoundaryFace<dim>> &faces,
+                  double thickness);
+
+    /** The local nodes that this rank owns. */
+    const std::vector<unsigned int> &nodes() const
+    {
+      return node_list;
+    }
+    /** The force on each of nodes() [N]; computed when it changes. */
+    const std::vector<NodeVector<dim>> &forces(const TimePoint &time) const;
+
+  private:
+    struct Face
+    {
+      std::array<dealii::Point<3>, dim> points;
+      std::array<unsigned int, dim> slots; /**< into nodes(), or none */
+      std::array<double, dim> shares;
+      dealii::Tensor<1, dim> outward; /**< normal times area [m^2] */
+    };
+    struct QuadraturePoint
+    {
+      std::array<double, dim> coordinates; /**< barycentric */
+      double weight;                       /**< sum 1 */
+    };
+    /** Where the traction has jumps and kinks: axis and coordinate. */
+    struct Cut
+    {
+      unsigned int axis;
+      double place; /**< [m] */
+    };
+
+    /** All that the forces depend on at @p time but for the place. */
+    std::vector<double> data_at(const TimePoint &time) const;
+    std::vector<Cut> cuts_at(const TimePoint &time) const;
+    void find_points(const Face &face, const std::vector<Cut> &cuts,
+                     std::vector<QuadraturePoint> &points) const;
+    /** Force on the block by the area [Pa] at a place of a face with this unit
+        normal. */
+    dealii::Tensor<1, dim> traction(const dealii::Point<3> &place,
+                                    const TimePoint &time,
+                                    const std::vector<double> &centres,
+                                    const dealii::Tensor<1, dim> &normal) const;
+
+    std::array<LoadComponent, 3> components;
+    LoadComponent pressure;
+    std::optional<SpaceTimeFunction> distribution;
+    std::shared_ptr<const MovingShape> shape;
+    std::vector<unsigned int> node_list;
+    std::vector<Face> faces;
+    // Of the time for which they were asked last.
+    mutable std::vector<double> last_data;
+    mutable std::vector<NodeVector<dim>> last_forces;
+  };
+
+  /** At most 16 places on @p faces, spread evenly over their list; the same on
+      all ranks. */
+  template <int dim>
+  std::vector<dealii::Point<3>>
+  sample_places(const std::vector<BoundaryFace<dim>> &faces);
+} // namespace quoin
+
+#endif

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_parameters_plausibility_h
+#define quoin_parameters_plausibility_h
+
+#include <quoin/parameters/parameters.h>
+
+namespace quoin
+{
+  /** Young's modulus below which no stone, brick or soil is [Pa]. */
+  constexpr double softest_modulus = 1e6;
+
+  /**
+   * Warnings about values that are allowed but far from those of all rocks,
+   * bricks, mortars, concretes and soils, with the unit that was likely meant:
+   * of materials, joints, gravity and the thickness. @p top is the file of
+   * @p parameters.
+   */
+  std::vector<std::string> implausible_values(const ParameterSection &top,
+                                              const Parameters &parameters);
+} // namespace quoin
+
+#endif

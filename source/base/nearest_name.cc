@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/nearest_name.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace quoin
+{
+  std::size_t edit_distance(const std::string &a, const std::string &b)
+  {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), 0);
+    for (std::size_t i = 0; i < a.size(); ++i)
+    {
+      std::size_t diagonal = row[0]++;
+      for (std::size_t j = 0; j < b.size(); ++j)
+        diagonal = std::exchange(
+            row[j + 1], std::min({ row[j] + 1, row[j + 1] + 1,
+                                   diagonal + (a[i] == b[j] ? 0 : 1) }));
+    }
+    return row.back();
+  }
+
+  std::vector<std::string> nearest_first(const std::string &wanted,
+                                         std::vector<std::string> names)
+  {
+    std::stable_sort(
+        names.begin(), names.end(),
+        [&](const std::string &a, const std::string &b)
+        { return edit_distance(wanted, a) < edit_distance(wanted, b); });
+    return names;
+  }
+} // namespace quoin

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/constants.h>
+#include <quoin/base/finite_numbers.h>
+#include <quoin/base/number_text.h>
+#include <quoin/parameters/plausibility.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace quoin
+{
+  namespace
+  {
+    /** Values between which nearly all are, and what others may mean. */
+    struct Range
+    {
+      std::string name;
+      double low, high;
+      std::string unit;
+      /** "in GPa it would be 8e9 Pa", of a value beyond the range; or empty. */
+      std::function<std::string(double)> meant;
+    };
+
+    std::string meant_density(const double value)
+    {
+      constexpr double gravity = 9.81;
+      if (value > 0.5 && value < 12.)
+        return text_of("in t/m^3 it would be ", 1e3 * value, " kg/m^3");
+      if (value >= 12. && value < 40.)
+        return text_of("as a unit weight in kN/m^3 it would be ",
+                       1e3 * value / gravity, " kg/m^3");
+      if (value > 12e3 && value < 40e3)
+        return text_of("as a unit weight in N/m^3 it would be ",
+                       value / gravity, " kg/m^3");
+      return "";
+    }
+
+    std::string meant_modulus(const double value)
+    {
+      if (value >= 0.01 && value < 1e3)
+        return text_of("in GPa it would be ", 1e9 * value, " Pa");
+      if (value >= 1e3 && value < softest_modulus)
+        return text_of("in MPa it would be ", 1e6 * value, " Pa");
+      return "";
+    }
+
+    std::string meant_angle(const double value)
+    {
+      return text_of("as a coefficient of friction it would be an angle of ",
+                     std::atan(value) / constants::degree, " degrees");
+    }
+
+    std::string meant_strength(const double value)
+    {
+      return value >= 0.01 ? text_of("in kPa it would be ", 1e3 * value,
+                                     " Pa, in MPa ", 1e6 * value, " Pa")
+                           : "";
+    }
+
+    const Range density{ "Density", 100., 12e3, "kg/m^3", meant_density };
+    const Range modulus{ "Young's modulus", softest_modulus, 2e12, "Pa",
+                         meant_modulus };
+    const Range friction{ "Friction angle", 2., 90., "degrees", meant_angle };
+    constexpr double weakest = 100.; // [Pa]
+    const Range cohesion{ "Cohesion", weakest, 1e10, "Pa", meant_strength };
+    const Range tension{ "Tensile strength", weakest, 1e10, "Pa",
+                         meant_strength };
+    const Range thickness{ "Thickness", 1e-3, 50., "m", [](const double value) {
+                            return text_of("in mm it would be ", 1e-3 * value,
+                                           " m");
+                          } };
+
+    /** Adds a warning if the value of @p range in @p section, which is called
+        @p where, is beyond it, but for 0 and words. */
+    void check(const ParameterSection &section, const std::string &where,
+               const Range &range, std::vector<std::string> &warnings)
+    {
+      const auto values = finite_numbers({ section.text(range.name) });
+      if (values.size() != 1 || values[0] == 0.
+          || (values[0] >= range.low && values[0] <= range.high))
+        return;
+      const std::string meant = range.meant(values[0]);
+      warnings.push_back(
+          text_of(where, "'", range.name, " = ", values[0], "' ", range.unit,
+                  values[0] < range.low ? " is far less" : " is far more",
+                  " than usual", meant.empty() ? "" : ": ", meant,
+                  ". Check the unit."));
+    }
+
+    /** Whether @p load is a weight that acts upwards all the time. */
+    bool acts_upwards(const LoadParameters &load)
+    {
+      const LoadComponent &vertical = load.components[1];
+      const double times[]          = { 0., 0.37, 41., late_time };
+      return load.type == LoadType::gravity
+             && vertical.quantity != LoadQuantity::free
+             && std::all_of(std::begin(times), std::end(times),
+                            [&](const double t) {
+                              return vertical.value({ t, t }) > 0.;
+                            });
+    }
+  } // namespace
+
+  std::vector<std::string> implausible_values(const ParameterSection &top,
+                                              const Parameters &parameters)
+  {
+    std::vector<std::string> warnings;
+    if (!parameters.is_boundary_model)
+      check(top, "", thickness, warnings);
+    {
+      const ParameterSection section(top, "Materials");
+      for (const MaterialParameters &material : parameters.model.materials)
+      {
+        const std::string where = "material " + material.name + ": ";
+        const ParameterSection own(section, material.name);
+        check(own, where, density, warnings);
+        if (!material.rigid)
+          check(own, where, modulus, warnings);
+        for (const Range *range : { &cohesion, &friction, &tension })
+          check(own, where, *range, warnings);
+      }
+    }
+    {
+      const ParameterSection section(top, "Joints");
+      for (const JointSetParameters &set : parameters.model.joints)
+      {
+        const ParameterSection own(section, set.name);
+        for (const Range *range : { &cohesion, &friction, &tension })
+          check(own, "joints " + set.name + ": ", *range, warnings);
+      }
+    }
+    for (const LoadParameters &load : parameters.loads)
+      if (acts_upwards(load))
+        warnings.push_back("load " + load.name
+                           + ": gravity acts upwards. Give 'Vertical' a minus "
+                             "sign, such as -9.81, unless that is meant.");
+    return warnings;
+  }
+} // namespace quoin

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../base/section_text.h"
+#include "../mesh/test_nodes.h"
+
+#include <quoin/loads/load_field.h>
+#include <quoin/loads/nodal_load.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace quoin;
+using quoin::test::TestNodes;
+
+namespace
+{
+  constexpr double thickness = 0.5;
+
+  /** A block of 3 m by 1 m in two triangles, with curves "right" and "top". */
+  struct Rectangle
+  {
+    const BlockMesh<2> mesh = block();
+    const TestNodes nodes{ mesh };
+
+    static BlockMesh<2> block()
+    {
+      BlockMesh<2> result;
+      result.vertices   = { { 0., 0. }, { 3., 0. }, { 3., 1. }, { 0., 1. } };
+      result.cells      = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
+      result.cell_group = { 0, 0 };
+      result.block_first_cell   = { 0, 2 };
+      result.block_first_vertex = { 0, 4 };
+      result.group_names        = { "rock" };
+      result.face_names         = { "", "right", "top" };
+      for (const unsigned int k : { 0U, 1U, 2U, 3U })
+        result.boundary_faces.push_back(
+            { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k == 3 ? 0U : k });
+      return result;
+    }
+
+    NodalLoad<2> load(const std::string &text) const
+    {
+      return { read_named_section<LoadParameters>(
+                   "push", "set Type = traction\n" + text),
+               nodes, std::vector<double>(4, 1.), thickness };
+    }
+  };
+
+  /** Forces on the four nodes, their resultant and moment about the origin. */
+  struct Forces
+  {
+    Forces(const Rectangle &rectangle, const NodalLoad<2> &load,
+           const TimePoint &time)
+      : at(4, NodeVector<2>{ { 0., 0. } })
+    {
+      load.add_forces(time, at.data());
+      for (unsigned int i = 0; i < 4; ++i)
+      {
+        const auto &p = rectangle.mesh.vertices[i];
+        x += at[i].v[0];
+        y += at[i].v[1];
+        moment += p[0] * at[i].v[1] - p[1] * at[i].v[0];
+      }
+    }
+    std::vector<NodeVector<2>> at;
+    double x = 0., y = 0., moment = 0.;
+  };
+} // namespace
+
+// gamma h^2 / 2 at a third of the depth, and the rectangle beyond the top.
+TEST(TractionField, WaterAtRestHasItsResultantAndMoment)
+{
+  const Rectangle rectangle;
+  const NodalLoad<2> load = rectangle.load("set Boundary = right\n"
+                                           "set Pressure = water 0.4 + t\n");
+  for (const double level : { 0.4, 0.7, 1., 2.5 })
+  {
+    const Forces forces(rectangle, load, { level - 0.4, 77. });
+    const double above = std::max(level - 1., 0.), below = level - above;
+    const double force
+        = weight_of_water * thickness * (0.5 * below * below + above * below);
+    const double moment
+        = weight_of_water * thickness
+          * (below * below * below / 6. + 0.5 * above * below * below);
+    EXPECT_NEAR(forces.x, -force, 1e-11 * force);
+    EXPECT_NEAR(forces.y, 0., 1e-11 * force);
+    EXPECT_NEAR(forces.moment, moment, 1e-11 * force);
+  }
+  EXPECT_EQ(Forces(rectangle, load, { -0.5, 0. }).x, 0.);
+  EXPECT_NE(load.amplitude({ 0., 0. }), load.amplitude({ 1., 1. }));
+}
+
+// The consistent forces of q = (2 + 3 x) t: those of its two end values.
+TEST(TractionField, FunctionOfPlaceAndTime)
+{
+  const Rectangle rectangle;
+  const NodalLoad<2> load
+      = rectangle.load("set Boundary = top\n"
+                       "set Vertical = -(2 + 3*x) * t\n"
+                       "set Horizontal = 5 * (T - t) * y\n");
+  const Forces forces(rectangle, load, { 4., 10. });
+  const double left = 4. * 2., right = 4. * 11.;
+  EXPECT_NEAR(forces.at[3].v[1], -thickness * 3. * (left / 3. + right / 6.),
+              1e-12);
+  EXPECT_NEAR(forces.at[2].v[1], -thickness * 3. * (left / 6. + right / 3.),
+              1e-12);
+  EXPECT_NEAR(forces.x, thickness * 3. * 5. * 6., 1e-12);
+  EXPECT_EQ(forces.at[0].v[1], 0.);
+
+  // Power of a node that moves alone.
+  std::vector<NodeVector<2>> velocity(4, NodeVector<2>{ { 0., 0. } });
+  velocity[2].v[1] = 2.;
+  EXPECT_NEAR(load.external_power({ 4., 10. }, velocity.data()),
+              2. * forces.at[2].v[1], 1e-12);
+  EXPECT_NE(load.amplitude({ 4., 10. }), load.amplitude({ 4.1, 10.1 }));
+}
+
+// The force is traction times width times thickness, and acts at the centre,
+// whatever the shape; what has not come upon the boundary does not act.
+TEST(TractionField, MovingShapesHaveTheirResultantEverywhere)
+{
+  const Rectangle rectangle;
+  for (const std::string shape : { "uniform", "triangular", "cosine" })
+  {
+    const NodalLoad<2> load
+        = rectangle.load("set Boundary = top\nset Vertical = -7\n"
+                         "set Moving width = 0.6\n"
+                         "set Moving centre = -1 + 2*t\nset Moving shape = "
+                         + shape + "\n");
+    const double force = 7. * 0.6 * thickness;
+    const double error = shape == "cosine" ? 1e-5 : 1e-13;
+    for (const double centre : { 0.31, 0.7, 1.234567, 2.69 })
+    {
+      const Forces forces(rectangle, load, { 0.5 * (centre + 1.), 0. });
+      EXPECT_NEAR(forces.y, -force, error * force) << shape << centre;
+      EXPECT_NEAR(forces.moment, -force * centre, 3. * error * force)
+          << shape << centre;
+      EXPECT_EQ(forces.x, 0.);
+    }
+    EXPECT_EQ(Forces(rectangle, load, { 0., 0. }).y, 0.);
+    EXPECT_NEAR(Forces(rectangle, load, { 0.5, 0. }).y, -0.5 * force,
+                error * force);
+    EXPECT_EQ(Forces(rectangle, load, { 3., 0. }).y, 0.);
+    // It changes as long as it moves.
+    EXPECT_NE(load.amplitude({ 0., 0. }), load.amplitude({ 1e-3, 0. }));
+  }
+}
+
+TEST(TractionField, SeveralAxlesMoveTogether)
+{
+  const Rectangle rectangle;
+  const NodalLoad<2> load
+      = rectangle.load("set Boundary = top\nset Vertical = -7\n"
+                       "set Moving width = 0.2\nset Moving shape = uniform\n"
+                       "set Moving centre = t; t + 1\n"
+                       "set Distribution = 1 + x\n");
+  const Forces forces(rectangle, load, { 0.5, 0. });
+  const double force = 7. * 0.2 * thickness;
+  EXPECT_NEAR(forces.y, -force * (1.5 + 2.5), 1e-13);
+}
+
+TEST(TractionField, InitialStressByPlace)
+{
+  const auto load = read_named_section<LoadParameters>(
+      "ground", "set Type = initial stress\n"
+                "set Stress = 1e3*x; -2e3*y*y; 5\nset Stress zz = 7*x*y\n");
+  const auto stress = load.initial_stress(2., 3., 0.25);
+  EXPECT_EQ(stress[0], 2e3);
+  EXPECT_EQ(stress[1], -18e3);
+  EXPECT_EQ(stress[2], 5.);
+  EXPECT_EQ(stress[3], 42.);
+}
+
+TEST(TractionField, WrongText)
+{
+  const auto refused = [](const std::string &text, const std::string &setting,
+                          const std::string &why)
+  {
+    expect_section_refused(
+        "push", setting + "' ", why,
+        [&] { read_named_section<LoadParameters>("push", text); });
+  };
+  const std::string top = "set Type = traction\nset Boundary = top\n";
+  refused(top + "set Vertical = x + z*T\n", "Vertical = x + z*T",
+          "both z and T");
+  refused(top + "set Vertical = x + q\n", "Vertical = x + q",
+          "x, y, z, t and T");
+  refused(top + "set Pressure = water y\n", "Pressure = water y",
+          "differs from place to place");
+  refused(top + "set Vertical = 1\nset Moving shape = cosine\n",
+          "Moving centre = ", "2 + 10*t");
+  refused(top
+              + "set Vertical = 1\nset Moving shape = cosine\n"
+                "set Moving centre = t\n",
+          "Moving width = 0", "must be positive");
+  refused(top + "set Vertical = 1\nset Moving centre = t\n",
+          "Moving centre = t", "has no effect with 'Moving shape = none'");
+  refused("set Type = gravity\nset Vertical = -9.81*y\n", "Vertical = -9.81*y",
+          "'Distribution'");
+  refused("set Type = initial stress\nset Stress = x; y\n", "Stress = x; y",
+          "three expressions");
+  refused("set Type = initial stress\nset Stress = x; y; t\n",
+          "Stress = x; y; t", "depends on time");
+}
