@@ -100,10 +100,12 @@ namespace quoin
     /** Cells and blocks beside the joints of a set. */
     struct Neighbours
     {
-      bool exist           = false;
-      double stiffest_cell = 0.;       /**< E by shortest edge [Pa/m] */
-      double softest_block = infinity; /**< E by size of the block [Pa/m] */
-      double softest       = infinity; /**< E [Pa] */
+      bool exist            = false;
+      double stiffest_cell  = 0.;       /**< E by shortest edge [Pa/m] */
+      double softest_block  = infinity; /**< E by size of the block [Pa/m] */
+      double stiffest_block = 0.;       /**< the same */
+      unsigned int softest_material = 0;
+      double softest                = infinity; /**< E [Pa] */
     };
 
     /** Collective. */
@@ -116,6 +118,7 @@ namespace quoin
       const NodeMap<2> &nodes = model.nodes();
       const auto sizes        = block_sizes(nodes);
       Neighbours result;
+      std::vector<double> softest(materials.size(), infinity);
       for (const JointNodes<2> &face : nodes.faces().joints)
       {
         if (!is_in_set(face, set, model.nodes().table()))
@@ -127,10 +130,10 @@ namespace quoin
           if (!face.is_own[side]
               || materials[model.material_of_cell(cell)].rigid)
             continue;
-          const double young
-              = materials[model.material_of_cell(cell)].elastic.young;
-          const auto &corners = nodes.cells().nodes[cell];
-          double shortest     = infinity;
+          const unsigned int material = model.material_of_cell(cell);
+          const double young          = materials[material].elastic.young;
+          const auto &corners         = nodes.cells().nodes[cell];
+          double shortest             = infinity;
           for (unsigned int k = 0; k < 3; ++k)
             shortest = std::min(
                 shortest, nodes.point(corners[k])
@@ -138,16 +141,45 @@ namespace quoin
           result.softest = std::min(result.softest, young);
           result.stiffest_cell
               = std::max(result.stiffest_cell, young / shortest);
-          result.softest_block = std::min(result.softest_block,
-                                          young / sizes[face.blocks[side]]);
+          const double by_block = young / sizes[face.blocks[side]];
+          softest[material]     = std::min(softest[material], by_block);
+          result.stiffest_block = std::max(result.stiffest_block, by_block);
         }
       }
-      const MPI_Comm all   = nodes.communicator();
-      result.exist         = MPI::logical_or(result.exist, all);
-      result.stiffest_cell = MPI::max(result.stiffest_cell, all);
-      result.softest_block = MPI::min(result.softest_block, all);
-      result.softest       = MPI::min(result.softest, all);
+      const MPI_Comm all    = nodes.communicator();
+      result.exist          = MPI::logical_or(result.exist, all);
+      result.stiffest_cell  = MPI::max(result.stiffest_cell, all);
+      result.stiffest_block = MPI::max(result.stiffest_block, all);
+      result.softest        = MPI::min(result.softest, all);
+      MPI::min(softest, all, softest);
+      const auto least     = std::min_element(softest.begin(), softest.end());
+      result.softest_block = *least;
+      result.softest_material = least - softest.begin();
       return result;
+    }
+
+    /** Warns of a material whose blocks are too soft for the implicit solver
+        beside joints of normal stiffness @p kn that do for other blocks: by
+        more than @p limit times their E/L. Whether it does. */
+    bool check_soft_block(const JointSetParameters &set, const double kn,
+                          const double limit, const Neighbours &beside,
+                          const MaterialParameters &material, Advice &advice)
+    {
+      const bool is_soft = kn > limit * beside.softest_block
+                           && kn <= limit * beside.stiffest_block;
+      Checks(advice, "material " + material.name + ": ")
+          .warn_if(is_soft,
+                   "E/L of its softest block beside joints of the set ",
+                   set.name, " is ", beside.softest_block,
+                   " Pa/m, of which their normal stiffness, ", kn, " Pa/m, is ",
+                   kn / beside.softest_block, " times, and ",
+                   kn / beside.stiffest_block,
+                   " times that of other blocks: the block is soft, not the "
+                   "joints stiff, and the run may not come to its end. Check "
+                   "its Young's modulus, or give its joints a set of their own "
+                   "with ten times its E/L, ",
+                   10. * beside.softest_block, " Pa/m.");
+      return is_soft;
     }
 
     void check_joints(const Parameters &parameters, const Model<2> &model,
@@ -190,9 +222,15 @@ namespace quoin
             " times. Unless it was measured take some ten times E/h, ",
             10. * beside.stiffest_cell, " Pa/m.");
         const double by_block = kn / beside.softest_block;
+        const double limit    = is_brittle(set.law) ? slow_if_brittle : slow;
+        const bool is_block
+            = parameters.is_implicit && can_fail(set.law)
+              && check_soft_block(
+                  set, kn, limit, beside,
+                  parameters.model.materials[beside.softest_material], advice);
         checks.warn_if(
             parameters.is_implicit && can_fail(set.law) && by_block <= rigid
-                && by_block > (is_brittle(set.law) ? slow_if_brittle : slow),
+                && by_block > limit && !is_block,
             "the normal stiffness ", kn, " Pa/m is ", by_block,
             " times E/L of the softest block beside them: as one point fails "
             "the next ones take over all of its load within a hair's breadth, "

@@ -153,7 +153,7 @@ namespace quoin
   void NodalLoad<dim>::make_field(const LoadParameters &parameters,
                                   const NodeMap<dim> &node_map,
                                   const std::vector<BoundaryFace<dim>> &faces,
-                                  const double thickness)
+                                  const Thickness &thickness)
   {
     shape             = parameters.shape;
     const auto places = sample_places(faces);

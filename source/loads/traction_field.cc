@@ -42,7 +42,8 @@ namespace quoin
   template <int dim>
   TractionField<dim>::TractionField(
       const LoadParameters &parameters, const NodeMap<dim> &node_map,
-      const std::vector<BoundaryFace<dim>> &all_faces, const double thickness)
+      const std::vector<BoundaryFace<dim>> &all_faces,
+      const Thickness &thickness)
     : components(parameters.components), pressure(parameters.pressure),
       distribution(parameters.distribution), shape(parameters.shape)
   {
@@ -65,7 +66,7 @@ namespace quoin
           node_list.push_back(slot->first);
         face.slots[k] = slot->second;
       }
-      face.outward = thickness * outward_area(given.points);
+      face.outward = thickness[given.group] * outward_area(given.points);
       if (is_here)
         faces.push_back(face);
     }

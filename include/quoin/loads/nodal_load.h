@@ -77,7 +77,7 @@ namespace quoin
     void make_field(const LoadParameters &parameters,
                     const NodeMap<dim> &node_map,
                     const std::vector<BoundaryFace<dim>> &faces,
-                    double thickness);
+                    const Thickness &thickness);
 
     /** Null: the load does not differ by place, but for the distribution. */
     std::shared_ptr<const TractionField<dim>> field;

@@ -34,7 +34,7 @@ namespace quoin
     TractionField(const LoadParameters &parameters,
                   const NodeMap<dim> &node_map,
                   const std::vector<BoundaryFace<dim>> &faces,
-                  double thickness);
+                  const Thickness &thickness);
 
     /** The local nodes that this rank owns. */
     const std::vector<unsigned int> &nodes() const

@@ -184,10 +184,14 @@ TEST(InputAdvice, JointsAndMaterials)
   expect(parameters, "the run may not come to its end");
   law.normal_stiffness = 29. * 1e10 / std::sqrt(13.);
   EXPECT_EQ(advice(parameters), "");
-  law                    = CoulombLaw();
-  law.shear_stiffness    = 1e10;
-  parameters.is_implicit = false;
-  law.normal_stiffness   = 2e10;
+  // One block of two that is soft is what is named.
+  parameters.model.materials[1].elastic.young = 0.9e10;
+  expect(parameters, "material upper: E/L of its softest block");
+  parameters.model.materials[1].elastic.young = 1e10;
+  law                                         = CoulombLaw();
+  law.shear_stiffness                         = 1e10;
+  parameters.is_implicit                      = false;
+  law.normal_stiffness                        = 2e10;
   // A curve on the outside has no joint.
   parameters.model.joints.push_back(elastic_joint(1e10, 1e10, "sides"));
   expect(parameters, "act on nothing");
