@@ -200,6 +200,9 @@ namespace quoin
         if (load->type != LoadType::traction && load->type != LoadType::platen
             && !(load->type == LoadType::gravity && is_held))
           continue;
+        // Where a load that travels is at the start is not known here.
+        if (load->shape)
+          continue;
         Jump jump;
         for (unsigned int d = 0; d < 5 && jump.height == 0.; ++d)
           if (load->functions()[d].quantity == LoadQuantity::force)

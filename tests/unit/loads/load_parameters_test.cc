@@ -135,8 +135,8 @@ TEST(LoadParameters, RefusesWhatMakesNoSense)
   expect_refused("set Type = prescribed motion\nset Horizontal = 0\n",
                  "Boundary = ", "must name a physical curve");
   expect_refused("set Type = traction\nset Boundary = top\n"
-                 "set Horizontal = 2*x\n",
-                 "Horizontal = 2*x", "is no expression of t and T");
+                 "set Horizontal = 2*q\n",
+                 "Horizontal = 2*q", "is no expression of t and T");
   expect_refused("set Type = prescribed motion\nset Boundary = top\n"
                  "set Vertical = force 5\n",
                  "Vertical = force 5", "traction");

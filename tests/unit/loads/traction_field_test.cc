@@ -2,12 +2,15 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../base/section_text.h"
+#include "../mesh/space_box.h"
 #include "../mesh/test_nodes.h"
 
 #include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
 
+#include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
 using namespace quoin;
@@ -158,6 +161,57 @@ TEST(TractionField, SeveralAxlesMoveTogether)
   const Forces forces(rectangle, load, { 0.5, 0. });
   const double force = 7. * 0.2 * thickness;
   EXPECT_NEAR(forces.y, -force * (1.5 + 2.5), 1e-13);
+}
+
+// On the sides of a cube of 1 m: resultants, and the moments of a linear
+// traction; those that a face divides are exact to what its 64 parts resolve.
+TEST(TractionField, InThreeDimensions)
+{
+  BlockMesh<3> mesh = quoin::test::box_mesh({ 2, 2, 2 }, 0.5);
+  const BlockTriangulation<3> blocks(
+      mesh, std::vector<unsigned int>(mesh.n_cells(), 0), { false },
+      MPI_COMM_SELF);
+  const NodeMap<3> nodes(blocks);
+  // Sums of f, and of x f_z, y f_z and z f_x.
+  const auto sums = [&](const std::string &text)
+  {
+    const auto parameters = read_named_section<LoadParameters>(
+        "push", "set Type = traction\n" + text);
+    const NodalLoad<3> load(parameters.along_axes<3>(), nodes,
+                            std::vector<double>(nodes.n_owned(), 1.), 1.);
+    std::vector<NodeVector<3>> force(nodes.n_local(), NodeVector<3>{});
+    load.add_forces({ 0., 0. }, force.data());
+    std::array<double, 6> result{};
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+    {
+      const auto &p = nodes.point(i);
+      for (unsigned int d = 0; d < 3; ++d)
+        result[d] += force[i].v[d];
+      result[3] += p[0] * force[i].v[2];
+      result[4] += p[1] * force[i].v[2];
+      result[5] += p[2] * force[i].v[0];
+    }
+    return result;
+  };
+  const auto linear
+      = sums("set Boundary = z1\nset Vertical = -(1 + x + 2*y)*z\n");
+  EXPECT_NEAR(linear[2], -2.5, 1e-13);
+  EXPECT_NEAR(linear[3], -(0.5 + 1. / 3. + 0.5), 1e-13);
+  EXPECT_NEAR(linear[4], -(0.5 + 0.25 + 2. / 3.), 1e-13);
+  EXPECT_EQ(linear[0], 0.);
+
+  const auto full = sums("set Boundary = x0\nset Pressure = water 1\n");
+  EXPECT_NEAR(full[0], weight_of_water / 2., 1e-10 * weight_of_water);
+  EXPECT_NEAR(full[5], weight_of_water / 6., 1e-10 * weight_of_water);
+  const auto part = sums("set Boundary = x0\nset Pressure = water 0.8\n");
+  EXPECT_NEAR(part[0], weight_of_water * 0.32, 2e-3 * weight_of_water * 0.32);
+
+  const auto moving = sums("set Boundary = z1\nset Vertical = -3\n"
+                           "set Moving shape = cosine\n"
+                           "set Moving width = 0.6\nset Moving centre = 0.4\n"
+                           "set Moving axis = y\n");
+  EXPECT_NEAR(moving[2], -1.8, 2e-3 * 1.8);
+  EXPECT_NEAR(moving[4], -0.4 * 1.8, 2e-3 * 1.8);
 }
 
 TEST(TractionField, InitialStressByPlace)
