@@ -4,6 +4,7 @@
 #ifndef quoin_loads_traction_field_h
 #define quoin_loads_traction_field_h
 
+#include <quoin/base/thickness.h>
 #include <quoin/loads/load_parameters.h>
 #include <quoin/mesh/global_geometry.h>
 
