@@ -110,7 +110,10 @@ namespace quoin
     {
       std::stringstream stream;
       prm.print_parameters(stream, ParameterHandler::JSON);
-      const nlohmann::json all    = nlohmann::json::parse(stream);
+      // Names that are no UTF-8 leave nothing to compare with.
+      const nlohmann::json all = nlohmann::json::parse(stream, nullptr, false);
+      if (all.is_discarded())
+        return {};
       const nlohmann::json *inner = &all;
       for (const std::string &section : path)
       {
