@@ -73,9 +73,12 @@ namespace quoin
       law.residual.friction = tangent_of_degrees(failed_angle);
     }
     else
+    {
+      law.is_no_tension = true;
       entries.check(law.peak.tension == 0., "Tensile strength",
                     "must be 0 for the law 'no tension'; use the law "
                     "'Coulomb' for a joint that holds tension.");
+    }
 
     // A joint dilates once it has failed: beyond the residual friction that
     // would create energy.
@@ -93,7 +96,9 @@ namespace quoin
   {
     if (!can_fail())
       return "elastic";
-    constexpr double nan     = std::numeric_limits<double>::quiet_NaN();
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    if (is_no_tension)
+      return "no tension, " + strength_text(peak, { nan, nan, 0. });
     const std::string failed = strength_text(residual, peak);
     return "Coulomb, " + strength_text(peak, { nan, nan, nan })
            + (failed.empty() ? "" : " (once failed " + failed + ")");

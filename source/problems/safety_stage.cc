@@ -331,8 +331,9 @@ namespace quoin
       if (open)
         log.warning(begin, "factors from ", (*open)[0], " to ", (*open)[1],
                     " are undecided: the model neither came to rest nor kept "
-                    "moving. Raise 'Maximum steps', or 'Failure displacement' "
-                    "if blocks settle far. Until then the factor of safety is ",
+                    "moving. Raise 'Maximum steps', or lower 'Failure "
+                    "displacement' if blocks keep moving and do not get that "
+                    "far. Until then the factor of safety is ",
                     stable == 0. ? "not known to be above any" : "at least ",
                     stable == 0. ? std::string() : text_of(stable));
       if (stable == 0. && !open)

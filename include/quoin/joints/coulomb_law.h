@@ -77,6 +77,7 @@ namespace quoin
     double dilation = 0.; /**< tan(psi) */
     double critical_shear_displacement
         = std::numeric_limits<double>::infinity(); /**< u_cs [m] */
+    bool is_no_tension = false; /**< by its word in the parameter file */
 
     /** The law of a set of joints, or its entries of the parameter file. */
     static CoulombLaw read(LawEntries &entries);

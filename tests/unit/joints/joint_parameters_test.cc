@@ -90,6 +90,8 @@ TEST(JointParameters, NoTension)
   EXPECT_EQ(law.residual.tension, 0.);
   EXPECT_EQ(law.residual.cohesion, 1e6);
   EXPECT_EQ(law.residual.friction, law.peak.friction);
+  EXPECT_EQ(law_text(set.law),
+            "no tension, friction angle 45 degrees, cohesion 1e+06 Pa");
 }
 
 TEST(JointParameters, RefusesWhatMakesNoSense)
