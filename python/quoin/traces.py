@@ -56,6 +56,8 @@ def read_csv(path):
         name = row.get("id") or str(number)
         key = (name, group) if len(ends) == 1 else number
         found.setdefault(key, Trace(name, group, [])).points.extend(points)
+    if names is None:
+        check_heading(path, [])
     for trace in found.values():
         if len(trace.points) < 2:
             raise ValueError(f"{path}: trace '{trace.name}' has one point")
@@ -176,7 +178,9 @@ def pieces(a, b, outline):
         s, t = cross(c - a, d - c) / turn, cross(c - a, b - a) / turn
     met = s[(turn != 0.0) & (s > 1e-9) & (s < 1.0 - 1e-9) & (t >= 0.0)
             & (t <= 1.0)]
-    cuts = np.unique(np.round(np.concatenate([[0.0], met, [1.0]]), 12))
+    cuts = np.concatenate([[0.0], np.sort(met), [1.0]])
+    # through a corner it crosses two sides at one place
+    cuts = cuts[np.diff(cuts, prepend=-1.0) > 1e-9]
     return cuts, [is_inside(a + 0.5 * (p + q) * (b - a), outline)
                   for p, q in zip(cuts, cuts[1:])]
 
