@@ -28,6 +28,19 @@ def reference_ends(joints):
     return (joints.points - moved)[joints.cells]
 
 
+def nearest(places, others, near):
+    """The nearest of @p others, (m, d), to each of @p places, (n, d) [m], and
+    whether it is nearer than @p near."""
+    found = np.zeros(len(places), dtype=int)
+    if len(others) == 0:
+        return found, np.zeros(len(places), dtype=bool)
+    rows = max(1, int(MOST_AT_ONCE / len(others)))
+    for k in range(0, len(places), rows):
+        part = places[k:k + rows, None] - others[None]
+        found[k:k + rows] = (part ** 2).sum(axis=2).argmin(axis=1)
+    return found, np.linalg.norm(places - others[found], axis=1) < near
+
+
 def matched(first, second):
     """Faces that both grids have: their numbers in each, and whether the
     ends of each stand in the other order. Ranks number faces differently, and
@@ -37,14 +50,8 @@ def matched(first, second):
     n = len(a)
     if len(b) == n and np.abs(a - b).max() < near:
         return np.arange(n), np.arange(n), np.zeros(n, dtype=bool)
-    middle_a, middle_b = a.mean(axis=1), b.mean(axis=1)
-    nearest = np.empty(n, dtype=int)
-    rows = max(1, int(MOST_AT_ONCE / len(b)))
-    for k in range(0, n, rows):
-        part = middle_a[k:k + rows, None] - middle_b[None]
-        nearest[k:k + rows] = (part ** 2).sum(axis=2).argmin(axis=1)
-    found = np.linalg.norm(middle_a - middle_b[nearest], axis=1) < near
-    of_first, of_second = np.flatnonzero(found), nearest[found]
+    of_second, found = nearest(a.mean(axis=1), b.mean(axis=1), near)
+    of_first, of_second = np.flatnonzero(found), of_second[found]
     turned = np.linalg.norm(a[of_first, 0] - b[of_second, 0], axis=1) > near
     return of_first, of_second, turned
 

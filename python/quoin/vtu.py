@@ -96,6 +96,15 @@ def read_pvd(path):
     return sorted(series.items())
 
 
+def read_first(path):
+    """The first grid of a series in which there is anything; None without."""
+    for _, files in read_pvd(path):
+        grid = merge([read_vtu(file) for file in files])
+        if grid is not None:
+            return grid
+    return None
+
+
 def read_at(path, time=None):
     """The grid of a series nearest to a time, the last one by default; None
     if the series is empty or nothing is in it."""

@@ -129,7 +129,7 @@ class Places(unittest.TestCase):
         frame.position = types.MethodType(block_figure.Frame.position, frame)
         words = dict(scale=1., view=None, colour="velocity", joints="state",
                      widest=None, blocks_only=False, principal=True,
-                     crosses=None, mesh=False, title=None)
+                     crosses=None, mesh=False, title=None, since=None)
         picture = block_figure.Picture(
             types.SimpleNamespace(**dict(words, **options)), [frame])
         figure = page_layout.draw_moment(picture, frame)

@@ -75,6 +75,8 @@ KINDS = {
                "--only {what}"),
     "figures": ("quoin", "{tree}/tests/scripts/figures.py --quoin {quoin}"),
     "scripts": (None, "{tree}/tests/scripts/{what}.py"),
+    "polygons": ("quoin", "{tree}/tests/scripts/polygons.py --quoin {quoin}"),
+    "traces": ("quoin", "{tree}/tests/scripts/traces.py --quoin {quoin}"),
     "check": ("quoin", "{quoin} {tree}/parameter_files/{what} --check --quiet"),
     "boundary": ("boundary_long_run", "{boundary_long_run} --short"),
     "fuzz": ("fuzz", "{fuzz} {tree} --inputs {what}"),
@@ -204,7 +206,8 @@ def wanted_groups(known, cases):
             if text and "__main__" in text and name not in (
                     "compare.py", "bracket.py", "interrupt.py", "resume.py",
                     "resume_ranks.py",
-                    "hybrid_long_run.py", "wall_stability.py", "figures.py"):
+                    "hybrid_long_run.py", "wall_stability.py", "figures.py",
+                    "polygons.py", "traces.py"):
                 groups.add("%s/%s" % (kind, name))
     return groups | {"unit tests on two ranks"} | (
         set(KINDS) - {"unit", "ranks", "case", "cases", "scripts"})

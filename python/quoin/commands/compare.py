@@ -186,6 +186,9 @@ def main():
     parser.add_argument("--title", help="of cracks.png")
     add_picture_options(parser, joints="mode")
     options, others = parser.parse_known_args()
+    if options.since is not None:
+        parser.error("--since is for one run: a time of one solver is another "
+                     "moment of the other")
     try:
         compare(options, others)
     except (OSError, ValueError, subprocess.CalledProcessError) as error:

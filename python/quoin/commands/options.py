@@ -51,11 +51,14 @@ def add_picture_options(parser, joints="state"):
                              "principal one; velocity, displacement: their "
                              "magnitude")
     parser.add_argument("--joints", default=joints,
-                        choices=("state", "mode", "damage"),
+                        choices=("state", "mode", "damage", "slip"),
                         help=f"what their colours are, default {joints}")
     parser.add_argument("--widest", type=positive(float), metavar="OPENING",
-                        help="of --joints mode: opening or slip that is drawn "
-                             "widest [m], default automatic")
+                        help="of --joints mode and slip: opening or slip that "
+                             "is drawn widest [m], default automatic")
+    parser.add_argument("--since", type=float, metavar="TIME",
+                        help="draw what came after this time [s] alone: "
+                             "displacements, slips, openings, states")
     parser.add_argument("--blocks-only", action="store_true",
                         help="neither joints nor contacts")
     parser.add_argument("--principal", action="store_true",

@@ -19,8 +19,14 @@ earlier, thin grey where intact. --joints mode draws cracks instead: what failed
 is dark red where it opens more than it slips, orange where it slips more, violet
 where it crushed (beyond the compressive strength), and as wide as it opens,
 slips or closes. --joints damage colours joints by the share of their strength
-that a composite law has lost. Contacts of large displacements are lines
-along the overlap, as wide as their normal force. --blocks-only leaves both out.
+that a composite law has lost, --joints slip by how far they slipped. Joints that
+large displacements handed over to contacts are drawn as far as their two faces are
+near each other. Contacts of large displacements are lines along the overlap, as
+wide as their normal force. --blocks-only leaves both out.
+
+--since TIME draws what came after that time alone, e.g. after gravity: the
+displacements from then on, and joints by what they slipped and opened since; those
+that moved less than a hundredth of the one that moved most are thin grey.
 
 Displacements are enlarged by --scale, by default so that the deformation can
 be seen: never less than once, and not so much that a block seems turned by
@@ -48,7 +54,7 @@ import numpy as np
 from quoin.commands.options import (Parser, add_picture_options, numbers,
                                     positive)
 from quoin.figures import field_figure
-from quoin.figures.block_figure import Frame, Picture
+from quoin.figures.block_figure import Picture, frames_of
 from quoin.figures.page_layout import draw_moment, draw_panel, write_film
 from quoin.moments import Moment, check_times, moments_at, recorded_times
 
@@ -111,10 +117,13 @@ def draw(options):
     is_field = field_figure.is_field_run(options.output)
     if is_field and options.colour == "stress":
         raise ValueError("--colour stress is for blocks")
-    make_frame = field_figure.FieldFrame if is_field else Frame
+    if is_field and options.since is not None:
+        raise ValueError("--since is for blocks")
     moments = moments_from("boundary.pvd" if is_field else "blocks.pvd",
                            options)
-    frames = [make_frame(options.output, *moment) for moment in moments]
+    frames = ([field_figure.FieldFrame(options.output, *moment)
+               for moment in moments] if is_field else
+              frames_of(options.output, moments, options.since))
     picture = (field_figure.FieldPicture if is_field
                else Picture)(options, frames)
     if options.animate and options.animate.endswith(".gif"):

@@ -22,7 +22,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 from quoin.commands.options import Parser, add_picture_options
-from quoin.figures.block_figure import Frame, Picture
+from quoin.figures.block_figure import Picture, frames_of
 from quoin.figures.curve_figure import CurveFigure, read_specs
 from quoin.figures.page_layout import (PANEL_WIDTH, draw_lettered, legend_in,
                                        letter, place_legend)
@@ -70,7 +70,7 @@ def arrangement(n, width, ratio):
 def draw(options):
     """Writes the figure and returns its name."""
     moments = moments_at(options.output, options.at)
-    frames = [Frame(options.output, *moment) for moment in moments]
+    frames = frames_of(options.output, moments, options.since)
     picture = Picture(options, frames)
     curve = CurveFigure(read_specs(options.spec)[0], [(options.output, None)],
                         os.path.dirname(options.spec))

@@ -10,18 +10,22 @@ from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.colors import Normalize
 import numpy as np
 
-from quoin import vtu
+from quoin import run_parameters, vtu
 from quoin.colours import MATERIALS, STONES
 from quoin.figures.figure_style import MAGNITUDES
-from quoin.figures.joint_figure import (CrackJoints, DamageJoints, StateJoints,
+from quoin.figures.joint_figure import (CrackJoints, DamageJoints, SlipJoints,
+                                        StateJoints, block_size,
                                         contact_forces, draw_contacts)
 from quoin.figures.stress_figure import Contours, Crosses
+from quoin.joint_movement import all_joints, blocks_since, since
+from quoin.moments import check_times
 
 LARGEST_TURN = 0.3                   # [rad], see automatic_scale()
 
 
 class Frame:
-    """The fields of one moment; joints and contacts may be None."""
+    """The fields of one moment; joints and contacts may be None. Joints that
+    were handed over to contacts are among the joints (joint_movement.py)."""
 
     def __init__(self, output, time, label=None):
         def series(name):
@@ -48,6 +52,25 @@ class Frame:
             grid = getattr(self, name)
             if grid is not None and grid.time != self.blocks.time:
                 setattr(self, name, None)
+        if os.path.exists(os.path.join(output, "contacts.pvd")):
+            self.joints = all_joints(
+                vtu.read_first(os.path.join(output, "joints.pvd")),
+                self.joints, self.blocks, self.contacts,
+                block_size(self.blocks))
+
+    def count_from(self, then, output):
+        """Takes what came after another frame of the same run alone."""
+        if then.time >= self.time:
+            raise ValueError(f"--since: the fields at {then.time:g} s are not "
+                             f"before those that are drawn, at {self.time:g} "
+                             "s")
+        self.blocks = blocks_since(self.blocks, then.blocks)
+        if self.joints is not None and then.joints is not None:
+            self.joints = since(self.joints, then.joints, run_parameters
+                                .of_joint_sets(output, "Shear stiffness"))
+        if self.contacts is not None:
+            # of contacts no one knows where they were then
+            del self.contacts.point_data["displacement"]
 
     @property
     def time(self):
@@ -126,6 +149,18 @@ def cell_size(blocks, name):
     return size[blocks.cells].mean(axis=1)
 
 
+def frames_of(output, moments, time):
+    """Frames of these moments; with a @p time [s] of what came after the
+    fields nearest to it."""
+    frames = [Frame(output, *moment) for moment in moments]
+    if time is not None:
+        check_times(output, "blocks.pvd", [time])
+        then = Frame(output, time)
+        for frame in frames:
+            frame.count_from(then, output)
+    return frames
+
+
 class Picture:
     """Draws frames with one scale, one view and one range of colours."""
 
@@ -166,20 +201,24 @@ class Picture:
                                self.options.widest)
         if self.options.joints == "damage":
             return DamageJoints(frames)
-        return StateJoints()
+        if self.options.joints == "slip":
+            return SlipJoints(frames, self.options.widest)
+        return StateJoints(self.options.since is not None)
 
     def draw(self, axes, frame, with_count):
         """One moment; returns the handles of the legend."""
         position = frame.position(self.scale)
         axes.grid(False)
         self.draw_blocks(axes, frame.blocks, position)
-        handles = []
+        handles, contacts = [], []
+        if frame.contacts and self.force > 0.0 and self.joints:
+            # below the joints that they once were
+            contacts = draw_contacts(axes, frame.contacts, self.scale,
+                                     self.force)
         if frame.joints and self.joints:
             handles += self.joints.draw(axes, frame.joints, self.scale,
                                         with_count)
-        if frame.contacts and self.force > 0.0 and self.joints:
-            handles += draw_contacts(axes, frame.contacts, self.scale,
-                                     self.force)
+        handles += contacts
         margin = 0.0 if self.options.view else 0.02 * self.extent.max()
         below = margin
         if self.crosses:
@@ -223,8 +262,11 @@ class Picture:
 
     def remark(self):
         """What holds of all moments."""
-        return ("" if self.scale == 1.0
-                else f"displacements × {self.scale:g}")
+        words = [] if self.scale == 1.0 else [
+            f"displacements × {self.scale:g}"]
+        if self.options.since is not None:
+            words.append(f"since t = {self.options.since:.4g} s")
+        return ", ".join(words)
 
     def colour_bars(self):
         """(mappable, label) of each scale of colours."""
@@ -237,5 +279,5 @@ class Picture:
             bars.append((self.contours.mappable(),
                          f"minor principal stress [{self.contours.unit}]"))
         if self.joints and self.joints.mappable():
-            bars.append((self.joints.mappable(), "damage of joints [-]"))
+            bars.append((self.joints.mappable(), self.joints.bar_label))
         return bars

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Joints and contacts for scripts/render: joints by their state, as cracks by
-mode and width, or by their damage."""
+mode and width, by their damage or by their slip."""
 
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 import numpy as np
 
 from quoin import colours, run_parameters
-from quoin.csv_table import with_unit
+from quoin.csv_table import scale_for, with_unit
 from quoin.figures.stress_figure import cell_areas, round_near
 from quoin.joint_states import INTACT, NAMES, OPEN, SLIPPED, SLIPPING
 
@@ -58,7 +58,11 @@ def add_cracks(axes, lines, **look):
 
 
 class StateJoints:
-    """Joints by the worse state of their ends."""
+    """Joints by the worse state of their ends; @p is_since: of those that
+    moved since a time."""
+
+    def __init__(self, is_since=False):
+        self.is_since = is_since
 
     def draw(self, axes, joints, scale, with_count):
         position = current_position(joints, scale)
@@ -69,6 +73,8 @@ class StateJoints:
             if len(lines) == 0:
                 continue
             add_lines(axes, lines, colors=colour, linewidths=width)
+            if number == INTACT and self.is_since:
+                name += " or did not move"
             count = f" ({len(lines)})" if with_count else ""
             handles.append(Line2D([], [], color=colour,
                                   linewidth=max(width, 1.0),
@@ -176,6 +182,8 @@ class CrackJoints:
 class DamageJoints:
     """Joints by the share of their bond that they lost."""
 
+    bar_label = "damage of joints [-]"
+
     def __init__(self, frames):
         if not any(f.joints is not None and "damage" in f.joints.point_data
                    for f in frames):
@@ -193,6 +201,37 @@ class DamageJoints:
 
     def mappable(self):
         return ScalarMappable(Normalize(0.0, 1.0), DAMAGE_COLOURS)
+
+
+class SlipJoints:
+    """Joints by how far they slipped, elastically or not, in either sense;
+    one scale for all frames, up to @p widest [m] or what 99 % stay below in
+    the frame that slipped most, so that one loose face does not make all
+    others pale."""
+
+    def __init__(self, frames, widest=None):
+        widest = widest or max(
+            [np.quantile(self.slip(f.joints), 0.99) for f in frames
+             if f.joints is not None], default=0.0) or HAIRLINE
+        self.factor, unit = scale_for("m", widest)
+        self.size = Normalize(0.0, self.factor * widest, clip=True)
+        self.bar_label = f"slip of joints [{unit}]"
+
+    @staticmethod
+    def slip(joints):
+        """Of each face, the mean of its ends [m]."""
+        return np.abs(joints.point_data["slip"])[joints.cells].mean(axis=1)
+
+    def draw(self, axes, joints, scale, with_count):
+        share = self.size(self.factor * self.slip(joints))
+        order = np.argsort(share)
+        lines = current_position(joints, scale)[joints.cells[order]]
+        add_cracks(axes, lines, colors=DAMAGE_COLOURS(share[order]),
+                   linewidths=0.4 + 3.0 * share[order])
+        return []
+
+    def mappable(self):
+        return ScalarMappable(self.size, DAMAGE_COLOURS)
 
 
 def contact_forces(contacts):

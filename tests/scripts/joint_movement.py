@@ -1,0 +1,197 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Joints that were handed over to contacts, followed by the blocks, and what
+came after a time, on two blocks whose motion is known."""
+import os
+import tempfile
+import types
+import unittest
+
+import numpy as np
+
+from synthetic_runs import SLID, WIDE, NOTHING, joint_grid, write_run
+from quoin import joint_movement
+from quoin.figures import block_figure, joint_figure
+from quoin.joint_states import INTACT, OPEN, SLIPPED, SLIPPING
+from quoin.vtu import Grid
+
+# a block of one square below y = 1 and one above, with a joint of two faces
+POINTS = np.array([[0., 0.], [2., 0.], [2., 1.], [1., 1.], [0., 1.],
+                   [0., 1.], [1., 1.], [2., 1.], [2., 2.], [0., 2.]])
+# of both senses
+CELLS = np.array([[0, 1, 3], [1, 2, 3], [0, 4, 3], [5, 6, 9], [6, 8, 9],
+                  [6, 8, 7]])
+IS_UPPER = np.arange(10) >= 5
+
+
+def moved_blocks(angle=0., shift=(0., 0.), slip=0., opening=0., time=1.):
+    """Both turned and shifted, the upper one also along and off the joint."""
+    turn = np.array([[np.cos(angle), -np.sin(angle)],
+                     [np.sin(angle), np.cos(angle)]])
+    x = (POINTS + np.outer(IS_UPPER, [slip, opening])) @ turn.T + shift
+    return Grid(time, POINTS, CELLS, {
+        "displacement": np.hstack([x - POINTS, np.zeros((10, 1))])}, {
+        "block": np.repeat([0, 1], 3)})
+
+
+def faces(ends=((0., 1.), (2., 1.))):
+    """Faces of the joint at the start, at these ends of x; nothing moved."""
+    x = np.array(ends).ravel()
+    n = len(x)
+    none = np.zeros(n)
+    return Grid(0., np.stack([x, none + 1.], axis=1),
+                np.arange(n).reshape(-1, 2),
+                {"displacement": np.zeros((n, 3)), "opening": none,
+                 "slip": none, "normal traction": none,
+                 "shear traction": none, "damage": none, "crushing": none,
+                 "point state": np.zeros(n, dtype=np.uint8)},
+                {"length": np.ones(n // 2),
+                 "joint set": np.arange(n // 2, dtype=np.int32),
+                 "state": np.zeros(n // 2, dtype=np.uint8)})
+
+
+class HandedOver(unittest.TestCase):
+    def follow(self, now=None, contacts=None, farthest=1., **motion):
+        return joint_movement.handed_over(
+            faces(), now, moved_blocks(**motion), contacts, farthest)
+
+    def test_opening_and_slip_of_blocks_that_turn(self):
+        for slip, opening in ((0.3, 0.02), (-0.2, 0.1), (0.05, -1e-3)):
+            for angle in (0., 0.7, -2.):
+                found = self.follow(angle=angle, shift=(5., -3.), slip=slip,
+                                    opening=opening)
+                np.testing.assert_allclose(found.point_data["opening"],
+                                           opening, atol=1e-14)
+                np.testing.assert_allclose(found.point_data["slip"], slip,
+                                           atol=1e-14)
+                state = OPEN if opening > 0. else SLIPPED
+                self.assertEqual(list(found.cell_data["state"]), [state] * 2)
+                self.assertEqual(list(found.cell_data["joint set"]), [0, 1])
+                turn = np.exp(1j * angle)
+                middle = [complex(x + 0.5 * slip, 1. + 0.5 * opening) * turn
+                          + 5. - 3j for x in (0., 1., 2., 1.)]
+                np.testing.assert_allclose(found.points @ [1., 1j], middle)
+                np.testing.assert_allclose(
+                    found.points - found.point_data["displacement"][:, :2],
+                    faces().points, atol=1e-14)
+
+    def test_only_faces_that_are_gone(self):
+        self.assertIsNone(self.follow(now=faces(), slip=0.1))
+        found = self.follow(now=faces(((1., 0.),)), slip=0.1)
+        self.assertEqual(list(found.cell_data["joint set"]), [1])
+        whole = joint_movement.all_joints(
+            faces(), faces(((1., 0.),)), moved_blocks(slip=0.1), None, 1.)
+        self.assertEqual(sorted(whole.cell_data["state"]), [INTACT, SLIPPED])
+
+    def test_blocks_that_went_away(self):
+        self.assertIsNone(self.follow(slip=0.8, opening=0.8))
+        self.assertIsNotNone(self.follow(slip=0.8, opening=0.8, farthest=1.2))
+
+    def test_a_block_that_was_deleted(self):
+        blocks = moved_blocks()
+        gone = Grid(1., blocks.points, CELLS[:3], blocks.point_data, {
+            "block": np.zeros(3, dtype=int)})
+        self.assertIsNone(joint_movement.handed_over(faces(), None, gone, None,
+                                                     1.))
+
+    def test_what_a_contact_on_the_line_says(self):
+        # on the first face alone
+        contact = faces(((0.1, 0.9),))
+        contact.point_data["shear traction"] = np.full(2, 5e3)
+        contact.point_data["crushing"] = np.full(2, 2e-4)
+        contact.cell_data["state"] = np.array([SLIPPING], dtype=np.uint8)
+        found = self.follow(contacts=contact, slip=0.01, opening=1e-5)
+        self.assertEqual(list(found.cell_data["state"]), [SLIPPING, OPEN])
+        data = found.point_data
+        np.testing.assert_array_equal(data["shear traction"],
+                                      [5e3, 5e3, 0., 0.])
+        np.testing.assert_array_equal(data["damage"], [0., 0., 1., 1.])
+        np.testing.assert_array_equal(data["crushing"], [2e-4, 2e-4, 0., 0.])
+
+
+class Since(unittest.TestCase):
+    def since(self, opening, slip, then, states=(3, 3), traction=0.):
+        now = joint_grid(opening, slip, turned=[1])
+        now.cell_data["state"] = np.array(states, dtype=np.uint8)
+        now.point_data["shear traction"] = np.full(4, traction)
+        return joint_movement.since(now, then, [1e9])
+
+    def test_what_was_there_before_is_taken_off(self):
+        found = self.since([[3e-4, 1e-4], [0., 4e-4]], SLID,
+                           joint_grid(WIDE, NOTHING, order=[1, 0]))
+        # turned faces come in the order of now
+        np.testing.assert_allclose(
+            found.point_data["opening"][found.cells],
+            [[1e-4, 1e-4], [1e-4, 0.]], atol=1e-18)
+        np.testing.assert_allclose(found.point_data["slip"][found.cells],
+                                   [[0., 0.], [0., -2e-4]], atol=1e-18)
+        np.testing.assert_allclose(
+            found.point_data["displacement"][found.cells][..., 0],
+            0.1 * found.point_data["opening"][found.cells], atol=1e-18)
+
+    def test_states_of_what_moved(self):
+        before = joint_grid(NOTHING, SLID)
+        still = self.since(NOTHING, [[0., 1e-4], [-2e-4, 0.]], before, (1, 2))
+        self.assertEqual(list(still.cell_data["state"]), [SLIPPING, INTACT])
+        # 1 MPa strains the joint by 1 mm along: no slip that stays
+        elastic = self.since(NOTHING, [[1e-3, 1e-3], [1e-3, 2e-3]], before,
+                             (2, 2), traction=1e6)
+        self.assertEqual(list(elastic.cell_data["state"]), [INTACT, SLIPPED])
+        self.assertEqual(list(self.since(NOTHING, SLID, before)
+                              .cell_data["state"]), [INTACT, INTACT])
+
+    def test_closing_is_no_opening(self):
+        found = self.since([[-1e-3, -1e-3], [0., 0.]], NOTHING,
+                           joint_grid([[-2e-3, -2e-3], [0., 0.]], NOTHING))
+        self.assertEqual(list(found.cell_data["state"]), [INTACT, INTACT])
+
+    def test_blocks(self):
+        then, now = moved_blocks(slip=0.1), moved_blocks(slip=0.3, angle=0.2)
+        found = joint_movement.blocks_since(now, then)
+
+        def place(blocks):
+            return blocks.points + blocks.point_data["displacement"][:, :2]
+        np.testing.assert_allclose(found.points, place(then))
+        np.testing.assert_allclose(place(found), place(now))
+        # then: the upper block alone, its points in another order
+        other = np.array([9, 5, 8, 7, 6])
+        half = Grid(0., POINTS[other], np.array([[1, 4, 0]]), {
+            "displacement": then.point_data["displacement"][other]}, {
+            "block": np.array([1])})
+        half.cells = np.array([[1, 4, 0], [4, 2, 3], [4, 3, 2]])
+        half.cell_data = {"block": np.ones(3, dtype=int)}
+        found = joint_movement.blocks_since(now, half)
+        np.testing.assert_allclose(found.points[5:], place(then)[5:])
+        np.testing.assert_allclose(found.points[:5], POINTS[:5])
+        np.testing.assert_allclose(place(found), place(now))
+
+
+class Pictures(unittest.TestCase):
+    def test_scale_of_slip(self):
+        frame = types.SimpleNamespace(joints=joint_grid(WIDE, [[-3e-3, -1e-3],
+                                                               [0., 0.]]))
+        style = joint_figure.SlipJoints([frame])
+        self.assertAlmostEqual(style.size.vmax, 0.99 * 2., delta=1e-9)
+        self.assertEqual(style.bar_label, "slip of joints [mm]")
+        self.assertEqual(joint_figure.SlipJoints([frame], 0.5).size.vmax, 0.5)
+        self.assertEqual(joint_figure.SlipJoints([frame], 0.5).bar_label,
+                         "slip of joints [m]")
+
+    def test_frames_of_a_run(self):
+        with tempfile.TemporaryDirectory() as scratch:
+            folder = os.path.join(scratch, "run")
+            write_run(folder, [0., 1.], [0., 1.],
+                      {0: joint_grid(NOTHING, NOTHING),
+                       1: joint_grid(NOTHING, SLID),
+                       2: joint_grid(NOTHING, WIDE)})
+            frame, = block_figure.frames_of(folder, [(2, None)], 1)
+            np.testing.assert_allclose(frame.joints.point_data["slip"],
+                                       [2e-4, 0., 2e-4, 3e-4])
+            for time, words in ((2, "not before"), (9, "no field was written")):
+                with self.assertRaisesRegex(ValueError, words):
+                    block_figure.frames_of(folder, [(2, None)], time)
+
+
+if __name__ == "__main__":
+    unittest.main()
