@@ -168,8 +168,8 @@ def since(joints, then, shear_stiffness):
 
     ends = joints.cells
     stiffness = np.asarray(shear_stiffness)[joints.cell_data["joint set"]]
-    slip = data["slip"][ends] - data["shear traction"][ends] \
-        / stiffness[:, None]
+    elastic = data["shear traction"][ends] / stiffness[:, None]
+    slip = data["slip"][ends] - elastic
     growth = np.maximum(data["opening"][ends], np.abs(slip))
     moved = growth > LEAST_GROWTH * growth.max(initial=0.0)
     states = data["point state"][ends]
