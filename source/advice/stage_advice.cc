@@ -200,6 +200,9 @@ namespace quoin
         if (load->type != LoadType::traction && load->type != LoadType::platen
             && !(load->type == LoadType::gravity && is_held))
           continue;
+        // Gravity may grow by itself.
+        if (load->type == LoadType::gravity && load->ramp_duration >= rise)
+          continue;
         // Where a load that travels is at the start is not known here.
         if (load->shape)
           continue;

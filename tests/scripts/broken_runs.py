@@ -41,6 +41,7 @@ TESTS = {("compare.py", "column"): ["column"],
          ("convergence.py",): ["convergence_h", "convergence_dt"],
          ("extremes.py",): ["extremes"], ("hybrid.py",): ["hybrid_hole"],
          ("hybrid_long_run.py",): ["hybrid_long_run"],
+         ("interrupt.py",): ["interrupt"],
          ("ranks.py",): ["ranks"], ("reflection.py",): ["boundary_reflection"],
          ("resume.py",): ["resume"],
          ("resume_ranks.py",): ["resume_ranks"],
@@ -60,12 +61,12 @@ class Broken(unittest.TestCase):
         self.results = os.path.join(self.folder, "results")
         os.mkdir(self.results)
 
-    def quoin(self, end, **files):
-        """A program that writes <name>.csv and ends as ENDS says."""
+    def quoin(self, end, log="", **files):
+        """A program that writes <name>.csv and a log and ends as ENDS says."""
         path = os.path.join(self.folder, "quoin")
+        texts = {name + ".csv": text for name, text in files.items()}
         with open(path, "w") as file:
-            file.write(QUOIN % ({name + ".csv": text for name, text
-                                 in files.items()}, ENDS[end]))
+            file.write(QUOIN % (dict(texts, **{"log.txt": log}), ENDS[end]))
         os.chmod(path, 0o755)
         return path
 
@@ -150,7 +151,7 @@ class Limits(Broken):
 
 
 class Columns(Broken):
-    def compare(self, end, **case):
+    def compare(self, end, log="", **case):
         """A run that ends at the time @p end, the reference at 1 s."""
         times = np.linspace(0., end, 21)
         histories = table("time [s],u [m]", *zip(times, times))
@@ -160,7 +161,7 @@ class Columns(Broken):
                      "source": "", "reference": "reference.csv",
                      "tolerance": 0.1}, **case)
         with contextlib.redirect_stdout(io.StringIO()):
-            compare.run_case(case, self.options("finished",
+            compare.run_case(case, self.options("finished", log=log,
                                                 histories=histories))
         return self.result("case")
 
@@ -169,6 +170,14 @@ class Columns(Broken):
         for end in (0.98, 0.8):
             with self.assertRaisesRegex(Failure, "ended at %g s" % end):
                 self.compare(end)
+
+    def test_warnings(self):
+        log = "a run\nWarning: the load jumps\nfinished\n"
+        self.assertTrue(self.compare(1., log, warnings=["jumps"])["passed"])
+        with self.assertRaisesRegex(Failure, "warns: Warning: the load"):
+            self.compare(1., log)
+        with self.assertRaisesRegex(Failure, "does not warn: jumps"):
+            self.compare(1., "a run\n", warnings=["jumps"])
 
     def test_tolerances(self):
         self.assertTrue(self.compare(1., tolerance=0.021)["passed"])
