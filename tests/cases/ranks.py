@@ -162,7 +162,7 @@ RANKS = {"contacts, divided": (2, 3, 4), "dashpots": (2, 3),
          "implicit, divided, cracked": (2, 3)}
 # The block of the named ones moves by 0.42 m, which takes 17; what this variant
 # shows is the sums of forces on both sides, of joints and then of contacts.
-LEAST_SEARCHES = {"named blocks": 15, "sled": 40, "dashpots": 20}
+LEAST_SEARCHES = {"named blocks": 8, "sled": 40, "dashpots": 20}
 TOLERANCE = 1e-10
 # Of the peak, where an equilibrium is found to 'Force ratio'.
 LOOSE = {"implicit": 1e-6, "implicit, iterative": 1e-6}
