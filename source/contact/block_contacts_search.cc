@@ -55,7 +55,7 @@ namespace quoin
       return skins;
     }
 
-    /** Of vectors on all ranks: the largest square, x, -x, y and -y. */
+    /** The largest square, x, -x, y and -y among vectors on all ranks. */
     struct Spread
     {
       static constexpr double none_yet

@@ -49,7 +49,7 @@ namespace quoin
              && side(b, a.x[0], a.y[0]) * side(b, a.x[1], a.y[1]) < 0.;
     }
 
-    /** Of two edges [m]; 0 if they cross. */
+    /** Distance between two edges [m]; 0 if they cross. */
     double distance(const EdgeEnds &a, const EdgeEnds &b)
     {
       if (cross(a, b))

@@ -453,16 +453,19 @@ namespace quoin
                       " % of the energy throughput, more than 0.1 %. ",
                       residual_advice());
     /** Largest energy that changing areas and normals of contacts may take or
-        give, by the energy throughput. */
+        give, by what damping leaves of the energy throughput: damping may take
+        most of it before and after contacts. */
     constexpr double largest_of_contacts = 0.05;
     const Energies &energies             = system.solver->energies();
     const double of_contacts
-        = energies.accounts.contact / energies.throughput();
+        = energies.accounts.contact
+          / (energies.throughput() - energies.accounts.damping);
     if (std::abs(of_contacts) > largest_of_contacts)
       run.log.warning(
           "general contacts ", of_contacts > 0. ? "took" : "gave", " ",
           100. * std::abs(of_contacts),
-          " % of the energy throughput as their areas and normals changed "
+          " % of the energy that damping left as their areas and normals "
+          "changed "
           "(column 'contact [J]' of energies.csv), more than 5 %: overlaps are "
           "deep for edges as long as these. Compare with a run with a higher "
           "'Normal stiffness'.");

@@ -43,6 +43,13 @@ CASES = {
     "pattern": (os.path.join(common.VERIFICATION, "collapse_load",
                              "softening.prm"),
                 ["Output/Checkpoint interval=0.05"], 1, 2),
+    # ... that follows a history
+    "pattern, named": (os.path.join(common.VERIFICATION, "collapse_load",
+                                    "case.prm"),
+                       ["Stages/settle/Duration=0.1",
+                        "Stages/push/Duration=0.4",
+                        "Stages/push/Controlled displacement=top",
+                        "Output/Checkpoint interval=0.05"], 1, 2),
     # cells that yield
     "salencon": (os.path.join(common.VERIFICATION, "salencon", "case.prm"),
                  ["Output/Checkpoint interval=0.05",

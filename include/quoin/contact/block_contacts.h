@@ -235,9 +235,9 @@ namespace quoin
     std::uint64_t renewal(const ContactState &contacts, double rate) const;
     /** Distance within which a search looks for pairs [m]. */
     double search_distance(const ContactState &contacts) const;
-    /** Of the skins within search_distance() that for which searches and pairs
-       that stay apart cost least. @p sides: of each skin, sides of pairs of
-       this rank that it takes in. */
+    /** The skin within search_distance() [m] for which searches and pairs that
+       stay apart cost least together. @p sides: by skin, how many sides of
+       pairs of this rank it takes in. */
     double cheapest_skin(std::vector<unsigned int> sides, double rate,
                          const ContactState &contacts) const;
     bool is_matched(const ContactState &contacts, unsigned int a,

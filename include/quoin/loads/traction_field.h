@@ -83,7 +83,7 @@ namespace quoin
     std::shared_ptr<const MovingShape> shape;
     std::vector<unsigned int> node_list;
     std::vector<Face> faces;
-    // Of the time for which they were asked last.
+    // What forces() found last, and the data that it was found for.
     mutable std::vector<double> last_data;
     mutable std::vector<NodeVector<dim>> last_forces;
   };

@@ -41,7 +41,7 @@ namespace quoin
     double plastic  = 0.; /**< dissipated by blocks that yield */
     double damping = 0.; /**< dissipated by local, adaptive, Rayleigh damping */
     double viscous = 0.; /**< left through viscous boundaries */
-    double contact = 0.; /**< lost as contacts changed their length */
+    double contact = 0.; /**< what contacts lost without work */
     double radiated = 0.; /**< radiated into boundary elements */
 
     EnergyAccounts &operator+=(const EnergyAccounts &other);
