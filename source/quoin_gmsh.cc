@@ -4,10 +4,11 @@
 // Reads a mesh or meshes a geometry with gmsh, for quoin, which starts this
 // program where it needs one:
 //
-//   quoin_gmsh FILE plain|crossed|quadratic DIMENSION [COPY.msh]
+//   quoin_gmsh FILE plain|crossed|quadratic DIMENSION REFINEMENTS [COPY.msh]
 //
 // with the words of the entry Mesh/Triangles and 2, 3 or 0, the dimension of
-// the file: three if it has tetrahedra or is a geometry with volumes.
+// the file: three if it has tetrahedra or is a geometry with volumes; edges are
+// halved REFINEMENTS times.
 // A GmshMesh goes to the standard output; with COPY.msh the mesh goes there,
 // and of the GmshMesh only the errors are set. gmsh crashes on many damaged
 // files and ends the process at some commands of a geometry: then this process
@@ -422,7 +423,8 @@ namespace
 
   /** Open and mesh @p file, then read it or write it to @p copy if given. */
   GmshMesh answer(const std::string &file, const std::string &kind,
-                  const int wanted, const std::string &copy)
+                  const int wanted, const int refinements,
+                  const std::string &copy)
   {
     const bool quadrangles = kind == "crossed";
     GmshMesh mesh;
@@ -441,6 +443,8 @@ namespace
                  "plain'.");
       if (!has_elements(dimension) && (dimension == 2 || !is_mesh))
         make_elements(dimension, quadrangles);
+      for (int i = 0; i < refinements; ++i)
+        gmsh::model::mesh::refine();
       mesh.gmsh_errors = logged_errors();
       if (!mesh.gmsh_errors.empty())
         return mesh;
@@ -493,10 +497,10 @@ namespace
 int
 main(int argc, char **argv)
 {
-  if (argc != 4 && argc != 5)
+  if (argc != 5 && argc != 6)
   {
     std::fputs("Use: quoin_gmsh FILE plain|crossed|quadratic 0|2|3 "
-               "[COPY.msh]\n",
+               "REFINEMENTS [COPY.msh]\n",
                stderr);
     return 1;
   }
@@ -504,8 +508,8 @@ main(int argc, char **argv)
   gmsh::initialize(0, nullptr, /* readConfigFiles = */ false);
   gmsh::option::setNumber("General.Terminal", 0);
   gmsh::logger::start();
-  GmshMesh mesh
-      = answer(argv[1], argv[2], std::atoi(argv[3]), argc == 5 ? argv[4] : "");
+  GmshMesh mesh = answer(argv[1], argv[2], std::atoi(argv[3]),
+                         std::atoi(argv[4]), argc == 6 ? argv[5] : "");
   GmshChannel channel(output, GmshChannel::Direction::send);
   mesh.transfer(channel);
   // The memory of gmsh needs no tidying.

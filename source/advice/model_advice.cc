@@ -275,7 +275,7 @@ namespace quoin
       /** Poisson's ratio above which constant-strain triangles in plane strain
           and tetrahedra lock. */
       constexpr double locking_poisson = 0.45;
-      if (parameters.triangles != TriangleKind::plain
+      if (parameters.cells.kind != TriangleKind::plain
           || parameters.model.plane != PlaneAssumption::plane_strain)
         return;
       std::vector<unsigned int> is_used(parameters.model.materials.size(), 0);

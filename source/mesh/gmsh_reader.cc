@@ -45,14 +45,16 @@ namespace quoin
 
     /** Arguments of quoin_gmsh. */
     std::vector<std::string> arguments(const std::string &file,
-                                       const TriangleKind kind,
+                                       const CellOptions &cells,
                                        const MeshDimension dimension)
     {
+      const TriangleKind kind = cells.kind;
       return { file,
                kind == TriangleKind::crossed     ? "crossed"
                : kind == TriangleKind::quadratic ? "quadratic"
                                                  : "plain",
-               std::to_string(static_cast<int>(dimension)) };
+               std::to_string(static_cast<int>(dimension)),
+               std::to_string(cells.refinements) };
     }
 
     /** Takes what quoin_gmsh gave for a mesh of that dimension. */
@@ -98,28 +100,28 @@ namespace quoin
      */
     AnyMeshData read(const std::string &file, const std::string &geometry,
                      const std::string &source, const std::string &cure,
-                     const MeshDimension dimension, const TriangleKind kind)
+                     const MeshDimension dimension, const CellOptions &cells)
     {
       GmshMesh read
-          = run_gmsh(source, arguments(file, kind, dimension), geometry);
+          = run_gmsh(source, arguments(file, cells, dimension), geometry);
       if (!read.gmsh_errors.empty())
         fail(source, "gmsh could not make a mesh of it: " + read.gmsh_errors
                          + ". " + cure);
       if (!read.refusal.empty())
         fail(source, read.refusal);
       if (read.dimension == 3)
-        return take<3>(read, source, kind);
-      return take<2>(read, source, kind);
+        return take<3>(read, source, cells.kind);
+      return take<2>(read, source, cells.kind);
     }
 
     AnyMeshData read_file(const std::string &filename,
                           const MeshDimension dimension,
-                          const TriangleKind kind)
+                          const CellOptions &cells)
     {
       check_file(filename);
       return read(filename, "", filename,
                   "Open the file in gmsh and repair it there.", dimension,
-                  kind);
+                  cells);
     }
 
     /** What @p read gives on the first rank, there; its dimension everywhere.
@@ -152,33 +154,34 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  MeshData<dim> read_gmsh(const std::string &filename, const TriangleKind kind)
+  MeshData<dim> read_gmsh(const std::string &filename, const CellOptions &cells)
   {
     return std::get<MeshData<dim>>(
-        read_file(filename, static_cast<MeshDimension>(dim), kind));
+        read_file(filename, static_cast<MeshDimension>(dim), cells));
   }
 
   AnyMeshData read_any_gmsh(const std::string &filename,
                             const MPI_Comm &communicator,
                             const MeshDimension dimension,
-                            const TriangleKind kind)
+                            const CellOptions &cells)
   {
-    return read_on_first_rank(communicator, [&]()
-                              { return read_file(filename, dimension, kind); });
+    return read_on_first_rank(
+        communicator, [&]() { return read_file(filename, dimension, cells); });
   }
 
   template <int dim>
   MeshData<dim> read_gmsh(const std::string &filename,
-                          const MPI_Comm &communicator, const TriangleKind kind)
+                          const MPI_Comm &communicator,
+                          const CellOptions &cells)
   {
     return std::get<MeshData<dim>>(read_any_gmsh(
-        filename, communicator, static_cast<MeshDimension>(dim), kind));
+        filename, communicator, static_cast<MeshDimension>(dim), cells));
   }
 
   MeshData<2> mesh_gmsh_geometry(const std::string &geometry,
                                  const std::string &maker,
                                  const MPI_Comm &communicator,
-                                 const TriangleKind kind)
+                                 const CellOptions &cells)
   {
     return std::get<MeshData<2>>(read_on_first_rank(
         communicator,
@@ -186,15 +189,15 @@ namespace quoin
         {
           return read("/dev/stdin", geometry, maker,
                       "Change the parameters of that section.",
-                      MeshDimension::two, kind);
+                      MeshDimension::two, cells);
         }));
   }
 
   void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file,
-                       const TriangleKind kind)
+                       const CellOptions &cells)
   {
     std::vector<std::string> words
-        = arguments(geo_file, kind, MeshDimension::from_mesh);
+        = arguments(geo_file, cells, MeshDimension::from_mesh);
     words.push_back(msh_file);
     const GmshMesh written = run_gmsh(geo_file, words);
     if (!written.gmsh_errors.empty())
@@ -202,10 +205,10 @@ namespace quoin
                      + "'. Is the disk full?");
   }
 
-  template MeshData<2> read_gmsh(const std::string &, TriangleKind);
-  template MeshData<3> read_gmsh(const std::string &, TriangleKind);
+  template MeshData<2> read_gmsh(const std::string &, const CellOptions &);
+  template MeshData<3> read_gmsh(const std::string &, const CellOptions &);
   template MeshData<2> read_gmsh(const std::string &, const MPI_Comm &,
-                                 TriangleKind);
+                                 const CellOptions &);
   template MeshData<3> read_gmsh(const std::string &, const MPI_Comm &,
-                                 TriangleKind);
+                                 const CellOptions &);
 } // namespace quoin

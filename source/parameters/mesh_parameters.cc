@@ -13,6 +13,9 @@ namespace quoin
 {
   namespace
   {
+    /** A mesh with a million times as many cells as the file's is a mistake. */
+    constexpr int most_refinements = 10;
+
     void lay(const WallParameters &wall, Parameters &parameters)
     {
       const WallLayout layout     = lay_wall(wall);
@@ -89,7 +92,7 @@ namespace quoin
                      "from mesh: three dimensions if the file has tetrahedra, "
                      "or a geometry volumes, two if not; 2: the triangles in "
                      "the plane z = 0; 3: tetrahedra.");
-      entries.choice("Triangles", parameters.triangles,
+      entries.choice("Triangles", parameters.cells.kind,
                      { { "plain", TriangleKind::plain },
                        { "crossed", TriangleKind::crossed },
                        { "quadratic", TriangleKind::quadratic } },
@@ -98,6 +101,11 @@ namespace quoin
                      "diagonals, which do not lock in plastic flow; "
                      "quadratic: those of 'plain' with nodes in the middle "
                      "of their edges, for the implicit solver.");
+      entries.integer("Refinements", parameters.cells.refinements, 0,
+                      "Number of times that all edges of the mesh are halved: "
+                      "each time triangles and quadrangles become four, "
+                      "tetrahedra eight [-]",
+                      most_refinements);
       SplitOptions &split = parameters.split;
       entries.list("Joints along", split.joints_along,
                    "Physical curves along which the mesh is split into "
@@ -137,7 +145,7 @@ namespace quoin
       section.fail("Dimension",
                    "is 2 for a wall of section 'Wall' or rock of section "
                    "'Rock', whose meshes are plane: set 'from mesh'.");
-    if (parameters.triangles == TriangleKind::quadratic
+    if (parameters.cells.kind == TriangleKind::quadratic
         && !parameters.is_implicit)
       section.fail("Triangles",
                    "needs 'Solver = implicit': explicit steps divide forces by "

@@ -110,8 +110,7 @@ namespace quoin
     write_text(begin + ".geo", made.geometry);
     if (!made.statistics.empty())
       write_text(begin + "_statistics.csv", made.statistics);
-    write_gmsh_mesh(begin + ".geo", begin + ".msh",
-                    system.parameters.triangles);
+    write_gmsh_mesh(begin + ".geo", begin + ".msh", system.parameters.cells);
   }
 
   template <int dim>

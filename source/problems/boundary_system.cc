@@ -23,7 +23,9 @@ namespace quoin
            {
              MeshData<2> mesh;
              if (!parameters.mesh_file.empty())
-               mesh = read_gmsh(parameters.mesh_file, communicator);
+               mesh = read_gmsh(parameters.mesh_file, communicator,
+                                CellOptions(TriangleKind::plain,
+                                            parameters.cells.refinements));
              using dealii::Utilities::MPI::broadcast;
              fingerprint
                  = broadcast(communicator, run_fingerprint(parameters, mesh));

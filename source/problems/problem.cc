@@ -30,10 +30,10 @@ namespace quoin
       const GeneratedGeometry &made = parameters.generated;
       if (made.geometry.empty())
         return read_any_gmsh(parameters.mesh_file, communicator,
-                             parameters.dimension, parameters.triangles);
+                             parameters.dimension, parameters.cells);
       return mesh_gmsh_geometry(
           made.geometry, made.name == "wall" ? "section Wall" : "section Rock",
-          communicator, parameters.triangles);
+          communicator, parameters.cells);
     }
   } // namespace
 

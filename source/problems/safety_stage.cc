@@ -349,6 +349,15 @@ namespace quoin
       else if (stable > 0. && std::isfinite(failing))
         log.message(begin, "factor of safety between ", stable,
                     ", stable, and ", failing, ", failing");
+      const auto &materials = system.parameters.model.materials;
+      if (safety.reduces_blocks
+          && std::any_of(materials.begin(), materials.end(),
+                         [](const MaterialParameters &material)
+                         { return material.strength.has_value(); }))
+        log.message(begin, "elements that yield carry more than the ground "
+                           "itself, so factors are above those of finer "
+                           "meshes: scripts/mesh_convergence estimates by how "
+                           "much");
       log.message(begin, search.trials().size(), " trials of ",
                   search.n_steps(), " steps in all");
       if (system.explicit_solver)

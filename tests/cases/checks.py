@@ -15,7 +15,7 @@ import numpy as np
 from common import ROOT, Failure, read_table, run, strictly_increasing
 
 sys.path.insert(0, os.path.join(ROOT, "python"))
-from quoin import vtu  # noqa: E402
+from quoin import mesh_convergence, vtu  # noqa: E402
 
 
 def reference_module(folder, name="make_reference"):
@@ -1127,21 +1127,37 @@ def factor_of_safety(case, folder, output, histories):
         abs(0.5 * (stable + failing) / wanted - 1))}
 
 
+def middle_factor(output):
+    with open(os.path.join(output, "summary.json")) as stream:
+        found = json.load(stream)["factor of safety"]["safety"]
+    return 0.5 * (found["stable at"] + found["failing at"])
+
+
+def limit_of_factor_of_safety(case, folder, output, histories):
+    """What the factor tends to as edges are halved, from this run and one with
+    Mesh/Refinements = 1, against a column of a table."""
+    fine = os.path.join(output, "fine")
+    run(case["quoin"], os.path.join(folder, case["prm"]), fine,
+        case["set"] + ["Mesh/Refinements=1"])
+    factors = [middle_factor(output), middle_factor(fine)]
+    limit, _ = mesh_convergence.limit(factors)
+    wanted = read_table(os.path.join(folder, "reference.csv"))[0][
+        case["factor"]][0]
+    print("  factors %.4f and %.4f tend to %.4f, reference %.4f"
+          % (*factors, limit, wanted))
+    return {"factor of safety": float(abs(limit / wanted - 1))}
+
+
 def same_factor_of_safety(case, folder, output, histories):
     """factor_of_safety(), and how far its middle moves in each run of "others",
     further settings by name: those that strength does not depend on."""
-    def middle(folder_of_run):
-        with open(os.path.join(folder_of_run, "summary.json")) as stream:
-            found = json.load(stream)["factor of safety"]["safety"]
-        return 0.5 * (found["stable at"] + found["failing at"])
-
     result = factor_of_safety(case, folder, output, histories)
     for name, sets in case["others"].items():
         other = os.path.join(output, "other", name.replace(" ", "_"))
         run(case["quoin"], os.path.join(folder, case["prm"]), other,
             case.get("set", []) + sets)
-        print("  %s: %.4f" % (name, middle(other)))
-        result[name] = float(abs(middle(other) / middle(output) - 1))
+        print("  %s: %.4f" % (name, middle_factor(other)))
+        result[name] = float(abs(middle_factor(other) / middle_factor(output) - 1))
     return result
 
 

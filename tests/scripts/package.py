@@ -12,15 +12,17 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 
 from synthetic_runs import NOTHING, ROOT, WIDE, joint_grid, write_run
 import quoin
-from quoin import frames, running, studies
+from quoin import frames, mesh_convergence, running, studies
+from quoin.commands import mesh_convergence as mesh_command
 
-# Stands for quoin: writes the product of the overrides a and b, and how often
-# it was called; refuses a = 3, fails at a = 4, is killed at a = 5.
+# Stands for quoin: writes the product of the overrides a and b, plus the element
+# size of a refined mesh, and how often it was called; refuses a = 3, fails at a = 4, is killed at a = 5.
 QUOIN = """#!/usr/bin/python3
 import os, sys
 words = sys.argv
@@ -28,6 +30,8 @@ folder = words[words.index("--output") + 1]
 values = dict(text.split("=") for k, text in enumerate(words)
               if words[k - 1] == "--set")
 a, b = float(values["S/a"]), float(values.get("b", 1))
+size = (2.0 ** -int(values["Mesh/Refinements"])
+        if "Mesh/Refinements" in values else 0)
 with open("%s", "a") as file:
     file.write(f"{a:g}\\n")
 if a == 3:
@@ -38,7 +42,9 @@ if a == 4:
 if a == 5:
     os.kill(os.getpid(), 9)
 with open(os.path.join(folder, "histories.csv"), "w") as file:
-    file.write(f"time [s],p [N]\\n0,0\\n1,{a * b}\\n")
+    file.write(f"time [s],p [N]\\n0,0\\n1,{a * b + size}\\n")
+with open(os.path.join(folder, "summary.json"), "w") as file:
+    file.write("{}")
 """
 
 
@@ -197,6 +203,50 @@ class Runs(unittest.TestCase):
         with contextlib.suppress(quoin.RunFailed):
             self.study([1, 5], (1,))
         self.assertEqual(self.called(), [5])
+
+    def test_mesh_convergence(self):
+        found = mesh_convergence.mesh_convergence(
+            self.case, os.path.join(self.folder, "meshes"), 2, {"S/a": 2},
+            quoin=self.quoin, progress=None)
+        values, limit, order = found["p: largest"]
+        self.assertEqual(values, [3., 2.5, 2.25])
+        self.assertAlmostEqual(limit, 2., 12)
+        self.assertAlmostEqual(order, 1., 12)
+        with self.assertRaisesRegex(ValueError, "it fell over"):
+            mesh_convergence.mesh_convergence(
+                self.case, os.path.join(self.folder, "fallen"), 1, {"S/a": 4},
+                quoin=self.quoin, progress=None)
+
+    def test_mesh_convergence_as_a_script(self):
+        output = os.path.join(self.folder, "meshes")
+        words = [self.case, "--set", "S/a=2", "--output", output, "--quoin",
+                 self.quoin]
+        def said(*more):
+            with mock.patch.object(sys, "argv", ["mesh_convergence"] + words
+                                   + list(more)), \
+                    contextlib.redirect_stdout(io.StringIO()) as says, \
+                    contextlib.redirect_stderr(io.StringIO()):
+                mesh_command.main()
+            return says.getvalue()
+        self.assertRegex(said(), r"p: largest +3 +2.5 +2 +25 +1.00\n")
+        with open(os.path.join(output, "mesh_convergence.csv")) as file:
+            self.assertIn("p: last,3,2.5,2,25,1.00\n", file.read())
+        with self.assertRaisesRegex(SystemExit, "has 'q' in its name"):
+            said("--only", "q")
+        with self.assertRaisesRegex(SystemExit, "not 'S'"):
+            said("--set", "S")
+
+    def test_limits_of_meshes(self):
+        limit, order = mesh_convergence.limit([1 + 3 * 4.**-k
+                                               for k in range(3)])
+        self.assertAlmostEqual(limit, 1., 12)
+        self.assertAlmostEqual(order, 2., 12)
+        self.assertEqual(mesh_convergence.limit([5., 4.], order=2)[0],
+                         4 - 1 / 3)
+        self.assertEqual(mesh_convergence.limit([5., 5.])[0], 5.)
+        for values in ([1., 2., 1.5], [1., 2., 3.], [1., 2., 2.]):
+            limit, order = mesh_convergence.limit(values)
+            self.assertEqual(limit == limit, values[1] == values[2])
 
     def test_grids(self):
         self.assertEqual(

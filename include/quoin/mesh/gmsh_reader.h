@@ -13,12 +13,27 @@
 
 namespace quoin
 {
-  /** What becomes of the cells of a mesh file. */
+  /** The triangles of a plane mesh. */
   enum class TriangleKind
   {
     plain,    /**< triangles, as they are */
     crossed,  /**< quadrangles, each cut by its diagonals */
     quadratic /**< triangles with nodes in the middle of their edges */
+  };
+
+  /** What becomes of the cells of a mesh file. */
+  struct CellOptions
+  {
+    /** Also from a kind alone. */
+    CellOptions(const TriangleKind kind        = TriangleKind::plain,
+                const unsigned int refinements = 0)
+      : kind(kind), refinements(refinements)
+    {
+    }
+
+    TriangleKind kind;
+    /** Number of times that edges are halved, before quadrangles are cut. */
+    unsigned int refinements;
   };
 
   /** The dimension that a mesh is to have. */
@@ -50,17 +65,21 @@ namespace quoin
    * With TriangleKind::quadratic the triangles are those of
    * TriangleKind::plain; NodeMap gives them their midside nodes.
    *
+   * A refinement halves all edges: triangles and quadrangles become four,
+   * tetrahedra eight. New nodes on a curve of a geometry lie on the curve,
+   * those of a mesh without geometry in the middle of the edge.
+   *
    * Throws InputError with the file, the entity and the cure: no such file, an
    * error of gmsh, no cells of dimension @p dim, quadrangles (unless they are
    * to be crossed, and then if there are none), hexahedra, prisms and pyramids,
    * curved elements, a surface (volume) in no, several or unnamed physical
    * groups, a curve (surface) in several, nodes of a plane mesh off the plane
-   * z = 0, cells without volume, another @p kind than plain in three
+   * z = 0, cells without volume, another kind than plain in three
    * dimensions.
    */
   template <int dim = 2>
   MeshData<dim> read_gmsh(const std::string &filename,
-                          TriangleKind kind = TriangleKind::plain);
+                          const CellOptions &cells = {});
 
   /**
    * Reads @p filename on the first rank, as the function above; the others have
@@ -69,7 +88,7 @@ namespace quoin
   template <int dim = 2>
   MeshData<dim> read_gmsh(const std::string &filename,
                           const MPI_Comm &communicator,
-                          TriangleKind kind = TriangleKind::plain);
+                          const CellOptions &cells = {});
 
   /**
    * Reads a mesh of @p dimension, as read_gmsh(); all ranks know whether it has
@@ -79,8 +98,8 @@ namespace quoin
    */
   AnyMeshData read_any_gmsh(const std::string &filename,
                             const MPI_Comm &communicator,
-                            MeshDimension dimension = MeshDimension::from_mesh,
-                            TriangleKind kind       = TriangleKind::plain);
+                            MeshDimension dimension  = MeshDimension::from_mesh,
+                            const CellOptions &cells = {});
 
   /**
    * read_gmsh() with the text @p geometry of a .geo file. @p maker: what made
@@ -89,14 +108,14 @@ namespace quoin
   MeshData<2> mesh_gmsh_geometry(const std::string &geometry,
                                  const std::string &maker,
                                  const MPI_Comm &communicator,
-                                 TriangleKind kind = TriangleKind::plain);
+                                 const CellOptions &cells = {});
 
   /**
    * Mesh the geometry @p geo_file and write the mesh to @p msh_file (.msh), for
    * users to look at and change. Throws RunError if it cannot be written.
    */
   void write_gmsh_mesh(const std::string &geo_file, const std::string &msh_file,
-                       TriangleKind kind = TriangleKind::plain);
+                       const CellOptions &cells = {});
 } // namespace quoin
 
 #endif

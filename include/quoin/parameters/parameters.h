@@ -43,7 +43,7 @@ namespace quoin
     std::string mesh_file;       /**< relative to the working directory */
     GeneratedGeometry generated; /**< instead of the file, or empty */
     MeshDimension dimension = MeshDimension::from_mesh;
-    TriangleKind triangles  = TriangleKind::plain;
+    CellOptions cells;
     SplitOptions split;
 
     ModelParameters model;

@@ -7,13 +7,16 @@ A rigid body above a logarithmic spiral through the toe turns about the
 spiral's centre: an upper bound of the limit load for any centre (Chen 1975),
 the least of which is above the exact one by about 1 %. It is compared with
 Chen's table. Of the vertical cut without friction the exact stability number
-is between 3.7752 and 3.7776 (Pastor, Thai and Francescato 2000; Martin 2011).
+is between 3.7752 and 3.7776 (Pastor, Thai and Francescato 2000; Martin 2011); what
+meshes make of it is in mesh_limit.py.
 Needs scipy (python3-scipy).
 """
 import os
 
 import numpy as np
 from scipy.optimize import brentq, minimize
+
+import mesh_limit
 
 HEIGHT, WEIGHT = 1.0, 20e3  # [m], [N/m^3]
 CUT = 3.776                 # exact stability number, no friction
@@ -86,6 +89,8 @@ def main():
             "cut_with_friction": factor(90, 20, 5e3),
             "slope_60": factor(60, 10, 4e3),
             "slope_45": factor(45, 20, 2e3)}
+    for n in (8, 16, 48):
+        rows["cut_mesh_%d" % n] = mesh_limit.factor(n)[0]
     name = os.path.join(os.path.dirname(os.path.abspath(__file__)),
                         "reference.csv")
     with open(name, "w") as stream:

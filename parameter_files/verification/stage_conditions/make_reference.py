@@ -14,7 +14,7 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 KN, STRENGTH, BOUND = 10e9, 0.5e6, 4.2e5
-PULL, PRESS, ROW = 4.7e-3, 3.1e-3, 5e-4
+PULL, PRESS, ROW = 4.7e-3, 3.1e-3, 2.5e-4
 
 
 def row_after(time):

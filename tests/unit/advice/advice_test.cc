@@ -201,7 +201,7 @@ TEST(InputAdvice, JointsAndMaterials)
   parameters                                    = good_parameters();
   parameters.model.materials[1].elastic.poisson = 0.47;
   expect(parameters, "lock");
-  parameters.triangles = TriangleKind::crossed;
+  parameters.cells.kind = TriangleKind::crossed;
   EXPECT_EQ(advice(parameters), "");
 }
 

@@ -109,6 +109,35 @@ TEST(GmshReader, SaysThatTrianglesAreToHaveMidsideNodes)
   }
 }
 
+TEST(GmshReader, HalvesEdges)
+{
+  // A quarter of a disc, in the plane.
+  const std::string disc
+      = "h = 0.5; Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h};"
+        "Point(3) = {0, 1, 0, h}; Line(1) = {1, 2}; Circle(2) = {2, 1, 3};"
+        "Line(3) = {3, 1}; Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};"
+        "Physical Surface(\"rock\") = {1}; Physical Curve(\"arc\") = {2};";
+  const std::string path = write("refined.geo", disc);
+  for (const TriangleKind kind : { TriangleKind::plain, TriangleKind::crossed })
+  {
+    const MeshData<2> coarse = read_gmsh(path, kind);
+    const MeshData<2> fine   = read_gmsh(path, CellOptions(kind, 2));
+    EXPECT_EQ(fine.cells.size(), 16 * coarse.cells.size());
+    EXPECT_EQ(fine.faces.size(), 4 * coarse.faces.size());
+    EXPECT_EQ(fine.group_names, coarse.group_names);
+    for (const auto &face : fine.faces)
+      for (const unsigned int vertex : face)
+        EXPECT_NEAR(fine.vertices[vertex].norm(), 1., 1e-6);
+  }
+
+  // A mesh without geometry.
+  const std::string file    = write("refined.msh", msh2(nodes, elements));
+  const MeshData<2> coarse  = read_gmsh(file);
+  const MeshData<2> refined = read_gmsh(file, CellOptions({}, 1));
+  EXPECT_EQ(refined.cells.size(), 4 * coarse.cells.size());
+  expect_two_squares(refined);
+}
+
 TEST(GmshReader, CutsQuadranglesCrosswise)
 {
   const std::string path = write("crossed.geo", two_squares + names);
