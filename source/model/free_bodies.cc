@@ -358,11 +358,16 @@ namespace quoin
     for (unsigned int i = 0; i < found.size(); ++i)
       if (is_pushed[i])
       {
-        found[i].n_blocks      = n_blocks[bodies.body(found[i].block)];
-        const auto [low, high] = box_of_block(model.nodes(), found[i].block);
-        found[i].centre        = low + 0.5 * (high - low);
+        found[i].n_blocks = n_blocks[bodies.body(found[i].block)];
         result.push_back(found[i]);
       }
+    // Of all, there may be thousands, it would take long.
+    if (!result.empty())
+    {
+      const auto [low, high]
+          = box_of_block(model.nodes(), result.front().block);
+      result.front().centre = low + 0.5 * (high - low);
+    }
     return result;
   }
 

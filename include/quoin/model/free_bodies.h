@@ -31,7 +31,7 @@ namespace quoin
   {
     unsigned int block;        /**< its first block */
     unsigned int n_blocks;     /**< number of its blocks */
-    dealii::Point<dim> centre; /**< of the first block [m] */
+    dealii::Point<dim> centre; /**< of that block, of the first body [m] */
     bool is_loose;             /**< all of its rigid body modes are free */
   };
 

@@ -116,7 +116,7 @@ TEST(GmshReader, HalvesEdges)
       = "h = 0.5; Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h};"
         "Point(3) = {0, 1, 0, h}; Line(1) = {1, 2}; Circle(2) = {2, 1, 3};"
         "Line(3) = {3, 1}; Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};"
-        "Physical Surface(\"rock\") = {1}; Physical Curve(\"arc\") = {2};";
+        "Physical Surface(\"rock\") = {1}; Physical Curve(\"arc\") = {2};\n";
   const std::string path = write("refined.geo", disc);
   for (const TriangleKind kind : { TriangleKind::plain, TriangleKind::crossed })
   {
