@@ -40,6 +40,8 @@ FILL = os.path.join(common.VERIFICATION, "fill", "case.prm")
 SHORT = ["Stages/%s/%s" % (stage, value)
          for stage in ("base", "fill", "half", "gone", "concrete")
          for value in ("End=time", "Duration=0.02")]
+# Results counted from a stage in which a block has just been placed.
+SHORT.append("Stages/fill/Reset=displacements, slips, joint states")
 # The first displacements of a shear wall, joints opening.
 WALL = os.path.join(common.MASONRY, "tue_walls", "j4d.prm")
 PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
