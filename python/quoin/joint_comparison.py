@@ -4,6 +4,8 @@
 
 import numpy as np
 
+from quoin.vtu import from_the_start
+
 CLOSED, SLIDING, OPEN = 0, 1, 2
 NAMES = ("closed", "sliding", "open")
 MOST_AT_ONCE = 2e6                   # distances
@@ -13,6 +15,7 @@ def classes(joints, shear_stiffness, threshold):
     """Class of both ends of each face: open if the opening is above
     @p threshold [m], else sliding if the slip without its elastic part, by
     @p shear_stiffness [Pa/m] of each joint set, is, else closed."""
+    joints = from_the_start(joints)
     ends = joints.cells
     stiffness = np.asarray(shear_stiffness)[joints.cell_data["joint set"]]
     slip = np.abs(joints.point_data["slip"][ends]
@@ -24,7 +27,7 @@ def classes(joints, shear_stiffness, threshold):
 
 def reference_ends(joints):
     """Ends of the faces where nothing has moved yet [m], (n, 2, 2)."""
-    moved = joints.point_data["displacement"][:, :2]
+    moved = from_the_start(joints).point_data["displacement"][:, :2]
     return (joints.points - moved)[joints.cells]
 
 

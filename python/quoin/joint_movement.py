@@ -7,7 +7,7 @@ import numpy as np
 
 from quoin.joint_comparison import matched, nearest, reference_ends
 from quoin.joint_states import INTACT, OPEN, SLIPPED
-from quoin.vtu import Grid, merge
+from quoin.vtu import Grid, from_the_start, merge
 
 LEAST_GROWTH = 1e-2                  # of the largest, see since()
 BESIDE = 0.1                         # of a face, from it to its contact
@@ -37,8 +37,10 @@ def handed_over(first, now, blocks, contacts, farthest):
     @p farthest [m] are left out: there the blocks have gone separate ways.
     Tractions, states and fields of laws are those of the contact that lies on
     the line, from @p contacts; without one the face is open, or has slipped
-    where it is closed, and has lost its bond.
+    where it is closed, and has lost its bond. All of that counts from the start
+    of the run, whatever a stage has reset.
     """
+    blocks = from_the_start(blocks)
     of_first = reference_ends(first)
     is_lost = np.ones(len(of_first), dtype=bool)
     if now is not None:
@@ -87,6 +89,11 @@ def handed_over(first, now, blocks, contacts, farthest):
         name: known[name] if name in known
         else of_contact(name, none + (name == "damage"))
         for name in first.point_data}
+    if now is not None:
+        for name in set(now.point_data) - set(first.point_data):
+            # they have no earlier part, see from_the_start()
+            point_data[name] = np.zeros((len(points),)
+                                        + now.point_data[name].shape[1:])
     return Grid(now.time if now is not None else blocks.time, points,
                 np.arange(len(points)).reshape(-1, 2), point_data,
                 {"state": state, "length": length,
@@ -128,6 +135,7 @@ def blocks_since(blocks, then):
         block[grid.cells] = grid.cell_data["block"][:, None]
         return np.column_stack([grid.points, block])
 
+    blocks, then = from_the_start(blocks), from_the_start(then)
     u = blocks.point_data["displacement"].copy()
     first = names(blocks)
     if np.array_equal(first, names(then)):
@@ -153,6 +161,7 @@ def since(joints, then, shear_stiffness):
     LEAST_GROWTH of what the one that moved most did; all others count as
     intact. Faces that were not there at @p then count from zero.
     """
+    joints, then = from_the_start(joints), from_the_start(then)
     here, there, turned = matched(joints, then)
     before = {name: np.zeros_like(values, dtype=float)
               for name, values in joints.point_data.items()}

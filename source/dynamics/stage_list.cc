@@ -64,6 +64,11 @@ namespace quoin
         ParameterSection(section, stages.front().name)
             .fail("End", "needs a stage before it that brings the model to "
                          "rest: a factor of safety begins with its state.");
+      if (stages.front().reset.any())
+        ParameterSection(section, stages.front().name)
+            .fail("Reset", "has no effect in the first stage, from whose start "
+                           "all results count. Give it to the stage whose "
+                           "motion is to be seen, or remove it.");
       double end = 0.; // of the previous stage; NaN: known only as it runs
       for (const StageParameters &stage : stages)
       {

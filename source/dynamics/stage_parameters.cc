@@ -43,11 +43,11 @@ namespace quoin
                      "that stay which is gone at the end of this stage [-]");
       entries.number_or("automatic", -1., "Release duration",
                         stage.release_duration,
-                        "How long the release of the forces of excavated "
-                        "blocks takes, by the loads' clock; automatic: "
-                        "the stage's duration or, of an explicit stage with "
-                        "'End = static ratio', twice the time of a shear wave "
-                        "along the model's diagonal [s]");
+                        "Load time that the release of the forces of "
+                        "excavated blocks takes; automatic: the stage's "
+                        "duration or, of an explicit stage with 'End = static "
+                        "ratio', twice the time of a shear wave along the "
+                        "model's diagonal [s]");
       entries.choice("Release ramp", stage.releases_linearly,
                      { { "smooth", false }, { "linear", true } },
                      "How the forces of excavated blocks decrease with time; "
@@ -177,8 +177,10 @@ namespace quoin
                      "Quasi-static loading to collapse: the loading rate is "
                      "reduced, at most ten thousand times, so that kinetic "
                      "energy stays below this share of the energy throughput; "
-                     "the duration is then one of the loads' clock; 0: loads "
-                     "follow the time [-]");
+                     "the load time, of which loads are functions, then runs "
+                     "slower than the time, and 'Duration' is one of load "
+                     "time; 0: load time is the time since the start of the "
+                     "stage [-]");
       if (entries.reads_if(!by_time))
       {
         entries.positive("Static ratio", stage.static_ratio,
@@ -289,6 +291,31 @@ namespace quoin
       stage.pattern = pattern;
     }
 
+    void enter_reset(ParameterEntries &entries, ResultReset &reset)
+    {
+      std::vector<std::string> words;
+      entries.list("Reset", words,
+                   "What results count from the start of this stage on: "
+                   "displacements, slips, joint states, any of the three. "
+                   "Forces, stresses, strengths and energies go on as they "
+                   "are; empty: results go on, too.");
+      for (const std::string &word : words)
+      {
+        if (word == "displacements")
+          reset.displacements = true;
+        else if (word == "slips")
+          reset.slips = true;
+        else if (word == "joint states")
+          reset.joint_states = true;
+        else
+          entries.read_section()->fail(
+              "Reset", "names '" + word
+                           + "', which cannot be counted from the start of a "
+                             "stage. Give some of displacements, slips, joint "
+                             "states.");
+      }
+    }
+
     void enter(ParameterEntries &entries, StageParameters &stage)
     {
       entries.list("Loads", stage.loads,
@@ -298,6 +325,7 @@ namespace quoin
       enter_pattern(entries, stage);
       enter_damping(entries, stage);
       enter_construction(entries, stage);
+      enter_reset(entries, stage.reset);
       const ParameterSection *section = entries.read_section();
       if (entries.reads_if(section
                            && section->text("End") == "factor of safety"))
@@ -320,6 +348,11 @@ namespace quoin
                       "does not go with 'End = factor of safety', whose trials "
                       "write no histories. Give 'Failure displacement', or "
                       "leave this empty.");
+      if (stage.reset.any())
+        section->fail("Reset",
+                      "does not go with 'End = factor of safety', whose "
+                      "mechanism counts from the start of the stage in any "
+                      "case. Leave it empty.");
     }
   } // namespace
 
@@ -347,7 +380,7 @@ namespace quoin
         return "looks for the factor of safety";
       if (stage.end == StageEnd::time)
         return text_of("lasts ", stage.duration, " s",
-                       stage.slows_loads() ? " of the loads' clock" : "");
+                       stage.slows_loads() ? " of load time" : "");
       return is_implicit ? "until the loads rest"
                          : text_of("until unbalanced forces are ",
                                    stage.static_ratio, " of the applied ones");
@@ -378,6 +411,15 @@ namespace quoin
       text += "; fills " + join(fill, ", ");
     if (strength_factor != 1.)
       text += text_of("; strengths times ", strength_factor);
+    std::vector<std::string> counted;
+    if (reset.displacements)
+      counted.push_back("displacements");
+    if (reset.slips)
+      counted.push_back("slips");
+    if (reset.joint_states)
+      counted.push_back("joint states");
+    if (!counted.empty())
+      text += "; results count " + join(counted, ", ") + " from its start";
     for (const auto &[group, material] : materials)
       text += "; " + group + " becomes " + material;
     for (const auto &[set, other] : joint_properties)

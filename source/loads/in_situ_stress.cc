@@ -4,12 +4,14 @@
 #include <quoin/base/finite_numbers.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/loads/in_situ_stress.h>
+#include <quoin/loads/space_time_function.h>
 
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <regex>
 
 namespace quoin
 {
@@ -17,11 +19,49 @@ namespace quoin
   {
     using dealii::Utilities::split_string_list;
 
+    /** The number, or the expression of x and y, of @p name. */
+    InSituStress::Field field(const ParameterSection &section,
+                              const std::string &name)
+    {
+      const SpaceTimeFunction value = section.made(
+          name, [&]()
+          { return SpaceTimeFunction(section.text(name), section.folder()); });
+      if (value.depends_on_time())
+        section.fail(name, "depends on time, but it is the stress where the "
+                           "run begins. Give a number or an expression of x "
+                           "and y alone.");
+      return [value](const double x, const double y)
+      { return value(Eigen::Vector2d(x, y), 0.); };
+    }
+
+    /** As field(), but a ratio that is a number must not be negative. */
+    InSituStress::Field ratio(const ParameterSection &section,
+                              const std::string &name)
+    {
+      const auto value = field(section, name);
+      if (!SpaceTimeFunction::names_place(section.text(name))
+          && !(value(0., 0.) >= 0.))
+        section.fail(name, "must be a number that is not negative, or an "
+                           "expression of x and y.");
+      return value;
+    }
+
+    /** The height of the surface as an expression of x. */
+    InSituStress::Field height_function(const ParameterSection &section)
+    {
+      static const std::regex height("\\b[yz]\\b");
+      if (std::regex_search(section.text("Surface"), height))
+        section.fail("Surface", "depends on y, but it is the height y of the "
+                                "ground: give an expression of x alone [m].");
+      return field(section, "Surface");
+    }
+
     std::vector<std::array<double, 2>>
     read_surface(const ParameterSection &section)
     {
-      const std::string must_be = "must be the height of a level surface, or "
-                                  "points x, y; x, y with x ascending [m].";
+      const std::string must_be = "must be the height of a level surface, "
+                                  "points x, y; x, y with x ascending, or an "
+                                  "expression of x [m].";
       const bool is_level
           = section.text("Surface").find_first_of(",;") == std::string::npos;
       const auto rows = section.rows("Surface", is_level ? 1 : 2, must_be);
@@ -68,18 +108,16 @@ namespace quoin
     {
       if (section.text("Out-of-plane ratio") == "same")
         return;
-      const auto ratio = finite_numbers({ section.text("Out-of-plane ratio") });
-      if (ratio.empty() || ratio[0] < 0.)
-        section.fail("Out-of-plane ratio",
-                     "must be 'same' or a number that is not negative.");
       stress.has_out_of_plane    = true;
-      stress.out_of_plane_ratio  = ratio[0];
-      stress.out_of_plane_stress = 0.;
+      stress.out_of_plane_ratio  = ratio(section, "Out-of-plane ratio");
+      stress.out_of_plane_stress = InSituStress::uniform(0.);
     }
   } // namespace
 
   double InSituStress::surface_height(const double x) const
   {
+    if (surface_function)
+      return surface_function(x, 0.);
     const auto next = std::upper_bound(
         surface.begin(), surface.end(), x,
         [](const double at, const std::array<double, 2> &point)
@@ -99,7 +137,7 @@ namespace quoin
     // Points of a horizontal surface must not fall above it by rounding.
     if (y > height + 1e-12 * (1. + std::abs(height)))
       return {};
-    double vertical = -pressure, top = height;
+    double vertical = -pressure(x, height), top = height;
     for (const Layer &layer : layers)
     {
       const double bottom = std::max(y, layer.foot);
@@ -109,40 +147,56 @@ namespace quoin
         top = bottom;
       }
     }
-    return { { horizontal_ratio * vertical + horizontal_stress, vertical, 0.,
-               out_of_plane_ratio * vertical + out_of_plane_stress } };
+    return {
+      { horizontal_ratio(x, y) * vertical + horizontal_stress(x, y), vertical,
+        0., out_of_plane_ratio(x, y) * vertical + out_of_plane_stress(x, y) }
+    };
   }
 
   void InSituStress::enter(ParameterEntries &entries)
   {
     entries.other("Surface", "0",
-                  "In-situ stress: height y of the ground, or the points "
+                  "In-situ stress: height y of the ground, the points "
                   "x, y; x, y of its line, level beyond the first and the "
-                  "last; stress is zero above it [m]",
+                  "last, or an expression of x; stress is zero above it [m]",
                   [&](const ParameterSection &section)
-                  { surface = read_surface(section); });
+                  {
+                    if (SpaceTimeFunction::names_place(section.text("Surface")))
+                      surface_function = height_function(section);
+                    else
+                      surface = read_surface(section);
+                  });
     entries.other("Unit weight", "",
                   "In-situ stress: unit weight of the ground, or of its layers "
                   "downwards, each but the last with the height of its "
                   "foot [m]: 18e3:-5, 21e3:-12, 26e3 [N/m^3]",
                   [&](const ParameterSection &section)
                   { layers = read_layers(section); });
-    entries.number("Surface pressure", pressure,
-                   "In-situ stress: pressure on the surface, beside the weight "
-                   "of the ground [Pa]");
-    entries.nonnegative("Horizontal ratio", horizontal_ratio,
-                        "In-situ stress: K0, horizontal by vertical stress "
-                        "[-]");
-    entries.number("Horizontal surface stress", horizontal_stress,
-                   "In-situ stress: horizontal stress that is locked in at "
-                   "every depth, beside K0 times the vertical one, tension "
-                   "positive [Pa]");
+    const auto enter_field
+        = [&](const std::string &name, Field &value, const std::string &preset,
+              const auto &read, const std::string &sentence)
+    {
+      entries.other(name, preset, sentence,
+                    [&](const ParameterSection &section)
+                    { value = read(section, name); });
+    };
+    enter_field("Surface pressure", pressure, "0", field,
+                "In-situ stress: pressure on the surface, beside the weight of "
+                "the ground, a number or an expression of x [Pa]");
+    enter_field("Horizontal ratio", horizontal_ratio, "1", ratio,
+                "In-situ stress: K0, horizontal by vertical stress, a number "
+                "or an expression of x and y [-]");
+    enter_field("Horizontal surface stress", horizontal_stress, "0", field,
+                "In-situ stress: horizontal stress that is locked in at every "
+                "depth, beside K0 times the vertical one, tension positive, a "
+                "number or an expression of x and y [Pa]");
     out_of_plane_ratio  = horizontal_ratio;
     out_of_plane_stress = horizontal_stress;
     entries.other("Out-of-plane ratio", "same",
                   "In-situ stress, in plane strain: stress out of the "
-                  "plane by vertical stress; 'same': as the horizontal "
-                  "one, with what is locked in [-]",
+                  "plane by vertical stress, a number or an expression of x "
+                  "and y; 'same': as the horizontal one, with what is locked "
+                  "in [-]",
                   [&](const ParameterSection &section)
                   { read_out_of_plane_ratio(section, *this); });
   }

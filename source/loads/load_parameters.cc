@@ -596,7 +596,7 @@ namespace quoin
         entries.number_or(
             "automatic", -1., "Ramp duration", load.ramp_duration,
             "Gravity: time over which it grows by half a cosine from nothing "
-            "where it begins, by the loads' clock; 0: it is there at once; "
+            "where it begins, in load time; 0: it is there at once; "
             "automatic: 0 but in explicit stages with 'End = static ratio' of "
             "models without initial stress, where it is twice the time of a "
             "shear wave along the model's diagonal, at least two thousand "

@@ -4,10 +4,12 @@
 // Initial stress of a Model<2>.
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/number_text.h>
 #include <quoin/model/model.h>
 #include <quoin/loads/nodal_load.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace quoin
 {
@@ -23,6 +25,30 @@ namespace quoin
       if (plane == PlaneAssumption::plane_stress)
         stress[3] = 0.;
       return stress;
+    }
+
+    /** Refuses values of expressions that are no numbers; collective. */
+    void refuse_infinite(const std::string &load,
+                         const std::vector<std::array<double, 4>> &cells,
+                         const std::vector<JointFaceStress> &faces,
+                         const MPI_Comm communicator)
+    {
+      const auto is_wrong = [](const auto &stress)
+      {
+        return !std::all_of(stress.begin(), stress.end(),
+                            [](const double part)
+                            { return std::isfinite(part); });
+      };
+      std::size_t n = std::count_if(cells.begin(), cells.end(), is_wrong);
+      for (const JointFaceStress &face : faces)
+        n += std::count_if(face.begin(), face.end(), is_wrong);
+      n = dealii::Utilities::MPI::sum(n, communicator);
+      if (n > 0)
+        throw InputError("section 'Loads/" + load
+                         + "': its stress is no finite " + "number at "
+                         + count_text(n, "place")
+                         + " of the model, such as 1/y where y is 0. Give "
+                           "expressions that have a value in all blocks.");
     }
   } // namespace
 
@@ -91,6 +117,8 @@ namespace quoin
                 face_stress[f][k][i] += 0.5 * stress[i];
             }
       }
+      refuse_infinite(load.name, cell_stress, face_stress,
+                      node_map.communicator());
     }
     // The points' forces become those of a traction that is linear along the
     // face. Simpson's rule on quadratic edges gives them already.

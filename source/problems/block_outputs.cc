@@ -5,6 +5,7 @@
 #include <quoin/problems/block_outputs.h>
 #include <quoin/results/atomic_file.h>
 #include <quoin/results/field_output.h>
+#include <quoin/results/result_origin.h>
 
 #include <algorithm>
 #include <cmath>
@@ -61,7 +62,11 @@ namespace quoin
   template <int dim>
   BlockOutputs<dim>::BlockOutputs(BlockSystem<dim> &system,
                                   const RunContext &run)
-    : system(system), run(run), histories(make_histories(system)),
+    : system(system), run(run),
+      resets(std::any_of(
+          system.parameters.stages.begin(), system.parameters.stages.end(),
+          [](const StageParameters &stage) { return stage.reset.any(); })),
+      histories(make_histories(system)),
       row_times(system.parameters.row_times()),
       field_times(system.parameters.field_times()),
       history_table(run.tables.add("histories.csv", histories.column_names())),
@@ -98,6 +103,36 @@ namespace quoin
             write_generated_geometry();
         });
     fields.start();
+  }
+
+  template <int dim>
+  void BlockOutputs<dim>::begin_stage(const ResultReset &reset,
+                                      State<dim> &state)
+  {
+    if (!resets)
+      return;
+    change_origin(state, [&](State<dim> &now)
+                  { count_from(*system.model, reset, now); });
+    histories.begin_stage(reset, state);
+  }
+
+  template <int dim>
+  void BlockOutputs<dim>::end_stage(State<dim> &state)
+  {
+    if (resets)
+      change_origin(state,
+                    [&](State<dim> &now) { note_failed_joints<dim>(now); });
+  }
+
+  template <int dim>
+  template <typename Change>
+  void BlockOutputs<dim>::change_origin(State<dim> &state, const Change &change)
+  {
+    using Origin   = ResultOrigin<dim>;
+    State<dim> now = state;
+    system.solver->update_histories(now);
+    change(now);
+    state.template get<Origin>() = now.template get<Origin>();
   }
 
   template <int dim>

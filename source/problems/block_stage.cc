@@ -2,7 +2,9 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/dynamics/state_checks.h>
+#include <quoin/operators/archive.h>
 #include <quoin/problems/block_stage.h>
+#include <quoin/results/result_origin.h>
 
 namespace quoin
 {
@@ -15,6 +17,7 @@ namespace quoin
       outcomes(parameters.stages.size()), loads(parameters.stages.size()),
       damping_shares(parameters.stages.size())
   {
+    state.template add<ResultOrigin<dim>>();
     for (const StageParameters &stage : parameters.stages)
       if (stage.pattern && stage.pattern->controlled != "mean")
         naming(parameters.file,
@@ -46,6 +49,13 @@ namespace quoin
   }
 
   template <int dim>
+  void BlockStage<dim>::begin_model()
+  {
+    system.begin_stage(index, state);
+    outputs.begin_stage(stage.reset, state);
+  }
+
+  template <int dim>
   void BlockStage<dim>::end()
   {
     finish();
@@ -58,6 +68,7 @@ namespace quoin
     warn_of_control();
     keep_unreleased_forces();
     note_outcome();
+    outputs.end_stage(state);
     ++state.stage;
     outputs.write_fields(state);
   }

@@ -26,7 +26,7 @@ namespace quoin
 
       void begin() override
       {
-        system.begin_stage(index, state);
+        this->begin_model();
         context.displaced = farthest_node(*system.model, state).distance;
         prepare();
       }

@@ -17,7 +17,7 @@ namespace quoin
 
       void begin() override
       {
-        system.begin_stage(index, state);
+        begin_model();
         if (state.step == 0)
           add_row();
       }

@@ -79,6 +79,9 @@ namespace quoin
     grid.cells      = flat(fields.cells);
     grid.point_data = { { "displacement", dim, flat(fields.displacement) },
                         { "velocity", dim, flat(fields.velocity) } };
+    if (!fields.earlier_displacement.empty())
+      grid.point_data.push_back(
+          { "earlier displacement", dim, flat(fields.earlier_displacement) });
     grid.cell_data.push_back(
         { "stress", dim == 2 ? 4 : 6, flat(fields.stress),
           dim == 2 ? std::vector<std::string>{ "xx", "yy", "xy", "zz" }

@@ -4,6 +4,7 @@
 #include <quoin/blocks/cell_states.h>
 #include <quoin/contact/law_fields.h>
 #include <quoin/results/field_output.h>
+#include <quoin/results/result_origin.h>
 #include <quoin/tdbem/tangential_stress.h>
 
 namespace quoin
@@ -16,6 +17,8 @@ namespace quoin
     BlockFields<dim> fields;
     const NodeMap<dim> &nodes = model.nodes();
     const auto &plastic       = state.template get<PlasticHistory>();
+    const auto *origin        = state.template find<ResultOrigin<dim>>();
+    const bool is_moved       = origin && !origin->displacement.empty();
     decltype(fields.stress) stress;
     decltype(fields.strain) strain;
     cell_stresses(model.blocks(), state.nodes.data(), plastic, stress, strain);
@@ -34,6 +37,16 @@ namespace quoin
       };
       fields.position.push_back(vector(node.X));
       fields.displacement.push_back(vector(node.u));
+      if (is_moved)
+      {
+        const auto earlier = vector(origin->displacement[i].v);
+        fields.earlier_displacement.push_back(earlier);
+        for (unsigned int d = 0; d < dim; ++d)
+        {
+          fields.position.back()[d] += earlier[d];
+          fields.displacement.back()[d] -= earlier[d];
+        }
+      }
       fields.velocity.push_back(vector(state.velocity[i].v));
     };
     for (const BlockPart &part : nodes.blocks().parts)
@@ -71,6 +84,9 @@ namespace quoin
   {
     JointFields fields;
     const JointHistory &history = state.get<JointHistory>();
+    const auto *origin          = state.find<ResultOrigin<2>>();
+    const bool is_moved         = origin && !origin->displacement.empty();
+    const bool slips_later      = origin && !origin->slip.empty();
     for (const std::string &name : law_field_names(model.joints()))
       fields.of_laws.push_back({ name, {} });
     for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
@@ -91,13 +107,28 @@ namespace quoin
             { { 0.5 * (a.X[0] + b.X[0]), 0.5 * (a.X[1] + b.X[1]) } });
         fields.displacement.push_back(
             { { 0.5 * (a.u[0] + b.u[0]), 0.5 * (a.u[1] + b.u[1]) } });
+        if (is_moved)
+        {
+          const auto &of_a = origin->displacement[segment.lower[k]];
+          const auto &of_b = origin->displacement[segment.upper[k]];
+          fields.earlier_displacement.emplace_back();
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            const double earlier = 0.5 * (of_a.v[d] + of_b.v[d]);
+            fields.earlier_displacement.back()[d] = earlier;
+            fields.position.back()[d] += earlier;
+            fields.displacement.back()[d] -= earlier;
+          }
+        }
         fields.opening.push_back(gaps[k][0]);
-        fields.slip.push_back(gaps[k][1]);
+        fields.slip.push_back(gaps[k][1] - slip_at_origin(state, p));
+        if (slips_later)
+          fields.earlier_slip.push_back(origin->slip[p]);
         fields.normal_traction.push_back(history.normal_traction[p]);
         fields.shear_traction.push_back(history.shear_traction[p]);
         for (auto &[name, values] : fields.of_laws)
           values.push_back(law_field(model.joints(), name, p, history));
-        fields.state.push_back(history.state[p]);
+        fields.state.push_back(state_since_origin(state, p));
       }
     }
     return fields;

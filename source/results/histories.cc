@@ -11,6 +11,7 @@
 #include <quoin/contact/law_fields.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/results/block_output.h>
+#include <quoin/results/result_origin.h>
 
 #include <algorithm>
 #include <cmath>
@@ -250,6 +251,7 @@ namespace quoin
       if (probes[i].parameters.is_of_two_points())
         add_ends(i);
     row.resize(1 + probes.size());
+    origin.resize(n_columns, 0.);
     if (!boundary_probes.empty())
       of_boundary = std::make_unique<BoundaryHistories>(
           boundary_probes, geometry, boundaries, model.parameters().thickness);
@@ -542,7 +544,7 @@ namespace quoin
     if (component == 3)
       return history.shear_traction[p];
     if (component == 4)
-      return static_cast<double>(history.state[p]);
+      return static_cast<double>(state_since_origin(state, p));
     return law_field(model.joints(), component == 5 ? "damage" : "crushing", p,
                      history);
   }
@@ -693,7 +695,73 @@ namespace quoin
   }
 
   template <int dim>
+  std::vector<unsigned int>
+  Histories<dim>::about_absent(const State<dim> &state) const
+  {
+    std::vector<unsigned int> result(n_columns, 0);
+    const auto is_at_absent = [&](const Probe &probe)
+    {
+      const auto blocks = blocks_of(probe);
+      return std::any_of(blocks.begin(), blocks.end(),
+                         [&](const unsigned int block)
+                         { return state.is_absent(block); });
+    };
+    for (unsigned int i = 0; i < n_columns; ++i)
+    {
+      result[i] = is_at_absent(probes[i]);
+      if (probes[i].ends > 0)
+        for (unsigned int end = 0; end < 2 * dim; ++end)
+          result[i] = result[i] || is_at_absent(probes[probes[i].ends + end]);
+    }
+    unsigned int next = 0; // column of of_blocks
+    for (unsigned int i = 0; i < n_columns; ++i)
+      if (probes[i].parameters.is_of_block())
+      {
+        for (unsigned int b = 0; b < state.block_marks.size(); ++b)
+          if (state.is_absent(b) && of_blocks->is_of(next, b))
+            result[i] = 1;
+        ++next;
+      }
+    dealii::Utilities::MPI::max(result, communicator, result);
+    return result;
+  }
+
+  template <int dim>
+  void Histories<dim>::begin_stage(const ResultReset &reset,
+                                   const State<dim> &state)
+  {
+    std::vector<double> whole;
+    if (reset.displacements || reset.slips)
+    {
+      before_step(state);
+      whole = whole_row(state);
+    }
+    const auto is_absent = about_absent(state);
+    for (unsigned int i = 0; i < n_columns; ++i)
+    {
+      const HistoryParameters &wanted = probes[i].parameters;
+      const bool is_slip
+          = wanted.quantity == HistoryQuantity::joint && wanted.component == 1;
+      // A block that is absent begins where the mesh has it.
+      if (is_absent[i])
+        origin[i] = 0.;
+      else if ((reset.displacements && wanted.is_displacement())
+               || (reset.slips && is_slip))
+        origin[i] = whole[1 + i];
+    }
+  }
+
+  template <int dim>
   std::vector<double> Histories<dim>::after_step(const State<dim> &state)
+  {
+    std::vector<double> result = whole_row(state);
+    for (unsigned int i = 0; i < n_columns; ++i)
+      result[1 + i] -= origin[i];
+    return result;
+  }
+
+  template <int dim>
+  std::vector<double> Histories<dim>::whole_row(const State<dim> &state)
   {
     for (unsigned int i = 0; i < probes.size(); ++i)
     {

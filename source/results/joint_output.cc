@@ -75,6 +75,11 @@ namespace quoin
                         { "normal traction", 1, fields.normal_traction },
                         { "shear traction", 1, fields.shear_traction },
                         { "point state", 1, point_state } };
+    if (!fields.earlier_displacement.empty())
+      grid.point_data.push_back(
+          { "earlier displacement", 2, flat(fields.earlier_displacement) });
+    if (!fields.earlier_slip.empty())
+      grid.point_data.push_back({ "earlier slip", 1, fields.earlier_slip });
     for (const auto &[name, values] : fields.of_laws)
       grid.point_data.push_back({ name, 1, values });
     grid.cell_data = { { "state", 1, face_state },

@@ -3,6 +3,7 @@
 
 #include <quoin/results/field_output.h>
 #include <quoin/results/model_output.h>
+#include <quoin/results/result_origin.h>
 
 namespace quoin
 {
@@ -33,21 +34,14 @@ namespace quoin
     // Internal variables are those of the previous step.
     State<dim> now = state;
     solver.update_histories(now);
-    BlockFields<dim> fields = block_fields(model, now);
     if (base)
     {
-      // Only blocks that are still present are written.
-      State<dim> begin             = *base;
-      begin.block_marks            = now.block_marks;
-      const BlockFields<dim> start = block_fields(model, begin);
-      for (std::size_t i = 0; i < fields.position.size(); ++i)
-        for (unsigned int d = 0; d < dim; ++d)
-        {
-          fields.position[i][d] += start.displacement[i][d];
-          fields.displacement[i][d] -= start.displacement[i][d];
-        }
+      State<dim> begin = *base;
+      count_from(model, { true, true, true }, begin);
+      using Origin               = ResultOrigin<dim>;
+      now.template get<Origin>() = begin.template get<Origin>();
     }
-    blocks.write(time, fields);
+    blocks.write(time, block_fields(model, now));
     if constexpr (dim == 2)
     {
       joints.write(time, joint_fields(model, now));

@@ -48,6 +48,26 @@ def energy_residual(case, folder, output, histories):
     return {"energy residual": residual_of(energies(output))}
 
 
+def reset_results(case, folder, output, histories):
+    """The run once more without 'Reset': all columns but those that it resets
+    ("reset"), and energies, are the same bit by bit. And the residual of the
+    energy balance."""
+    whole = os.path.join(output, "whole")
+    run(case["quoin"], os.path.join(folder, case["prm"]), whole,
+        case.get("set", []) + ["Stages/back/Reset="])
+    one, other = (read_table(os.path.join(path, "histories.csv"))[0]
+                  for path in (output, whole))
+    for name in one:
+        if np.array_equal(one[name], other[name]) == (name in case["reset"]):
+            raise Failure("'%s' %s without 'Reset'" % (
+                name, "is the same" if name in case["reset"] else "differs"))
+    before, after = (open(os.path.join(path, "energies.csv"), "rb").read()
+                     for path in (output, whole))
+    if before != after:
+        raise Failure("energies differ without 'Reset'")
+    return energy_residual(case, folder, output, histories)
+
+
 def collapse(case, folder, output, histories):
     """The largest factor of a load pattern in summary.json by that of the case,
     if it has one, and the residual of the energy balance. Supports must take

@@ -40,6 +40,8 @@ FILL = os.path.join(common.VERIFICATION, "fill", "case.prm")
 SHORT = ["Stages/%s/%s" % (stage, value)
          for stage in ("base", "fill", "half", "gone", "concrete")
          for value in ("End=time", "Duration=0.02")]
+# Results counted from a stage in which a block has just been placed.
+SHORT.append("Stages/fill/Reset=displacements, slips, joint states")
 # The first displacements of a shear wall, joints opening.
 WALL = os.path.join(common.MASONRY, "tue_walls", "j4d.prm")
 PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
@@ -109,6 +111,26 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                  ["Stages/cycle/Damping=none",
                                   "Stages/cycle/Duration=5e-3",
                                   "Histories/Interval=5e-5"]),
+            # ... and a stage from which results count
+            "reset, divided": (os.path.join(common.VERIFICATION,
+                                            "slipping_crack", "case.prm"),
+                               ["Stages/cycle/Damping=none",
+                                "Stages/cycle/Duration=5e-3",
+                                "Stages/Names=cycle, more",
+                                "Stages/more/Loads=base, press",
+                                "Stages/more/Duration=5e-3",
+                                "Stages/more/Reset=displacements, slips, "
+                                "joint states",
+                                "Histories/Names=displacement, force, apart, "
+                                "slip, state",
+                                "Histories/apart/Quantity=distance change",
+                                "Histories/apart/Point=0, 2",
+                                "Histories/apart/Second point=1, 0",
+                                "Histories/slip/Quantity=joint slip",
+                                "Histories/slip/Point=0.5, 1",
+                                "Histories/state/Quantity=joint state",
+                                "Histories/state/Point=0.5, 1",
+                                "Histories/Interval=5e-5"]),
             "cavity": (os.path.join(common.VERIFICATION, "cavity_step",
                                     "case.prm"), ["Sampled field/Box="]),
             "hybrid": (os.path.join(common.VERIFICATION, "hybrid_hole",
@@ -162,7 +184,7 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
 RANKS = {"contacts, divided": (2, 3, 4), "dashpots": (2, 3),
          "dashpots, divided": (2, 3), "implicit, divided": (2, 3),
          "pattern": (2, 3), "pattern, named": (2, 3), "implicit, pattern": (2, 3),
-         "implicit, divided, cracked": (2, 3)}
+         "implicit, divided, cracked": (2, 3), "reset, divided": (2, 3)}
 # Those whose blocks move little against their skin; what they show is the sums
 # of forces on both sides, of joints and then of contacts.
 LEAST_SEARCHES = {"named blocks": 8, "sled": 40, "dashpots": 20}

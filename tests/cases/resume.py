@@ -128,11 +128,14 @@ CASES = {
     "construction": (os.path.join(common.VERIFICATION, "fill", "case.prm"),
                      ["Output/Checkpoint interval=0.05",
                       "Output/Field interval=5e-2",
+                      "Stages/fill/Reset=displacements, joint states",
+                      "Stages/gone/Reset=displacements, slips",
                       "Time stepping/Share of critical time step=0.03"], 1, 3),
     "construction, implicit": (
         os.path.join(common.VERIFICATION, "fill", "case.prm"),
         ["Solver=implicit", "Output/Checkpoint interval=0.02",
          "Output/Field interval=5e-2", "Implicit/First step=1e-3",
+         "Stages/fill/Reset=displacements, slips, joint states",
          "Implicit/Largest step=1e-3"], 1, 3),
     # a factor of safety between two trials, and the stage after it
     "safety": (

@@ -57,6 +57,7 @@ CASES = {
     "free field": of_ranks("free field", UP),
     "divided": of_ranks("divided", ALL),
     "divided, cracked": of_ranks("divided, cracked", DOWN),
+    "reset, divided": of_ranks("reset, divided", ALL),
     "cavity": of_ranks("cavity", ALL),
     "hybrid": of_ranks("hybrid", ALL),
     "contacts, divided": of_ranks("contacts, divided", ALL),

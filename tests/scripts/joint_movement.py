@@ -167,6 +167,66 @@ class Since(unittest.TestCase):
         np.testing.assert_allclose(place(found), place(now))
 
 
+def reset(grid, earlier, earlier_slip=None):
+    """The grid as a run writes it if displacements, and slips, were reset
+    where they were @p earlier."""
+    data = {**grid.point_data, "earlier displacement": earlier,
+            "displacement": grid.point_data["displacement"] - earlier}
+    points = grid.points
+    if earlier_slip is None:  # joints lie where they are now
+        points = points + earlier[:, :2]
+    else:
+        data["earlier slip"] = earlier_slip
+        data["slip"] = data["slip"] - earlier_slip
+    return Grid(grid.time, points, grid.cells, data, grid.cell_data)
+
+
+class AfterAReset(unittest.TestCase):
+    """Nothing of what scripts compare is another one."""
+
+    then = moved_blocks(angle=0.1, slip=0.05, time=1.)
+    now = moved_blocks(angle=0.3, shift=(1., 0.), slip=0.2, opening=1e-3,
+                       time=2.)
+
+    def same(self, one, other):
+        np.testing.assert_allclose(one.points, other.points, atol=1e-14)
+        for name, values in one.point_data.items():
+            np.testing.assert_allclose(other.point_data[name], values,
+                                       atol=1e-14)
+
+    def test_blocks(self):
+        seen = reset(self.now, self.then.point_data["displacement"])
+        # where they are and what they did is all that the reset leaves
+        np.testing.assert_allclose(
+            seen.points + seen.point_data["displacement"][:, :2],
+            self.now.points + self.now.point_data["displacement"][:, :2])
+        self.same(joint_movement.blocks_since(self.now, self.then),
+                  joint_movement.blocks_since(seen, self.then))
+
+    def test_joints(self):
+        whole = [joint_movement.handed_over(faces(), None, blocks, None, 9.)
+                 for blocks in (self.then, self.now)]
+        seen = reset(whole[1], whole[0].point_data["displacement"],
+                     whole[0].point_data["slip"])
+        stiffness = [1e9, 1e9]
+        self.same(joint_movement.since(whole[1], whole[0], stiffness),
+                  joint_movement.since(seen, whole[0], stiffness))
+
+    def test_faces_handed_over(self):
+        earlier = self.then.point_data["displacement"]
+        seen = joint_movement.handed_over(faces(), None,
+                                          reset(self.now, earlier), None, 9.)
+        self.same(joint_movement.handed_over(faces(), None, self.now, None,
+                                             9.), seen)
+        # beside those that are joints still
+        left = reset(faces([(0., 1.)]), np.full((2, 3), 1e-3), np.ones(2))
+        merged = joint_movement.all_joints(faces(), left, self.now, None, 9.)
+        np.testing.assert_allclose(merged.point_data["slip"],
+                                   [-1., -1., 0.2, 0.2])
+        np.testing.assert_allclose(merged.point_data["earlier slip"],
+                                   [1., 1., 0., 0.])
+
+
 class Pictures(unittest.TestCase):
     def test_scale_of_slip(self):
         frame = types.SimpleNamespace(joints=joint_grid(WIDE, [[-3e-3, -1e-3],

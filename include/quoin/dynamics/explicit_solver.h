@@ -182,7 +182,7 @@ namespace quoin
                        const StepSums &sums);
     void account_for_new_step(State<dim> &state,
                               const StepContext &context) const;
-    /** Advances time, step counts and the loads' clock to the next step. */
+    /** Advances time, step counts and load time to the next step. */
     void advance_time(State<dim> &state, const StepContext &context,
                       const Requests &requests) const;
 

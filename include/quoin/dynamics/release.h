@@ -15,7 +15,7 @@ namespace quoin
   /**
    * Stress relaxation after excavation: the forces that excavated blocks
    * exerted on those that stay go in a stage from H_0, the rest after earlier
-   * stages, to H_1 by a ramp s(t) of the loads' clock, H = H_0 + s (H_1 - H_0)
+   * stages, to H_1 by a ramp s(t) of load time, H = H_0 + s (H_1 - H_0)
    * (@cite PanetGuenot1982). They act and work as loads.
    */
   template <int dim>

@@ -17,8 +17,8 @@
 
 namespace quoin
 {
-  /** The loads of a run that act in a stage. Times are those of the loads'
-      clock, from the start of the stage. */
+  /** The loads of a run that act in a stage. Times are load times, from the
+      start of the stage. */
   template <int dim>
   struct StageLoads
   {

@@ -49,6 +49,19 @@ namespace quoin
     TimeFunction control; /**< of the time in the stage, from 0 on [m] */
   };
 
+  /** What results count from the start of a stage: see ResultOrigin. */
+  struct ResultReset
+  {
+    bool displacements = false;
+    bool slips         = false; /**< of joints */
+    bool joint_states  = false;
+
+    bool any() const
+    {
+      return displacements || slips || joint_states;
+    }
+  };
+
   /** One stage of a run: a subsection of 'Stages'. */
   struct StageParameters
   {
@@ -76,10 +89,9 @@ namespace quoin
     std::vector<std::string> excavate; /**< physical surfaces */
     std::vector<std::string> fill;     /**< physical surfaces */
     /** Released share of the forces of excavated blocks at the end [-]. */
-    double release = 1.;
-    double release_duration
-        = -1.; /**< by the loads' clock [s]; -1: automatic */
-    bool releases_linearly = false;
+    double release          = 1.;
+    double release_duration = -1.; /**< of load time [s]; -1: automatic */
+    bool releases_linearly  = false;
     /** Physical surfaces and their new materials. */
     std::vector<std::pair<std::string, std::string>> materials;
     /** Joint sets and the sets whose laws they take over. */
@@ -91,6 +103,8 @@ namespace quoin
 
     /** Loads beside 'loads' that are scaled; see PatternParameters. */
     std::optional<PatternParameters> pattern;
+
+    ResultReset reset; /**< where the stage begins */
 
     /** Strength reduction by trials, which leave the state unchanged. */
     std::optional<SafetyParameters> safety;

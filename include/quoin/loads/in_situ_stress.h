@@ -5,6 +5,7 @@
 #define quoin_loads_in_situ_stress_h
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace quoin
@@ -16,9 +17,10 @@ namespace quoin
    * chapter 13): with the depth counted vertically below the surface h(x),
    * @f[ \sigma_{yy} = -\left(p + \int_y^{h(x)} \gamma \, dy\right), \quad
    *     \sigma_{xx} = K_0 \sigma_{yy} + \sigma_h, \quad \sigma_{xy} = 0 , @f]
-   * tension positive, and out of the plane the same with a ratio of its own. It
-   * balances gravity below a horizontal surface, not below a slope. It is zero
-   * above the surface.
+   * tension positive, and out of the plane the same with a ratio of its own.
+   * p may depend on x, the ratios and sigma_h on x and y. It balances gravity
+   * below a horizontal surface, not below a slope, if p, K_0 and sigma_h do not
+   * change with x. It is zero above the surface.
    */
   struct InSituStress
   {
@@ -29,15 +31,24 @@ namespace quoin
       double foot;        /**< y of its base [m]; not used for the last layer */
     };
 
+    /** A value by x and y [m]. */
+    using Field = std::function<double(double, double)>;
+    /** The same everywhere. */
+    static Field uniform(const double value)
+    {
+      return [value](double, double) { return value; };
+    }
+
     std::vector<std::array<double, 2>> surface; /**< x (ascending), y [m] */
-    std::vector<Layer> layers;                  /**< downwards */
-    double pressure           = 0.;             /**< p on the surface [Pa] */
-    double horizontal_ratio   = 1.;             /**< K_0 [-] */
-    double horizontal_stress  = 0.;             /**< sigma_h [Pa] */
-    double out_of_plane_ratio = 1.;             /**< sigma_zz by sigma_yy [-] */
-    bool has_out_of_plane     = false;          /**< whether that was given */
+    Field surface_function;    /**< height by x instead; or null [m] */
+    std::vector<Layer> layers; /**< downwards */
+    Field pressure           = uniform(0.); /**< p on the surface [Pa] */
+    Field horizontal_ratio   = uniform(1.); /**< K_0 [-] */
+    Field horizontal_stress  = uniform(0.); /**< sigma_h [Pa] */
+    Field out_of_plane_ratio = uniform(1.); /**< sigma_zz by sigma_yy [-] */
+    bool has_out_of_plane    = false;       /**< whether that was given */
     /** Added to sigma_zz [Pa]. */
-    double out_of_plane_stress = 0.;
+    Field out_of_plane_stress = uniform(0.);
 
     /** y of the surface at @p x; constant beyond the ends of the line [m]. */
     double surface_height(double x) const;

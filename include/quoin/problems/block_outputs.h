@@ -23,6 +23,11 @@ namespace quoin
     /** Begins the files, or continues those of a checkpoint. */
     void open();
 
+    /** Counts what @p reset names from @p state on, where a stage begins. */
+    void begin_stage(const ResultReset &reset, State<dim> &state);
+    /** Notes which joints have failed, where a stage ends, for later ones. */
+    void end_stage(State<dim> &state);
+
     /** Whether a row or fields are due at @p time [s], with steps of @p dt [s].
      */
     bool row_is_due(double time, double dt) const
@@ -98,6 +103,10 @@ namespace quoin
       clock.measure(clock.phase("output"), task);
     }
     std::vector<double> add_rows(const State<dim> &state);
+    /** Changes what results count from by @p change, which sees @p state with
+        the internal variables of its positions, see ModelOutput. */
+    template <typename Change>
+    void change_origin(State<dim> &state, const Change &change);
     void write_generated_geometry() const;
     void write_energies(double time);
     void write_far_field_row(const State<dim> &state);
@@ -105,6 +114,7 @@ namespace quoin
 
     BlockSystem<dim> &system;
     const RunContext &run;
+    const bool resets; /**< whether a stage has a ResultReset */
     Histories<dim> histories;
     const TimeControl row_times, field_times;
     RootTable &history_table, &energy_table;

@@ -103,6 +103,8 @@ namespace quoin
     void end() override;
 
   protected:
+    /** Model, solver and what results count from begin the stage. */
+    void begin_model();
     /** Tasks of a kind of stage at its end. */
     virtual void finish()
     {

@@ -22,8 +22,10 @@ namespace quoin
   {
     using Vector = std::array<double, dim>;
 
-    std::vector<Vector> position;                         /**< reference [m] */
-    std::vector<Vector> displacement;                     /**< [m] */
+    std::vector<Vector> position;     /**< reference [m] */
+    std::vector<Vector> displacement; /**< [m] */
+    /** From the mesh to the reference, if this was moved; or empty [m]. */
+    std::vector<Vector> earlier_displacement;
     std::vector<Vector> velocity;                         /**< [m/s] */
     std::vector<std::array<std::int32_t, dim + 1>> cells; /**< vertices */
     /** xx, yy, xy, zz or xx, yy, zz, xy, xz, yz [Pa] */
@@ -53,9 +55,9 @@ namespace quoin
   PrincipalStress<3> principal_stress(const std::array<double, 6> &stress);
 
   /**
-   * The series blocks.pvd: the blocks in their reference position with the
-   * displacement as point data (ParaView: Warp By Vector), one file for each
-   * rank and time.
+   * The series blocks.pvd: the blocks in their reference position, that of the
+   * mesh or where displacements were reset, with the displacement from there as
+   * point data (ParaView: Warp By Vector), one file for each rank and time.
    */
   class BlockOutput : public VtuSeries
   {

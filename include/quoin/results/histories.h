@@ -25,6 +25,8 @@ namespace quoin
    * blocks that are excavated or not placed yet, NaN in deleted ones, and so
    * are those of two points. Those of boundary elements are of their last
    * completed step, with displacements extrapolated by its velocities.
+   * Displacements, angles between them and slips count from where a stage has
+   * reset them, but not those of boundary elements.
    */
   template <int dim>
   class Histories
@@ -61,6 +63,10 @@ namespace quoin
     std::vector<DisplacementTerm> terms_of(const std::string &name,
                                            const std::string &where) const;
 
+    /** Counts what @p reset names from @p state on, where a stage begins;
+        collective. */
+    void begin_stage(const ResultReset &reset, const State<dim> &state);
+
     /** Collective. */
     void before_step(const State<dim> &state);
 
@@ -71,6 +77,7 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
+      archive &origin;
       if (of_blocks)
         archive &*of_blocks;
     }
@@ -99,6 +106,10 @@ namespace quoin
     /** Finds the rank of the nearest point; @p key: that of this rank. */
     void find_owner(Probe &probe, const std::array<double, dim + 2> &key) const;
     double point_value(const Probe &probe, const State<dim> &state) const;
+    /** The row as it counts from the start of the run; collective. */
+    std::vector<double> whole_row(const State<dim> &state);
+    /** Whether each column is about a block that is absent; collective. */
+    std::vector<unsigned int> about_absent(const State<dim> &state) const;
     /** The blocks at the point of @p probe, which is on this rank. */
     std::vector<unsigned int> blocks_of(const Probe &probe) const;
     double joint_value(const Probe &probe, const State<2> &state) const;
@@ -123,6 +134,8 @@ namespace quoin
     double n_outside  = 0.; /**< blocks that have left the box */
     double controlled = 0.; /**< by a load pattern, NaN without [m] */
     std::vector<double> row;
+    /** What each column counts from, by whole_row(). */
+    std::vector<double> origin;
   };
 
   // Members that exist in two dimensions only.

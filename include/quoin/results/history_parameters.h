@@ -90,6 +90,16 @@ namespace quoin
              || quantity == HistoryQuantity::distance_change;
     }
 
+    /** Whether it is a displacement of blocks, or an angle or distance by
+        which they have moved. */
+    bool is_displacement() const
+    {
+      return is_of_two_points() || quantity == HistoryQuantity::displacement
+             || quantity == HistoryQuantity::rotation
+             || quantity == HistoryQuantity::platen_displacement
+             || quantity == HistoryQuantity::block_displacement;
+    }
+
     /** Throws an InputError if a model of blocks in @p dim dimensions has no
         such quantity or point. */
     template <int dim>

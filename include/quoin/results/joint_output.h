@@ -25,8 +25,11 @@ namespace quoin
     std::vector<std::array<double, 2>> position; /**< reference [m] */
     /** mean displacement of both sides [m] */
     std::vector<std::array<double, 2>> displacement;
+    /** From the mesh to the reference, if this was moved; or empty [m]. */
+    std::vector<std::array<double, 2>> earlier_displacement;
     std::vector<double> opening;         /**< [m] */
     std::vector<double> slip;            /**< [m] */
+    std::vector<double> earlier_slip;    /**< before; empty: none [m] */
     std::vector<double> normal_traction; /**< [Pa] */
     std::vector<double> shear_traction;  /**< [Pa] */
     /** Fields of the joint laws, by name: JointField. */
@@ -44,7 +47,7 @@ namespace quoin
   /**
    * The series joints.pvd: a line for each joint face, in the middle of the
    * current positions of its two sides. The displacement of that middle is
-   * point data and gives the reference position.
+   * point data and gives the reference position, see BlockOutput.
    */
   class JointOutput : public VtuSeries
   {

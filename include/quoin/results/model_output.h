@@ -26,8 +26,9 @@ namespace quoin
     void start();
 
     /**
-     * Writes the fields of @p state at @p time [s]; if @p base is given, as
-     * displacements since that state, whose positions are the reference.
+     * Writes the fields of @p state at @p time [s]; if @p base is given, with
+     * displacements, slips and states of joints since that state, whose
+     * positions are the reference.
      */
     void write(double time, const State<dim> &state,
                const State<dim> *base = nullptr);

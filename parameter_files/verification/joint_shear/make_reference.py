@@ -5,6 +5,9 @@
 
 Shear traction: slope ks to the peak c + |s| tan phi, then the residual one;
 elastic on reversal, then the residual one the other way. No dilation.
+
+reset.csv: 2 mm forth, 1 mm back and 0.1 mm forth again, where slip, displacement
+and the state of the joint count from the beginning of the way back.
 """
 import os
 
@@ -25,6 +28,37 @@ forward = np.where(KS * slip <= PEAK, KS * slip, RESIDUAL)
 backward = np.maximum(RESIDUAL - KS * (END - slip), -RESIDUAL)
 shear = np.where(t < 0.8, forward, backward)
 
+INTACT, SLIPPING, SLIPPED = 0, 1, 2  # codes of JointState
+BACK_AT, AGAIN_AT, SPEED = 0.5, 0.7, 5e-3
+
+
+def reset():
+    times = np.arange(0, 0.7205, 2.5e-3)
+    pressed = np.where(times < 0.1, (1 - np.cos(np.pi * times / 0.1)) / 2, 1.0)
+    forth = SPEED * np.clip(times - 0.1, 0, 0.4)
+    back = SPEED * np.clip(times - BACK_AT, 0, 0.2)
+    again = SPEED * np.maximum(times - AGAIN_AT, 0)
+    slip = np.where(times < BACK_AT, forth, again - back)
+    shear = np.where(
+        times < BACK_AT, np.where(KS * forth <= PEAK, KS * forth, RESIDUAL),
+        np.maximum(RESIDUAL - KS * back, -RESIDUAL) + KS * again)
+    # at rest it is stuck: before the peak, on the way back until it slips
+    # the other way, and on the last way, where it has slipped
+    state = np.where(
+        times < AGAIN_AT,
+        np.where(np.where(times < BACK_AT, KS * forth <= PEAK,
+                          KS * back <= 2 * RESIDUAL), INTACT, SLIPPING),
+        SLIPPED)
+    np.savetxt(os.path.join(HERE, "reset.csv"),
+               np.transpose([times, slip, -STRESS * pressed / KN,
+                             -STRESS * pressed, shear, state, slip, slip,
+                             slip]),
+               delimiter=",", fmt="%.9g", comments="",
+               header="time [s],slip [m],opening [m],normal [Pa],shear [Pa],"
+                      "state [-],moved [m],past [m],block [m]")
+
+
+reset()
 np.savetxt(os.path.join(HERE, "reference.csv"),
            np.transpose([times, slip, normal / KN, normal, shear]),
            delimiter=",", fmt="%.9g", comments="",

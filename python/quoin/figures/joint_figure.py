@@ -13,6 +13,7 @@ from quoin import colours, run_parameters
 from quoin.csv_table import scale_for, with_unit
 from quoin.figures.stress_figure import cell_areas, round_near
 from quoin.joint_states import INTACT, NAMES, OPEN, SLIPPED, SLIPPING
+from quoin.vtu import from_the_start
 
 # state: (name, colour, line width), drawn in this order
 STATES = {
@@ -99,6 +100,7 @@ def crack_modes(joints, shear_stiffness, peak_crushing):
     or slips, whichever is more. Faces that never failed have no width, and
     slip without its elastic part, by @p shear_stiffness [Pa/m], is what counts.
     """
+    joints = from_the_start(joints)
     of_set = joints.cell_data["joint set"]
 
     def mean(name):

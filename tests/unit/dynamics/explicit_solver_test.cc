@@ -93,7 +93,7 @@ TEST(ExplicitSolver, KineticEnergySlowsTheLoadsDown)
   EXPECT_LT(fastest, 0.5);
   EXPECT_LT(balance, 1e-6);
   EXPECT_GT(run.state.time, run.state.load_time);
-  // What velocity prescribes is the displacement by the loads' clock.
+  // What velocity prescribes is the displacement over load time.
   for (const unsigned int node : run.nodes_at_height(4.))
     EXPECT_NEAR(run.state.nodes[node].u[1], 20. * run.state.load_time, 1e-12);
 }

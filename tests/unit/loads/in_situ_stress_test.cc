@@ -19,10 +19,10 @@ namespace
     InSituStress result;
     result.surface            = { { { 10., 2. } }, { { 18., 6. } } };
     result.layers             = { { 20e3, -1. }, { 25e3, lowest } };
-    result.pressure           = 3e3;
-    result.horizontal_ratio   = 0.5;
-    result.horizontal_stress  = -7e3;
-    result.out_of_plane_ratio = 0.4;
+    result.pressure           = InSituStress::uniform(3e3);
+    result.horizontal_ratio   = InSituStress::uniform(0.5);
+    result.horizontal_stress  = InSituStress::uniform(-7e3);
+    result.out_of_plane_ratio = InSituStress::uniform(0.4);
     return result;
   }
 } // namespace
@@ -52,4 +52,25 @@ TEST(InSituStress, IsTheWeightAbove)
   EXPECT_DOUBLE_EQ(ground.stress(30., 6.)[1], -3e3);
   for (const double component : ground.stress(30., 6.5))
     EXPECT_EQ(component, 0.);
+}
+
+TEST(InSituStress, FollowsFunctionsOfThePlace)
+{
+  InSituStress ground = slope();
+  ground.surface_function
+      = [](const double x, double) { return x < 14. ? 2. : 6.; };
+  ground.pressure = [](const double x, double) { return 100. * x; };
+  ground.horizontal_ratio
+      = [](double, const double y) { return 0.5 - 0.1 * y; };
+  ground.horizontal_stress
+      = [](const double x, const double y) { return x * y; };
+  EXPECT_EQ(ground.surface_height(13.), 2.);
+  EXPECT_EQ(ground.surface_height(15.), 6.);
+  // 3 m of the upper layer and 3 m of the lower one, left of the step
+  const double vertical = -(1.2e3 + 3. * 20e3 + 3. * 25e3);
+  const auto stress     = ground.stress(12., -4.);
+  EXPECT_DOUBLE_EQ(stress[1], vertical);
+  EXPECT_DOUBLE_EQ(stress[0], 0.9 * vertical - 48.);
+  EXPECT_DOUBLE_EQ(stress[3], 0.4 * vertical);
+  EXPECT_DOUBLE_EQ(ground.stress(15., 1.)[1], -(1.5e3 + 5. * 20e3));
 }

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../model/test_models.h"
+
+#include <quoin/operators/archive.h>
+#include <quoin/results/field_output.h>
+#include <quoin/results/result_origin.h>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  /** Two blocks of 3 m x 2 m, one on the other, of which the upper one has
+      moved by 0.25 m to the right. */
+  struct MovedBlocks
+  {
+    MovedBlocks() : mesh(stack()), run(mesh, two_blocks(), {}), state(run.state)
+    {
+      state.add<ResultOrigin<2>>();
+      move(0.25);
+    }
+
+    static BlockMesh<2> stack()
+    {
+      BlockMesh<2> mesh;
+      make_stack(mesh, 3, 2);
+      return mesh;
+    }
+
+    void move(const double to)
+    {
+      for (unsigned int i = 0; i < state.nodes.size(); ++i)
+        if (run.model.nodes().block_of_node(i) == 1)
+          state.nodes[i].u[0] = to;
+    }
+
+    /** Displacement of the upper block in fields; all nodes must agree. */
+    double displacement() const
+    {
+      const BlockFields<2> fields = block_fields(run.model, state);
+      double result               = 0.;
+      for (std::size_t i = 0; i < fields.position.size(); ++i)
+      {
+        const double u = fields.displacement[i][0];
+        if (u != 0.)
+        {
+          EXPECT_TRUE(result == 0. || result == u);
+          result = u;
+        }
+      }
+      return result;
+    }
+
+    BlockMesh<2> mesh;
+    TestRun run;
+    State<2> &state;
+  };
+} // namespace
+
+TEST(ResultOrigin, FieldsCountFromItAndStandWhereTheBlocksAre)
+{
+  MovedBlocks blocks;
+  const BlockFields<2> whole = block_fields(blocks.run.model, blocks.state);
+  const double slip = joint_fields(blocks.run.model, blocks.state).slip.front();
+  EXPECT_DOUBLE_EQ(std::abs(slip), 0.25);
+  count_from(blocks.run.model, { true, true, false }, blocks.state);
+  blocks.move(0.375);
+  EXPECT_DOUBLE_EQ(blocks.displacement(), 0.125);
+
+  const BlockFields<2> since = block_fields(blocks.run.model, blocks.state);
+  for (std::size_t i = 0; i < since.position.size(); ++i)
+  {
+    EXPECT_EQ(since.earlier_displacement[i], whole.displacement[i]);
+    EXPECT_DOUBLE_EQ(since.position[i][0],
+                     whole.position[i][0] + whole.displacement[i][0]);
+  }
+  const JointFields joints = joint_fields(blocks.run.model, blocks.state);
+  for (std::size_t p = 0; p < joints.slip.size(); ++p)
+  {
+    EXPECT_DOUBLE_EQ(joints.slip[p], 0.5 * slip);
+    EXPECT_DOUBLE_EQ(joints.earlier_slip[p], slip);
+    // of the middle of both sides
+    EXPECT_DOUBLE_EQ(joints.displacement[p][0], 0.0625);
+    EXPECT_DOUBLE_EQ(joints.earlier_displacement[p][0], 0.125);
+  }
+}
+
+TEST(ResultOrigin, ABlockThatComesAgainCountsFromTheMesh)
+{
+  MovedBlocks blocks;
+  count_from(blocks.run.model, { true, true, false }, blocks.state);
+  blocks.state.block_marks = { block_mark::present, block_mark::absent };
+  count_from(blocks.run.model, {}, blocks.state);
+  blocks.state.block_marks = { block_mark::present, block_mark::present };
+  count_from(blocks.run.model, {}, blocks.state);
+  EXPECT_DOUBLE_EQ(blocks.displacement(), 0.25);
+  EXPECT_EQ(slip_at_origin(blocks.state, 0), 0.);
+}
+
+TEST(ResultOrigin, OnlyJointsThatFailedSinceHaveSlipped)
+{
+  MovedBlocks blocks;
+  State<2> &state       = blocks.state;
+  JointHistory &history = state.get<JointHistory>();
+  ASSERT_GE(history.state.size(), 6U);
+  const auto expect = [&](const std::vector<JointState> &states)
+  {
+    for (unsigned int p = 0; p < states.size(); ++p)
+      EXPECT_EQ(state_since_origin(state, p), states[p]) << "point " << p;
+  };
+  using S = JointState;
+  // without an origin all is what it is
+  const std::vector<S> before
+      = { S::intact, S::slipped, S::slipped, S::slipping, S::open, S::slipped };
+  std::copy(before.begin(), before.end(), history.state.begin());
+  expect(before);
+
+  count_from(blocks.run.model, { false, false, true }, state);
+  expect({ S::intact, S::intact, S::intact, S::slipping, S::open, S::intact });
+  // one fails, one slips again, one is crushed; the rest sticks
+  history.state[0] = history.state[3] = history.state[4] = S::slipped;
+  history.plastic_slip[1] += 1e-9;
+  history.plastic_opening[2] -= 1e-9;
+  const std::vector<S> after
+      = { S::slipped, S::slipped, S::slipped, S::intact, S::intact, S::intact };
+  expect(after);
+
+  // The next stage begins with other inelastic parts of the same joints.
+  note_failed_joints(state);
+  for (double &slip : history.plastic_slip)
+    slip += 1.;
+  count_from(blocks.run.model, {}, state);
+  expect(after);
+}
