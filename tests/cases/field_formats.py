@@ -25,7 +25,7 @@ import common  # noqa: E402
 from common import Failure  # noqa: E402
 
 sys.path.insert(0, os.path.join(common.ROOT, "python"))
-from quoin import vtu  # noqa: E402
+from quoin import results, vtu  # noqa: E402
 
 FILL = os.path.join(common.VERIFICATION, "fill", "case.prm")
 CAVITY = os.path.join(common.VERIFICATION, "cavity_step", "case.prm")
@@ -129,6 +129,22 @@ def compare_series(what, one, other):
     return n, len(meshes)
 
 
+def compare_results(what, one, other):
+    """What the package reads of both runs."""
+    mine, right = results.read(other), results.read(one)
+    if mine.series() != right.series():
+        raise Failure("%s: series are %s" % (what, mine.series()))
+    for series in mine.series():
+        if list(mine.times(series)) != list(right.times(series)):
+            raise Failure("%s: times of %s differ" % (what, series))
+        a, b = mine.fields(series), right.fields(series)
+        if not all(np.array_equal(getattr(a, part), getattr(b, part))
+                   for part in ("time", "points", "cells")) or not all(
+                np.array_equal(values, mine.field(name, None, series))
+                for name, values in {**b.point_data, **b.cell_data}.items()):
+            raise Failure("%s: the package reads other %s" % (what, series))
+
+
 def directed_outline(blocks):
     """Edges that belong to one cell only, (n, 2), each with its block on the
     left."""
@@ -217,6 +233,7 @@ def run_case(options, name):
                 raise Failure("%s: the mesh was written again" % name)
             if one == "blocks" and "fill" in name and meshes <= ranks:
                 raise Failure("%s: the mesh does not change" % name)
+        compare_results(name, folders["vtu"], folders["xdmf"])
         if set(files_of(folders["xdmf"])) != {
                 one + end for one in series for end in (".xdmf", ".bin")}:
             raise Failure("%s has the files %s" % (
@@ -243,14 +260,14 @@ def body():
     parser.add_argument("--only", help="the case whose name begins so")
     options = parser.parse_args()
     if not options.only:
-        results = common.begin(options, "field_formats")
+        folder = common.begin(options, "field_formats")
     start = time.monotonic()
     found = [run_case(options, name) for name in CASES
              if name.startswith(options.only or "")]
     n, worst = sum(one for one, _ in found), max(one for _, one in found)
     if not options.only:
         common.write_result(
-            results, "field_formats",
+            folder, "field_formats",
             title="%d arrays in XDMF; joints handed over" % n,
             reference="VTU files, bitwise; outlines of the blocks",
             error=worst, tolerance=1e-12,

@@ -72,7 +72,6 @@ CONTACT_STATES = [("failed contact", 2, 2, rgb(colours.COMPRESSION), 2),
 CROSSES = 600                       # at most
 ACROSS = 30                          # as many of the reference side by side
 LONGEST = 2.5                        # of the reference, in a cross
-FAR = 0.05                           # of the size, joints apart
 WIDTH = 1200                         # [pixels]
 INK = (0.1, 0.1, 0.1)
 TITLES = {"stress": "minor principal stress", "block": "blocks",
@@ -167,6 +166,7 @@ class Views:
             reader = self.pv.Xdmf3ReaderS(FileName=vtu.xdmf_of(path),
                                           registrationName=name + " in pieces")
             found = self.pv.MergeBlocks(Input=reader, registrationName=name)
+            found.MergePoints = 0  # of blocks that touch
         reader.UpdatePipelineInformation()
         if self.times is None:
             self.times = list(reader.TimestepValues or [0.0])
@@ -337,7 +337,8 @@ class Views:
 
     def draw_joints(self, joints, name, states):
         """Their points lie at current positions: the displacement is in them
-        once. Joints whose sides have gone separate ways are left out."""
+        once. Joints whose sides are farther apart than a block is wide are
+        left out: the blocks have gone separate ways."""
         if joints is None:
             return
         moved = self.warped(joints, self.scale - 1.0, "deformed " + name)
@@ -346,7 +347,9 @@ class Views:
         apart.ResultArrayName = "apart"
         moved = self.pv.Threshold(Input=apart, registrationName=name + " near")
         moved.Scalars = ["POINTS", "apart"]
-        moved.LowerThreshold, moved.UpperThreshold = 0.0, FAR * self.size()
+        n_blocks = self.main.CellData["block"].GetRange()[1] + 1.0
+        moved.LowerThreshold = 0.0
+        moved.UpperThreshold = self.size() / math.sqrt(n_blocks)
         moved.ThresholdMethod = "Between"
         for label, low, high, colour, width in states:
             part = self.pv.Threshold(Input=moved, registrationName=label)
