@@ -61,11 +61,11 @@ def read(output, names=()):
     """Times [s], length of the joints [m], and lengths [m] in each condition
     at these times.
 
-    Joints that large displacements handed over to contacts are in no
-    condition but "failed": only those that slip or open are handed over.
+    Joints that large displacements handed over to contacts have failed: they
+    are open or closed as their sides are, damaged and crushed as they were.
     """
     path = os.path.join(output, "joints.pvd")
-    if not os.path.exists(path):
+    if not vtu.exists(path):
         raise ValueError(f"{path}: there is no such file; does the model have "
                          f"joints?")
     sets = set_numbers(output, names) if names else None

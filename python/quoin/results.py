@@ -60,8 +60,9 @@ class Results:
 
     def series(self):
         """The names of the fields, e.g. ["blocks", "joints"]."""
-        return sorted(name[:-4] for name in os.listdir(self.output)
-                      if name.endswith(".pvd"))
+        return sorted(name for name, end in map(os.path.splitext,
+                                                os.listdir(self.output))
+                      if end in (".pvd", ".xdmf"))
 
     def times(self, series="blocks"):
         """The times [s] at which a series has fields."""
@@ -113,7 +114,7 @@ class Results:
 
     def _series(self, name):
         path = os.path.join(self.output, name + ".pvd")
-        if not os.path.exists(path):
+        if not vtu.exists(path):
             raise ValueError(f"{path}: there is no such file; the run has "
                              f"fields of {', '.join(self.series()) or 'none'}")
         return path

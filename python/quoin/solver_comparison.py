@@ -90,7 +90,7 @@ class Run:
     def fields(self):
         """Times [s] of the fields of joints and the way there, or None."""
         path = os.path.join(self.folder, "joints.pvd")
-        series = vtu.read_pvd(path) if os.path.exists(path) else []
+        series = vtu.read_pvd(path) if vtu.exists(path) else []
         times = np.array([time for time, _ in series])
         return (times, np.interp(times, self.time, self.way)) if series else None
 

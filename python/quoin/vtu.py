@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
-"""Reads the PVD and VTU files that quoin writes, with numpy only.
+"""Reads the PVD and VTU files that quoin writes, with numpy only, or in their
+place its XDMF files (xdmf.py).
 
 Not a general reader: XML with appended raw data, little endian, 64-bit
 block sizes, and one cell type in a file.
@@ -11,6 +12,8 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
+
+from quoin.xdmf import Piece, read_xdmf
 
 DTYPES = {"Float64": "<f8", "Int32": "<i4", "UInt8": "u1"}
 
@@ -28,7 +31,16 @@ class Grid:
         self.cell_data = cell_data
 
 
+def in_plane(points, per_cell):
+    """Without the third coordinate, if there is none."""
+    return points if per_cell == 4 or points[:, 2].any() else points[:, :2]
+
+
 def read_vtu(path):
+    """The Grid of a file, or of a piece of XDMF."""
+    if isinstance(path, Piece):
+        time, points, cells, *data = path.read()
+        return Grid(time, in_plane(points, cells.shape[1]), cells, *data)
     with open(path, "rb") as file:
         content = file.read()
     mark = re.search(rb"<AppendedData[^>]*>\s*_", content)
@@ -53,12 +65,9 @@ def read_vtu(path):
     cells = arrays(piece.find("Cells"))
     n_cells = int(piece.get("NumberOfCells"))
     per_cell = 0 if n_cells == 0 else int(cells["offsets"][0])
-    points = array(piece.find("Points")[0]).reshape(-1, 3)
-    if per_cell != 4 and not points[:, 2].any():
-        points = points[:, :2]
     return Grid(
         float(arrays(piece_of.find("FieldData"))["TimeValue"][0]),
-        points,
+        in_plane(array(piece.find("Points")[0]).reshape(-1, 3), per_cell),
         cells["connectivity"].reshape(n_cells, per_cell),
         arrays(piece.find("PointData")),
         arrays(piece.find("CellData")),
@@ -103,22 +112,26 @@ def from_the_start(grid):
     return Grid(grid.time, points, grid.cells, data, grid.cell_data)
 
 
+def xdmf_of(path):
+    """The XDMF file in the place of a PVD file."""
+    return os.path.splitext(path)[0] + ".xdmf"
+
+
+def exists(path):
+    """Whether there is a series of this name, in either format."""
+    return os.path.exists(path) or os.path.exists(xdmf_of(path))
+
+
 def read_pvd(path):
-    """A sorted list of (time, [files of all parts])."""
+    """A sorted list of (time, [files of all parts]); of a series in XDMF its
+    pieces."""
+    if not os.path.exists(path) and exists(path):
+        return read_xdmf(xdmf_of(path))
     series = {}
     for record in ElementTree.parse(path).getroot().iter("DataSet"):
         file = os.path.join(os.path.dirname(path), record.get("file"))
         series.setdefault(float(record.get("timestep")), []).append(file)
     return sorted(series.items())
-
-
-def read_first(path):
-    """The first grid of a series in which there is anything; None without."""
-    for _, files in read_pvd(path):
-        grid = merge([read_vtu(file) for file in files])
-        if grid is not None:
-            return grid
-    return None
 
 
 def read_at(path, time=None):

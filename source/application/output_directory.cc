@@ -4,7 +4,7 @@
 #include <quoin/application/output_directory.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/results/checkpoint.h>
-#include <quoin/results/vtu_series.h>
+#include <quoin/results/field_series.h>
 
 #include <filesystem>
 

@@ -13,8 +13,6 @@ namespace quoin
 
   namespace
   {
-    constexpr std::size_t longest_name = 1000;
-
     /** Runs @p task in the subsection @p name. */
     template <typename Task>
     void in_section(ParameterHandler &prm, const std::string &name,
@@ -62,12 +60,6 @@ namespace quoin
       {
         if (name.empty())
           continue;
-        if (name.size() > longest_name)
-          throw InputError(file + ", section '" + section.name
-                           + "': 'Names' lists one that begins with '"
-                           + name.substr(0, 40)
-                           + "' and has more than a thousand letters. Take a "
-                             "shorter name.");
         const std::string what
             = file + ", section '" + section.name + "': 'Names' lists '" + name;
         if (!seen.insert(name).second)

@@ -9,7 +9,8 @@
 
 #include <boost/algorithm/string/join.hpp>
 
-#include <regex>
+#include <algorithm>
+#include <cctype>
 
 namespace quoin
 {
@@ -137,17 +138,23 @@ namespace quoin
     std::vector<EndCondition> end_conditions(const ParameterSection &section)
     {
       // An expression has a colon only after a question mark.
-      static const std::regex named("([A-Za-z][\\w -]*):(.*)");
+      const auto is_outcome = [](const std::string &text)
+      {
+        const auto fits = [](const unsigned char c)
+        { return std::isalnum(c) != 0 || c == '_' || c == ' ' || c == '-'; };
+        return !text.empty() && std::isalpha(text.front()) != 0
+               && std::all_of(text.begin(), text.end(), fits);
+      };
       const std::string entry = "End conditions";
       std::vector<EndCondition> result;
       for (const std::string &part :
            dealii::Utilities::split_string_list(section.text(entry), ';'))
       {
         EndCondition condition{ "condition met", part };
-        std::smatch parts;
-        if (std::regex_match(part, parts, named))
-          condition = { dealii::Utilities::trim(parts[1]),
-                        dealii::Utilities::trim(parts[2]) };
+        const auto colon = part.find(':');
+        if (colon != std::string::npos && is_outcome(part.substr(0, colon)))
+          condition = { dealii::Utilities::trim(part.substr(0, colon)),
+                        dealii::Utilities::trim(part.substr(colon + 1)) };
         if (condition.expression.empty())
           section.fail(entry, "has an empty condition. Give comparisons such "
                               "as abs(displacement) > 0.02, with a ';' between "

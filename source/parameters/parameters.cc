@@ -82,8 +82,13 @@ namespace quoin
     void enter_output(ParameterEntries &entries, Parameters &parameters)
     {
       entries.nonnegative("Field interval", parameters.field_interval,
-                          "Time between VTU files; 0: at the end of stages "
-                          "only [s]");
+                          "Time between fields; 0: at the end of stages only "
+                          "[s]");
+      entries.choice(
+          "Field format", parameters.field_format,
+          { { "vtu", FieldFormat::vtu }, { "xdmf", FieldFormat::xdmf } },
+          "Files of fields: many VTU files in fields/ with a list such as "
+          "blocks.pvd, or blocks.xdmf and blocks.bin for all times together.");
       entries.nonnegative("Checkpoint interval", parameters.checkpoint_interval,
                           "Wall-clock time between checkpoints; 0: at the end "
                           "of stages only [s]");

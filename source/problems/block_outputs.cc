@@ -71,8 +71,9 @@ namespace quoin
       field_times(system.parameters.field_times()),
       history_table(run.tables.add("histories.csv", histories.column_names())),
       energy_table(run.tables.add("energies.csv", energy_columns())),
-      fields(run.output, *system.model, *system.solver),
-      boundary(run.output, MPI_COMM_SELF)
+      fields(run.output, *system.model, *system.solver,
+             system.parameters.field_format),
+      boundary(run.output, MPI_COMM_SELF, system.parameters.field_format)
   {
     if (system.solver->far_fields().elastodynamic)
       far_field_table = &run.tables.add(
@@ -270,7 +271,7 @@ namespace quoin
                                           const double factor)
   {
     ModelOutput<dim> mechanism(run.output + "/mechanism", *system.model,
-                               *system.solver);
+                               *system.solver, system.parameters.field_format);
     mechanism.start();
     mechanism.write(factor, state, &base);
   }

@@ -31,7 +31,7 @@ namespace quoin
                due_steps(system, parameters.field_times()) },
       history_table(
           run.tables.add("histories.csv", system.histories->column_names())),
-      boundary_output(run.output, MPI_COMM_SELF)
+      boundary_output(run.output, MPI_COMM_SELF, parameters.field_format)
   {
   }
 
@@ -266,7 +266,8 @@ namespace quoin
       context.write_boundary(time, fields);
       if (!system.sampled.points.empty())
       {
-        SampledFieldOutput output(context.run.output, MPI_COMM_SELF);
+        SampledFieldOutput output(context.run.output, MPI_COMM_SELF,
+                                  system.parameters.field_format);
         const VectorXd field = displacements(system.sampled.points);
         write_field(context, output, time, field, 0. * field);
       }

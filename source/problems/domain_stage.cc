@@ -29,7 +29,8 @@ namespace quoin
     public:
       explicit DomainStage(BoundaryContext &context)
         : context(context), system(context.system),
-          output(context.run.output, MPI_COMM_SELF)
+          output(context.run.output, MPI_COMM_SELF,
+                 system.parameters.field_format)
       {
       }
 

@@ -43,8 +43,9 @@ namespace quoin
   }
 
   BlockOutput::BlockOutput(const std::string &output_directory,
-                           const MPI_Comm communicator)
-    : VtuSeries(output_directory, "blocks", communicator)
+                           const MPI_Comm communicator,
+                           const FieldFormat format)
+    : FieldSeries(output_directory, "blocks", communicator, format)
   {
   }
 

@@ -8,8 +8,9 @@
 namespace quoin
 {
   BoundaryOutput::BoundaryOutput(const std::string &output_directory,
-                                 const MPI_Comm communicator)
-    : VtuSeries(output_directory, "boundary", communicator)
+                                 const MPI_Comm communicator,
+                                 const FieldFormat format)
+    : FieldSeries(output_directory, "boundary", communicator, format)
   {
   }
 
@@ -36,8 +37,9 @@ namespace quoin
   }
 
   SampledFieldOutput::SampledFieldOutput(const std::string &output_directory,
-                                         const MPI_Comm communicator)
-    : VtuSeries(output_directory, "field", communicator)
+                                         const MPI_Comm communicator,
+                                         const FieldFormat format)
+    : FieldSeries(output_directory, "field", communicator, format)
   {
   }
 

@@ -3,6 +3,7 @@
 
 #include <quoin/blocks/cell_states.h>
 #include <quoin/contact/law_fields.h>
+#include <quoin/model/block_placement.h>
 #include <quoin/results/field_output.h>
 #include <quoin/results/result_origin.h>
 #include <quoin/tdbem/tangential_stress.h>
@@ -94,10 +95,11 @@ namespace quoin
       const auto &segment = model.joints().segments()[i];
       // A joint between two ranks is written by the rank of its lower side.
       if (!model.nodes().faces().joints[segment.face].is_own[0]
-          || history.handed_over[i])
+          || is_at_absent_block(model, i, state))
         continue;
       const auto gaps = joint_gaps(segment, state.nodes.data());
       fields.joint_set.push_back(segment.set);
+      fields.handed_over.push_back(history.handed_over[i]);
       for (unsigned int k = 0; k < 2; ++k)
       {
         const NodeRecord<2> &a = state.nodes[segment.lower[k]];
@@ -128,7 +130,10 @@ namespace quoin
         fields.shear_traction.push_back(history.shear_traction[p]);
         for (auto &[name, values] : fields.of_laws)
           values.push_back(law_field(model.joints(), name, p, history));
-        fields.state.push_back(state_since_origin(state, p));
+        // Its contact bears from then on; the law knows it as open.
+        fields.state.push_back(history.handed_over[i] && gaps[k][0] <= 0.
+                                   ? JointState::slipped
+                                   : state_since_origin(state, p));
       }
     }
     return fields;
@@ -149,6 +154,7 @@ namespace quoin
       if (!contacts.is_own(all, i) || !contacts.contact(all, i, contact))
         continue;
       fields.joint_set.push_back(contact.set);
+      fields.handed_over.push_back(pairs[i].was_joint);
       for (unsigned int k = 0; k < 2; ++k)
       {
         const auto &[x0, y0] = contact.reference[k];
@@ -221,7 +227,7 @@ namespace quoin
     {
       const double of_joint_point
           = 2 * 3 * 8 + 4 * 8 + 1 + 8 * law_field_names(model.joints()).size();
-      constexpr double of_joint = 1 + 4 + 8 + 2 * 4 + 4 + 1;
+      constexpr double of_joint = 1 + 4 + 1 + 8 + 2 * 4 + 4 + 1;
       const auto &faces         = model.nodes().faces().joints;
       for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
         if (faces[model.joints().segments()[i].face].is_own[0])

@@ -13,13 +13,15 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <regex>
 #include <sstream>
 
 namespace quoin
 {
   namespace
   {
+    /** Letters of the longest name that muParser takes. */
+    constexpr std::size_t longest_name = 100;
+
     /** @p name as muParser can read it. */
     std::string identifier(const std::string &name)
     {
@@ -30,6 +32,40 @@ namespace quoin
         result += is_digit_or_letter(c) ? c : '_';
       return !result.empty() && std::isdigit(result.front()) ? "_" + result
                                                              : result;
+    }
+
+    /** The words of an expression, without its functions. */
+    std::vector<std::string> words_of(const std::string &expression)
+    {
+      // By hand: a regular expression uses stack for each character, which a
+      // long name exhausts.
+      const std::string digits = "0123456789", of_number = digits + ".",
+                        letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                  "abcdefghijklmnopqrstuvwxyz_";
+      const auto past = [&](const std::string &these, const std::size_t begin)
+      {
+        return std::min(expression.find_first_not_of(these, begin),
+                        expression.size());
+      };
+      std::vector<std::string> words;
+      for (std::size_t i = expression.find_first_of(of_number + letters), end;
+           i < expression.size();
+           i = expression.find_first_of(of_number + letters, end))
+        if (end = past(of_number, i); end > i)
+        {
+          // The e of 1e-3 is no word.
+          const std::size_t e = past("eE", end), sign = past("+-", e);
+          if (e == end + 1 && sign <= e + 1 && past(digits, sign) > sign)
+            end = past(digits, sign);
+        }
+        else
+        {
+          end                     = past(letters + digits, i);
+          const std::size_t after = past(" \t", end);
+          if (after == expression.size() || expression[after] != '(')
+            words.push_back(expression.substr(i, end - i));
+        }
+      return words;
     }
   } // namespace
 
@@ -55,17 +91,9 @@ namespace quoin
       throw InputError(begin
                        + "which compares nothing. Use <, >, <= or >=, as in "
                          "abs(displacement) > 0.02.");
-    // Numbers go first, or the e of 1e-3 would be a name.
-    static const std::regex word(
-        R"((?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|[A-Za-z_]\w*(\s*\()?)");
-    for (std::sregex_iterator i(expression.begin(), expression.end(), word),
-         end;
-         i != end; ++i)
+    for (const std::string &name : words_of(expression))
     {
-      const std::string name = i->str();
-      const bool is_function = (*i)[1].matched;
-      if (is_function || name == "pi" || std::isdigit(name[0])
-          || name[0] == '.')
+      if (name == "pi")
         continue;
       const auto found = std::find(known.begin(), known.end(), name);
       if (found == known.end())
@@ -75,6 +103,11 @@ namespace quoin
         throw InputError(begin + "but '" + name
                          + "' may mean two of the histories, of the time and "
                            "of the peaks. Rename one in section 'Histories'.");
+      if (name.size() > longest_name)
+        throw InputError(begin + "but '" + name + "' has more than "
+                         + std::to_string(longest_name)
+                         + " letters, too many for a condition. Take a "
+                           "shorter name in section 'Histories'.");
       condition.names.emplace_back(name, found - known.begin());
     }
     if (condition.names.empty())

@@ -32,8 +32,9 @@ namespace quoin
   }
 
   JointOutput::JointOutput(const std::string &output_directory,
-                           const MPI_Comm communicator, const std::string &name)
-    : VtuSeries(output_directory, name, communicator)
+                           const MPI_Comm communicator, const std::string &name,
+                           const FieldFormat format)
+    : FieldSeries(output_directory, name, communicator, format)
   {
   }
 
@@ -84,6 +85,7 @@ namespace quoin
       grid.point_data.push_back({ name, 1, values });
     grid.cell_data = { { "state", 1, face_state },
                        { "joint set", 1, fields.joint_set },
+                       { "handed over", 1, fields.handed_over },
                        { "length", 1, length } };
     write_grid(std::move(grid));
   }

@@ -9,11 +9,12 @@ namespace quoin
 {
   template <int dim>
   ModelOutput<dim>::ModelOutput(const std::string &folder,
-                                const Model<dim> &model, Solver<dim> &solver)
+                                const Model<dim> &model, Solver<dim> &solver,
+                                const FieldFormat format)
     : model(model), solver(solver),
-      blocks(folder, model.nodes().communicator()),
-      joints(folder, model.nodes().communicator()),
-      contacts(folder, model.nodes().communicator(), "contacts")
+      blocks(folder, model.nodes().communicator(), format),
+      joints(folder, model.nodes().communicator(), "joints", format),
+      contacts(folder, model.nodes().communicator(), "contacts", format)
   {
   }
 

@@ -86,7 +86,7 @@ namespace quoin
     }
 
     /** Checks sizes and adds z = 0 to vectors in the plane. */
-    void prepare(std::vector<VtuField> &fields, const std::size_t n)
+    void complete(std::vector<VtuField> &fields, const std::size_t n)
     {
       for (VtuField &field : fields)
         std::visit(
@@ -120,20 +120,24 @@ namespace quoin
     }
   } // namespace
 
+  void complete(VtuGrid &grid)
+  {
+    complete(grid.point_data, grid.points.size() / grid.dimension);
+    complete(grid.cell_data, grid.n_cells());
+    if (grid.dimension == 2)
+      grid.points = with_third_component(grid.points);
+    grid.dimension = 3;
+  }
+
   void write_vtu(const std::string &path, VtuGrid grid)
   {
+    complete(grid);
     const std::size_t n_cells   = grid.n_cells();
-    const std::size_t n_nodes   = grid.points.size() / grid.dimension;
+    const std::size_t n_nodes   = grid.points.size() / 3;
     const unsigned int per_cell = n_points(grid.cell_type);
-
-    prepare(grid.point_data, n_nodes);
-    prepare(grid.cell_data, n_cells);
 
     // The document refers to the grid and these arrays until it is written.
     const std::vector<double> time(1, grid.time);
-    const std::vector<double> points = grid.dimension == 2
-                                           ? with_third_component(grid.points)
-                                           : std::move(grid.points);
     std::vector<std::int32_t> offsets(n_cells);
     for (std::size_t i = 0; i < n_cells; ++i)
       offsets[i] = static_cast<std::int32_t>(per_cell * (i + 1));
@@ -152,7 +156,7 @@ namespace quoin
     add_fields(document, "PointData", grid.point_data);
     add_fields(document, "CellData", grid.cell_data);
     document.xml += "<Points>\n";
-    document.add_array("Points", 3, points);
+    document.add_array("Points", 3, grid.points);
     document.xml += "</Points>\n<Cells>\n";
     document.add_array("connectivity", 1, grid.cells);
     document.add_array("offsets", 1, offsets);

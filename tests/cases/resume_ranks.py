@@ -23,6 +23,9 @@ import ranks as on_ranks  # noqa: E402
 from common import Failure  # noqa: E402
 from resume import kill_all  # noqa: E402
 
+sys.path.insert(0, os.path.join(common.ROOT, "python"))
+from quoin.xdmf import read_xdmf  # noqa: E402
+
 OFTEN = ["Output/Checkpoint interval=1e-6"]
 SALENCON = os.path.join(common.VERIFICATION, "salencon", "case.prm")
 WEDGES = os.path.join(common.VERIFICATION, "sliding_wedges", "two_planes.prm")
@@ -47,7 +50,8 @@ CASES = {
     "yielding": of_ranks("yielding", UP),
     "yielding, divided": (SALENCON, SOON, ALL),
     "conditions": of_ranks("conditions", UP),
-    "sled": of_ranks("sled", ALL),
+    "sled": of_ranks("sled", ALL, ["Output/Field format=xdmf",
+                                   "Output/Field interval=5e-3"]),
     "wall": (on_ranks.WALL, ["Stages/settle/End=time",
                              "Stages/settle/Duration=2e-3",
                              "Stages/push/Duration=1e-3",
@@ -118,8 +122,12 @@ def run_until(words, latest, step):
 
 
 def check_series(folder):
-    """The pieces that lists of fields name must exist."""
+    """The pieces that lists of fields name must exist, arrays be whole."""
     for name in os.listdir(folder):
+        if name.endswith(".xdmf"):
+            for _, pieces in read_xdmf(os.path.join(folder, name)):
+                for piece in pieces:
+                    piece.read()
         if name.endswith(".pvd"):
             with open(os.path.join(folder, name)) as stream:
                 for piece in re.findall(r'file="([^"]+)"', stream.read()):

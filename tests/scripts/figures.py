@@ -25,7 +25,6 @@ from quoin.figures import block_figure  # noqa: E402
 from quoin.figures import curve_figure  # noqa: E402
 from quoin import colours  # noqa: E402
 from quoin import damage_table  # noqa: E402
-from quoin import joint_movement  # noqa: E402
 from quoin.figures import joint_figure  # noqa: E402
 from quoin import moments  # noqa: E402
 from quoin import results as quoin_results  # noqa: E402
@@ -378,19 +377,6 @@ class Pictures(unittest.TestCase):
         self.refuses("never reaches 0.1", "render", "--at", "displacement=0.1")
         for time in ("1e9", "-1"):
             self.refuses("no field was written near", "render", "--time=" + time)
-
-    def test_joints_followed_by_the_blocks(self):
-        """Openings and slips from the places of the blocks alone are those
-        that the program computed."""
-        results = quoin_results.read(self.output)
-        joints = results.fields("joints")
-        followed = joint_movement.handed_over(
-            joints, None, results.fields("blocks"), None, 1.)
-        self.assertEqual(len(followed.cells), len(joints.cells))
-        for name in ("opening", "slip"):
-            values = joints.point_data[name]
-            np.testing.assert_allclose(followed.point_data[name], values,
-                                       atol=1e-9 * np.abs(values).max())
 
     def test_joint_damage(self):
         path = self.draws("joint_damage", "--against", "displacement")

@@ -104,6 +104,7 @@ def joint_grid(opening, slip, order=None, turned=()):
          "crushing": 0. * x},
         {"length": 1. + np.array(order),
          "joint set": np.zeros(len(order), np.int32),
+         "handed over": np.zeros(len(order), np.uint8),
          "state": np.zeros(len(order), np.uint8)})
 
 

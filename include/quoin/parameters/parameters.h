@@ -6,6 +6,7 @@
 
 #include <quoin/base/time_control.h>
 #include <quoin/farfield/boundary_parameters.h>
+#include <quoin/results/field_format.h>
 #include <quoin/results/history_parameters.h>
 #include <quoin/loads/initial_motion.h>
 #include <quoin/model/model.h>
@@ -60,8 +61,9 @@ namespace quoin
     double time_step              = 0.; /**< [s]; 0: automatic */
 
     std::vector<HistoryParameters> histories;
-    double history_interval    = 0.;  /**< [s] */
-    double field_interval      = 0.;  /**< [s] */
+    double history_interval    = 0.; /**< [s] */
+    double field_interval      = 0.; /**< [s] */
+    FieldFormat field_format   = FieldFormat::vtu;
     double checkpoint_interval = 60.; /**< [s] */
     bool measure_bandwidth     = false;
 

@@ -4,7 +4,7 @@
 #ifndef quoin_results_block_output_h
 #define quoin_results_block_output_h
 
-#include <quoin/results/vtu_series.h>
+#include <quoin/results/field_series.h>
 
 #include <array>
 #include <cstdint>
@@ -59,11 +59,12 @@ namespace quoin
    * mesh or where displacements were reset, with the displacement from there as
    * point data (ParaView: Warp By Vector), one file for each rank and time.
    */
-  class BlockOutput : public VtuSeries
+  class BlockOutput : public FieldSeries
   {
   public:
     BlockOutput(const std::string &output_directory,
-                const MPI_Comm communicator);
+                const MPI_Comm communicator,
+                const FieldFormat format = FieldFormat::vtu);
 
     /** Collective. Writes the fields of the time @p time [s]. */
     template <int dim>

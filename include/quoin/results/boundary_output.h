@@ -4,7 +4,7 @@
 #ifndef quoin_results_boundary_output_h
 #define quoin_results_boundary_output_h
 
-#include <quoin/results/vtu_series.h>
+#include <quoin/results/field_series.h>
 
 #include <array>
 #include <cstdint>
@@ -24,11 +24,12 @@ namespace quoin
   };
 
   /** The series boundary.pvd: a line for each boundary element. */
-  class BoundaryOutput : public VtuSeries
+  class BoundaryOutput : public FieldSeries
   {
   public:
     BoundaryOutput(const std::string &output_directory,
-                   const MPI_Comm communicator);
+                   const MPI_Comm communicator,
+                   const FieldFormat format = FieldFormat::vtu);
 
     /** Collective. Writes the fields of the time @p time [s]. */
     void write(const double time, const BoundaryFields &fields);
@@ -44,11 +45,12 @@ namespace quoin
   };
 
   /** The series field.pvd: the field in the domain of boundary elements. */
-  class SampledFieldOutput : public VtuSeries
+  class SampledFieldOutput : public FieldSeries
   {
   public:
     SampledFieldOutput(const std::string &output_directory,
-                       const MPI_Comm communicator);
+                       const MPI_Comm communicator,
+                       const FieldFormat format = FieldFormat::vtu);
 
     /** Collective. Writes the fields of the time @p time [s]. */
     void write(const double time, const SampledFields &fields);

@@ -22,8 +22,10 @@ namespace quoin
                                 const State<dim> &state);
 
   /**
-   * Fields of the matched joints of this rank. @p state: after
-   * Solver::update_histories().
+   * Fields of the matched joints of this rank, those handed over to general
+   * contacts included: they have opening and slip of their two sides, the law's
+   * fields when it was, and no tractions, which the contact has. @p state:
+   * after Solver::update_histories().
    */
   JointFields joint_fields(const Model<2> &model, const State<2> &state);
 

@@ -5,7 +5,7 @@
 #define quoin_results_joint_output_h
 
 #include <quoin/joints/joint_history.h>
-#include <quoin/results/vtu_series.h>
+#include <quoin/results/field_series.h>
 
 #include <array>
 #include <cstdint>
@@ -36,6 +36,9 @@ namespace quoin
     std::vector<std::pair<std::string, std::vector<double>>> of_laws;
     std::vector<JointState> state;
     std::vector<std::int32_t> joint_set; /**< of each face */
+    /** Of each face: whether it is a general contact by now, or one that was a
+        face of a joint. */
+    std::vector<std::uint8_t> handed_over;
   };
 
   /**
@@ -49,13 +52,13 @@ namespace quoin
    * current positions of its two sides. The displacement of that middle is
    * point data and gives the reference position, see BlockOutput.
    */
-  class JointOutput : public VtuSeries
+  class JointOutput : public FieldSeries
   {
   public:
     /** @p name of the series: joints, or contacts. */
     JointOutput(const std::string &output_directory,
-                const MPI_Comm communicator,
-                const std::string &name = "joints");
+                const MPI_Comm communicator, const std::string &name = "joints",
+                const FieldFormat format = FieldFormat::vtu);
 
     /** Collective. Writes the fields of the time @p time [s]. */
     void write(const double time, const JointFields &fields);

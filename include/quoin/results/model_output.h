@@ -12,15 +12,15 @@
 
 namespace quoin
 {
-  /** The series blocks.pvd, in two dimensions, joints.pvd and, of
-      general contacts, contacts.pvd. Members are collective. */
+  /** The series blocks, in two dimensions, joints and, of general contacts,
+      contacts. Members are collective. */
   template <int dim>
   class ModelOutput
   {
   public:
     /** @p model and @p solver must outlive this object. */
     ModelOutput(const std::string &folder, const Model<dim> &model,
-                Solver<dim> &solver);
+                Solver<dim> &solver, const FieldFormat format);
 
     /** Begins the series, or continues those of a checkpoint. */
     void start();

@@ -61,6 +61,10 @@ namespace quoin
     }
   };
 
+  /** Adds z = 0 to points and vectors of a grid in the plane. Throws a
+      std::logic_error if a field does not fit. */
+  void complete(VtuGrid &grid);
+
   /**
    * Writes a grid as VTK XML with appended raw data (little endian, 64-bit
    * block sizes, double precision); the time goes into the field data

@@ -52,7 +52,7 @@ import os
 import shutil
 import sys
 
-from quoin import colours
+from quoin import colours, vtu
 from quoin.csv_table import with_unit
 from quoin.commands.options import Parser
 
@@ -128,13 +128,14 @@ class Views:
         self.output = output
         self.limits = limits
         is_field = name == "field"
+        self.times = None
         self.main = self.series("field" if is_field else "blocks")
         if self.main is None and is_field:
             self.main = self.series("boundary")
         if self.main is None:
             raise ValueError(f"{output} has no "
-                             f"{'field' if is_field else 'blocks'}.pvd")
-        self.times = list(self.main.TimestepValues or [0.0])
+                             f"{'field' if is_field else 'blocks'}.pvd "
+                             "or .xdmf")
         self.window = self.pv.GetActiveViewOrCreate("RenderView")
         self.time = self.nearest(self.times[-1] if time is None else time)
         self.window.ViewTime = self.time
@@ -153,15 +154,23 @@ class Views:
         self.look()
 
     def series(self, name):
+        """Its fields as one grid; None if there are none."""
         path = os.path.join(os.path.abspath(self.output), name + ".pvd")
-        if not os.path.exists(path):
+        if not vtu.exists(path) or not any(
+                pieces for _, pieces in vtu.read_pvd(path)):
             return None
-        with open(path) as stream:
-            if "<DataSet" not in stream.read():
-                return None
-        reader = self.pv.PVDReader(FileName=path, registrationName=name)
+        if os.path.exists(path):
+            found = reader = self.pv.PVDReader(FileName=path,
+                                               registrationName=name)
+        else:
+            reader = self.pv.Xdmf3ReaderS(FileName=vtu.xdmf_of(path),
+                                          registrationName=name + " in pieces")
+            found = self.pv.MergeBlocks(Input=reader, registrationName=name)
+            found.MergePoints = 0  # of blocks that touch
         reader.UpdatePipelineInformation()
-        return reader
+        if self.times is None:
+            self.times = list(reader.TimestepValues or [0.0])
+        return found
 
     # Displacements ---------------------------------------------------------
 
@@ -328,10 +337,20 @@ class Views:
 
     def draw_joints(self, joints, name, states):
         """Their points lie at current positions: the displacement is in them
-        once."""
+        once. Joints whose sides are farther apart than a block is wide are
+        left out: the blocks have gone separate ways."""
         if joints is None:
             return
         moved = self.warped(joints, self.scale - 1.0, "deformed " + name)
+        apart = self.pv.Calculator(Input=moved, registrationName=name + " apart")
+        apart.Function = 'sqrt("opening"*"opening" + "slip"*"slip")'
+        apart.ResultArrayName = "apart"
+        moved = self.pv.Threshold(Input=apart, registrationName=name + " near")
+        moved.Scalars = ["POINTS", "apart"]
+        n_blocks = self.main.CellData["block"].GetRange()[1] + 1.0
+        moved.LowerThreshold = 0.0
+        moved.UpperThreshold = self.size() / math.sqrt(n_blocks)
+        moved.ThresholdMethod = "Between"
         for label, low, high, colour, width in states:
             part = self.pv.Threshold(Input=moved, registrationName=label)
             part.Scalars = ["CELLS", "state"]

@@ -25,12 +25,12 @@ LARGEST_TURN = 0.3                   # [rad], see automatic_scale()
 
 class Frame:
     """The fields of one moment; joints and contacts may be None. Joints that
-    were handed over to contacts are among the joints (joint_movement.py)."""
+    were handed over have what their contacts bear (joint_movement.py)."""
 
     def __init__(self, output, time, label=None):
         def series(name):
             path = os.path.join(output, name)
-            return vtu.read_at(path, time) if os.path.exists(path) else None
+            return vtu.read_at(path, time) if vtu.exists(path) else None
 
         self.label = label
         self.blocks = series("blocks.pvd")
@@ -52,11 +52,8 @@ class Frame:
             grid = getattr(self, name)
             if grid is not None and grid.time != self.blocks.time:
                 setattr(self, name, None)
-        if os.path.exists(os.path.join(output, "contacts.pvd")):
-            self.joints = all_joints(
-                vtu.read_first(os.path.join(output, "joints.pvd")),
-                self.joints, self.blocks, self.contacts,
-                block_size(self.blocks))
+        self.joints = all_joints(self.joints, self.contacts,
+                                 block_size(self.blocks))
 
     def count_from(self, then, output):
         """Takes what came after another frame of the same run alone."""

@@ -19,8 +19,8 @@ UNITS = {"velocity": "m/s", "displacement": "m"}
 
 def is_field_run(output):
     """Whether there are boundary elements and no blocks."""
-    return (os.path.exists(os.path.join(output, "boundary.pvd"))
-            and not os.path.exists(os.path.join(output, "blocks.pvd")))
+    return (vtu.exists(os.path.join(output, "boundary.pvd"))
+            and not vtu.exists(os.path.join(output, "blocks.pvd")))
 
 
 class FieldFrame:
@@ -29,7 +29,7 @@ class FieldFrame:
     def __init__(self, output, time, label=None):
         def series(name):
             path = os.path.join(output, name)
-            return vtu.read_at(path, time) if os.path.exists(path) else None
+            return vtu.read_at(path, time) if vtu.exists(path) else None
 
         self.label = label
         self.boundary = series("boundary.pvd")

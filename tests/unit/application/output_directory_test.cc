@@ -38,6 +38,9 @@ namespace
           "far_field.csv",
           "blocks.pvd",
           "field.pvd",
+          "contacts.xdmf",
+          "contacts.bin",
+          "boundary_12.bin",
           "fields/blocks_0000_0.vtu",
           "fields/blocks_0000_13.vtu",
           "fields/joints_0107_0.vtu",
@@ -48,6 +51,9 @@ namespace
           "mechanism/fields/joints_0000_0.vtu" };
 
   const std::set<std::string> others = { "notes.txt",
+                                         "my_blocks.bin",
+                                         "blocks_a.bin",
+                                         "results.xdmf",
                                          "blocks_0000_0.vtu",
                                          "fields/blocks_0000_0.vtu.bak",
                                          "fields/blocks_0_0.vtu",

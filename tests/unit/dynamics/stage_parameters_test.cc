@@ -104,6 +104,15 @@ TEST(StageParameters, ConditionsThatEndIt)
                  "End conditions = u > 1;; v > 1", "empty condition");
 }
 
+TEST(StageParameters, OutcomeOfAnyLength)
+{
+  const std::string outcome(1000000, 'x');
+  const auto stage
+      = read("set Duration = 1\nset End conditions = " + outcome + ": u > 1\n");
+  ASSERT_EQ(stage.end_conditions.size(), 1U);
+  EXPECT_EQ(stage.end_conditions[0].outcome, outcome);
+}
+
 TEST(StageParameters, OnlyTheChosenDampingActs)
 {
   const std::string coefficients

@@ -9,7 +9,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/results/atomic_file.h>
 #include <quoin/results/checkpoint.h>
-#include <quoin/results/vtu_series.h>
+#include <quoin/results/field_series.h>
 
 #include <sys/resource.h>
 
@@ -366,11 +366,11 @@ TEST(Checkpoint, FullDiskLeavesTheOlderOneValid)
 
 TEST(Checkpoint, ASeriesGoesOn)
 {
-  class Series : public VtuSeries
+  class Series : public FieldSeries
   {
   public:
     explicit Series(const TemporaryDirectory &directory)
-      : VtuSeries(directory.path(), "blocks", MPI_COMM_SELF)
+      : FieldSeries(directory.path(), "blocks", MPI_COMM_SELF, FieldFormat::vtu)
     {
     }
 

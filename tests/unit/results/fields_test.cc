@@ -106,6 +106,7 @@ TEST(JointOutput, SeriesOfFiles)
   fields.shear_traction  = { 0., 0. };
   fields.state           = { JointState::intact, JointState::open };
   fields.joint_set       = { 2 };
+  fields.handed_over     = { 0 };
 
   JointOutput output(directory.path(), MPI_COMM_SELF);
   output.start();

@@ -74,6 +74,20 @@ TEST(HistoryConditions, WhatIsNoNumberMeetsNothingAndIsNoPeak)
             2U);
 }
 
+TEST(HistoryConditions, LongWords)
+{
+  const std::string longest(100, 'x'), endless(200000, 'x');
+  std::vector<double> peaks;
+  EXPECT_EQ(HistoryConditions({ longest + " > 0.1" + std::string(1000, '1') },
+                              { longest })
+                .find_met({ 0., 0.2 }, peaks),
+            0U);
+  expect_refused(endless + " > 1", "is no history");
+  const std::string message = message_of<InputError>(
+      [&] { HistoryConditions({ endless + " > 1" }, { endless }); });
+  EXPECT_NE(message.find("more than 100 letters"), std::string::npos);
+}
+
 TEST(HistoryConditions, RefusesWhatItCannotDecide)
 {
   expect_refused("forces > 1", "'forces' is no history. Known are: force, ");

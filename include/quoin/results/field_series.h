@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#ifndef quoin_results_vtu_series_h
-#define quoin_results_vtu_series_h
+#ifndef quoin_results_field_series_h
+#define quoin_results_field_series_h
 
+#include <quoin/results/field_format.h>
 #include <quoin/results/pvd_writer.h>
 #include <quoin/results/vtu_writer.h>
+#include <quoin/results/xdmf_writer.h>
 
 #include <mpi.h>
 
@@ -16,20 +18,20 @@
 namespace quoin
 {
   /**
-   * A series of VTU files fields/<name>_<nnnn>_<rank>.vtu and its list
-   * <name>.pvd in the output directory. Its number and list are part of a
-   * checkpoint.
+   * Fields at several times in the output directory: a series of VTU files
+   * fields/<name>_<nnnn>_<rank>.vtu with the list <name>.pvd, or the files of
+   * an XdmfWriter. What was written is part of a checkpoint.
    */
-  class VtuSeries
+  class FieldSeries
   {
   public:
-    VtuSeries(const std::string &output_directory, const std::string &name,
-              const MPI_Comm communicator);
+    FieldSeries(const std::string &output_directory, const std::string &name,
+                const MPI_Comm communicator, const FieldFormat format);
 
     /**
-     * Collective. Makes the directory and writes the list: an empty one, or
-     * after loading a checkpoint the list of the checkpoint; pieces written
-     * later are removed. @throws RunError
+     * Collective. Makes the directory and writes an empty series, or after
+     * loading a checkpoint that of the checkpoint; what was written later is
+     * removed. @throws RunError
      */
     void start();
 
@@ -41,11 +43,11 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &index &list;
+      archive &index &list &xdmf;
     }
 
   protected:
-    /** Collective. Writes one piece for each rank. @throws RunError */
+    /** Collective. Writes the pieces of all ranks. @throws RunError */
     void write_grid(VtuGrid grid);
 
   private:
@@ -54,16 +56,18 @@ namespace quoin
     std::string directory;
     std::string name;
     MPI_Comm communicator;
+    FieldFormat format;
     unsigned int rank;
     unsigned int n_ranks;
     unsigned int index = 0;
     PvdWriter list;
+    XdmfWriter xdmf;
   };
 
   /**
-   * Removes the series of an earlier run from @p output_directory: their lists
-   * and all their pieces in fields/. Files of other names and files that cannot
-   * be removed stay.
+   * Removes the series of an earlier run from @p output_directory, of all
+   * formats, and all their pieces in fields/. Files of other names and files
+   * that cannot be removed stay.
    */
   void remove_series(const std::string &output_directory);
 
