@@ -180,28 +180,45 @@ class AfterAReset(unittest.TestCase):
         self.same(joint_movement.blocks_since(self.now, self.then),
                   joint_movement.blocks_since(seen, self.then))
 
+    def whole(self, slip, opening, time):
+        """Joints that have moved, in a run without reset."""
+        joints = faces()
+        joints.time = time
+        joints.points = joints.points + [0.5 * slip, 0.5 * opening]
+        joints.point_data["displacement"] = np.tile(
+            [0.5 * slip, 0.5 * opening, 0.], (4, 1))
+        joints.point_data["slip"] = slip * np.array([1., 2., 3., 4.])
+        joints.point_data["opening"] = np.full(4, opening)
+        return joints
+
     def test_joints(self):
-        whole = [joint_movement.handed_over(faces(), None, blocks, None, 9.)
-                 for blocks in (self.then, self.now)]
-        seen = reset(whole[1], whole[0].point_data["displacement"],
-                     whole[0].point_data["slip"])
+        then, now = self.whole(0.05, 0., 1.), self.whole(0.2, 1e-3, 2.)
+        seen = reset(now, then.point_data["displacement"],
+                     then.point_data["slip"])
         stiffness = [1e9, 1e9]
-        self.same(joint_movement.since(whole[1], whole[0], stiffness),
-                  joint_movement.since(seen, whole[0], stiffness))
+        self.same(joint_movement.since(now, then, stiffness),
+                  joint_movement.since(seen, then, stiffness))
 
     def test_faces_handed_over(self):
-        earlier = self.then.point_data["displacement"]
-        seen = joint_movement.handed_over(faces(), None,
-                                          reset(self.now, earlier), None, 9.)
-        self.same(joint_movement.handed_over(faces(), None, self.now, None,
-                                             9.), seen)
-        # beside those that are joints still
-        left = reset(faces([(0., 1.)]), np.full((2, 3), 1e-3), np.ones(2))
-        merged = joint_movement.all_joints(faces(), left, self.now, None, 9.)
-        np.testing.assert_allclose(merged.point_data["slip"],
-                                   [-1., -1., 0.2, 0.2])
-        np.testing.assert_allclose(merged.point_data["earlier slip"],
-                                   [1., 1., 0., 0.])
+        """They are as far apart as they are since the start, and contacts have
+        no earlier part."""
+        now = self.whole(0.2, 0., 2.)
+        now.cell_data["handed over"] = np.array([0, 1], dtype=np.uint8)
+        seen = reset(now, now.point_data["displacement"],
+                     now.point_data["slip"])
+        contacts = faces([(1., 2.)])
+        contacts.points = contacts.points + [0.1, 0.]
+        contacts.point_data["normal traction"] = np.full(2, -5.)
+        contacts.cell_data["state"][:] = SLIPPING
+        shown = joint_movement.all_joints(seen, contacts, 1.)
+        self.assertEqual(list(shown.cell_data["state"]), [INTACT, SLIPPING])
+        np.testing.assert_allclose(shown.point_data["normal traction"],
+                                   [0., 0., -5., -5.])
+        np.testing.assert_allclose(shown.point_data["slip"], 0., atol=1e-15)
+        np.testing.assert_allclose(shown.point_data["earlier slip"],
+                                   now.point_data["slip"])
+        self.assertEqual(
+            len(joint_movement.all_joints(seen, None, 0.5).cells), 1)
 
 
 class Pictures(unittest.TestCase):
