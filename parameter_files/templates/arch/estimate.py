@@ -22,7 +22,7 @@ SPAN, RISE, RING, VOUSSOIRS, LEVEL = 4.0, 1.0, 0.3, 19, 1.6
 STONE, SOIL = 2200 * 9.81, 1835 * 9.81                  # [N/m^3]
 FRICTION = np.tan(np.radians(35))
 COHESION, ANGLE = 5e3, 35                               # of the fill
-AXLE, PLACE, WIDTH = 100e3 / 2.5, -1.0, 0.3             # [N/m], on the road [m]
+AXLE, PLACE, WIDTH = 100e3 / 2.5, -1.0, 0.6             # [N/m], on the road [m]
 
 
 def main():
