@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace quoin
@@ -24,12 +25,20 @@ namespace quoin
       double right;
     };
 
-    std::string surface_name(const WallUnit::Kind kind)
+    /** @p kind or kind_NAME. */
+    std::string with_name(const std::string &kind, const std::string &name)
     {
-      switch (kind)
+      return name.empty() ? kind : kind + "_" + name;
+    }
+
+    std::string surface_name(const WallUnit &unit)
+    {
+      switch (unit.kind)
       {
       case WallUnit::lintel:
-        return "lintel";
+        return with_name("lintel", unit.part);
+      case WallUnit::slab:
+        return with_name("slab", unit.part);
       case WallUnit::bottom_platen:
         return "bottom_platen";
       case WallUnit::top_platen:
@@ -37,7 +46,7 @@ namespace quoin
       case WallUnit::unit:
         break;
       }
-      return "unit";
+      return with_name("unit", unit.part);
     }
 
     bool is_platen(const WallUnit &unit)
@@ -46,10 +55,26 @@ namespace quoin
              || unit.kind == WallUnit::top_platen;
     }
 
-    /** Joint between a unit and the one above it. */
-    std::string bed_name(const WallUnit &below, const WallUnit &above)
+    /** Joint between a unit and the one above or beside it; @p kind: that of
+        two units of the bond, which has the name of the @p second one, and of
+        lintels of a storey without a name. Empty between the courses of a
+        lintel. */
+    std::string joint_name(const WallUnit &first, const WallUnit &second,
+                           const std::string &kind)
     {
-      return is_platen(below) || is_platen(above) ? "platen_joint" : "bed";
+      if (is_platen(first) || is_platen(second))
+        return "platen_joint";
+      if (first.kind == WallUnit::slab || second.kind == WallUnit::slab)
+        return "slab_joint";
+      const bool second_is = second.kind == WallUnit::lintel;
+      const bool first_is  = first.kind == WallUnit::lintel;
+      if (first_is && second_is && first.left == second.left
+          && first.right == second.right)
+        return "";
+      if ((first_is && !first.part.empty())
+          || (second_is && !second.part.empty()))
+        return "lintel_joint";
+      return with_name(kind, second.part);
     }
 
     std::string length_text(const double length)
@@ -79,12 +104,7 @@ namespace quoin
         write_surfaces();
         write_mesh();
         text << physical_names(surfaces, curves);
-        GmshGeometry geometry{ text.str(), {} };
-        for (const std::string name :
-             { "bed", "platen_joint", "head", "crack" })
-          if (curves.count(name) > 0)
-            geometry.joint_curves.push_back(name);
-        return geometry;
+        return { text.str(), { joints.begin(), joints.end() } };
       }
 
     private:
@@ -98,6 +118,14 @@ namespace quoin
       void write_surfaces();
       void write_mesh();
 
+      void add_joint(const std::string &name, const unsigned int line)
+      {
+        if (name.empty())
+          return;
+        joints.insert(name);
+        curves[name].push_back(line);
+      }
+
       void unite(std::vector<double> &x) const
       {
         std::sort(x.begin(), x.end());
@@ -105,6 +133,16 @@ namespace quoin
                             [&](const double a, const double b)
                             { return b - a < exact; }),
                 x.end());
+      }
+
+      /** Of the vertical side at @p x of a unit with nothing beside it. */
+      std::string outer_name(const WallUnit &unit, const double x) const
+      {
+        const std::string side = x < exact                   ? "left"
+                                 : x > layout.length - exact ? "right"
+                                                             : "opening";
+        return unit.kind == WallUnit::slab ? surface_name(unit) + "_" + side
+                                           : side;
       }
 
       /** Index of @p x among the points of @p level. */
@@ -148,6 +186,7 @@ namespace quoin
       /** Vertical lines by row: those at x. */
       std::vector<std::map<double, unsigned int>> vertical_lines;
       std::map<std::string, Numbers> curves, surfaces;
+      std::set<std::string> joints; /**< those of the curves */
       /** Lines by their length, for the number of elements. */
       std::map<std::string, Numbers> lines_of_length;
       std::ostringstream text;
@@ -218,8 +257,8 @@ namespace quoin
     void Writer::write_head()
     {
       text.precision(12);
-      text << "// A wall of " << wall.n_courses << " courses, " << layout.length
-           << " m long; lengths in metres. Joints have no\n"
+      text << "// A wall, " << layout.length << " m long and " << wall.height()
+           << " m high; lengths in metres. Joints have no\n"
               "// thickness: names of physical curves say which lines are "
               "joints.\n\n"
               "DefineConstant[ size = {"
@@ -251,12 +290,13 @@ namespace quoin
           text << "Line(" << line << ") = {" << first_point[level] + i << ", "
                << first_point[level] + i + 1 << "};\n";
           lines_of_length[length_text(right - left)].push_back(line);
-          const std::string name = below != nullptr && above != nullptr
-                                       ? bed_name(*below->unit, *above->unit)
-                                   : level == 0                 ? "base"
-                                   : level == points.size() - 1 ? "top"
-                                                                : "opening";
-          curves[name].push_back(line);
+          if (below != nullptr && above != nullptr)
+            add_joint(joint_name(*below->unit, *above->unit, "bed"), line);
+          else
+            curves[level == 0                   ? "base"
+                   : level == points.size() - 1 ? "top"
+                                                : "opening"]
+                .push_back(line);
         }
     }
 
@@ -284,15 +324,13 @@ namespace quoin
           lines_of_length[key].push_back(next);
           vertical_lines[row][x] = next;
           if (left == nullptr || right == nullptr)
-            curves[x < exact                   ? "left"
-                   : x > layout.length - exact ? "right"
-                                               : "opening"]
+            curves[outer_name(left == nullptr ? *right->unit : *left->unit, x)]
                 .push_back(next);
           else if (left->unit != right->unit)
-            curves["head"].push_back(next);
+            add_joint(joint_name(*left->unit, *right->unit, "head"), next);
           else if (left->unit->cracks
                    && std::abs(x - left->unit->middle()) < exact)
-            curves["crack"].push_back(next);
+            add_joint(with_name("crack", left->unit->part), next);
           ++next;
         }
       }
@@ -316,7 +354,7 @@ namespace quoin
             text << ", -" << bed_line(row + 1, i - 1);
           text << ", -" << vertical(row, piece.left) << "};\n"
                << "Plane Surface(" << next << ") = {" << next << "};\n";
-          surfaces[surface_name(piece.unit->kind)].push_back(next);
+          surfaces[surface_name(*piece.unit)].push_back(next);
           ++next;
         }
     }

@@ -135,16 +135,24 @@ namespace quoin
       bool lintel;
     };
 
+    std::string in_course(const WallStorey &storey, const unsigned int course)
+    {
+      return "in course " + std::to_string(course + 1)
+             + (storey.name.empty() ? "" : " of storey '" + storey.name + "'");
+    }
+
     std::vector<Interruption> interruptions(const WallParameters &wall,
+                                            const WallStorey &storey,
                                             const unsigned int course)
     {
       std::vector<Interruption> result;
-      for (const WallOpening &opening : wall.openings)
+      for (const WallOpening &opening : storey.openings)
       {
         if (opening.first_course <= course + 1
             && course + 1 <= opening.last_course)
           result.push_back({ { opening.left, opening.right }, false });
-        if (wall.lintel_bearing > 0. && course == opening.last_course)
+        if (wall.lintel_bearing > 0. && course >= opening.last_course
+            && course < opening.last_course + wall.lintel_courses)
           result.push_back(
               { { std::max(0., opening.left - wall.lintel_bearing),
                   std::min(wall.length, opening.right + wall.lintel_bearing) },
@@ -155,17 +163,33 @@ namespace quoin
                 { return a.where.left < b.where.left; });
       for (std::size_t i = 1; i < result.size(); ++i)
         if (result[i].where.left < result[i - 1].where.right)
-          throw InputError("section 'Wall': in course "
-                           + std::to_string(course + 1)
+          throw InputError("section 'Wall': " + in_course(storey, course)
                            + " a lintel meets an opening or another lintel. "
                              "Lower 'Lintel bearing' or move the openings.");
       return result;
     }
 
+    /** An opening up to the slab, platen or top of its storey has no lintel;
+        all others have the whole of it. */
+    void check_lintels(const WallParameters &wall, const WallStorey &storey)
+    {
+      for (const WallOpening &opening : storey.openings)
+        if (wall.lintel_bearing > 0. && opening.last_course < storey.n_courses
+            && opening.last_course + wall.lintel_courses > storey.n_courses)
+          throw InputError(
+              "section 'Wall': 'Lintel courses = "
+              + std::to_string(wall.lintel_courses)
+              + "' above the opening that ends "
+              + in_course(storey, opening.last_course - 1)
+              + " reach beyond the " + std::to_string(storey.n_courses)
+              + " courses that are there. Lower 'Lintel courses' or the "
+                "opening.");
+    }
+
     /** Appends the units of @p stretch, cut at @p joints. */
     void lay_units(const WallParameters &wall, const Stretch &stretch,
-                   const std::vector<double> &joints, const unsigned int row,
-                   WallLayout &layout)
+                   const std::vector<double> &joints, const std::string &name,
+                   const unsigned int row, WallLayout &layout)
     {
       const double exact = coincident * wall.unit_length;
       if (stretch.right - stretch.left <= exact)
@@ -177,7 +201,8 @@ namespace quoin
       {
         const bool cracks
             = wall.cracks && right - left > 0.75 * wall.unit_length;
-        layout.units.push_back({ WallUnit::unit, row, left, right, cracks });
+        layout.units.push_back(
+            { WallUnit::unit, row, left, right, cracks, name });
         left = right;
       };
       for (const double x : joints)
@@ -192,20 +217,34 @@ namespace quoin
       place(stretch.right);
     }
 
-    void lay_course(const WallParameters &wall, const unsigned int course,
-                    const std::vector<double> &joints, const unsigned int row,
-                    WallLayout &layout)
+    void lay_course(const WallParameters &wall, const WallStorey &storey,
+                    const unsigned int course,
+                    const std::vector<double> &joints, WallLayout &layout)
     {
-      double left = 0.;
-      for (const Interruption &gap : interruptions(wall, course))
+      const unsigned int row  = layout.levels.size();
+      const std::string &name = storey.course_name(course + 1);
+      double left             = 0.;
+      for (const Interruption &gap : interruptions(wall, storey, course))
       {
-        lay_units(wall, { left, gap.where.left }, joints, row, layout);
+        lay_units(wall, { left, gap.where.left }, joints, name, row, layout);
         if (gap.lintel)
           layout.units.push_back({ WallUnit::lintel, row, gap.where.left,
-                                   gap.where.right, false });
+                                   gap.where.right, false, storey.name });
         left = gap.where.right;
       }
-      lay_units(wall, { left, wall.length }, joints, row, layout);
+      lay_units(wall, { left, wall.length }, joints, name, row, layout);
+    }
+
+    std::string storey_line(const WallStorey &storey, const double bottom,
+                            const double top)
+    {
+      std::string text = "storey " + storey.name + ": "
+                         + std::to_string(storey.n_courses)
+                         + " courses, y = " + number_text(bottom) + " to "
+                         + number_text(top) + " m";
+      if (storey.slab > 0.)
+        text += ", slab to " + number_text(top + storey.slab) + " m";
+      return text;
     }
   } // namespace
 
@@ -213,53 +252,72 @@ namespace quoin
   {
     WallLayout layout;
     layout.length = wall.length;
-    const auto add_platen
-        = [&](const WallUnit::Kind kind, const double level, const double next)
+    double y      = -wall.bottom_platen;
+    // A block over the whole wall.
+    const auto add_layer = [&](const WallUnit::Kind kind,
+                               const double thickness, const std::string &name)
     {
+      if (!(thickness > 0.))
+        return;
       layout.units.push_back({ kind,
                                static_cast<unsigned int>(layout.levels.size()),
-                               0., wall.length, false });
-      layout.levels.push_back(level);
-      return next;
+                               0., wall.length, false, name });
+      layout.levels.push_back(y);
+      y += thickness;
     };
 
-    double y = 0.;
-    if (wall.bottom_platen > 0.)
-      y = add_platen(WallUnit::bottom_platen, -wall.bottom_platen, 0.);
+    add_layer(WallUnit::bottom_platen, wall.bottom_platen, "");
     Bond bond(wall);
-    std::vector<double> joints;
-    for (unsigned int course = 0; course < wall.n_courses; ++course)
+    y = 0.;
+    for (const WallStorey &storey : wall.storeys)
     {
-      joints = bond.joints(course, joints);
-      lay_course(wall, course, joints, layout.levels.size(), layout);
-      layout.levels.push_back(y);
-      y = (course + 1) * wall.unit_height;
+      check_lintels(wall, storey);
+      const double bottom = y;
+      std::vector<double> joints;
+      for (unsigned int course = 0; course < storey.n_courses; ++course)
+      {
+        joints = bond.joints(course, joints);
+        lay_course(wall, storey, course, joints, layout);
+        layout.levels.push_back(y);
+        y = bottom + (course + 1) * wall.unit_height;
+      }
+      for (const WallOpening &opening : storey.openings)
+        layout.n_lintels += wall.lintel_bearing > 0.
+                            && opening.last_course < storey.n_courses;
+      if (!storey.name.empty())
+        layout.storeys.push_back(storey_line(storey, bottom, y));
+      add_layer(WallUnit::slab, storey.slab, storey.name);
     }
-    if (wall.top_platen > 0.)
-      y = add_platen(WallUnit::top_platen, y, y + wall.top_platen);
+    add_layer(WallUnit::top_platen, wall.top_platen, "");
     layout.levels.push_back(y);
     return layout;
   }
 
   std::string wall_report(const WallLayout &layout)
   {
-    unsigned int n_units = 0, n_lintels = 0, n_cracks = 0;
+    unsigned int n_units = 0, n_slabs = 0, n_cracks = 0;
     for (const WallUnit &unit : layout.units)
     {
       n_units += unit.kind == WallUnit::unit;
-      n_lintels += unit.kind == WallUnit::lintel;
+      n_slabs += unit.kind == WallUnit::slab;
       n_cracks += unit.cracks;
     }
-    std::string text = "wall of " + std::to_string(n_units) + " units";
-    if (n_lintels > 0)
-      text += ", " + std::to_string(n_lintels)
-              + (n_lintels == 1 ? " lintel" : " lintels");
-    if (n_cracks > 0)
-      text += ", " + std::to_string(n_cracks) + " potential cracks";
+    const auto count = [](const unsigned int n, const std::string &what)
+    {
+      return n == 0
+                 ? ""
+                 : ", " + std::to_string(n) + " " + what + (n == 1 ? "" : "s");
+    };
+    std::string text = "wall of " + std::to_string(n_units) + " units"
+                       + count(layout.n_lintels, "lintel")
+                       + count(n_slabs, "slab")
+                       + count(n_cracks, "potential crack");
     if (layout.n_joined > 0)
       text += "; " + std::to_string(layout.n_joined)
               + (layout.n_joined == 1 ? " piece was" : " pieces were")
               + " too short and joined to the next unit";
+    for (const std::string &storey : layout.storeys)
+      text += "\n" + storey;
     return text;
   }
 } // namespace quoin

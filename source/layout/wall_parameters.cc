@@ -8,13 +8,17 @@
 #include <cmath>
 
 #include "element_limit.h"
+#include "numbered_names.h"
 
 namespace quoin
 {
   namespace
   {
+    /** More do not fit into the memory of a machine. */
+    constexpr double most_units = 1e6;
+
     std::vector<WallOpening> read_openings(const ParameterSection &section,
-                                           const WallParameters &wall)
+                                           const WallStorey &storey)
     {
       std::vector<WallOpening> openings;
       for (const auto &v :
@@ -23,11 +27,11 @@ namespace quoin
                         "first course, last course; openings are separated by "
                         "semicolons."))
       {
-        if (!(0. <= v[0] && v[0] < v[1] && v[1] <= wall.length))
+        if (!(0. <= v[0] && v[0] < v[1]))
           section.fail("Openings", "must have 0 <= left < right <= 'Length'.");
         const double first = v[2], last = v[3];
         if (first != std::floor(first) || last != std::floor(last)
-            || !(1. <= first && first <= last && last <= wall.n_courses))
+            || !(1. <= first && first <= last && last <= storey.n_courses))
           section.fail("Openings", "must name whole courses with 1 <= first "
                                    "<= last <= 'Courses'.");
         openings.push_back({ v[0], v[1], static_cast<unsigned int>(first),
@@ -43,35 +47,57 @@ namespace quoin
       return openings;
     }
 
-    /** More do not fit into the memory of a machine. */
-    constexpr double most_units = 1e6;
+    constexpr const char *course_form
+        = "must be pairs NAME:COURSE, or NAME:FIRST-LAST of several, with "
+          "commas between them and 1 <= COURSE <= 'Courses', each course at "
+          "most once, such as plinth:1-2, band:9.";
 
-    void check_number_of_units(const ParameterSection &section,
-                               const WallParameters &wall)
+    void check_openings(const ParameterSection &section,
+                        const WallStorey &storey, const double length)
     {
-      const double in_course = 1. + wall.length / wall.unit_length;
-      if (!(in_course <= most_units))
-        section.fail("Length", "is that of more than a million units. Check "
-                               "that it and 'Unit length' are in metres.");
-      if (!(in_course * wall.n_courses <= most_units))
-        section.fail("Courses", "makes more than a million units.");
+      for (const WallOpening &opening : storey.openings)
+        if (opening.right > length)
+          section.fail("Openings", "must have 0 <= left < right <= 'Length'.");
     }
 
-    void check_random(const ParameterSection &section,
-                      const WallParameters &wall)
+    void enter_storey(ParameterEntries &entries, WallStorey &storey)
     {
-      if (!(0. < wall.random_shortest
-            && wall.random_shortest <= wall.random_longest))
-        section.fail("Random lengths",
-                     "must be shortest and longest unit with 0 < shortest <= "
-                     "longest.");
-      if (!((1. + wall.length / wall.random_shortest) * wall.n_courses
-            <= most_units))
-        section.fail("Random lengths", "make more than a million units. Check "
-                                       "that they are in metres.");
-      if (wall.random_overlap > 0.5 * wall.random_shortest)
-        section.fail("Random overlap",
-                     "must not exceed half of the shortest unit.");
+      entries.integer("Courses", storey.n_courses, 0,
+                      "Number of courses [-]; of section 'Wall': 0 with "
+                      "storeys, which have courses of their own.");
+      entries.other("Openings", "",
+                    "Openings: left [m], right [m], first course, last "
+                    "course; further openings after a semicolon. x is 0 at "
+                    "the left end, courses count from 1 at the bottom of the "
+                    "wall or storey. Units are cut to fit.",
+                    [&](const ParameterSection &section)
+                    { storey.openings = read_openings(section, storey); });
+      std::vector<std::pair<std::string, std::string>> names;
+      entries.pairs("Named courses", names, course_form,
+                    "Courses with names of their own, such as plinth:1-2, "
+                    "band:9: their units are the physical surface "
+                    "'unit_NAME', their joints 'bed_NAME', below the course, "
+                    "'head_NAME' and 'crack_NAME'. Other courses have the "
+                    "name of their storey.");
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      if (storey.n_courses > most_units)
+        section->fail("Courses", "makes more than a million units.");
+      storey.named_courses = numbered_names(*section, "Named courses", names,
+                                            storey.n_courses, course_form);
+    }
+
+    void enter_upper_storey(ParameterEntries &entries, WallStorey &storey)
+    {
+      enter_storey(entries, storey);
+      entries.nonnegative("Slab thickness", storey.slab,
+                          "Thickness of the slab on this storey, a block over "
+                          "the whole wall: the physical surface 'slab_NAME', "
+                          "its joints 'slab_joint'; 0: none [m]");
+      const ParameterSection *section = entries.read_section();
+      if (section && storey.n_courses == 0)
+        section->fail("Courses", "must be at least 1.");
     }
 
     void enter_random(ParameterEntries &entries, WallParameters &wall)
@@ -87,9 +113,6 @@ namespace quoin
                           "neighbouring courses of a random bond [m]");
       entries.integer("Random seed", wall.random_seed, 0,
                       "Seed of the random bond: another seed, another wall.");
-      const ParameterSection *section = entries.read_section();
-      if (section && wall.bond == WallBond::random)
-        check_random(*section, wall);
     }
 
     /** Lengths of units in the parameters are those without mortar. */
@@ -98,8 +121,8 @@ namespace quoin
       entries.positive("Length", wall.length,
                        "Length of the wall, from its left to its right end "
                        "[m]");
-      entries.integer("Courses", wall.n_courses, 0,
-                      "Number of courses of the wall [-]");
+      wall.storeys.resize(1);
+      enter_storey(entries, wall.storeys[0]);
       entries.positive("Unit length", wall.unit_length,
                        "Length of a whole unit, without mortar [m]");
       entries.positive("Unit height", wall.unit_height,
@@ -115,22 +138,6 @@ namespace quoin
         return;
       if (!(joint[0] >= 0. && joint[1] >= 0.))
         section->fail("Joint thickness", "must not be negative.");
-      if (wall.n_courses == 0)
-        section->fail("Courses", "must be at least 1.");
-      check_number_of_units(*section, wall);
-    }
-
-    void check_elements(const ParameterSection &section, WallParameters &wall)
-    {
-      if (wall.element_size == 0.)
-        wall.element_size = 0.5 * wall.unit_height;
-      const double height = wall.n_courses * wall.unit_height
-                            + wall.bottom_platen + wall.top_platen;
-      limit_elements(section, 2. * wall.length / wall.element_size * height
-                                  / wall.element_size);
-      if (wall.structured && wall.bond == WallBond::random)
-        section.fail("Elements", "must be 'free' with 'Bond = random', whose "
-                                 "joints lie at any distance.");
     }
 
     void enter(ParameterEntries &entries, WallParameters &wall)
@@ -161,17 +168,12 @@ namespace quoin
                      "Share of a whole unit below which units that are cut at "
                      "ends and openings are joined to their neighbour [-]");
       enter_random(entries, wall);
-      entries.other("Openings", "",
-                    "Openings of the wall: left [m], right [m], first course, "
-                    "last course; further openings after a semicolon. x is 0 "
-                    "at the left end, courses count from 1 at the bottom. "
-                    "Units are cut to fit.",
-                    [&](const ParameterSection &section)
-                    { wall.openings = read_openings(section, wall); });
       entries.nonnegative("Lintel bearing", wall.lintel_bearing,
-                          "Length by which a lintel of one course above each "
-                          "opening reaches beyond each side of it; 0: no "
-                          "lintel, units of the bond bridge the opening [m]");
+                          "Length by which a lintel above each opening "
+                          "reaches beyond each side of it; 0: no lintel, "
+                          "units of the bond bridge the opening [m]");
+      entries.integer("Lintel courses", wall.lintel_courses, 1,
+                      "Depth of lintels, in courses [-]");
       entries.nonnegative("Bottom platen", wall.bottom_platen,
                           "Height of a block below the whole wall; 0: none "
                           "[m]");
@@ -190,18 +192,107 @@ namespace quoin
                      "structured: rectangles between all head joints and "
                      "cracks of the wall, halved alternately; free: gmsh's "
                      "unstructured mesh of each unit.");
-      if (const ParameterSection *section = entries.read_section())
-        check_elements(*section, wall);
+    }
+
+    /** The storeys of section 'Wall storeys' take the place of the one that
+        section 'Wall' itself gives. */
+    void read_storeys(const ParameterSection &top, WallParameters &wall)
+    {
+      std::vector<WallStorey> storeys;
+      const ParameterSection section(top, "Wall storeys");
+      for (const std::string &name : section.list("Names"))
+      {
+        const ParameterSection part(section, name);
+        WallStorey storey = read_entries(part, enter_upper_storey);
+        check_openings(part, storey, wall.length);
+        storey.name = name;
+        storeys.push_back(storey);
+      }
+      if (!storeys.empty())
+        wall.storeys = storeys;
+    }
+
+    void check_numbers_of_units(const ParameterSection &section,
+                                const WallParameters &wall)
+    {
+      const double in_course = 1. + wall.length / wall.unit_length;
+      if (!(in_course <= most_units))
+        section.fail("Length", "is that of more than a million units. Check "
+                               "that it and 'Unit length' are in metres.");
+      double n_courses = 0.;
+      for (const WallStorey &storey : wall.storeys)
+        n_courses += storey.n_courses;
+      if (!(in_course * n_courses <= most_units))
+        section.fail("Courses", "or those of the storeys make more than a "
+                                "million units.");
+      if (wall.bond != WallBond::random)
+        return;
+      if (!(0. < wall.random_shortest
+            && wall.random_shortest <= wall.random_longest))
+        section.fail("Random lengths",
+                     "must be shortest and longest unit with 0 < shortest <= "
+                     "longest.");
+      if (!((1. + wall.length / wall.random_shortest) * n_courses
+            <= most_units))
+        section.fail("Random lengths", "make more than a million units. Check "
+                                       "that they are in metres.");
+      if (wall.random_overlap > 0.5 * wall.random_shortest)
+        section.fail("Random overlap",
+                     "must not exceed half of the shortest unit.");
+    }
+
+    void check_elements(const ParameterSection &section, WallParameters &wall)
+    {
+      if (wall.element_size == 0.)
+        wall.element_size = 0.5 * wall.unit_height;
+      limit_elements(section, 2. * wall.length / wall.element_size
+                                  * wall.height() / wall.element_size);
+      if (wall.structured && wall.bond == WallBond::random)
+        section.fail("Elements", "must be 'free' with 'Bond = random', whose "
+                                 "joints lie at any distance.");
     }
   } // namespace
+
+  void WallStorey::declare(dealii::ParameterHandler &prm)
+  {
+    declare_entries(prm, enter_upper_storey);
+  }
 
   void WallParameters::declare(dealii::ParameterHandler &prm)
   {
     declare_entries(prm, enter);
   }
 
-  WallParameters WallParameters::read(const ParameterSection &section)
+  WallParameters WallParameters::read(const ParameterSection &top)
   {
-    return read_entries(section, enter);
+    WallParameters wall = read_entries(ParameterSection(top, "Wall"), enter);
+    if (wall.bond == WallBond::none)
+      return wall;
+    const unsigned int n_courses = wall.storeys[0].n_courses;
+    read_storeys(top, wall);
+    const ParameterSection section(top, "Wall");
+    const bool has_storeys = !wall.storeys[0].name.empty();
+    if (has_storeys && n_courses > 0)
+      section.fail("Courses", "does not go with section 'Wall storeys', whose "
+                              "storeys have courses of their own: leave it at "
+                              "0.");
+    if (!has_storeys)
+    {
+      if (n_courses == 0)
+        section.fail("Courses", "must be at least 1, or section 'Wall "
+                                "storeys' must name storeys.");
+      check_openings(section, wall.storeys[0], wall.length);
+    }
+    check_numbers_of_units(section, wall);
+    check_elements(section, wall);
+    return wall;
+  }
+
+  double WallParameters::height() const
+  {
+    double sum = bottom_platen + top_platen;
+    for (const WallStorey &storey : storeys)
+      sum += storey.n_courses * unit_height + storey.slab;
+    return sum;
   }
 } // namespace quoin

@@ -224,40 +224,41 @@ namespace quoin
       const std::vector<std::string> viscous = { "viscous boundary" };
       const std::vector<std::string> directed
           = { "prescribed motion", "traction", "platen", "gravity" };
-      refuse_unread(section, "Type",
-                    { { "Boundary",
-                        "",
-                        { "prescribed motion", "traction", "viscous boundary",
-                          "free-field boundary", "platen" } },
-                      { "Group", "", { "platen" } },
-                      { "Groups", "", { "initial stress", "in-situ stress" } },
-                      { "Quantity", "velocity", { "prescribed motion" } },
-                      { "Horizontal", "free", directed },
-                      { "Vertical", "free", directed },
-                      { "Lateral",
-                        "free",
-                        { "prescribed motion", "traction", "gravity" } },
-                      { "Rotation", "free", { "platen" } },
-                      { "Pressure", "free", { "traction" } },
-                      { "Ramp duration", "automatic", { "gravity" } },
-                      { "Distribution", "1", { "traction", "gravity" } },
-                      { "Moving shape", "none", { "traction" } },
-                      { "Moving centre", "", { "traction" } },
-                      { "Moving width", "0", { "traction" } },
-                      { "Moving axis", "x", { "traction" } },
-                      { "Incident normal velocity", "0", viscous },
-                      { "Incident shear velocity", "0", viscous },
-                      { "Far field material", "", viscous },
-                      { "Base", "", { "free-field boundary" } },
-                      { "Stress", "0, 0, 0", initial },
-                      { "Stress gradient", "0, 0, 0", initial },
-                      { "Stress zz", "elastic", initial },
-                      { "Surface", "0", in_situ },
-                      { "Unit weight", "", in_situ },
-                      { "Surface pressure", "0", in_situ },
-                      { "Horizontal ratio", "1", in_situ },
-                      { "Horizontal surface stress", "0", in_situ },
-                      { "Out-of-plane ratio", "same", in_situ } });
+      refuse_unread(
+          section, "Type",
+          { { "Boundary",
+              "",
+              { "prescribed motion", "traction", "viscous boundary",
+                "free-field boundary", "platen" } },
+            { "Group", "", { "platen" } },
+            { "Groups", "", { "initial stress", "in-situ stress", "gravity" } },
+            { "Quantity", "velocity", { "prescribed motion" } },
+            { "Horizontal", "free", directed },
+            { "Vertical", "free", directed },
+            { "Lateral",
+              "free",
+              { "prescribed motion", "traction", "gravity" } },
+            { "Rotation", "free", { "platen" } },
+            { "Pressure", "free", { "traction" } },
+            { "Ramp duration", "automatic", { "gravity" } },
+            { "Distribution", "1", { "traction", "gravity" } },
+            { "Moving shape", "none", { "traction" } },
+            { "Moving centre", "", { "traction" } },
+            { "Moving width", "0", { "traction" } },
+            { "Moving axis", "x", { "traction" } },
+            { "Incident normal velocity", "0", viscous },
+            { "Incident shear velocity", "0", viscous },
+            { "Far field material", "", viscous },
+            { "Base", "", { "free-field boundary" } },
+            { "Stress", "0, 0, 0", initial },
+            { "Stress gradient", "0, 0, 0", initial },
+            { "Stress zz", "elastic", initial },
+            { "Surface", "0", in_situ },
+            { "Unit weight", "", in_situ },
+            { "Surface pressure", "0", in_situ },
+            { "Horizontal ratio", "1", in_situ },
+            { "Horizontal surface stress", "0", in_situ },
+            { "Out-of-plane ratio", "same", in_situ } });
     }
 
     /** Refuses a load that does nothing or acts nowhere. */
@@ -387,10 +388,11 @@ namespace quoin
         entries.list("Group", load.groups,
                      "Platen: physical surfaces whose blocks are the rigid "
                      "body, instead of a boundary.");
-      if (entries.reads_if(load.type == LoadType::initial_stress))
+      if (entries.reads_if(load.type == LoadType::initial_stress
+                           || load.type == LoadType::gravity))
         entries.list("Groups", load.groups,
-                     "Initial or in-situ stress: physical surfaces in which "
-                     "it acts; empty: all.");
+                     "Initial or in-situ stress, gravity: physical surfaces "
+                     "in which it acts; empty: all.");
     }
 
     /** A factor by place; none if the text is 1. */

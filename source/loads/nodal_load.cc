@@ -90,6 +90,45 @@ namespace quoin
     return groups;
   }
 
+  namespace
+  {
+    /** The nodes of @p groups, of all if there are none. Collective. */
+    template <int dim>
+    std::vector<unsigned int>
+    nodes_of_groups(const NodeMap<dim> &node_map,
+                    const std::vector<unsigned int> &groups,
+                    const std::string &load)
+    {
+      // How many cells each node has in these groups, and how many others.
+      std::vector<NodeVector<dim>> count(node_map.n_local());
+      const LocalCells<dim> &cells = node_map.cells();
+      for (unsigned int c = 0; c < cells.size(); ++c)
+      {
+        const bool is_in
+            = groups.empty()
+              || std::count(groups.begin(), groups.end(), cells.group[c]) > 0;
+        for (const unsigned int node : cells.nodes[c])
+          count[node].v[is_in ? 0 : 1] += 1.;
+      }
+      node_map.exchange().add_to_owners(count.data());
+      std::vector<unsigned int> nodes;
+      bool is_shared = false;
+      for (unsigned int i = 0; i < node_map.n_owned(); ++i)
+        if (count[i].v[0] > 0.)
+        {
+          is_shared = is_shared || count[i].v[1] > 0.;
+          nodes.push_back(i);
+        }
+      if (dealii::Utilities::MPI::max(unsigned(is_shared),
+                                      node_map.communicator())
+          > 0)
+        throw InputError("section 'Loads/" + load
+                         + "': a block lies only in part within 'Groups'. "
+                           "Name all of its groups, or part them by a joint.");
+      return nodes;
+    }
+  } // namespace
+
   template <int dim>
   NodalLoad<dim>::NodalLoad(const LoadParameters &parameters,
                             const NodeMap<dim> &node_map,
@@ -102,8 +141,9 @@ namespace quoin
   {
     if (is_gravity)
     {
-      for (unsigned int i = 0; i < node_map.n_owned(); ++i)
-        nodes.push_back(i);
+      nodes = nodes_of_groups(
+          node_map, groups_of_names(node_map, parameters.groups, load_name),
+          load_name);
       weights.resize(nodes.size());
       find_factors(parameters, node_map);
       set_mass(mass);
@@ -199,9 +239,9 @@ namespace quoin
   {
     if (!is_gravity)
       return;
-    std::copy_n(mass.begin(), weights.size(), weights.begin());
-    for (unsigned int i = 0; i < node_factors.size(); ++i)
-      weights[i] *= node_factors[i];
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      weights[i]
+          = mass[nodes[i]] * (node_factors.empty() ? 1. : node_factors[i]);
   }
 
   template <int dim>

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/parameter_entries.h>
+#include <quoin/layout/arch_layout.h>
 #include <quoin/layout/rock_layout.h>
 #include <quoin/layout/wall_layout.h>
 #include <quoin/parameters/model_parameters.h>
@@ -33,12 +34,22 @@ namespace quoin
       parameters.split.joints_along = geometry.joint_curves;
     }
 
-    /** Generates the wall or the rock, if the file has one. */
+    void lay(const ArchParameters &arch, Parameters &parameters)
+    {
+      const ArchLayout layout     = lay_arch(arch);
+      const GmshGeometry geometry = arch_geometry(arch, layout);
+      parameters.generated = { "arch", geometry.text, arch_report(layout), "" };
+      parameters.split.joints_along = geometry.joint_curves;
+    }
+
+    /** Generates the wall, arch or rock, if the file has one. */
     bool read_generated(const ParameterSection &top, Parameters &parameters)
     {
-      const WallParameters wall
-          = WallParameters::read(ParameterSection(top, "Wall"));
+      const WallParameters wall = WallParameters::read(top);
+      const ArchParameters arch
+          = ArchParameters::read(ParameterSection(top, "Arch"));
       const RockParameters rock = RockParameters::read(top);
+      const bool has_arch       = arch.span > 0.;
       const bool has_wall       = wall.bond != WallBond::none;
       const bool has_rock       = !rock.outline.empty();
       if (has_wall && has_rock)
@@ -46,16 +57,30 @@ namespace quoin
             .fail("Outline",
                   "does not go with a wall of section 'Wall': leave it "
                   "empty, or set 'Wall/Bond = none'.");
-      if (!has_wall && !has_rock)
+      if (has_arch && (has_wall || has_rock))
+        ParameterSection(top, "Arch")
+            .fail("Span", "does not go with a wall of section 'Wall' or rock "
+                          "of section 'Rock': set it to 0, or 'Wall/Bond = "
+                          "none' and 'Rock/Outline' empty.");
+      if (!has_wall && !has_rock && !has_arch)
         return false;
       if (const ParameterSection section(top, "Mesh");
           !section.text("File").empty())
         section.fail("File",
-                     "does not go with a wall of section 'Wall' or rock of "
-                     "section 'Rock': leave it empty, or set 'Wall/Bond = "
-                     "none' and 'Rock/Outline' empty.");
-      naming(top.file(), [&]()
-             { has_wall ? lay(wall, parameters) : lay(rock, parameters); });
+                     "does not go with a wall of section 'Wall', an arch of "
+                     "section 'Arch' or rock of section 'Rock': leave it "
+                     "empty, or set 'Wall/Bond = none', 'Arch/Span = 0' and "
+                     "'Rock/Outline' empty.");
+      naming(top.file(),
+             [&]()
+             {
+               if (has_wall)
+                 lay(wall, parameters);
+               else if (has_arch)
+                 lay(arch, parameters);
+               else
+                 lay(rock, parameters);
+             });
       return true;
     }
 
@@ -64,7 +89,8 @@ namespace quoin
     {
       if (parameters.mesh_file.empty())
         section.fail("File", "must name a .geo or .msh file, or section 'Wall' "
-                             "a bond, or section 'Rock' an outline.");
+                             "a bond, section 'Arch' a span, or section "
+                             "'Rock' an outline.");
       parameters.mesh_file = section.in_folder(parameters.mesh_file);
       std::error_code error; // a name may be too long for any file
       if (!std::filesystem::exists(parameters.mesh_file, error))
@@ -83,8 +109,8 @@ namespace quoin
       entries.text("File", parameters.mesh_file,
                    "gmsh geometry (.geo) or mesh (.msh), relative to "
                    "the folder of this file; coordinates in [m]. Empty "
-                   "with a wall of section 'Wall' or rock of section "
-                   "'Rock'.");
+                   "with a wall of section 'Wall', an arch of section 'Arch' "
+                   "or rock of section 'Rock'.");
       entries.choice("Dimension", parameters.dimension,
                      { { "from mesh", MeshDimension::from_mesh },
                        { "2", MeshDimension::two },
@@ -109,8 +135,9 @@ namespace quoin
       SplitOptions &split = parameters.split;
       entries.list("Joints along", split.joints_along,
                    "Physical curves along which the mesh is split into "
-                   "blocks; empty with a wall of section 'Wall' or rock of "
-                   "section 'Rock': all of its joints.");
+                   "blocks; empty with a wall of section 'Wall', an arch of "
+                   "section 'Arch' or rock of section 'Rock': all of its "
+                   "joints.");
       entries.pairs("Joints between", split.joints_between,
                     "must be 'all' or pairs such as rock:concrete.",
                     "Pairs a:b of physical surfaces between which the mesh is "
@@ -143,8 +170,9 @@ namespace quoin
       parameters.split.joints_along = joints_of_layout;
     if (generated && parameters.dimension == MeshDimension::three)
       section.fail("Dimension",
-                   "is 2 for a wall of section 'Wall' or rock of section "
-                   "'Rock', whose meshes are plane: set 'from mesh'.");
+                   "is 2 for a wall of section 'Wall', an arch of section "
+                   "'Arch' or rock of section 'Rock', whose meshes are plane: "
+                   "set 'from mesh'.");
     if (parameters.cells.kind == TriangleKind::quadratic
         && !parameters.is_implicit)
       section.fail("Triangles",

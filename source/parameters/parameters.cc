@@ -4,6 +4,7 @@
 #include <quoin/base/named_sections.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/base/parameter_file.h>
+#include <quoin/layout/arch_parameters.h>
 #include <quoin/layout/rock_parameters.h>
 #include <quoin/layout/wall_parameters.h>
 #include <quoin/parameters/model_parameters.h>
@@ -21,7 +22,8 @@ namespace quoin
 
     /** Sections with named subsections, and functions that declare these. */
     const std::vector<SectionEntries> named_sections
-        = { { "Rock regions", RockRegion::declare },
+        = { { "Wall storeys", WallStorey::declare },
+            { "Rock regions", RockRegion::declare },
             { "Rock joints", RockJoints::declare },
             { "Materials", MaterialParameters::declare },
             { "Joints", JointSetParameters::declare },
@@ -108,6 +110,7 @@ namespace quoin
     const std::vector<SectionEntries> other_sections
         = { { "Mesh", declare_mesh },
             { "Wall", WallParameters::declare },
+            { "Arch", ArchParameters::declare },
             { "Rock", RockParameters::declare },
             { "Contact", ContactParameters::declare },
             { "Boundary elements", BoundaryElementParameters::declare },

@@ -5,6 +5,7 @@
 #include <quoin/problems/boundary_problem.h>
 #include <quoin/results/checkpoint.h>
 
+#include <cctype>
 #include <fstream>
 #include <sstream>
 
@@ -31,9 +32,10 @@ namespace quoin
       if (made.geometry.empty())
         return read_any_gmsh(parameters.mesh_file, communicator,
                              parameters.dimension, parameters.cells);
-      return mesh_gmsh_geometry(
-          made.geometry, made.name == "wall" ? "section Wall" : "section Rock",
-          communicator, parameters.cells);
+      std::string section = made.name;
+      section[0]          = std::toupper(section[0]);
+      return mesh_gmsh_geometry(made.geometry, "section " + section,
+                                communicator, parameters.cells);
     }
   } // namespace
 

@@ -71,7 +71,7 @@ def reset_results(case, folder, output, histories):
 def collapse(case, folder, output, histories):
     """The largest factor of a load pattern in summary.json by that of the case,
     if it has one, and the residual of the energy balance. Supports must take
-    the loads."""
+    the loads, and the factor be between two bounds, if there are some."""
     with open(os.path.join(output, "summary.json")) as stream:
         stage = json.load(stream)["stages"]["push"]
     errors = energy_residual(case, folder, output, histories)
@@ -79,6 +79,11 @@ def collapse(case, folder, output, histories):
         wanted = case["largest factor"]
         errors["largest factor"] \
             = abs(stage["largest load factor"]["factor"] - wanted) / wanted
+    low, high = case.get("factor between", (0, float("inf")))
+    factor = stage["largest load factor"]["factor"]
+    if not low < factor < high:
+        raise Failure("the largest factor %g is not between %g and %g"
+                      % (factor, low, high))
     if "supports do not take the loads" in stage:
         raise Failure("supports do not take the loads: %s"
                       % stage["supports do not take the loads"])

@@ -12,13 +12,15 @@
 
 namespace quoin
 {
-  /** A rectangle of one row: a unit, a lintel or a platen. */
+  /** A rectangle of one row: a unit, one course of a lintel, a slab or a
+      platen. */
   struct WallUnit
   {
     enum Kind
     {
       unit,
       lintel,
+      slab,
       bottom_platen,
       top_platen
     };
@@ -27,6 +29,9 @@ namespace quoin
     double left;  /**< [m] */
     double right; /**< [m] */
     bool cracks;  /**< has a potential crack at mid-length */
+    /** Of a unit the name of its course, of a lintel or slab that of the
+        storey; may be empty. */
+    std::string part;
 
     double middle() const
     {
@@ -42,30 +47,37 @@ namespace quoin
     std::vector<double> levels;
     /** Units by row, from left to right. */
     std::vector<WallUnit> units;
-    double length = 0.; /**< [m] */
+    double length          = 0.; /**< [m] */
+    unsigned int n_lintels = 0;
+    std::vector<std::string> storeys; /**< a line on each that has a name */
     /** Number of units that became longer because a cut piece was too short. */
     unsigned int n_joined = 0;
   };
 
   /**
-   * Lays the units of a wall. In every course the bond gives head joints;
-   * openings and lintels interrupt it, and joints that would leave a piece
-   * shorter than WallParameters::shortest at an end are left out.
+   * Lays the units of a wall. In every course the bond gives head joints; it
+   * begins anew with each storey, which a slab may end. Openings and lintels
+   * interrupt it, and joints that would leave a piece shorter than
+   * WallParameters::shortest at an end are left out.
    *
    * Throws InputError: a random bond that finds no place for a joint, a lintel
    * that does not fit.
    */
   WallLayout lay_wall(const WallParameters &wall);
 
-  /** How many units, lintels and cracks there are, in a line. */
+  /** How many units, lintels, slabs and cracks there are, in a line, and a
+      line on each storey with a name. */
   std::string wall_report(const WallLayout &layout);
 
   /**
    * The layout as a gmsh geometry that makes the mesh of the wall: physical
-   * surfaces `unit`, `lintel`, `bottom_platen`, `top_platen`; physical curves
-   * `bed` and `head` (joints between units), `platen_joint`, `crack`; and, on
-   * the outside, `base`, `top`, `left`, `right`, `opening`. Names that a wall
-   * has no use for are left out.
+   * surfaces `unit`, `lintel`, `slab`, `bottom_platen`, `top_platen`; physical
+   * curves `bed` (below a course) and `head`, `crack`, `slab_joint` and
+   * `platen_joint`; and, on the outside, `base`, `top`, `left`, `right`,
+   * `opening`. A course or storey NAME has `unit_NAME`, `bed_NAME`, `head_NAME`
+   * and `crack_NAME`, a storey also `lintel_NAME`, `slab_NAME` with the ends
+   * `slab_NAME_left` and `slab_NAME_right`, and joints of lintels
+   * `lintel_joint`. Names that a wall has no use for are left out.
    *
    * Throws InputError if a structured mesh would need columns narrower than a
    * fifth of the element size.

@@ -7,6 +7,8 @@
 #include <quoin/base/parameter_section.h>
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 namespace quoin
@@ -28,16 +30,38 @@ namespace quoin
   {
     double left;               /**< [m] */
     double right;              /**< [m] */
-    unsigned int first_course; /**< counted from 1 at the bottom */
+    unsigned int first_course; /**< of the storey, from 1 at its bottom */
     unsigned int last_course;
   };
 
-  /** The section 'Wall'. */
+  /**
+   * Courses and the floor above them: a subsection of 'Wall storeys', or, with
+   * an empty name, what section 'Wall' itself gives.
+   */
+  struct WallStorey
+  {
+    std::string name;
+    unsigned int n_courses = 0;
+    std::vector<WallOpening> openings;
+    double slab = 0.; /**< thickness of the slab above; 0: none [m] */
+    std::map<unsigned int, std::string> named_courses; /**< from 1 */
+
+    /** Of course @p number: its own, or that of the storey. */
+    const std::string &course_name(const unsigned int number) const
+    {
+      const auto found = named_courses.find(number);
+      return found == named_courses.end() ? name : found->second;
+    }
+
+    static void declare(dealii::ParameterHandler &prm);
+  };
+
+  /** The sections 'Wall' and 'Wall storeys'. */
   struct WallParameters
   {
-    WallBond bond          = WallBond::none;
-    double length          = 0.; /**< [m] */
-    unsigned int n_courses = 0;
+    WallBond bond = WallBond::none;
+    double length = 0.;              /**< [m] */
+    std::vector<WallStorey> storeys; /**< from below, at least one */
 
     /** A unit with half a joint on each side: the joints have no thickness. */
     double unit_length = 0.; /**< [m] */
@@ -55,8 +79,8 @@ namespace quoin
     double random_overlap     = 0.; /**< least, of joints of two courses [m] */
     std::uint64_t random_seed = 1;
 
-    std::vector<WallOpening> openings;
     double lintel_bearing = 0.; /**< on each side of an opening; 0: none [m] */
+    unsigned int lintel_courses = 1; /**< depth of a lintel */
 
     double bottom_platen = 0.; /**< height [m]; 0: none */
     double top_platen    = 0.; /**< height [m]; 0: none */
@@ -67,7 +91,10 @@ namespace quoin
     bool structured     = true;
 
     static void declare(dealii::ParameterHandler &prm);
-    static WallParameters read(const ParameterSection &section);
+    /** Of the whole file; storeys are read only if there is a wall. */
+    static WallParameters read(const ParameterSection &top);
+
+    double height() const; /**< with slabs and platens [m] */
   };
 } // namespace quoin
 

@@ -18,12 +18,13 @@ namespace
   WallParameters small_wall(const WallBond bond)
   {
     WallParameters wall;
-    wall.bond         = bond;
-    wall.length       = 1.;
-    wall.n_courses    = 2;
-    wall.unit_length  = 0.25;
-    wall.unit_height  = 0.1;
-    wall.element_size = 0.05;
+    wall.bond = bond;
+    wall.storeys.resize(1);
+    wall.length               = 1.;
+    wall.storeys[0].n_courses = 2;
+    wall.unit_length          = 0.25;
+    wall.unit_height          = 0.1;
+    wall.element_size         = 0.05;
     return wall;
   }
 
@@ -50,7 +51,8 @@ namespace
   struct MeshedWall
   {
     BlockMesh<2> mesh;
-    std::map<std::string, double> joint_length;
+    std::map<std::string, double> joint_length, outer_length;
+    std::map<std::string, double> area_of; /**< by physical surface */
     double area = 0.;
 
     explicit MeshedWall(const WallParameters &wall)
@@ -65,11 +67,18 @@ namespace
         joint_length[mesh.face_names[face.name]]
             += mesh.vertices[face.lower[0]].distance(
                 mesh.vertices[face.lower[1]]);
-      for (const auto &cell : mesh.cells)
+      for (const auto &face : mesh.boundary_faces)
+        outer_length[mesh.face_names[face.name]]
+            += mesh.vertices[face.vertices[0]].distance(
+                mesh.vertices[face.vertices[1]]);
+      for (unsigned int c = 0; c < mesh.cells.size(); ++c)
       {
-        const auto a = mesh.vertices[cell[1]] - mesh.vertices[cell[0]];
-        const auto b = mesh.vertices[cell[2]] - mesh.vertices[cell[0]];
-        area += 0.5 * (a[0] * b[1] - a[1] * b[0]);
+        const auto &cell   = mesh.cells[c];
+        const auto a       = mesh.vertices[cell[1]] - mesh.vertices[cell[0]];
+        const auto b       = mesh.vertices[cell[2]] - mesh.vertices[cell[0]];
+        const double share = 0.5 * (a[0] * b[1] - a[1] * b[0]);
+        area += share;
+        area_of[mesh.group_names[mesh.cell_group[c]]] += share;
       }
     }
   };
@@ -124,11 +133,11 @@ TEST(WallLayout, JoinsPiecesThatAreTooShort)
 
 TEST(WallLayout, CutsUnitsAtOpeningsAndLaysLintels)
 {
-  WallParameters wall = small_wall(WallBond::running);
-  wall.n_courses      = 4;
-  wall.openings       = { { 0.4, 0.6, 2, 2 } };
-  wall.lintel_bearing = 0.1;
-  const auto layout   = lay_wall(wall);
+  WallParameters wall       = small_wall(WallBond::running);
+  wall.storeys[0].n_courses = 4;
+  wall.storeys[0].openings  = { { 0.4, 0.6, 2, 2 } };
+  wall.lintel_bearing       = 0.1;
+  const auto layout         = lay_wall(wall);
   // course 2: pieces of 0.025 m at the opening join their neighbours
   std::vector<std::pair<double, double>> units;
   for (const WallUnit &unit : layout.units)
@@ -153,17 +162,17 @@ TEST(WallLayout, CutsUnitsAtOpeningsAndLaysLintels)
 
 TEST(WallLayout, RandomLengthsKeepTheirBoundsAndTheOverlap)
 {
-  WallParameters wall  = small_wall(WallBond::random);
-  wall.structured      = false;
-  wall.length          = 10.;
-  wall.n_courses       = 20;
-  wall.random_shortest = 0.15;
-  wall.random_longest  = 0.45;
-  wall.random_overlap  = 0.05;
-  const auto layout    = lay_wall(wall);
+  WallParameters wall       = small_wall(WallBond::random);
+  wall.structured           = false;
+  wall.length               = 10.;
+  wall.storeys[0].n_courses = 20;
+  wall.random_shortest      = 0.15;
+  wall.random_longest       = 0.45;
+  wall.random_overlap       = 0.05;
+  const auto layout         = lay_wall(wall);
   std::vector<double> below;
   std::set<double> lengths;
-  for (unsigned int row = 0; row < wall.n_courses; ++row)
+  for (unsigned int row = 0; row < wall.storeys[0].n_courses; ++row)
   {
     const auto here = joints(layout, row);
     double left     = 0.;
@@ -193,12 +202,12 @@ TEST(WallGeometry, MeshesABlockForEveryHalfUnit)
 {
   for (const bool structured : { true, false })
   {
-    WallParameters wall = small_wall(WallBond::running);
-    wall.n_courses      = 4;
-    wall.cracks         = true;
-    wall.bottom_platen  = 0.1;
-    wall.top_platen     = 0.2;
-    wall.structured     = structured;
+    WallParameters wall       = small_wall(WallBond::running);
+    wall.storeys[0].n_courses = 4;
+    wall.cracks               = true;
+    wall.bottom_platen        = 0.1;
+    wall.top_platen           = 0.2;
+    wall.structured           = structured;
     MeshedWall meshed(wall);
     // 2 x 4 and 2 x 5 units, 14 of them whole, and two platens
     EXPECT_EQ(meshed.mesh.n_blocks(), 2 * 4 + 2 * 5 + 14 + 2);
@@ -212,24 +221,103 @@ TEST(WallGeometry, MeshesABlockForEveryHalfUnit)
 
 TEST(WallGeometry, LeavesOpeningsOpen)
 {
-  WallParameters wall = small_wall(WallBond::flemish);
-  wall.n_courses      = 6;
-  wall.openings       = { { 0.375, 0.75, 2, 4 } };
-  wall.lintel_bearing = 0.125;
+  WallParameters wall       = small_wall(WallBond::flemish);
+  wall.storeys[0].n_courses = 6;
+  wall.storeys[0].openings  = { { 0.375, 0.75, 2, 4 } };
+  wall.lintel_bearing       = 0.125;
   MeshedWall meshed(wall);
   EXPECT_NEAR(meshed.area, 0.6 - 0.375 * 0.3, 1e-12);
   // The opening takes four beds' length within, two of them its rim.
   EXPECT_NEAR(meshed.joint_length["bed"], 5. - 4 * 0.375, 1e-12);
 }
 
+TEST(WallGeometry, NamesStoreysSlabsLintelsAndCourses)
+{
+  for (const bool structured : { true, false })
+  {
+    WallParameters wall  = small_wall(WallBond::running);
+    wall.structured      = structured;
+    wall.lintel_bearing  = 0.1;
+    wall.lintel_courses  = 2;
+    wall.storeys         = std::vector<WallStorey>(2);
+    WallStorey &ground   = wall.storeys[0];
+    ground.name          = "ground";
+    ground.n_courses     = 6;
+    ground.openings      = { { 0.4, 0.6, 2, 3 } };
+    ground.slab          = 0.15;
+    ground.named_courses = { { 1, "plinth" } };
+    wall.storeys[1]      = { "upper", 2, {}, 0.2, {} };
+    MeshedWall meshed(wall);
+    auto &area  = meshed.area_of;
+    auto &joint = meshed.joint_length;
+
+    EXPECT_NEAR(area["unit_plinth"], 0.1, 1e-12);
+    // five courses without the opening of two and the lintel of two
+    EXPECT_NEAR(area["unit_ground"], 0.5 - 0.2 * 0.2 - 0.4 * 0.2, 1e-12);
+    EXPECT_NEAR(area["lintel_ground"], 0.4 * 0.2, 1e-12);
+    EXPECT_NEAR(area["slab_ground"], 0.15, 1e-12);
+    EXPECT_NEAR(area["unit_upper"], 0.2, 1e-12);
+    EXPECT_NEAR(area["slab_upper"], 0.2, 1e-12);
+    EXPECT_EQ(area.count("unit"), 0U);
+
+    // A lintel is one block: no joint between its courses.
+    EXPECT_NEAR(joint["lintel_joint"], 2 * 0.1 + 2 * 0.2 + 0.4, 1e-12);
+    EXPECT_NEAR(joint["slab_joint"], 3., 1e-12);
+    // beside the opening below courses 2 and 3, the lintel below 4, 5 and 6
+    EXPECT_NEAR(joint["bed_ground"], 2 * 0.8 + 3 * 0.6, 1e-12);
+    EXPECT_NEAR(joint["bed_upper"], 1., 1e-12);
+    EXPECT_NEAR(joint["head_plinth"], 0.3, 1e-12);
+    // The bond begins anew on the slab: 3 and 4 joints.
+    EXPECT_NEAR(joint["head_upper"], 0.7, 1e-12);
+    EXPECT_EQ(joint.count("bed"), 0U);
+
+    auto &outer = meshed.outer_length;
+    EXPECT_NEAR(outer["slab_ground_left"], 0.15, 1e-12);
+    EXPECT_NEAR(outer["slab_upper_right"], 0.2, 1e-12);
+    EXPECT_NEAR(outer["left"], 0.8, 1e-12);
+    EXPECT_NEAR(outer["base"], 1., 1e-12);
+    EXPECT_NEAR(outer["top"], 1., 1e-12);
+    EXPECT_NEAR(outer["opening"], 2 * 0.2 + 2 * 0.2, 1e-12);
+
+    const std::string report = wall_report(lay_wall(wall));
+    EXPECT_NE(report.find("1 lintel, 2 slabs"), std::string::npos) << report;
+    EXPECT_NE(
+        report.find("storey upper: 2 courses, y = 0.75 to 0.95 m, slab to "
+                    "1.15 m"),
+        std::string::npos)
+        << report;
+  }
+}
+
+TEST(WallLayout, RefusesLintelsThatReachIntoTheSlab)
+{
+  WallParameters wall = small_wall(WallBond::running);
+  wall.lintel_bearing = 0.1;
+  wall.lintel_courses = 2;
+  wall.storeys[0]     = { "ground", 4, { { 0.4, 0.6, 2, 3 } }, 0.2, {} };
+  try
+  {
+    lay_wall(wall);
+    FAIL();
+  }
+  catch (const InputError &error)
+  {
+    EXPECT_NE(std::string(error.what()).find("course 3 of storey 'ground'"),
+              std::string::npos);
+  }
+  // The slab itself bridges what ends below it.
+  wall.storeys[0].openings[0].last_course = 4;
+  EXPECT_EQ(lay_wall(wall).n_lintels, 0U);
+}
+
 TEST(WallGeometry, HasTheBlocksAndJointsOfTheTests)
 {
   // Raijmakers & Vermeltfoort 1992
-  WallParameters wall = small_wall(WallBond::running);
-  wall.length         = 0.99;
-  wall.n_courses      = 16;
-  wall.unit_length    = 0.22;
-  wall.unit_height    = 0.0625;
+  WallParameters wall       = small_wall(WallBond::running);
+  wall.length               = 0.99;
+  wall.storeys[0].n_courses = 16;
+  wall.unit_length          = 0.22;
+  wall.unit_height          = 0.0625;
   wall.bottom_platen = wall.top_platen = 0.0625;
   wall.cracks                          = true;
   wall.element_size                    = 0.032;

@@ -146,3 +146,46 @@ TEST(NodalLoad, DistributionIsAFactorByPlace)
   EXPECT_EQ(force[0].v[1], 0.);
   EXPECT_EQ(force[2].v[1], 0.);
 }
+
+TEST(NodalLoad, GravityActsInItsGroupsAlone)
+{
+  // Two squares of one block each; the second one is the slab.
+  BlockMesh<2> mesh;
+  mesh.vertices = { { 0., 0. }, { 1., 0. }, { 1., 1. }, { 0., 1. },
+                    { 1., 0. }, { 2., 0. }, { 2., 1. }, { 1., 1. } };
+  mesh.cells
+      = { { { 0, 1, 2 } }, { { 0, 2, 3 } }, { { 4, 5, 6 } }, { { 4, 6, 7 } } };
+  mesh.cell_group         = { 0, 0, 1, 1 };
+  mesh.block_first_cell   = { 0, 2, 4 };
+  mesh.block_first_vertex = { 0, 4, 8 };
+  mesh.group_names        = { "unit", "slab" };
+  mesh.face_names         = { "" };
+  LoadParameters parameters;
+  parameters.name          = "floor";
+  parameters.type          = LoadType::gravity;
+  parameters.groups        = { "slab" };
+  parameters.components[1] = { LoadQuantity::force, TimeFunction("-3", "./") };
+  const std::vector<double> mass = { 1., 1., 1., 1., 2., 1., 2., 1. };
+  {
+    const TestNodes nodes(mesh);
+    const NodalLoad<2> load(parameters, nodes, mass, Thickness({ 1., 1. }));
+    std::vector<NodeVector<2>> force(8, NodeVector<2>{ { 0., 0. } });
+    load.add_forces({ 0., 0. }, force.data());
+    for (unsigned int i = 0; i < 8; ++i)
+      EXPECT_DOUBLE_EQ(force[i].v[1], i < 4 ? 0. : -3. * mass[i]);
+  }
+  // One block of both groups has no weight of its own to be told apart.
+  mesh.cells[2] = { { 1, 5, 6 } };
+  mesh.cells[3] = { { 1, 6, 2 } };
+  mesh.vertices.erase(mesh.vertices.begin() + 4);
+  mesh.vertices.pop_back();
+  for (unsigned int c : { 2U, 3U })
+    for (unsigned int &v : mesh.cells[c])
+      v = v > 4 ? v - 1 : v;
+  mesh.block_first_cell   = { 0, 4 };
+  mesh.block_first_vertex = { 0, 6 };
+  const TestNodes nodes(mesh);
+  EXPECT_THROW(NodalLoad<2>(parameters, nodes, std::vector<double>(6, 1.),
+                            Thickness({ 1., 1. })),
+               InputError);
+}

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/number_text.h>
+#include <quoin/base/parameter_entries.h>
+#include <quoin/layout/arch_parameters.h>
+
+#include <cmath>
+
+#include "element_limit.h"
+#include "numbered_names.h"
+
+namespace quoin
+{
+  namespace
+  {
+    void check_ring(const ParameterSection &section, const ArchParameters &arch)
+    {
+      if (arch.rise > 0.5 * arch.span * (1. + 1e-12))
+        section.fail("Rise", "must be at most half of 'Span', as that of a "
+                             "semicircle is.");
+      if (arch.n_voussoirs < 2 || arch.n_voussoirs > 100000)
+        section.fail("Voussoirs", "must be from 2 to 100000.");
+    }
+
+    /** Radius of the intrados [m]. */
+    double radius(const ArchParameters &arch)
+    {
+      return (0.25 * arch.span * arch.span + arch.rise * arch.rise)
+             / (2. * arch.rise);
+    }
+
+    void check_spandrels(const ParameterSection &section,
+                         const ArchParameters &arch)
+    {
+      const double r    = radius(arch);
+      const double foot = arch.ring * 0.5 * arch.span / r;
+      const double top  = arch.ring * (r - arch.rise) / r;
+      if (!(arch.abutment[0] >= foot * (1. - 1e-12) && arch.abutment[1] > 0.))
+        section.fail("Abutments", "must be width and height, at least "
+                                      + number_text(foot)
+                                      + " m wide, to be below the whole joint, "
+                                        "and higher than 0.");
+      if (arch.backing == 0.)
+        return;
+      // The crown of the extrados may be the middle of a voussoir.
+      const double half  = std::asin(std::min(1., 0.5 * arch.span / r));
+      const double crown = arch.rise - r
+                           + (r + arch.ring)
+                                 * (arch.n_voussoirs % 2 == 0
+                                        ? 1.
+                                        : std::cos(half / arch.n_voussoirs));
+      if (!(top < arch.backing && arch.backing < crown))
+        section.fail("Backing", "must be between the springing of the "
+                                "extrados, y = "
+                                    + number_text(top) + " m, and its crown, "
+                                    + number_text(crown) + " m.");
+    }
+
+    void check_elements(const ParameterSection &section, ArchParameters &arch)
+    {
+      if (arch.element_size == 0.)
+        arch.element_size = 0.5 * arch.ring;
+      if (arch.fill_element_size == 0.)
+        arch.fill_element_size = arch.element_size;
+      const double width = arch.span + 2. * arch.abutment[0];
+      const double height
+          = arch.rise + arch.ring + arch.cover + arch.abutment[1];
+      const double ring = 4. * (arch.span + arch.rise) * arch.ring;
+      limit_elements(section,
+                     2. * ring / arch.element_size / arch.element_size);
+      limit_elements(section, 2. * width * height / arch.fill_element_size
+                                  / arch.fill_element_size);
+    }
+
+    void enter(ParameterEntries &entries, ArchParameters &arch)
+    {
+      entries.nonnegative(
+          "Span", arch.span,
+          "Clear span of an arch that the program makes itself, instead of "
+          "reading 'Mesh/File'; its intrados springs at y = 0 to both sides of "
+          "x = 0; 0: no such arch [m]");
+      if (!entries.reads_if(arch.span > 0.))
+        return;
+      entries.positive("Rise", arch.rise,
+                       "Rise of the intrados, an arc of a circle; at most "
+                       "half of the span [m]");
+      entries.positive("Ring thickness", arch.ring,
+                       "Thickness of the voussoirs, from intrados to extrados "
+                       "[m]");
+      entries.integer("Voussoirs", arch.n_voussoirs, 0,
+                      "Number of voussoirs, of straight sides and between "
+                      "radial joints [-]");
+      entries.numbers("Abutments", arch.abutment,
+                      "Width of each abutment, from the intrados outwards, "
+                      "and height below y = 0 [m]");
+      entries.nonnegative("Backing", arch.backing,
+                          "Level y up to which masonry fills the spandrels, "
+                          "or that of a joint of the ring that is nearer than "
+                          "a tenth of 'Element size'; 0: no backing [m]");
+      entries.nonnegative("Cover", arch.cover,
+                          "Height of the fill above the crown of the ring; "
+                          "0: no fill [m]");
+      std::vector<std::pair<std::string, std::string>> names;
+      const std::string form
+          = "must be pairs NAME:NUMBER, or NAME:FIRST-LAST of several, with "
+            "commas between them and 1 <= NUMBER <= 'Voussoirs', each "
+            "voussoir at most once, such as loaded:5-7, key:10.";
+      entries.pairs("Named voussoirs", names, form,
+                    "Voussoirs with names of their own, counted from 1 at the "
+                    "left, such as loaded:5-7, key:10: the physical surface "
+                    "'voussoir_NAME' and curves 'extrados_NAME' and "
+                    "'intrados_NAME'.");
+      entries.nonnegative("Element size", arch.element_size,
+                          "Longest edge of elements of the voussoirs; 0: half "
+                          "of the ring's thickness [m]");
+      entries.nonnegative("Fill element size", arch.fill_element_size,
+                          "Longest edge of elements of fill, backing and "
+                          "abutments away from the ring; 0: as there [m]");
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      check_ring(*section, arch);
+      check_spandrels(*section, arch);
+      check_elements(*section, arch);
+      arch.named_voussoirs = numbered_names(*section, "Named voussoirs", names,
+                                            arch.n_voussoirs, form);
+    }
+  } // namespace
+
+  void ArchParameters::declare(dealii::ParameterHandler &prm)
+  {
+    declare_entries(prm, enter);
+  }
+
+  ArchParameters ArchParameters::read(const ParameterSection &section)
+  {
+    return read_entries(section, enter);
+  }
+} // namespace quoin
