@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/exceptions.h>
 #include <quoin/base/number_text.h>
 #include <quoin/layout/arch_layout.h>
 
@@ -137,6 +138,12 @@ namespace quoin
       const double x           = a[0] + share * (b[0] - a[0]);
       const unsigned int first = share < 0.5 ? k : k + 1; // if it is not cut
       const unsigned int n     = arch.n_voussoirs;
+      if (!is_cut && first == 0)
+        throw InputError("section 'Arch': 'Backing = "
+                         + number_text(arch.backing)
+                         + "' is nearer to the springing of the extrados than "
+                           "a tenth of 'Element size'. Raise it, or set it to "
+                           "0.");
       std::array<unsigned int, 2> cut{ { outer[first], outer[n - first] } };
       if (is_cut)
       {

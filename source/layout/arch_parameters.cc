@@ -19,6 +19,9 @@ namespace quoin
       if (arch.rise > 0.5 * arch.span * (1. + 1e-12))
         section.fail("Rise", "must be at most half of 'Span', as that of a "
                              "semicircle is.");
+      // The centre of a flatter one is far away, and rounding would be felt.
+      if (arch.rise < 1e-3 * arch.span)
+        section.fail("Rise", "must be at least a thousandth of 'Span'.");
       if (arch.n_voussoirs < 2 || arch.n_voussoirs > 100000)
         section.fail("Voussoirs", "must be from 2 to 100000.");
     }

@@ -43,6 +43,8 @@ namespace quoin
    * arc of a circle from (-span/2, 0) to (span/2, 0); below its first and last
    * joint the abutments; beside it, above the abutments, the backing; over all
    * the fill. All are as wide as the abutments.
+   *
+   * Throws InputError: a backing that is too thin for an element.
    */
   ArchLayout lay_arch(const ArchParameters &arch);
 
