@@ -154,6 +154,7 @@ def compare(options, name, scratch):
                                ["--resume"] if i > 0 else [])
         if not run_until(words, latest, max(1, share * n_steps)):
             break
+        check_series(broken)
         kills.append("%d of %d" % (steps_in(latest), n_steps))
     if not kills:
         raise Failure("%s finished before it could be killed" % name)
