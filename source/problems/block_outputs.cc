@@ -120,9 +120,12 @@ namespace quoin
   template <int dim>
   void BlockOutputs<dim>::end_stage(State<dim> &state)
   {
-    if (resets)
-      change_origin(state,
-                    [&](State<dim> &now) { note_failed_joints<dim>(now); });
+    if (!resets)
+      return;
+    if (state.stage_step > 1)
+      note_failed_joints(state);
+    change_origin(state,
+                  [&](State<dim> &now) { note_failed_joints<dim>(now); });
   }
 
   template <int dim>
@@ -267,13 +270,12 @@ namespace quoin
 
   template <int dim>
   void BlockOutputs<dim>::write_mechanism(const State<dim> &state,
-                                          const State<dim> &base,
                                           const double factor)
   {
     ModelOutput<dim> mechanism(run.output + "/mechanism", *system.model,
                                *system.solver, system.parameters.field_format);
     mechanism.start();
-    mechanism.write(factor, state, &base);
+    mechanism.write(factor, state);
   }
 
   template class BlockOutputs<2>;

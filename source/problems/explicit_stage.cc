@@ -6,6 +6,7 @@
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/problems/block_stage.h>
 #include <quoin/results/checkpoint_clock.h>
+#include <quoin/results/result_origin.h>
 
 namespace quoin
 {
@@ -106,6 +107,9 @@ namespace quoin
           = state.stage_step % ExplicitSolver<dim>::balance_interval == 0;
       if (balance && stage.end == StageEnd::static_ratio)
         look_for_lost_blocks();
+      // Those of the first step are due to motion before the stage.
+      if (state.stage_step > 1)
+        note_failed_joints(state);
       if (outputs.fields_are_due(state.time, dt))
         outputs.write_fields(state);
 

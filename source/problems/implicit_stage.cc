@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/problems/block_stage.h>
+#include <quoin/results/result_origin.h>
 
 namespace quoin
 {
@@ -86,6 +87,7 @@ namespace quoin
     {
       const double before = state.time;
       step();
+      note_failed_joints(state);
       solver.check_finite(state);
       outputs.write_iterations();
       for (const JumpReport &jump : std::exchange(solver.record().jumps, {}))

@@ -6,6 +6,7 @@
 #include <quoin/problems/block_stage.h>
 #include <quoin/results/atomic_file.h>
 #include <quoin/results/interruption.h>
+#include <quoin/results/result_origin.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,7 +100,7 @@ namespace quoin
                   " steps, largest displacement ", trial.displacement, " m");
       if (trial.verdict == Verdict::failing
           && trial.factor < search.lowest_failing())
-        outputs.write_mechanism(state, base, trial.factor);
+        outputs.write_mechanism(state, trial.factor);
       search.add(trial);
       state = base;
       system.set_properties(strong, state);
@@ -124,6 +125,8 @@ namespace quoin
       state = base;
       system.set_properties(strong, state);
       system.begin_stage(index, state, false, &variant);
+      // The mechanism is what moves from here on.
+      count_from(*system.model, { true, true, true }, state);
     }
 
     SafetyTrial SafetyStage::try_factor(const double factor)
@@ -200,6 +203,8 @@ namespace quoin
           ExplicitSolver<2>::Requests requests;
           requests.balance
               = state.stage_step % ExplicitSolver<2>::balance_interval == 0;
+          if (state.stage_step > 1)
+            note_failed_joints(state);
           solver.step(state, requests);
           if (!requests.balance)
             continue;
@@ -254,6 +259,7 @@ namespace quoin
           if (is_interrupted())
             return;
           solver.step(state);
+          note_failed_joints(state);
           outputs.write_iterations();
           solver.record().jumps.clear();
           const ImplicitState &now  = state.get<ImplicitState>();

@@ -3,7 +3,6 @@
 
 #include <quoin/results/field_output.h>
 #include <quoin/results/model_output.h>
-#include <quoin/results/result_origin.h>
 
 namespace quoin
 {
@@ -29,19 +28,11 @@ namespace quoin
   }
 
   template <int dim>
-  void ModelOutput<dim>::write(const double time, const State<dim> &state,
-                               const State<dim> *base)
+  void ModelOutput<dim>::write(const double time, const State<dim> &state)
   {
     // Internal variables are those of the previous step.
     State<dim> now = state;
     solver.update_histories(now);
-    if (base)
-    {
-      State<dim> begin = *base;
-      count_from(model, { true, true, true }, begin);
-      using Origin               = ResultOrigin<dim>;
-      now.template get<Origin>() = begin.template get<Origin>();
-    }
     blocks.write(time, block_fields(model, now));
     if constexpr (dim == 2)
     {

@@ -8,16 +8,6 @@ namespace quoin
 {
   namespace
   {
-    /** Whether the joint point @p p has failed after the origin, if it is not
-        intact. */
-    bool has_failed(const ResultOrigin<2> &origin, const JointHistory &history,
-                    const unsigned int p)
-    {
-      return origin.is_since[p]
-             || history.plastic_slip[p] != origin.plastic_slip[p]
-             || history.plastic_opening[p] != origin.plastic_opening[p];
-    }
-
     void count_joints_from(const Model<2> &model, const ResultReset &reset,
                            State<2> &state)
     {
@@ -34,24 +24,22 @@ namespace quoin
               = joint_gaps(segments[p / 2], state.nodes.data())[p % 2][1];
 
       if (reset.joint_states)
-        origin.is_since.assign(2 * segments.size(), 0);
-      if (origin.is_since.empty())
-        return;
-      origin.plastic_slip    = history.plastic_slip;
-      origin.plastic_opening = history.plastic_opening;
-      for (unsigned int p = 0; p < origin.is_since.size(); ++p)
+        origin.has_failed.assign(history.state.size(), 0);
+      for (unsigned int p = 0; p < origin.has_failed.size(); ++p)
         if (history.state[p] == JointState::intact)
-          origin.is_since[p] = 1;
+          origin.has_failed[p] = 1;
     }
   } // namespace
 
   template <>
   void note_failed_joints(State<2> &state)
   {
-    ResultOrigin<2> &origin     = state.get<ResultOrigin<2>>();
-    const JointHistory &history = state.get<JointHistory>();
-    for (unsigned int p = 0; p < origin.is_since.size(); ++p)
-      origin.is_since[p] = has_failed(origin, history, p);
+    AlignedArray<std::uint8_t> &has_failed
+        = state.get<ResultOrigin<2>>().has_failed;
+    const AlignedArray<JointState> &now = state.get<JointHistory>().state;
+    for (unsigned int p = 0; p < has_failed.size(); ++p)
+      if (now[p] == JointState::slipping || now[p] == JointState::open)
+        has_failed[p] = 1;
   }
 
   template <>
@@ -79,13 +67,12 @@ namespace quoin
 
   JointState state_since_origin(const State<2> &state, const unsigned int p)
   {
-    const JointHistory &history = state.get<JointHistory>();
-    const auto *origin          = state.find<ResultOrigin<2>>();
-    if (!origin || origin->is_since.empty()
-        || history.state[p] != JointState::slipped
-        || has_failed(*origin, history, p))
-      return history.state[p];
-    return JointState::intact;
+    const JointState now = state.get<JointHistory>().state[p];
+    const auto *origin   = state.find<ResultOrigin<2>>();
+    return now == JointState::slipped && origin && !origin->has_failed.empty()
+                   && !origin->has_failed[p]
+               ? JointState::intact
+               : now;
   }
 
   template void count_from(const Model<2> &, const ResultReset &, State<2> &);

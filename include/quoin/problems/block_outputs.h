@@ -25,7 +25,7 @@ namespace quoin
 
     /** Counts what @p reset names from @p state on, where a stage begins. */
     void begin_stage(const ResultReset &reset, State<dim> &state);
-    /** Notes which joints have failed, where a stage ends, for later ones. */
+    /** Notes joints that fail as a stage ends; see note_failed_joints(). */
     void end_stage(State<dim> &state);
 
     /** Whether a row or fields are due at @p time [s], with steps of @p dt [s].
@@ -70,9 +70,8 @@ namespace quoin
 
     /** Writes the fields of @p state, once for each time. */
     void write_fields(const State<dim> &state);
-    /** Writes the unstable @p state, displaced since @p base: mechanism/. */
-    void write_mechanism(const State<dim> &state, const State<dim> &base,
-                         double factor);
+    /** Writes the unstable @p state at @p factor: mechanism/. */
+    void write_mechanism(const State<dim> &state, double factor);
 
     /** Stops all ranks if the first one could not write a table. */
     void check_tables()

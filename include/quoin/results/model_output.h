@@ -25,13 +25,8 @@ namespace quoin
     /** Begins the series, or continues those of a checkpoint. */
     void start();
 
-    /**
-     * Writes the fields of @p state at @p time [s]; if @p base is given, with
-     * displacements, slips and states of joints since that state, whose
-     * positions are the reference.
-     */
-    void write(double time, const State<dim> &state,
-               const State<dim> *base = nullptr);
+    /** Writes the fields of @p state at @p time [s]. */
+    void write(double time, const State<dim> &state);
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)

@@ -19,10 +19,6 @@ namespace quoin
    * not from the start of the run: their values where a stage with a
    * ResultReset began. No force and no decision of a solver depends on it. Each
    * array is empty if its results were never reset.
-   *
-   * What a joint has been through is in no single number: one that has failed
-   * before, is closed and sticks has failed since as well if its inelastic slip
-   * or opening is another one.
    */
   template <int dim>
   struct ResultOrigin
@@ -30,22 +26,17 @@ namespace quoin
     static constexpr const char *slice_name = "origin of results";
 
     AlignedArray<NodeVector<dim>> displacement; /**< of local nodes [m] */
-    // Of joint points.
-    AlignedArray<double> slip; /**< [m] */
-    /** Inelastic slip and opening where the present stage began [m]. */
-    AlignedArray<double> plastic_slip, plastic_opening;
-    /** Whether all that the point has been through came since, as of that
-        time: it was intact, or it has failed since. */
-    AlignedArray<std::uint8_t> is_since;
+    AlignedArray<double> slip;                  /**< of joint points [m] */
+    /** Whether each joint point was intact where a stage began, or has slipped
+        or been open since the origin: all that it has been through counts. */
+    AlignedArray<std::uint8_t> has_failed;
 
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
       visitor.nodes(displacement);
-      for (AlignedArray<double> *array :
-           { &slip, &plastic_slip, &plastic_opening })
-        visitor.own(*array, 2, JointHistory::slice_name);
-      visitor.own(is_since, 2, JointHistory::slice_name);
+      visitor.own(slip, 2, JointHistory::slice_name);
+      visitor.own(has_failed, 2, JointHistory::slice_name);
     }
 
     template <typename Archive>
@@ -55,16 +46,15 @@ namespace quoin
     }
   };
 
-  // Internal variables of the state must be those of its positions.
-
-  /** Notes which joints have failed so far, where a stage ends: construction
-      may change them before the next one. */
+  /** Notes which joints slip or are open by @p state: in each step after the
+      origin, those of an explicit one before the next. */
   template <int dim>
   void note_failed_joints(State<dim> &state);
 
   /**
    * Counts what @p reset names from @p state on, where a stage begins, after
-   * construction. What is absent counts from where it comes again.
+   * construction. What is absent counts from where it comes again. Internal
+   * variables are those of the positions.
    */
   template <int dim>
   void count_from(const Model<dim> &model, const ResultReset &reset,

@@ -119,18 +119,18 @@ TEST(ResultOrigin, OnlyJointsThatFailedSinceHaveSlipped)
 
   count_from(blocks.run.model, { false, false, true }, state);
   expect({ S::intact, S::intact, S::intact, S::slipping, S::open, S::intact });
-  // one fails, one slips again, one is crushed; the rest sticks
-  history.state[0] = history.state[3] = history.state[4] = S::slipped;
-  history.plastic_slip[1] += 1e-9;
-  history.plastic_opening[2] -= 1e-9;
-  const std::vector<S> after
-      = { S::slipped, S::slipped, S::slipped, S::intact, S::intact, S::intact };
+  // those that slip, open or are open, and those that were intact
+  history.state[1] = S::slipping;
+  history.state[2] = S::open;
+  note_failed_joints(state);
+  std::fill(history.state.begin(), history.state.end(), S::slipped);
+  const std::vector<S> after = { S::slipped, S::slipped, S::slipped,
+                                 S::slipped, S::slipped, S::intact };
   expect(after);
 
-  // The next stage begins with other inelastic parts of the same joints.
-  note_failed_joints(state);
-  for (double &slip : history.plastic_slip)
-    slip += 1.;
-  count_from(blocks.run.model, {}, state);
+  // The next stage goes on, another one begins anew.
+  count_from(blocks.run.model, { true, true, false }, state);
   expect(after);
+  count_from(blocks.run.model, { false, false, true }, state);
+  expect(std::vector<S>(6, S::intact));
 }
