@@ -35,8 +35,11 @@ namespace quoin
     void visit(Visitor &visitor)
     {
       visitor.nodes(displacement);
-      visitor.own(slip, 2, JointHistory::slice_name);
-      visitor.own(has_failed, 2, JointHistory::slice_name);
+      if constexpr (dim == 2) // There are no joints in three dimensions.
+      {
+        visitor.own(slip, 2, JointHistory::slice_name);
+        visitor.own(has_failed, 2, JointHistory::slice_name);
+      }
     }
 
     template <typename Archive>
