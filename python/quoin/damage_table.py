@@ -7,8 +7,9 @@ import os
 
 import numpy as np
 
-from quoin import run_parameters, vtu
+from quoin import joint_movement, run_parameters, vtu
 from quoin.joint_states import INTACT, OPEN, SLIPPING
+from quoin.moments import check_times
 
 # name: what it says in a legend, in the order of columns
 CONDITIONS = {
@@ -57,9 +58,17 @@ def set_numbers(output, names):
     return [known.index(name) for name in names]
 
 
-def read(output, names=()):
+def grid_of(record):
+    """Of a record of vtu.read_pvd()."""
+    return vtu.merge([vtu.read_vtu(file) for file in record[1]])
+
+
+def read(output, names=(), time=None):
     """Times [s], length of the joints [m], and lengths [m] in each condition
-    at these times.
+    at these times; of the joint sets of these @p names, of all by default.
+
+    With a @p time [s]: of what came after the field nearest to it, and the
+    moments after it (joint_movement.since()).
 
     Joints that large displacements handed over to contacts have failed: they
     are open or closed as their sides are, damaged and crushed as they were.
@@ -70,12 +79,24 @@ def read(output, names=()):
                          f"joints?")
     sets = set_numbers(output, names) if names else None
     peak_crushing = run_parameters.peak_crushing(output)
-    times, rows = [], []
-    for time, files in vtu.read_pvd(path):
-        grid = vtu.merge([vtu.read_vtu(file) for file in files])
-        times.append(time)
+    series = vtu.read_pvd(path)
+    if time is not None:
+        check_times(output, "joints.pvd", [time])
+        then = vtu.read_at(path, time)
+        series = [record for record in series if record[0] >= then.time]
+        stiffness = run_parameters.of_joint_sets(output, "Shear stiffness")
+        # one threshold for all moments
+        largest = max(joint_movement.moved_since(grid, then, stiffness)[1]
+                      .max(initial=0.0) for grid in map(grid_of, series)
+                      if grid is not None)
+    rows = []
+    for record in series:
+        grid = grid_of(record)
+        if grid is not None and time is not None:
+            grid = joint_movement.since(grid, then, stiffness, largest)
         rows.append({} if grid is None
                     else lengths(grid, peak_crushing, sets))
+    times = [moment for moment, _ in series]
     if not rows or rows[0].get("all", 0.0) == 0.0:
         raise ValueError(f"{path}: there are no joints in it")
     length = rows[0]["all"]

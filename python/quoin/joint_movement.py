@@ -91,15 +91,12 @@ def blocks_since(blocks, then):
                 blocks.cell_data)
 
 
-def since(joints, then, shear_stiffness):
+def moved_since(joints, then, shear_stiffness):
     """The joints of a moment with what came after @p then, another field of
     the run: displacements, slips, tractions, and openings as far as they are
-    beyond zero.
-
-    Faces keep their state if they opened or, apart from elastic slip by
-    @p shear_stiffness [Pa/m] of each joint set, slipped meanwhile by more than
-    LEAST_GROWTH of what the one that moved most did; all others count as
-    intact. Faces that were not there at @p then count from zero.
+    beyond zero; and how far each end of a face opened or, apart from elastic
+    slip by @p shear_stiffness [Pa/m] of each joint set, slipped meanwhile [m].
+    Faces that were not there at @p then count from zero.
     """
     joints, then = from_the_start(joints), from_the_start(then)
     here, there, turned = matched(joints, then)
@@ -119,11 +116,23 @@ def since(joints, then, shear_stiffness):
     stiffness = np.asarray(shear_stiffness)[joints.cell_data["joint set"]]
     elastic = data["shear traction"][ends] / stiffness[:, None]
     slip = data["slip"][ends] - elastic
-    growth = np.maximum(data["opening"][ends], np.abs(slip))
-    moved = growth > LEAST_GROWTH * growth.max(initial=0.0)
+    return (Grid(joints.time, joints.points, joints.cells, data,
+                 joints.cell_data),
+            np.maximum(data["opening"][ends], np.abs(slip)))
+
+
+def since(joints, then, shear_stiffness, largest=None):
+    """The joints of moved_since(). Faces keep their state if they moved by more
+    than LEAST_GROWTH of @p largest [m], by default of what the one that moved
+    most did; all others count as intact."""
+    found, growth = moved_since(joints, then, shear_stiffness)
+    if largest is None:
+        largest = growth.max(initial=0.0)
+    moved = growth > LEAST_GROWTH * largest
+    ends, data = found.cells, found.point_data
     states = data["point state"][ends]
     data["point state"] = data["point state"].copy()
     data["point state"][ends] = np.where(moved, states, INTACT)
-    state = np.where(moved.any(axis=1), joints.cell_data["state"], INTACT)
-    return Grid(joints.time, joints.points, joints.cells, data,
-                {**joints.cell_data, "state": state})
+    state = np.where(moved.any(axis=1), found.cell_data["state"], INTACT)
+    return Grid(found.time, found.points, ends, data,
+                {**found.cell_data, "state": state})

@@ -53,6 +53,19 @@ class Results:
             return json.load(file)
 
     @property
+    def warnings(self):
+        """What log.txt warns of: a list of texts, each once."""
+        try:
+            with open(os.path.join(self.output, "log.txt"),
+                      encoding="utf-8") as file:
+                lines = file.read().splitlines()
+        except FileNotFoundError:
+            return []
+        mark = "Warning: "
+        return list(dict.fromkeys(line[len(mark):] for line in lines
+                                  if line.startswith(mark)))
+
+    @property
     def parameters(self):
         """All parameters as the run used them: nested dictionaries of texts,
         e.g. parameters["Joints"]["mortar"]["Cohesion"]."""

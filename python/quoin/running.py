@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
-"""Starts quoin on a case."""
+"""Starts quoin on a case. A run ends, with a checkpoint, when the Python that
+started it is interrupted or ends in any other way."""
 
+import ctypes
+import fcntl
 import os
 import shutil
+import signal
 import subprocess
+import threading
 
 from quoin import run_parameters
 from quoin.results import read
@@ -68,24 +73,86 @@ def environment():
                 OMPI_MCA_mpi_yield_when_idle="1")
 
 
+def end_with_parent(number):
+    """What a new process does so that the kernel sends it a signal when the
+    thread that started it ends; nothing where there is no such kernel."""
+    try:
+        prctl = ctypes.CDLL(None).prctl
+    except AttributeError:
+        return None
+    return lambda: prctl(1, number)      # PR_SET_PDEATHSIG
+
+
+class Runs:
+    """Runs under way that can be stopped together, from any thread."""
+
+    def __init__(self):
+        self.lock = threading.Lock()
+        self.processes = {}
+        self.is_stopped = False
+
+    def finish(self, words, ranks=1, quiet=True):
+        """Starts a run and waits for its end: exit status and what it wrote to
+        stderr. In a session of its own: Ctrl-C reaches Python alone, which
+        passes it on once, as a second signal would end it at once."""
+        # mpirun passes this one on and waits
+        number = signal.SIGTERM if ranks == 1 else signal.SIGUSR1
+        with self.lock:
+            if self.is_stopped:
+                raise KeyboardInterrupt
+            process = subprocess.Popen(
+                words, env=environment(), stderr=subprocess.PIPE, text=True,
+                stdout=subprocess.DEVNULL if quiet else None,
+                start_new_session=True, preexec_fn=end_with_parent(number))
+            self.processes[process] = number
+        try:
+            said = process.communicate()[1]
+        except BaseException:
+            process.send_signal(number)
+            process.communicate()
+            raise
+        finally:
+            with self.lock:
+                del self.processes[process]
+        return process.returncode, said
+
+    def stop(self):
+        """Ends all, with their checkpoints, and starts no more."""
+        with self.lock:
+            self.is_stopped = True
+            for process, number in self.processes.items():
+                process.send_signal(number)
+
+
+def is_under_way(output):
+    """Whether a run is writing to a folder, by the lock that it holds."""
+    try:
+        with open(os.path.join(output, "lock"), "rb+") as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return True
+    except OSError:
+        pass
+    return False
+
+
 def run(case, overrides=None, output=None, ranks=1, quoin=None, options=(),
-        quiet=True):
+        quiet=True, runs=None):
     """Runs a case to its end and returns its Results.
 
     @p case: path of a parameter file. @p overrides: {"Section/Name": value},
     numbers, texts, truths or lists of them, in the units of the file. @p
     output: the folder of the results, default that of the parameter file. @p
     options: further words for quoin, e.g. ["--resume"]. With @p quiet its lines
-    are not shown. Throws RunFailed with quoin's message.
+    are not shown. @p runs: the Runs that it belongs to, default its own.
+    Throws RunFailed with quoin's message.
     """
     entries = [entry(*item) for item in (overrides or {}).items()]
     output = output or run_parameters.output_of(case, entries)
-    done = subprocess.run(
-        command(case, output, entries, options, ranks, quoin),
-        env=environment(), stdout=subprocess.DEVNULL if quiet else None,
-        stderr=subprocess.PIPE, text=True)
-    if done.returncode != 0:
-        raise RunFailed(done.stderr.strip() or
-                        f"quoin ended with exit status {done.returncode}",
-                        done.returncode, output)
+    status, said = (runs or Runs()).finish(
+        command(case, output, entries, options, ranks, quoin), ranks, quiet)
+    if status != 0:
+        raise RunFailed(said.strip()
+                        or f"quoin ended with exit status {status}", status,
+                        output)
     return read(output)

@@ -4,16 +4,18 @@
 
 Each run has a folder in that of the study, named by a fingerprint of what was
 changed and of the parameter file, with quoin's output and run.json, which says
-how it ended. A run whose folder says that it ended is not made again, so a study
-that was stopped, or whose grid has grown, goes on where it was.
+how it ended. A run whose folder says that it ended is not made again, one that was
+interrupted goes on from its checkpoint, and one that another process makes is left
+to it; so a study that was stopped, or whose grid has grown, goes on where it was.
 """
 
+import contextlib
 import csv
 import hashlib
 import itertools
 import json
+import math
 import os
-import shutil
 import sys
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -21,9 +23,10 @@ from concurrent.futures import ThreadPoolExecutor, as_completed
 from quoin import run_parameters
 from quoin.frames import frame
 from quoin.results import read
-from quoin.running import RunFailed, entry, run
+from quoin.running import RunFailed, Runs, entry, is_under_way, run
 
 RECORD = "run.json"
+CHECKPOINT = os.path.join("checkpoint", "latest")
 
 
 def combinations(grid):
@@ -59,24 +62,45 @@ def record_of(folder):
         return None
 
 
-def make(case, overrides, folder, ranks, quoin, options):
-    """One run, from its beginning; returns its record."""
-    shutil.rmtree(folder, ignore_errors=True)
+def make(case, overrides, folder, ranks, quoin, options, runs):
+    """One run, or what an interrupted one left to do; returns its record, None
+    of a run that another process makes."""
+    if is_under_way(folder):
+        return None
+    path = os.path.join(folder, RECORD)
+    goes_on = (record_of(folder) is None
+               and os.path.exists(os.path.join(folder, CHECKPOINT)))
+    with contextlib.suppress(FileNotFoundError):
+        os.remove(path)
     begin = time.monotonic()
     record = {"parameters": overrides, "status": "finished", "message": ""}
-    try:
-        run(case, overrides, folder, ranks, quoin, options)
-    except RunFailed as failed:
-        if failed.status < 0 or failed.status > 2:
-            raise                        # ended from outside: no result
-        record.update(status="failed", message=str(failed))
+    for more in [["--resume"], []] if goes_on else [[]]:
+        try:
+            run(case, overrides, folder, ranks, quoin, [*options, *more],
+                runs=runs)
+            break
+        except RunFailed as failed:
+            if is_under_way(folder):
+                return None              # began just before
+            if failed.status < 0 or failed.status > 2:
+                raise                    # ended from outside: no result
+            if failed.status == 2 or not more:
+                record.update(status="failed", message=str(failed))
+                break
+            # the checkpoint is one of another mesh or version
     record["seconds"] = round(time.monotonic() - begin, 3)
     os.makedirs(folder, exist_ok=True)
-    path = os.path.join(folder, RECORD)
-    with open(path + ".new", "w", encoding="utf-8") as file:
+    with replaced(path) as file:
         json.dump(record, file, indent=2)
-    os.replace(path + ".new", path)
     return record
+
+
+@contextlib.contextmanager
+def replaced(path, **how):
+    """A file to write that takes the place of another as a whole."""
+    with open(path + ".new", "w", encoding="utf-8", **how) as file:
+        yield file
+    os.replace(path + ".new", path)
 
 
 def missing_runs(chosen, again):
@@ -98,61 +122,92 @@ def study(case, grid, output, collect=None, processes=1, ranks=1, quoin=None,
     again. @p progress: where a line each run goes, None: nowhere.
 
     The table, a data frame (see frames.py) and study.csv in the folder, has a
-    row each combination: the parameters, "status", finished or failed, "message"
-    of a failure, which does not stop the others, "seconds", "folder" and what
-    collect() gave, nan where it gave nothing. A changed mesh or table is not
-    noticed: delete the folder of the study then.
+    row each combination: the parameters, "status", finished, failed, in
+    study.csv also to come, and under way if another process makes it, "message" of a failure, which does not stop
+    the others, "seconds", how many "warnings" the run gave (Results.warnings
+    are their texts), "folder" and what collect() gave, nan where it gave
+    nothing. study.csv is written after each run. Ctrl-C, and whatever else ends
+    the study, ends its runs with their checkpoints. A changed mesh or table is
+    not noticed: delete the folder of the study then.
     """
     chosen = {
         os.path.join(output, fingerprint(case, overrides, options)): overrides
         for overrides in combinations(grid)}
     missing = missing_runs(chosen, again)
     begin = time.monotonic()
+    table = StudyTable(chosen, output, collect)
+    under_way = Runs()
 
     def say(text):
         if progress:
             print(text, file=progress, flush=True)
 
     say(f"{len(chosen)} runs, {len(chosen) - len(missing)} of them there")
+    table.write()
     with ThreadPoolExecutor(processes) as pool:
         runs = {pool.submit(make, case, chosen[folder], folder, ranks, quoin,
-                            options): folder for folder in missing}
+                            options, under_way): folder for folder in missing}
         try:
             for done, future in enumerate(as_completed(runs), 1):
-                record = future.result()
+                folder, record = runs[future], future.result()
+                if record is None:
+                    table.elsewhere.add(folder)
                 left = (len(runs) - done) * (time.monotonic() - begin) / done
                 changed = ", ".join(entry(*item) for item
-                                    in record["parameters"].items())
-                say(f"{done}/{len(runs)} {record['status']} in "
-                    f"{record['seconds']:.1f} s, {left:.0f} s to go: {changed}"
-                    + (f"\n    {record['message']}" if record["message"]
-                       else ""))
+                                    in chosen[folder].items())
+                say(f"{done}/{len(runs)} " + (
+                    "under way in another process" if record is None else
+                    f"{record['status']} in {record['seconds']:.1f} s")
+                    + f", {left:.0f} s to go: {changed}"
+                    + (f"\n    {record['message']}"
+                       if record and record["message"] else ""))
+                table.write()
         except BaseException:
+            under_way.stop()
             pool.shutdown(cancel_futures=True)
             raise
-    return table_of(chosen, output, collect)
+    return frame(table.write())
 
 
-def table_of(chosen, output, collect):
-    """The table of a study whose runs have all ended."""
-    rows = []
-    for folder, overrides in chosen.items():
-        record = record_of(folder)
-        row = dict(overrides)
-        row.update({key: record[key] for key in ("status", "message",
-                                                 "seconds")}, folder=folder)
-        if collect and record["status"] == "finished":
-            row.update(collect(read(folder)))
-        rows.append(row)
-    names = list(dict.fromkeys(name for row in rows for name in row))
-    columns = {name: [row.get(name, float("nan")) for row in rows]
-               for name in names}
-    write_csv(os.path.join(output, "study.csv"), columns)
-    return frame(columns)
+class StudyTable:
+    """study.csv; a run is asked once for what it gave."""
 
+    def __init__(self, chosen, output, collect):
+        self.chosen = chosen
+        self.output = output
+        self.collect = collect
+        self.found = {}
+        self.elsewhere = set()
 
-def write_csv(path, columns):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.writer(file)
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values()))
+    def given(self, folder):
+        if folder not in self.found:
+            results = read(folder)
+            self.found[folder] = {
+                "warnings": len(results.warnings), "folder": folder,
+                **(self.collect(results) if self.collect else {})}
+        return self.found[folder]
+
+    def row(self, folder, overrides):
+        record = record_of(folder) or {
+            "status": "under way" if folder in self.elsewhere else "to come",
+            "message": "", "seconds": math.nan}
+        known = {key: record[key] for key in ("status", "message", "seconds")}
+        if record["status"] == "finished":
+            return {**overrides, **known, **self.given(folder)}
+        n = (len(read(folder).warnings) if record["status"] == "failed"
+             else math.nan)
+        return {**overrides, **known, "warnings": n, "folder": folder}
+
+    def write(self):
+        """Writes the file; returns its columns."""
+        rows = [self.row(*item) for item in self.chosen.items()]
+        names = list(dict.fromkeys(name for row in rows for name in row))
+        columns = {name: [row.get(name, math.nan) for row in rows]
+                   for name in names}
+        os.makedirs(self.output, exist_ok=True)
+        with replaced(os.path.join(self.output, "study.csv"),
+                      newline="") as file:
+            writer = csv.writer(file)
+            writer.writerow(columns)
+            writer.writerows(zip(*columns.values()))
+        return columns

@@ -11,6 +11,9 @@ import numpy as np
 
 from quoin.geometry import cross, is_inside
 
+UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "km": 1e3, "in": 0.0254,
+         "ft": 0.3048}               # [m]
+DXF_UNITS = {"1": "in", "2": "ft", "4": "mm", "5": "cm", "6": "m", "7": "km"}
 # points: (n, 2) [m], a polyline
 Trace = namedtuple("Trace", "name set points")
 # of a trace: its length [m] as read and within the outline, parts that are
@@ -18,23 +21,55 @@ Trace = namedtuple("Trace", "name set points")
 Cut = namedtuple("Cut", "trace length inside parts lost")
 
 
-def read(path):
-    """Traces of a .dxf or else of a CSV file, and what was passed over,
-    {what: how often}."""
-    return read_dxf(path) if path.lower().endswith(".dxf") else (
-        read_csv(path), {})
+def read(path, layers=()):
+    """Traces of a .dxf or else of a CSV file, of these @p layers of the drawing
+    or sets of the table, by default of all, and what was passed over, {what:
+    how often}."""
+    found, passed = (read_dxf(path) if path.lower().endswith(".dxf") else
+                     (read_csv(path), {}))
+    known = list(dict.fromkeys(trace.set for trace in found))
+    for name in layers:
+        if name not in known:
+            raise ValueError(f"{path}: there are no traces in '{name}'; there "
+                             f"are in {', '.join(known) or 'none'}")
+    for name in known:
+        if layers and name not in layers:
+            passed[f"traces of {name}"] = sum(t.set == name for t in found)
+    points = [t for t in found if length_of(t) == 0.0]
+    if points:
+        passed["traces without length"] = len(points)
+    return [t for t in found if length_of(t) > 0.0
+            and (not layers or t.set in layers)], passed
+
+
+def length_of(trace):
+    """[m]"""
+    return np.linalg.norm(np.diff(trace.points, axis=0), axis=1).sum()
+
+
+def mean_dip(traces):
+    """Mean and standard deviation of the dips of traces, weighted by length
+    [deg]; from the x axis, anticlockwise, as in section 'Rock joints', between
+    -90 and 90. Of a dip and one 180 degrees larger, which are the same."""
+    ways = np.vstack([np.diff(t.points, axis=0) for t in traces])
+    length = np.linalg.norm(ways, axis=1)
+    # twice the angle has one value for both senses of a line
+    double = (length * np.exp(2j * np.arctan2(ways[:, 1], ways[:, 0]))).sum()
+    alike = min(abs(double) / length.sum(), 1.0)
+    return (0.5 * np.degrees(np.angle(double)),
+            0.5 * np.degrees(np.sqrt(-2.0 * np.log(max(alike, 1e-12)))))
 
 
 def read_csv(path):
-    """Traces of a table with a header, separated by semicolons or commas:
+    """Traces of a table with a header, separated by semicolons, tabs or commas:
     x1, y1, x2, y2, a trace each row, or x, y and id, a row each point of
     a polyline; id and set if there are any. Units in brackets behind the names
-    are passed over; with semicolons numbers may have a decimal comma."""
+    are passed over; without commas between them numbers may have a decimal one."""
     with open(path, newline="", encoding="utf-8-sig") as file:
         lines = file.read().splitlines()
     heading = next((line for line in lines if line.strip()
                     and not line.startswith("#")), "")
-    mark = ";" if ";" in heading else ","
+    mark = next((m for m in ";\t" if m in heading), ",")
     names, found = None, {}
     for number, words in enumerate(csv.reader(lines, delimiter=mark), 1):
         words = [word.strip() for word in words]
@@ -76,7 +111,7 @@ def check_heading(path, names):
 
 
 def number_of(word, mark):
-    value = float(word.replace(",", ".") if mark == ";" else word)
+    value = float(word if mark == "," else word.replace(",", "."))
     if not np.isfinite(value):
         raise ValueError(f"'{word}' is no length")
     return value
@@ -110,6 +145,17 @@ def dxf_entities(path):
             section, entity = value, None
         elif entity:
             entity[1].append((code, value))
+
+
+def unit_of_drawing(path):
+    """The unit that a DXF drawing names, $INSUNITS, or None."""
+    pairs = dxf_pairs(path)
+    for _, value in pairs:
+        if value == "ENTITIES":
+            return None
+        if value == "$INSUNITS":
+            return DXF_UNITS.get(next(pairs, (70, ""))[1])
+    return None
 
 
 def read_dxf(path):
@@ -187,7 +233,7 @@ def pieces(a, b, outline):
 
 def cut(trace, outline):
     """The Cut of a trace at an outline (n, 2) [m], or None for no outline."""
-    length = np.linalg.norm(np.diff(trace.points, axis=0), axis=1).sum()
+    length = length_of(trace)
     if outline is None:
         return Cut(trace, length, length, [trace.points], [])
     parts, lost, inside = [], [], 0.0

@@ -91,10 +91,13 @@ def collapse(case, folder, output, histories):
 
 
 def outcomes(case, folder, output, histories):
-    """Times at which the stages ended, each with the outcome of the case; and
-    the residual of the energy balance."""
+    """Times at which the stages ended, each with the outcome of the case, in the
+    order of the run; and the residual of the energy balance."""
     with open(os.path.join(output, "summary.json")) as stream:
         stages = json.load(stream)["stages"]
+    if list(stages) != list(case["outcomes"]):
+        raise Failure("summary.json has the stages %s in this order"
+                      % ", ".join(stages))
     errors = energy_residual(case, folder, output, histories)
     for name, (outcome, time) in case["outcomes"].items():
         found = stages.get(name, {})
@@ -568,12 +571,18 @@ def corner_passage(case, folder, output, histories):
 def toppling_modes(case, folder, output, histories):
     """Every column moves as limit equilibrium says: 0 stays, 1 topples,
     2 slides. Told apart by the motion of its upper corner and its rotation,
-    relative to those of the column that moves or turns most."""
+    relative to those of the column that moves or turns most, when the first
+    corner has moved as far as "judged at" [m]: limit equilibrium tells how the
+    motion begins; once columns knock against each other it is chaotic."""
     modes, _ = read_table(os.path.join(folder, "modes.csv"))
     blocks = modes["block"].astype(int)
-    moved = np.array([np.hypot(histories["x%d" % i][-1],
-                               histories["y%d" % i][-1]) for i in blocks])
-    turned = np.abs([histories["rotation%d" % i][-1] for i in blocks])
+    moved = np.array([np.hypot(histories["x%d" % i], histories["y%d" % i])
+                      for i in blocks])
+    far = np.flatnonzero(np.max(moved, axis=0) >= case["judged at"])
+    if not far.size:
+        raise Failure("no corner has moved %g m" % case["judged at"])
+    moved = moved[:, far[0]]
+    turned = np.abs([histories["rotation%d" % i][far[0]] for i in blocks])
     moves = moved > 0.05 * np.max(moved)
     topples = turned > 0.2 * np.max(turned)
     found = np.where(~moves, 0, np.where(topples, 1, 2))

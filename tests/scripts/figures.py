@@ -374,6 +374,9 @@ class Pictures(unittest.TestCase):
         self.draws("render")
         self.refuses("not before", "render", "--time", "0.01", "--since",
                      "0.01")
+        self.draws("render", "--times", "settle,0.05", "--since", "settle")
+        self.refuses("nor a stage; these are settle, push", "render",
+                     "--since", "pull")
         self.refuses("never reaches 0.1", "render", "--at", "displacement=0.1")
         for time in ("1e9", "-1"):
             self.refuses("no field was written near", "render", "--time=" + time)
@@ -389,6 +392,12 @@ class Pictures(unittest.TestCase):
         self.assertEqual(failed[0], 0.)
         self.assertGreater(failed[-1], 5.)
         self.assertLessEqual(max(failed), 100.)
+        self.draws("joint_damage", "--since", "push")
+        with open(os.path.splitext(path)[0] + ".csv") as file:
+            since = list(csv.DictReader(file))
+        self.assertLess(len(since), len(rows))
+        self.assertGreater(float(since[0]["time [s]"]), 0.)
+        self.assertEqual(float(since[0]["failed [%]"]), 0.)
         self.refuses("no joint set 'head'; there are mortar", "joint_damage",
                      "--sets", "head")
 
@@ -397,6 +406,11 @@ class Pictures(unittest.TestCase):
                    os.path.join(SMALL_WALL, "plot.json"),
                    "--at", "displacement=0.1e-3,0.3e-3,end")
         self.refuses("No such file", "wall_figure", "--spec", "no.json",
+                     "--at", "displacement=end")
+        path = os.path.join(self.folder.name, "units.json")
+        with open(path, "w") as file:
+            file.write('{"curves": [{"column": "force"}, {"column": "slip"}]}')
+        self.refuses("several units", "wall_figure", "--spec", path,
                      "--at", "displacement=end")
 
     def test_paraview_view(self):
@@ -420,6 +434,37 @@ class Pictures(unittest.TestCase):
                     stderr=subprocess.PIPE)
                 self.has(path, {"crosses": colours.COMPRESSION,
                                 "stress": colours.VALUES[-1]}[view])
+
+    @unittest.skipUnless(importlib.util.find_spec("paraview")
+                         and shutil.which("xvfb-run"), "ParaView is not there")
+    def test_paraview_view_of_a_shaken_table(self):
+        """A block of two triangles that moves by 3 m, one corner by 3.01 m."""
+        folder = os.path.join(self.folder.name, "shaken")
+        synthetic_runs.write_run(folder, [0.], [0.], {
+            0: synthetic_runs.joint_grid(synthetic_runs.NOTHING,
+                                         synthetic_runs.NOTHING)})
+        corners = np.array([[0., 0.], [3., 0.], [3., 1.], [0., 1.]])
+        moved = np.tile([3., 0., 0.], (4, 1)) + np.outer([0, 0, 1, 0],
+                                                         [0.01, 0., 0.])
+        synthetic_runs.write_vtu(
+            os.path.join(folder, "fields", "blocks_0.vtu"), 0., corners,
+            np.array([[0, 1, 2], [0, 2, 3]]), {"displacement": moved},
+            {"block": np.zeros(2, np.int32), "material": np.zeros(2, np.int32)})
+        os.remove(os.path.join(folder, "joints.pvd"))
+        done = subprocess.run(
+            ["xvfb-run", "-a", "-s", "-noreset", sys.executable,
+             os.path.join(SCRIPTS, "paraview_view"), folder, "--view",
+             "material", "--scale", "50"], check=True, timeout=120,
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assertIn("without the motion of the whole", done.stdout)
+        # drawn where it was: its left edge at the left of the picture
+        from matplotlib.colors import to_rgb
+        from matplotlib.image import imread
+        pixels = imread(os.path.join(folder, "view.png"))[..., :3]
+        stone = (np.abs(pixels - to_rgb(colours.MATERIALS[0])) < 0.02).all(
+            axis=2)
+        self.assertLess(np.flatnonzero(stone.any(axis=0))[0],
+                        0.2 * pixels.shape[1])
 
     def test_study(self):
         """The worked study of the user guide: once cracked through, a wall

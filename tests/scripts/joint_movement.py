@@ -11,7 +11,7 @@ import unittest
 import numpy as np
 
 from synthetic_runs import SLID, WIDE, NOTHING, joint_grid, write_run
-from quoin import joint_movement
+from quoin import damage_table, joint_movement, shared_motion, stages
 from quoin.figures import block_figure, joint_figure
 from quoin.joint_states import INTACT, OPEN, SLIPPED, SLIPPING
 from quoin.vtu import Grid
@@ -245,6 +245,140 @@ class Pictures(unittest.TestCase):
             for time, words in ((2, "not before"), (9, "no field was written")):
                 with self.assertRaisesRegex(ValueError, words):
                     block_figure.frames_of(folder, [(2, None)], time)
+
+
+class Stages(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = os.path.join(scratch.name, "run")
+        write_run(self.folder, [0., 1.], [0., 1.],
+                  {0: joint_grid(NOTHING, NOTHING),
+                   1: joint_grid(NOTHING, SLID),
+                   2: joint_grid(NOTHING, WIDE)}, ends={"settle": 1.})
+
+    def test_times(self):
+        self.assertEqual(stages.times_or_names("1e-3, push"), [1e-3, "push"])
+        for name, at, wanted in (("settle", stages.begin, 0.),
+                                 ("settle", stages.end, 1.),
+                                 ("push", stages.begin, 1.)):
+            self.assertEqual(stages.time_of(self.folder, name, at), wanted)
+        self.assertEqual(stages.time_of(self.folder, 3., stages.end), 3.)
+        for at in (stages.begin, stages.end):
+            self.assertEqual(stages.time_of(self.folder, "push + 0.25", at),
+                             1.25)
+        self.assertEqual(stages.stage_and_time("push+pull"),
+                         ("push+pull", None))
+        self.assertEqual([stages.since_text(moment) for moment in
+                          (0.5, "push", "push+1e-3")],
+                         ["since t = 0.5 s", "since push began",
+                          "since 0.001 s after push began"])
+        self.assertIsNone(stages.time_of(self.folder, None, stages.begin))
+
+    def test_names_that_are_none(self):
+        for name, at, words in (
+                ("pull", stages.begin, "nor a stage; these are settle, push"),
+                ("push", stages.end, "that has ended; these are settle")):
+            with self.assertRaisesRegex(ValueError, words):
+                stages.time_of(self.folder, name, at)
+        os.remove(os.path.join(self.folder, "summary.json"))
+        with self.assertRaisesRegex(ValueError, "once one has ended"):
+            stages.begin(self.folder, "push")
+
+    def test_since_a_stage_began(self):
+        frame, = block_figure.frames_of(self.folder, [(2, None)], "push")
+        np.testing.assert_allclose(frame.joints.point_data["slip"],
+                                   [2e-4, 0., 2e-4, 3e-4])
+
+    def test_damage_since_a_stage_began(self):
+        times, length, columns = damage_table.read(self.folder, (), 1.)
+        self.assertEqual(list(times), [1., 2.])
+        self.assertEqual(length, 3.)
+        self.assertEqual(columns["failed"][0], 0.)
+        whole = damage_table.read(self.folder)
+        self.assertEqual(list(whole[0]), [0., 1., 2.])
+        with self.assertRaisesRegex(ValueError, "no field was written"):
+            damage_table.read(self.folder, (), 99.)
+
+
+    def test_one_threshold_for_all_moments(self):
+        """A joint that opened by 1 um counts neither then nor later, when
+        another one opens by 1 mm."""
+        little, much = [[1e-6, 1e-6], [0., 0.]], [[1e-6, 1e-6], [1e-3, 1e-3]]
+        folder = self.folder + "_2"
+        write_run(folder, [0., 1.], [0., 1.],
+                  {k: joint_grid(opening, NOTHING)
+                   for k, opening in enumerate((NOTHING, little, much))})
+        columns = damage_table.read(folder, (), 0.)[2]
+        self.assertEqual(list(columns["failed"]), [0., 0., 2.])
+
+
+class SharedMotion(unittest.TestCase):
+    def grid(self, x):
+        return Grid(0., POINTS, CELLS, {
+            "displacement": np.hstack([x - POINTS, np.zeros((10, 1))])}, {})
+
+    def drawn(self, x, scale=10.):
+        return shared_motion.enlarged(
+            POINTS, x, scale, shared_motion.shared_motion(self.grid(x)))
+
+    def test_a_shaken_table(self):
+        """The lower block is drawn where it was, the slip of the other one ten
+        times as long."""
+        x = POINTS + [0.3, -0.1] + np.outer(IS_UPPER, [0.02, 0.01])
+        np.testing.assert_allclose(
+            self.drawn(x), POINTS + np.outer(IS_UPPER, [0.2, 0.1]),
+            atol=1e-14)
+        np.testing.assert_allclose(self.drawn(x, 1.), x)
+
+    def test_a_turn_of_the_whole(self):
+        for angle in (0.6, 2.5, 3.14159):
+            blocks = moved_blocks(angle=angle, shift=(5., 1.), slip=1e-3)
+            motion = shared_motion.shared_motion(blocks)
+            self.assertAlmostEqual(motion.turn, angle)
+            moved = self.drawn(POINTS
+                               + blocks.point_data["displacement"][:, :2])
+            np.testing.assert_allclose(
+                moved - POINTS, np.outer(IS_UPPER - 0.5, [10. * 1e-3, 0.]),
+                atol=1e-12)
+
+    def test_what_is_no_motion_of_the_whole(self):
+        lean = np.outer(POINTS[:, 1], [0.1, 0.])
+        at_rest = np.where(IS_UPPER[:, None], [0.3, 0.], 0.)
+        opposite = np.where(IS_UPPER[:, None], [0.3, 0.], [-0.2, 0.])
+        # as on a hinge at the corner
+        turn = POINTS @ [[0., 0.1], [-0.1, 0.]]
+        for u in (lean, at_rest, opposite, turn, np.zeros((10, 2)),
+                  np.tile([1e-3, 0.], (10, 1)) + 20. * at_rest):
+            self.assertIsNone(
+                shared_motion.shared_motion(self.grid(POINTS + u)))
+
+    def test_a_shear_on_a_shaken_table_does_not_turn_it(self):
+        x = POINTS + [1., 0.] + np.outer(POINTS[:, 1], [0.1, 0.])
+        motion = shared_motion.shared_motion(self.grid(x))
+        self.assertEqual(motion.turn, 0.)
+        np.testing.assert_allclose(motion.shift, [1., 0.])
+
+    def test_joints_stay_on_their_blocks(self):
+        blocks = moved_blocks(angle=0.6, shift=(5., 1.), slip=1e-3)
+        motion = shared_motion.shared_motion(blocks)
+        at = np.flatnonzero(IS_UPPER)[:2]
+        u = blocks.point_data["displacement"][at]
+        joints = Grid(0., POINTS[at] + u[:, :2], np.array([[0, 1]]),
+                      {"displacement": u}, {})
+        x = POINTS + blocks.point_data["displacement"][:, :2]
+        np.testing.assert_allclose(
+            joint_figure.drawn_position(joints, 10., motion),
+            self.drawn(x)[at])
+
+    def test_in_space(self):
+        corners = np.vstack([np.zeros(3), np.eye(3)])
+        u = np.tile([0., 0., 2.], (4, 1)) + 0.1 * corners
+        motion = shared_motion.shared_motion(Grid(
+            0., corners, np.array([[0, 1, 2, 3]]), {"displacement": u}, {}))
+        np.testing.assert_allclose(motion.shift, [0., 0., 2.])
+        np.testing.assert_allclose(motion.taken_off(corners + u),
+                                   1.1 * corners)
 
 
 if __name__ == "__main__":

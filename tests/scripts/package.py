@@ -4,13 +4,17 @@
 """The package quoin: what it reads of runs whose answers are known, and its
 studies, by a program that stands for quoin."""
 import contextlib
+import csv
+import fcntl
 import importlib.util
 import io
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from unittest import mock
 
@@ -22,9 +26,11 @@ from quoin import frames, mesh_convergence, running, studies
 from quoin.commands import mesh_convergence as mesh_command
 
 # Stands for quoin: writes the product of the overrides a and b, plus the element
-# size of a refined mesh, and how often it was called; refuses a = 3, fails at a = 4, is killed at a = 5.
+# size of a refined mesh, and how often it was called; refuses a = 3, fails at a = 4,
+# is killed at a = 5 and 6 and goes on from its checkpoint at 5, which 6 does not
+# know; 7 lasts long.
 QUOIN = """#!/usr/bin/python3
-import os, sys
+import fcntl, os, signal, sys, time
 words = sys.argv
 folder = words[words.index("--output") + 1]
 values = dict(text.split("=") for k, text in enumerate(words)
@@ -36,11 +42,26 @@ with open("%s", "a") as file:
     file.write(f"{a:g}\\n")
 if a == 3:
     sys.exit(print("Error: section 'S': a is 3", file=sys.stderr) or 1)
-os.makedirs(folder)
+os.makedirs(folder + "/checkpoint", exist_ok=True)
+lock = open(folder + "/lock", "w")
+fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+with open(folder + "/log.txt", "w") as file:
+    file.write("Warning: soft\\n" * 2 + "fine\\nWarning: coarse\\n")
 if a == 4:
     sys.exit(print("Error: it fell over", file=sys.stderr) or 2)
-if a == 5:
+if a == 6 and "--resume" in words:
+    sys.exit(print("Error: another version", file=sys.stderr) or 1)
+latest = folder + "/checkpoint/latest"
+if a == 5 and "--resume" not in words or a == 6 and not os.path.exists(latest):
+    open(latest, "w").close()
     os.kill(os.getpid(), 9)
+if a == 7:
+    def end(number, frame):
+        open(latest, "a").write(str(number))
+        sys.exit(128 + number)
+    signal.signal(signal.SIGTERM, end)
+    open(folder + "/begun", "w").close()
+    time.sleep(60)
 with open(os.path.join(folder, "histories.csv"), "w") as file:
     file.write(f"time [s],p [N]\\n0,0\\n1,{a * b + size}\\n")
 with open(os.path.join(folder, "summary.json"), "w") as file:
@@ -172,8 +193,8 @@ class Runs(unittest.TestCase):
     def test_finished_runs_are_not_made_again(self):
         self.study([1, 2])
         self.called()
-        table = self.study([1, 2, 6])
-        self.assertEqual(self.called(), [6, 6])
+        table = self.study([1, 2, 8])
+        self.assertEqual(self.called(), [8, 8])
         self.assertEqual(len(table), 6)
         with open(self.case, "a") as file:
             file.write("set Thickness = 2\n")
@@ -196,13 +217,76 @@ class Runs(unittest.TestCase):
         self.study([3, 1, 4], (1,), again=True)
         self.assertEqual(self.called(), [3, 4])
 
-    def test_a_study_that_was_stopped_goes_on(self):
-        with self.assertRaises(quoin.RunFailed):
-            self.study([1, 5], (1,))
-        self.assertEqual(self.called(), [1, 5])
-        with contextlib.suppress(quoin.RunFailed):
-            self.study([1, 5], (1,))
-        self.assertEqual(self.called(), [5])
+    def test_an_interrupted_run_goes_on_from_its_checkpoint(self):
+        """Or from its beginning, where the checkpoint is of no use."""
+        for a, calls in ((5, [5]), (6, [6, 6])):
+            with self.assertRaises(quoin.RunFailed):
+                self.study([1, a], (1,))
+            self.assertIn(a, self.called())
+            table = self.study([1, a], (1,))
+            self.assertEqual(self.called(), calls)
+            self.assertEqual(set(table["status"]), {"finished"})
+
+    def test_warnings(self):
+        table = self.study([2, 3, 4], (1,))
+        np.testing.assert_array_equal(table["warnings"], [2, 0, 2])
+        self.assertEqual(quoin.read(table["folder"][0]).warnings,
+                         ["soft", "coarse"])
+
+    def csv(self):
+        with open(os.path.join(self.folder, "study", "study.csv")) as file:
+            return [row["status"] for row in csv.DictReader(file)]
+
+    def test_the_table_is_written_after_each_run(self):
+        seen = []
+        says = mock.Mock(write=lambda text: seen.append(self.csv())
+                         if "finished in" in text else None)
+        self.study([1, 2], (1,), says)
+        # said just before its row is written
+        self.assertEqual(seen, [["to come", "to come"],
+                                ["finished", "to come"]])
+        self.assertEqual(self.csv(), ["finished", "finished"])
+
+    def test_a_run_that_another_process_makes(self):
+        folder = self.study([1], (1,))["folder"][0]
+        self.called()
+        os.remove(os.path.join(folder, "run.json"))
+        with open(os.path.join(folder, "lock"), "w") as file:
+            fcntl.flock(file, fcntl.LOCK_EX)
+            table = self.study([1, 2], (1,))
+            self.assertEqual(list(table["status"]), ["under way", "finished"])
+            self.assertEqual(self.called(), [2])
+        self.study([1, 2], (1,))
+        self.assertEqual(self.called(), [1])
+
+    def test_no_run_outlives_its_study(self):
+        """Ended by Ctrl-C, or killed. What the run writes then is what a
+        checkpoint is, and it gets one signal alone."""
+        for number in (signal.SIGINT, signal.SIGKILL):
+            output = os.path.join(self.folder, f"study_{number}")
+            python = subprocess.Popen(
+                [sys.executable, "-c", "import quoin, sys; quoin.study("
+                 f"{self.case!r}, {{'S/a': [7, 1]}}, {output!r}, "
+                 f"quoin={self.quoin!r})"], stderr=subprocess.PIPE,
+                env=dict(os.environ, PYTHONPATH=os.path.join(ROOT, "python")))
+            folder = os.path.join(output, studies.fingerprint(
+                self.case, {"S/a": 7}))
+
+            def wait_for(what):
+                for _ in range(300):
+                    if what():
+                        return
+                    time.sleep(0.05)
+                self.fail(f"still not after {number!r}")
+
+            wait_for(lambda: os.path.exists(os.path.join(folder, "begun")))
+            python.send_signal(number)
+            python.communicate(timeout=20)
+            wait_for(lambda: not running.is_under_way(folder))
+            with open(os.path.join(folder, "checkpoint", "latest")) as file:
+                self.assertEqual(file.read(), "15")
+            self.assertFalse(os.path.exists(os.path.join(folder, "run.json")))
+            self.assertEqual(self.called(), [7])
 
     def test_mesh_convergence(self):
         found = mesh_convergence.mesh_convergence(

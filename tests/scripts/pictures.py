@@ -15,6 +15,7 @@ import unittest
 import numpy as np
 
 from synthetic_runs import SCRIPTS
+from quoin.commands import plot
 from quoin.figures import block_figure
 from quoin import colours
 from quoin import csv_table
@@ -22,6 +23,7 @@ from quoin.figures import curve_figure
 from quoin.figures import figure_style
 from quoin.figures import joint_figure
 from quoin.figures import page_layout
+from quoin import shared_motion
 from quoin.vtu import Grid
 from matplotlib.colors import to_rgb
 import matplotlib.pyplot as plt
@@ -70,13 +72,47 @@ class Axes(unittest.TestCase):
         self.assertEqual(self.panels(), [(["ux", "uy"], "[m]"),
                                          (["p"], "p [Pa]"),
                                          (["share"], "share [-]")])
-        self.assertEqual(len(self.panels(y={"label": "all"})), 1)
+        # a label with a unit is meant for all, another one is not
+        self.assertEqual(len(self.panels(y={"label": "all [SI]"})), 1)
+        self.assertEqual([label for _, label in
+                          self.panels(y={"label": "all"})],
+                         ["all [m]", "all [Pa]", "all"])
 
     def test_units_below_factors(self):
         figure = self.figure(x={"column": "ux", "factor": 1e3}, columns=["p"],
                              y={"factor": -1e-6})
         self.assertEqual((figure.x_label, figure.y_label),
                          ("ux [mm]", "-p [MPa]"))
+
+    def test_labels_without_a_unit_get_it(self):
+        figure = self.figure(x={"column": "ux", "factor": 1e3, "label": "push"},
+                             columns=["p"], y={"factor": 1e-6, "label": "p"})
+        self.assertEqual((figure.x_label, figure.y_label),
+                         ("push [mm]", "p [MPa]"))
+        figure = self.figure(x={"label": "since noon [h]"}, columns=["p"])
+        self.assertEqual(figure.x_label, "since noon [h]")
+
+    def test_after_a_time(self):
+        curve = {"column": "p"}
+        for after, rows in ((0., 2), (0.5, 1), (None, 2)):
+            figure = self.figure(columns=["p"], after=after) if after \
+                is not None else self.figure(columns=["p"])
+            self.assertEqual(len(figure.points(self.folder, curve)[0]), rows)
+        with self.assertRaisesRegex(ValueError, "no row is after 2 s"):
+            self.figure(after=2.)
+        with open(os.path.join(self.folder, "safety.csv"), "w") as file:
+            file.write("trial,factor\n1,1\n")
+        with self.assertRaisesRegex(ValueError, "have no time"):
+            self.figure(columns=["factor"], table="safety.csv", after=0.)
+
+    def test_after_a_stage_began(self):
+        with open(os.path.join(self.folder, "summary.json"), "w") as file:
+            file.write('{"stages": {"settle": {"time [s]": 0.5}}}')
+        with open(os.path.join(self.folder, "used_parameters.prm"), "w") as f:
+            f.write("subsection Stages\nset Names = settle, push\nend\n")
+        figure = self.figure(columns=["p"], after="push")
+        self.assertEqual(list(figure.points(self.folder, {"column": "p"})[0]),
+                         [1.])
 
     def test_references_are_on_the_axes_of_their_column(self):
         with open(os.path.join(self.folder, "r.csv"), "w") as file:
@@ -101,6 +137,59 @@ class Axes(unittest.TestCase):
         self.assertEqual(plot("--y-factor", "-1e3", "--band", "-1e3", "-.5"),
                          "")
         self.assertIn("expected 2 arguments", plot("--band", "-1e3", "--peak"))
+        self.assertEqual(plot("--band", "1", "2", "--band-label", "tests"), "")
+        self.assertIn("0 --band and 1 --band-label",
+                      plot("--band-label", "tests"))
+
+    def options(self, **others):
+        words = dict(output=[self.folder], table="histories.csv", x=None,
+                     y=None, x_factor=None, y_factor=None, x_label=None,
+                     y_label=None, reference=[], reference_scaled=False,
+                     band=[])
+        return types.SimpleNamespace(**dict(words, **others))
+
+    def test_units_that_can_be_read(self):
+        """ux and uy up to 2 mm, p to 5 MPa."""
+        spec = plot.spec_from_options(self.options())
+        self.assertEqual([curve["factor"] for curve in spec["curves"]],
+                         [1e3, 1e3, 1e-6, 1.])
+        figure = curve_figure.CurveFigure(spec, [(self.folder, None)], "")
+        self.assertEqual([figure.label_of(panel) for panel in figure.panels()],
+                         ["[mm]", "p [MPa]", "share [-]"])
+        spec = plot.spec_from_options(self.options(x="ux"))
+        self.assertEqual(spec["x"]["factor"], 1e3)
+        for others in ({"y_factor": 2.}, {"band": [["1", "2"]]},
+                       {"y_label": "all"}):
+            spec = plot.spec_from_options(self.options(**others))
+            self.assertNotIn("factor", spec["curves"][0])
+            self.assertEqual(spec["y"]["factor"], others.get("y_factor", 1.))
+
+    def test_columns_of_zeros_are_left_out(self):
+        with open(os.path.join(self.folder, "energies.csv"), "w") as file:
+            file.write("time [s],a [J],b [J]\n0,0,0\n1,0,2\n")
+        def columns(**others):
+            return [curve["column"] for curve in plot.spec_from_options(
+                self.options(table="energies.csv", **others))["curves"]]
+        self.assertEqual(columns(), ["b [J]"])
+        self.assertEqual(columns(y=["a", "b"]), ["a", "b"])
+
+    def test_curves_of_one_run_can_be_told_apart(self):
+        names = [f"a{k} [J]" for k in range(20)]
+        with open(os.path.join(self.folder, "energies.csv"), "w") as file:
+            file.write("time [s]," + ",".join(names) + "\n"
+                       + 2 * ("1" + 20 * ",1" + "\n"))
+        figure = self.figure(columns=names, table="energies.csv")
+        axes = plt.figure().subplots()
+        figure.draw_runs(axes, figure.panels()[0])
+        self.assertEqual(len({(to_rgb(line.get_color()), line.get_linestyle())
+                              for line in axes.lines}), 20)
+        plt.close("all")
+
+    def test_labels_of_bands(self):
+        options = types.SimpleNamespace(
+            band=[["1", "2"], ["3", "4"]], band_label=["tests", "code"])
+        self.assertEqual([band["label"] for band in plot.bands_from(options)],
+                         ["tests", "code"])
 
 
 def blocks(width, height):
@@ -122,10 +211,12 @@ def blocks(width, height):
 
 
 class Places(unittest.TestCase):
-    def draw(self, width, height, **options):
+    def draw(self, width, height, shift=0., **options):
+        grid = blocks(width, height)
+        grid.point_data["displacement"] += [shift, 0., 0.]
         frame = types.SimpleNamespace(
-            blocks=blocks(width, height), joints=None, contacts=None, time=0.,
-            label=None)
+            blocks=grid, joints=None, contacts=None, time=0., label=None,
+            shared=shared_motion.shared_motion(grid))
         frame.position = types.MethodType(block_figure.Frame.position, frame)
         words = dict(scale=1., view=None, colour="velocity", joints="state",
                      widest=None, blocks_only=False, principal=True,
@@ -145,6 +236,21 @@ class Places(unittest.TestCase):
             self.assertLess(legend.y1, title.y0, size)
             # and not far
             self.assertLess(title.y0 - legend.y1, 40., size)
+
+    def test_the_caption_names_what_is_left_out(self):
+        for shift, scale, left_out in ((1., 5., True), (1., 1., False),
+                                       (0., 5., False)):
+            _, axes, _ = self.draw(2, 2, shift, scale=scale)
+            self.assertEqual("without the motion of the whole"
+                             in axes.get_title(), left_out)
+            # the view is around what is drawn
+            self.assertLess(axes.get_xlim()[1] - shift * (scale == 1.), 2.1)
+
+    def test_the_caption_says_since_when(self):
+        for since, words in (("push", "since push began"),
+                             (0.25, "since t = 0.25 s")):
+            _, axes, _ = self.draw(2, 2, since=since)
+            self.assertIn(words, axes.get_title())
 
     def test_the_colour_bar_is_beside_the_blocks(self):
         for size in ((40, 1), (6, 3), (1, 20)):

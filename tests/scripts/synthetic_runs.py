@@ -22,7 +22,11 @@ SPEC = {"x": {"column": "u", "factor": 1e3, "label": "displacement [mm]"},
         "y": {"label": "force [kN]"},
         "curves": [{"column": "f", "factor": -1e-3}]}
 TYPES = {"f": "Float64", "i": "Int32", "u": "UInt8"}
-PARAMETERS = """subsection Joints
+CELL_TYPES = {2: 3, 3: 5, 4: 10}     # of VTK: line, triangle, tetrahedron
+PARAMETERS = """subsection Stages
+  set Names = settle, push
+end
+subsection Joints
   set Names = mortar
   subsection mortar
     set Shear stiffness = 1e9
@@ -66,7 +70,8 @@ def write_vtu(path, time, points, cells, point_data, cell_data):
 
     flat = np.hstack([points, np.zeros((len(points), 1))])
     header = (
-        "<VTKFile><UnstructuredGrid>"
+        '<VTKFile type="UnstructuredGrid" version="1.0" '
+        'byte_order="LittleEndian" header_type="UInt64"><UnstructuredGrid>'
         + group("FieldData", {"TimeValue": np.array([time])})
         + f'<Piece NumberOfPoints="{len(points)}" '
         + f'NumberOfCells="{len(cells)}">'
@@ -74,7 +79,9 @@ def write_vtu(path, time, points, cells, point_data, cell_data):
         + group("Cells", {
             "connectivity": cells.ravel().astype(np.int32),
             "offsets": (np.arange(1, len(cells) + 1)
-                        * cells.shape[1]).astype(np.int32)})
+                        * cells.shape[1]).astype(np.int32),
+            "types": np.full(len(cells), CELL_TYPES[cells.shape[1]],
+                             np.uint8)})
         + group("PointData", point_data) + group("CellData", cell_data)
         + '</Piece></UnstructuredGrid><AppendedData encoding="raw">_')
     with open(path, "wb") as file:
@@ -108,9 +115,10 @@ def joint_grid(opening, slip, order=None, turned=()):
          "state": np.zeros(len(order), np.uint8)})
 
 
-def write_run(folder, u, f, grids, wall_time=10., finished=True):
+def write_run(folder, u, f, grids, wall_time=10., finished=True, ends=None):
     """A run whose histories have these rows, a second apart, and fields of
-    joints and of one block at the times that @p grids have."""
+    joints and of one block at the times that @p grids have. @p ends: of its
+    stages [s]."""
     os.makedirs(os.path.join(folder, "fields"))
     with open(os.path.join(folder, "histories.csv"), "w") as file:
         file.write("time [s],u [m],f [N]\n")
@@ -118,7 +126,9 @@ def write_run(folder, u, f, grids, wall_time=10., finished=True):
     with open(os.path.join(folder, "summary.json"), "w") as file:
         json.dump({"finished": finished, "steps": len(u),
                    "wall time [s]": wall_time,
-                   "energy residual share": 1e-5}, file)
+                   "energy residual share": 1e-5,
+                   "stages": {name: {"time [s]": time}
+                              for name, time in (ends or {}).items()}}, file)
     with open(os.path.join(folder, "used_parameters.prm"), "w") as file:
         file.write(PARAMETERS)
     corners = np.array([[0., 0.], [3., 0.], [3., 1.], [0., 1.]])

@@ -108,6 +108,8 @@ class Read(Files):
         for text in ("# a map\nid,set,x1,y1,x2,y2\na,J1,0,.5,3,4\n,,1,2,3,4\n",
                      "Set;Y1 [m];X1 [m];X2 [m];Y2 [m];ID\n"
                      "J1;0,5;0;3;4;a\n\n;2,0;1;3;4;\n",
+                     "set\tx1\ty1\tx2\ty2\tid\nJ1\t0,0\t,5\t3\t4\ta\n"
+                     "\t1\t2\t3\t4\t\n",
                      "\ufeffx1 (m), y1, x2, y2, note, id, set\n"
                      "0,.5,3,4,\"x, y\",a,J1\n1,2,3,4,,,\n"):
             found, passed = traces.read(self.write("map.csv", text))
@@ -116,6 +118,48 @@ class Read(Files):
             self.assertEqual(found[0].name, "a")
             np.testing.assert_array_equal(found[0].points, [[0., .5], [3., 4.]])
             np.testing.assert_array_equal(found[1].points, [[1., 2.], [3., 4.]])
+
+    def test_layers(self):
+        path = self.drawing(DRAWING)
+        found, passed = traces.read(path, ["J2"])
+        self.assertEqual([t.name for t in found], ["1B"])
+        self.assertEqual(passed["traces of J1"], 2)
+        with self.assertRaisesRegex(ValueError, "in 'J3'; there are in J1, J2"):
+            traces.read(path, ["J2", "J3"])
+
+    def test_traces_without_length(self):
+        found, passed = traces.read(self.write(
+            "map.csv", "x1,y1,x2,y2\n0,0,1,1\n2,2,2,2\n"))
+        self.assertEqual((len(found), passed), (1, {"traces without length":
+                                                    1}))
+
+    def test_mean_dip(self):
+        """Of steep traces that lean to both sides of the vertical."""
+        def trace(angle, length, turned=1.):
+            way = length * turned * np.array([np.cos(np.radians(angle)),
+                                              np.sin(np.radians(angle))])
+            return traces.Trace("a", "J", np.array([[0., 0.], way]))
+        dip, deviation = traces.mean_dip([trace(88., 1.), trace(-84., 1., -1.)])
+        self.assertAlmostEqual(dip % 180., 92.)
+        self.assertAlmostEqual(deviation, 4., delta=0.02)
+        dip, deviation = traces.mean_dip([trace(20., 3.), trace(200., 1.)])
+        self.assertAlmostEqual(dip, 20.)
+        self.assertAlmostEqual(deviation, 0., delta=1e-5)
+
+    def test_unit_that_a_drawing_names(self):
+        head = [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1015"),
+                (9, "$INSUNITS"), (70, 4), (0, "ENDSEC")]
+        self.assertEqual(traces.unit_of_drawing(self.drawing(head + DRAWING)),
+                         "mm")
+        status, text, _ = self.script("map.dxf")
+        self.assertEqual(status, 0)
+        self.assertIn("read 3 traces, x -1 to 12 m, y 1 to 15 m, 10 to 13 m long",
+                      text)
+        self.assertIn("its unit is mm; taken for m: see --unit", text)
+        text = self.script("map.dxf", "--unit", "mm")[1]
+        self.assertIn("x -0.001 to 0.012 m", text)
+        self.assertNotIn("the drawing says", text)
+        self.assertIsNone(traces.unit_of_drawing(self.drawing(DRAWING)))
 
     def test_polylines(self):
         found, _ = traces.read(self.write(
@@ -193,9 +237,10 @@ class Cuts(Files):
         self.assertEqual((status, error), (0, ""))
         for line in ("1 CIRCLE were passed over",
                      "1 arcs in polylines, now chords",
-                     "J1: 2 traces of 23 m, 0 of 0 m outside, 2 cut by 8 m: "
-                     "map_J1.csv", "J2: 1 traces of 12 m, 0 of 0 m outside, "
-                     "0 cut by 0 m: map_J2.csv",
+                     "J1: 2 traces of 23 m, dip 0.0 +- 57.8 degrees, 0 of "
+                     "0 m outside, 2 cut by 8 m: map_J1.csv",
+                     "J2: 1 traces of 12 m, dip 58.3 +- ",
+                     "0 of 0 m outside, 0 cut by 0 m: map_J2.csv",
                      "trace 1A is outside at (-0.5, 2) m",
                      "all 3 places are in map_cut.csv"):
             self.assertIn(line, text)

@@ -5,6 +5,7 @@
   scripts/joint_damage OUTPUT_DIR
   scripts/joint_damage OUTPUT_DIR --against displacement --sets mortar
   scripts/joint_damage OUTPUT_DIR --length --curves open,damaged --out dmg.pdf
+  scripts/joint_damage OUTPUT_DIR --since excavate
 
 Of the fields in joints.pvd it takes the length of the joints that are
 
@@ -17,6 +18,10 @@ Of the fields in joints.pvd it takes the length of the joints that are
 as a share of all joints, or with --length in metres, against time or, with
 --against, a column of histories.csv. --sets takes some of the names in section
 'Joints', by default all. The numbers go to a csv file of the picture's name.
+
+--since TIME or STAGE counts what came after that time or since that stage began:
+joints that opened or, by their inelastic slip, slipped since then, more than a hundredth
+of the one that moved most; strength lost and crushing since then.
 """
 
 import csv
@@ -28,8 +33,9 @@ import numpy as np
 
 from quoin import damage_table, figures  # noqa: F401  (the look)
 from quoin.colours import ORANGE, RED, VIOLET
-from quoin.commands.options import Parser
+from quoin.commands.options import Parser, add_since
 from quoin.csv_table import Table, scale_for, unit_of
+from quoin.stages import begin, since_text, time_of
 
 LOOK = {"failed": ("0.55", "-"), "slipping": (ORANGE, "-"), "open": (RED, "-"),
         "damaged": ("black", "--"), "crushed": (VIOLET, "-.")}
@@ -54,7 +60,9 @@ def write_csv(path, x_name, x, columns, unit):
 
 def draw(options):
     """Writes picture and table and returns their names."""
-    times, length, columns = damage_table.read(options.output, options.sets)
+    times, length, columns = damage_table.read(
+        options.output, options.sets,
+        time_of(options.output, options.since, begin))
     softens = "damaged" in columns
     for name in options.curves:
         if name not in columns:
@@ -71,7 +79,9 @@ def draw(options):
     for name, y in columns.items():
         colour, style = LOOK[name]
         label = damage_table.CONDITIONS[name]
-        if name == "failed" and not softens:
+        if name == "failed" and options.since is not None:
+            label = "opening or inelastic slip"
+        elif name == "failed" and not softens:
             label = "failed"
         axes.plot(factor * x, y, style, color=colour, label=label)
     axes.set_xlabel(f"{x_name.split(' [')[0]} [{unit}]")
@@ -79,9 +89,12 @@ def draw(options):
     axes.set_ylabel(f"length of {what} [m]" if options.length
                     else f"share of {what} [% of {length:.3g} m]")
     axes.set_ylim(bottom=0.0)
-    axes.set_xlim(left=min(0.0, factor * x.min()))
-    if options.title:
-        axes.set_title(options.title)
+    if options.since is None:
+        axes.set_xlim(left=min(0.0, factor * x.min()))
+    words = [options.title] if options.title else []
+    if options.since is not None:
+        words.append(since_text(options.since))
+    axes.set_title(", ".join(words))
     axes.legend(fontsize=8.5)
     path = options.out or os.path.join(options.output, "joint_damage.png")
     figure.savefig(path)
@@ -104,6 +117,7 @@ def main():
                         metavar="NAME,...", help="some of the five above")
     parser.add_argument("--length", action="store_true",
                         help="[m] instead of a share")
+    add_since(parser, "count", "opening, inelastic slip, damage")
     parser.add_argument("--title")
     parser.add_argument("--out", metavar="FILE",
                         help="default OUTPUT_DIR/joint_damage.png")

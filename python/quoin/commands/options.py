@@ -5,6 +5,8 @@
 import argparse
 import re
 
+from quoin.stages import time_or_name
+
 
 class Parser(argparse.ArgumentParser):
     """With the text of the script as its help, and "-1e3" or "-9,0,9,8" as
@@ -37,6 +39,12 @@ def positive(kind):
     return convert
 
 
+def add_since(parser, verb, what):
+    parser.add_argument("--since", type=time_or_name, metavar="TIME",
+                        help=f"{verb} what came after this time [s], or since "
+                             f"the stage of this name began, alone: {what}")
+
+
 def add_picture_options(parser, joints="state"):
     """What a picture shows; @p joints: the default of --joints."""
     parser.add_argument("--scale", type=float,
@@ -56,9 +64,7 @@ def add_picture_options(parser, joints="state"):
     parser.add_argument("--widest", type=positive(float), metavar="OPENING",
                         help="of --joints mode and slip: opening or slip that "
                              "is drawn widest [m], default automatic")
-    parser.add_argument("--since", type=float, metavar="TIME",
-                        help="draw what came after this time [s] alone: "
-                             "displacements, slips, openings, states")
+    add_since(parser, "draw", "displacements, slips, openings, states")
     parser.add_argument("--blocks-only", action="store_true",
                         help="neither joints nor contacts")
     parser.add_argument("--principal", action="store_true",

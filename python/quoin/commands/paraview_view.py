@@ -22,8 +22,9 @@ Views:
   field         of a run of boundary elements: the field in the domain, by the
                 magnitude of the velocity, and the boundary
 
-Above each stands what it shows, the time and the scale of displacements. All
-but the field have the joints on top, by their state: slipping orange, slipped
+Above each stands what it shows, the time and the scale of displacements. A motion
+that all blocks share, as on a shaken table, is not enlarged but left out, and it
+says so. All but the field have the joints on top, by their state: slipping orange, slipped
 earlier yellow, open dark red, intact thin and grey; contacts of large
 displacements that press, slipping orange, others blue; and boundary elements, if
 there are any, black.
@@ -55,6 +56,8 @@ import sys
 from quoin import colours, vtu
 from quoin.csv_table import with_unit
 from quoin.commands.options import Parser
+from quoin.shared_motion import Motion, shared_motion
+from quoin.stages import end, time_of, time_or_name
 
 
 def rgb(colour):
@@ -143,6 +146,8 @@ class Views:
         self.scale = 0.0 if is_field else (
             self.automatic_scale() if scale is None else scale)
         self.what = name
+        self.moving = []
+        self.is_shared = self.shared(self.time) is not None
         self.draw_field() if is_field else self.draw_blocks(name)
         if joints and not is_field:
             self.draw_joints(self.series("joints"), "joints", JOINT_STATES)
@@ -181,15 +186,59 @@ class Views:
         # each component by itself: a translation of the whole does not count
         moved = max(data.GetRange(d)[1] - data.GetRange(d)[0]
                     for d in range(3))
+        motion = self.motion(self.times[-1])
+        if motion is not None and motion.turn != 0.0:
+            blocks = self.blocks_at(self.times[-1])
+            start = blocks.points
+            u = blocks.point_data["displacement"][:, :start.shape[1]]
+            moved = (motion.taken_off(start + u) - start).ptp(axis=0).max()
         size = self.size()
         if moved <= 1e-12 * size:
             return 1.0
         return round_down(max(0.04 * size / moved, 1.0))
 
-    def warped(self, source, scale, name):
+    def blocks_at(self, time):
+        return vtu.read_at(os.path.join(self.output, "blocks.pvd"), time)
+
+    def motion(self, time):
+        """That which all blocks share, or None."""
+        blocks = self.blocks_at(time)
+        return None if blocks is None else shared_motion(blocks)
+
+    def shared(self, time):
+        """The same, where displacements are enlarged."""
+        return None if self.scale in (0.0, 1.0) else self.motion(time)
+
+    def warped(self, source, name, is_joint=False):
+        """Enlarged, without a motion that all blocks share; joints lie where
+        they are now."""
+        scale, vectors = self.scale - is_joint, "displacement"
+        if self.is_shared:
+            source = self.pv.Calculator(Input=source,
+                                        registrationName=name + " beyond")
+            source.ResultArrayName = vectors = "drawn displacement"
+            self.moving.append((source, is_joint))
+            self.leave_out(self.shared(self.time))
+            scale = 1.0
         return self.pv.WarpByVector(
-            Input=source, Vectors=["POINTS", "displacement"],
+            Input=source, Vectors=["POINTS", vectors],
             ScaleFactor=scale, registrationName=name)
+
+    def leave_out(self, motion):
+        """From now on this Motion."""
+        motion = motion or Motion(0.0, [0.0, 0.0])
+        c, s = math.cos(motion.turn), math.sin(motion.turn)
+        x, y, z = (*motion.shift, 0.0)[:3]
+        for source, is_joint in self.moving:
+            # where it is now without the motion, less where it was
+            now = "coords" if is_joint else "coords+displacement"
+            at = [f"(dot({now},{axis}Hat)-({float(far)!r}))"
+                  for axis, far in zip("ijk", (x, y, z))]
+            places = (f"(({c!r})*{at[0]}+({s!r})*{at[1]})*iHat"
+                      f"+(({c!r})*{at[1]}-({s!r})*{at[0]})*jHat+{at[2]}*kHat")
+            start = "(coords-displacement)" if is_joint else "coords"
+            source.Function = (f"{self.scale!r}*({places}-{start})"
+                               + ("-displacement" if is_joint else ""))
 
     # What is drawn ---------------------------------------------------------
 
@@ -248,7 +297,7 @@ class Views:
             setattr(shown, name, value)
 
     def draw_blocks(self, name):
-        blocks = self.warped(self.main, self.scale, "deformed blocks")
+        blocks = self.warped(self.main, "deformed blocks")
         if name == "stress":
             # factors of the unit that is shown
             if self.limits:
@@ -341,7 +390,7 @@ class Views:
         left out: the blocks have gone separate ways."""
         if joints is None:
             return
-        moved = self.warped(joints, self.scale - 1.0, "deformed " + name)
+        moved = self.warped(joints, "deformed " + name, is_joint=True)
         apart = self.pv.Calculator(Input=moved, registrationName=name + " apart")
         apart.Function = 'sqrt("opening"*"opening" + "slip"*"slip")'
         apart.ResultArrayName = "apart"
@@ -436,12 +485,15 @@ class Views:
     def at(self, time):
         """The recorded time nearest to @p time [s], shown."""
         nearest = self.nearest(time)
+        motion = self.shared(nearest)
+        self.leave_out(motion)
         self.pv.GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
         self.window.ViewTime = nearest
         self.title.Text = (
             f"{TITLES.get(self.what, self.what)}, t = {nearest:.4g} s"
             + (f", displacements × {self.scale:g}"
-               if self.scale not in (0.0, 1.0) else ""))
+               if self.scale not in (0.0, 1.0) else "")
+            + (" without the motion of the whole" if motion else ""))
         self.pv.GetAnimationScene().AnimationTime = nearest
         self.pv.Render(self.window)
         return nearest
@@ -492,7 +544,8 @@ def read_options():
                         choices=("stress", "velocity", "displacement", "block",
                                  "material", "crosses", "field"),
                         help="default stress")
-    parser.add_argument("--time", type=float, help="[s], default the last")
+    parser.add_argument("--time", type=time_or_name,
+                        help="[s], or a stage: its end; default the last")
     parser.add_argument("--scale", type=float,
                         help="of displacements, default automatic")
     parser.add_argument("--range", type=numbers(2), metavar="LOW,HIGH",
@@ -524,13 +577,16 @@ def main():
         window = pv.CreateView("RenderView")
         pv.SetActiveView(window)
         views = Views(options.output, options.view, options.scale,
-                      not options.no_joints, options.range, options.time)
+                      not options.no_joints, options.range,
+                      time_of(options.output, options.time, end))
         size = [int(value) for value in
                 options.size or (WIDTH, views.height(WIDTH))]
         window.ViewSize = size
         views.look()
         time = views.at(views.time)
-        print(f"time {time:g} s, displacements {views.scale:g} times")
+        print(f"time {time:g} s, displacements {views.scale:g} times"
+              + (" without the motion of the whole" if views.is_shared
+                 else ""))
         if options.state:
             pv.SaveState(options.state)
             print(options.state)

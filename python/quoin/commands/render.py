@@ -18,19 +18,27 @@ Joints are dark red where open, orange where slipping, yellow where they slipped
 earlier, thin grey where intact. --joints mode draws cracks instead: what failed
 is dark red where it opens more than it slips, orange where it slips more, violet
 where it crushed (beyond the compressive strength), and as wide as it opens,
-slips or closes. --joints damage colours joints by the share of their strength
-that a composite law has lost, --joints slip by how far they slipped. Joints that
-large displacements handed over to contacts are drawn as far as their two faces are
-near each other. Contacts of large displacements are lines along the overlap, as
-wide as their normal force. --blocks-only leaves both out.
+slips inelastically or closes. --joints damage colours joints by the share of
+their strength that a composite law has lost, --joints slip by how far they slipped,
+elastically or not. Joints that large displacements handed over to contacts are
+drawn as far as their two faces are near each other. Contacts of large displacements
+are lines along the overlap, as wide as their normal force. --blocks-only leaves
+both out.
 
---since TIME draws what came after that time alone, e.g. after gravity: the
-displacements from then on, and joints by what they slipped and opened since; those
-that moved less than a hundredth of the one that moved most are thin grey.
+--since TIME draws what came after that time alone, --since STAGE what came since
+that stage began, e.g. after gravity: the displacements from then on, and joints by
+what they slipped and opened since; those that moved less than a hundredth of the
+one that moved most are thin grey. --time, --times and --between take names of
+stages, too: their ends, of the first one of --between its beginning. STAGE+TIME is
+that time [s] after the stage began, anywhere.
+
+  scripts/render OUTPUT_DIR --times blast+0.009,blast+0.011 --since blast
 
 Displacements are enlarged by --scale, by default so that the deformation can
 be seen: never less than once, and not so much that a block seems turned by
-more than 0.3 rad, so that blocks which really turn are drawn as they are.
+more than 0.3 rad, so that blocks which really turn are drawn as they are. A
+motion that all blocks share, as on a shaken table, is not enlarged but left out;
+the line above the picture then says so. --scale 1 draws all where it is.
 
 --principal adds crosses of the principal stresses on a regular grid: blue is
 compression, red is tension, the length is the magnitude, in the scale of the
@@ -51,20 +59,22 @@ import sys
 
 import numpy as np
 
-from quoin.commands.options import (Parser, add_picture_options, numbers,
-                                    positive)
+from quoin.commands.options import Parser, add_picture_options, positive
 from quoin.figures import field_figure
 from quoin.figures.block_figure import Picture, frames_of
 from quoin.figures.page_layout import draw_moment, draw_panel, write_film
 from quoin.moments import Moment, check_times, moments_at, recorded_times
+from quoin.stages import begin, end, time_of, time_or_name, times_or_names
 
 
 def times_of_film(series, options):
     """Recorded times at equal distances, each once."""
     times = recorded_times(options.output, series)
     if options.between:
-        times = times[(times >= options.between[0])
-                      & (times <= options.between[-1])]
+        first, last = options.between
+        low = time_of(options.output, first, begin)
+        high = time_of(options.output, last, end)
+        times = times[(times >= low) & (times <= high)]
     if len(times) == 0:
         raise ValueError("no field was written between these times")
     n = options.frames or (6 if options.animate.endswith(".png") else 60)
@@ -80,6 +90,7 @@ def moments_from(series, options):
         return [Moment(t) for t in times_of_film(series, options)]
     wanted = options.times or [options.time]
     if wanted != [None]:
+        wanted = [time_of(options.output, moment, end) for moment in wanted]
         check_times(options.output, series, wanted)
     return [Moment(t) for t in wanted]
 
@@ -88,16 +99,17 @@ def read_options():
     parser = Parser(__doc__)
     parser.add_argument("output", metavar="OUTPUT_DIR")
     moment = parser.add_mutually_exclusive_group()
-    moment.add_argument("--time", type=float, help="[s], default the last")
-    moment.add_argument("--times", type=numbers, metavar="T,T,...",
-                        help="several output times in one figure [s]")
+    moment.add_argument("--time", type=time_or_name,
+                        help="[s], or a stage: its end; default the last")
+    moment.add_argument("--times", type=times_or_names, metavar="T,T,...",
+                        help="several output times in one figure")
     moment.add_argument("--at", metavar="COLUMN=VALUE,...",
                         help="where a history reaches values, peak or end")
     moment.add_argument("--animate", metavar="FILE",
                         help="a film, .gif, or a strip, .png")
     parser.add_argument("--frames", type=positive(int),
                         help="of --animate, default 60 (strip: 6)")
-    parser.add_argument("--between", type=numbers, metavar="START,END",
+    parser.add_argument("--between", type=times_or_names, metavar="START,END",
                         help="of --animate [s], default all")
     add_picture_options(parser)
     parser.add_argument("--title")
@@ -106,6 +118,8 @@ def read_options():
     options = parser.parse_args()
     if options.animate and not options.animate.endswith((".gif", ".png")):
         parser.error("--animate writes a .gif or a .png")
+    if options.between and len(options.between) != 2:
+        parser.error("--between takes two times or stages")
     if options.animate and options.out:
         parser.error("--animate names its file itself: leave --out away")
 

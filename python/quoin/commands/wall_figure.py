@@ -24,8 +24,8 @@ import numpy as np
 from quoin.commands.options import Parser, add_picture_options
 from quoin.figures.block_figure import Picture, frames_of
 from quoin.figures.curve_figure import CurveFigure, read_specs
-from quoin.figures.page_layout import (PANEL_WIDTH, draw_lettered, legend_in,
-                                       letter, place_legend)
+from quoin.figures.page_layout import (PANEL_WIDTH, below, draw_lettered,
+                                       legend_in, letter, place_legend)
 from quoin.moments import moments_at
 
 LEFT_SHARE = 0.44                    # of the width
@@ -50,7 +50,6 @@ def draw_curve(axes, curve, moments):
                       textcoords="offset points",
                       ha="right" if at_edge else "left",
                       path_effects=[withStroke(linewidth=2, foreground="w")])
-    curve.draw_legend(axes, fontsize=7.5)
 
 
 def arrangement(n, width, ratio):
@@ -74,6 +73,11 @@ def draw(options):
     picture = Picture(options, frames)
     curve = CurveFigure(read_specs(options.spec)[0], [(options.output, None)],
                         os.path.dirname(options.spec))
+
+    if len(curve.panels()) > 1:
+        raise ValueError(f"{options.spec}: its curves have several units and "
+                         "would need as many axes: leave some of them out, or "
+                         "take scripts/plot")
 
     bars = picture.colour_bars()
     width = PANEL_WIDTH * (1.0 - LEFT_SHARE) - 0.9 * len(bars)
@@ -102,6 +106,10 @@ def draw(options):
         for spare in free:
             spare.set_visible(False)
         place_legend(figure, all_axes.flat, handles, picture.remark())
+    if curve.has_legend(axes):
+        # within the axes it would lie on the marks of the pictures
+        figure.legend(*axes.get_legend_handles_labels(), fontsize=7.5,
+                      loc="upper center", bbox_to_anchor=below(figure, [axes]))
     if options.title:
         figure.suptitle(options.title)
     path = options.out or os.path.join(options.output, "wall.png")

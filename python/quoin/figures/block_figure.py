@@ -12,13 +12,17 @@ import numpy as np
 
 from quoin import run_parameters, vtu
 from quoin.colours import MATERIALS, STONES
+from quoin.csv_table import scale_for
 from quoin.figures.figure_style import MAGNITUDES
 from quoin.figures.joint_figure import (CrackJoints, DamageJoints, SlipJoints,
                                         StateJoints, block_size,
-                                        contact_forces, draw_contacts)
+                                        contact_forces, draw_contacts,
+                                        drawn_position)
 from quoin.figures.stress_figure import Contours, Crosses
 from quoin.joint_movement import all_joints, blocks_since, since
 from quoin.moments import check_times
+from quoin.shared_motion import enlarged, shared_motion
+from quoin.stages import begin, since_text, time_of
 
 LARGEST_TURN = 0.3                   # [rad], see automatic_scale()
 
@@ -54,6 +58,7 @@ class Frame:
                 setattr(self, name, None)
         self.joints = all_joints(self.joints, self.contacts,
                                  block_size(self.blocks))
+        self.shared = shared_motion(self.blocks)
 
     def count_from(self, then, output):
         """Takes what came after another frame of the same run alone."""
@@ -62,6 +67,7 @@ class Frame:
                              f"before those that are drawn, at {self.time:g} "
                              "s")
         self.blocks = blocks_since(self.blocks, then.blocks)
+        self.shared = shared_motion(self.blocks)
         if self.joints is not None and then.joints is not None:
             self.joints = since(self.joints, then.joints, run_parameters
                                 .of_joint_sets(output, "Shear stiffness"))
@@ -74,8 +80,10 @@ class Frame:
         return self.blocks.time
 
     def position(self, scale):
-        u = self.blocks.point_data["displacement"][:, :2]
-        return self.blocks.points + scale * u
+        """Of the blocks' points."""
+        X = self.blocks.points
+        return enlarged(X, X + self.blocks.point_data["displacement"][:, :2],
+                        scale, self.shared)
 
 
 def round_down(value):
@@ -85,16 +93,16 @@ def round_down(value):
     return power * max(f for f in (1.0, 2.0, 5.0) if f * power <= value)
 
 
-def largest_turn(blocks):
-    """The largest rotation of a block [rad], from the best rigid fit."""
+def largest_turn(blocks, x):
+    """The largest rotation of a block whose points went to @p x [rad], from the
+    best rigid fit."""
     cells, block = blocks.cells, blocks.cell_data["block"]
     node_block = np.empty(len(blocks.points), dtype=int)
     node_block[cells] = block[:, None]
     # blocks share no nodes; a node without cells belongs to none
     used = np.zeros(len(blocks.points), dtype=bool)
     used[cells] = True
-    X = blocks.points[used]
-    x = X + blocks.point_data["displacement"][used, :2]
+    X, x = blocks.points[used], x[used]
     _, owner = np.unique(node_block[used], return_inverse=True)
     count = np.bincount(owner)
 
@@ -109,17 +117,21 @@ def largest_turn(blocks):
     return np.abs(np.arctan2(sine, cosine)).max()
 
 
-def automatic_scale(blocks):
+def automatic_scale(frame):
     """Shows the largest displacement, rigid translation taken off, as about
     4 % of the size, unless a block would seem turned by more than
     LARGEST_TURN: enlarged rotations blow blocks up. Infinite if nothing has
     moved."""
-    u = blocks.point_data["displacement"][:, :2]
+    blocks = frame.blocks
+    x = blocks.points + blocks.point_data["displacement"][:, :2]
+    if frame.shared is not None:
+        x = frame.shared.taken_off(x)
+    u = x - blocks.points
     largest = np.linalg.norm(u - u.mean(axis=0), axis=1).max()
     size = np.ptp(blocks.points, axis=0).max()
     if largest <= 1e-12 * size:
         return np.inf
-    turn = max(largest_turn(blocks), 1e-12)
+    turn = max(largest_turn(blocks, x), 1e-12)
     return round_down(min(0.04 * size / largest, LARGEST_TURN / turn))
 
 
@@ -137,7 +149,7 @@ def block_colours(number):
     return np.array(STONES)[mixed % np.uint64(len(STONES))]
 
 
-UNITS = {"velocity": "m/s", "displacement": "m"}
+PER = {"velocity": "/s", "displacement": ""}
 
 
 def cell_size(blocks, name):
@@ -146,11 +158,12 @@ def cell_size(blocks, name):
     return size[blocks.cells].mean(axis=1)
 
 
-def frames_of(output, moments, time):
-    """Frames of these moments; with a @p time [s] of what came after the
-    fields nearest to it."""
+def frames_of(output, moments, since):
+    """Frames of these moments; with @p since, a time [s] or a stage, of what
+    came after the fields nearest to it or to the beginning of that stage."""
     frames = [Frame(output, *moment) for moment in moments]
-    if time is not None:
+    if since is not None:
+        time = time_of(output, since, begin)
         check_times(output, "blocks.pvd", [time])
         then = Frame(output, time)
         for frame in frames:
@@ -165,8 +178,9 @@ class Picture:
         self.options = options
         self.scale = options.scale
         if self.scale is None:
-            self.scale = min(automatic_scale(f.blocks) for f in frames)
+            self.scale = min(automatic_scale(f) for f in frames)
             self.scale = self.scale if np.isfinite(self.scale) else 1.0
+        self.is_shared = any(f.shared is not None for f in frames)
         if options.view:
             self.low, self.high = np.reshape(options.view, (2, 2))
         else:
@@ -177,10 +191,13 @@ class Picture:
 
         # A few extremes must not make all others pale or thin.
         self.sizes = self.contours = self.crosses = None
-        if options.colour in UNITS:
+        if options.colour in PER:
             largest = max(np.quantile(cell_size(f.blocks, options.colour),
                                       0.99) for f in frames)
-            self.sizes = Normalize(0.0, largest or 1.0, clip=True)
+            # in the unit of the bar
+            self.factor, self.unit = scale_for("m", largest)
+            self.sizes = Normalize(0.0, self.factor * largest or 1.0,
+                                   clip=True)
         if options.colour == "stress":
             self.contours = Contours(frames)
         self.is_panel = len(frames) > 1
@@ -210,11 +227,13 @@ class Picture:
         handles, contacts = [], []
         if frame.contacts and self.force > 0.0 and self.joints:
             # below the joints that they once were
-            contacts = draw_contacts(axes, frame.contacts, self.scale,
-                                     self.force)
+            contacts = draw_contacts(
+                axes, frame.contacts, drawn_position(
+                    frame.contacts, self.scale, frame.shared), self.force)
         if frame.joints and self.joints:
-            handles += self.joints.draw(axes, frame.joints, self.scale,
-                                        with_count)
+            handles += self.joints.draw(
+                axes, frame.joints, drawn_position(
+                    frame.joints, self.scale, frame.shared), with_count)
         handles += contacts
         margin = 0.0 if self.options.view else 0.02 * self.extent.max()
         below = margin
@@ -246,8 +265,8 @@ class Picture:
     def colours(self, blocks):
         """Of the cells."""
         if self.sizes:
-            return MAGNITUDES(
-                self.sizes(cell_size(blocks, self.options.colour)))
+            return MAGNITUDES(self.sizes(
+                self.factor * cell_size(blocks, self.options.colour)))
         if self.options.colour == "block":
             return block_colours(blocks.cell_data["block"])
         return np.array(MATERIALS)[
@@ -260,9 +279,10 @@ class Picture:
     def remark(self):
         """What holds of all moments."""
         words = [] if self.scale == 1.0 else [
-            f"displacements × {self.scale:g}"]
+            f"displacements × {self.scale:g}"
+            + (" without the motion of the whole" if self.is_shared else "")]
         if self.options.since is not None:
-            words.append(f"since t = {self.options.since:.4g} s")
+            words.append(since_text(self.options.since))
         return ", ".join(words)
 
     def colour_bars(self):
@@ -271,7 +291,7 @@ class Picture:
         if self.sizes:
             name = self.options.colour
             bars.append((ScalarMappable(self.sizes, MAGNITUDES),
-                         f"{name} [{UNITS[name]}]"))
+                         f"{name} [{self.unit}{PER[name]}]"))
         if self.contours:
             bars.append((self.contours.mappable(),
                          f"minor principal stress [{self.contours.unit}]"))

@@ -9,7 +9,9 @@ import re
 import matplotlib.pyplot as plt
 import numpy as np
 
+from quoin.colours import CURVES
 from quoin.csv_table import Table, scaled_name, unit_of
+from quoin.stages import begin, time_of
 
 MILLIMETRES = 1.0 / 25.4
 STYLES = ("-", "--", ":", "-.")
@@ -49,6 +51,8 @@ def is_pair(value):
 NUMBER = (is_number, "a number")
 TEXT = (lambda v: v is None or isinstance(v, str), "a text")
 COLUMN = (is_column, "the name of a column or its number from 0")
+MOMENT = (lambda v: is_number(v) or isinstance(v, str),
+          "a time [s] or the name of a stage")
 PAIR = (is_pair, "two numbers, [from, to]")
 FLAG = (lambda v: isinstance(v, bool), "true or false")
 PLACE = (lambda v: isinstance(v, (bool, str)), "true, false or a place such "
@@ -61,7 +65,7 @@ KEYS = {
     "figure": {"out": TEXT, "title": TEXT, "table": TEXT, "x": OBJECT,
                "y": OBJECT, "curves": LIST, "references": LIST,
                "bands": LIST, "runs": LIST, "peak": FLAG, "legend": PLACE,
-               "size": PAIR},
+               "size": PAIR, "after": MOMENT},
     "x": {"column": COLUMN, "factor": NUMBER, "label": TEXT, "limits": PAIR},
     "y": {"factor": NUMBER, "label": TEXT, "limits": PAIR},
     "curves": {"column": COLUMN, "label": TEXT, "factor": NUMBER, "x": COLUMN,
@@ -182,6 +186,19 @@ def look_of(style, colour):
     return {} if re.search(r"[bgrcmykw]|C\d", style) else {"color": colour}
 
 
+def has_unit(label):
+    return bool(label) and "[" in label
+
+
+def labelled(label, name):
+    """A label with the unit of a column, if it has none, or the column's name,
+    if there is no label."""
+    if not label:
+        return name
+    unit = unit_of(name)
+    return label if has_unit(label) or not unit else f"{label} [{unit}]"
+
+
 class CurveFigure:
     """Draws one description of one or several runs, (folder, label)."""
 
@@ -196,16 +213,30 @@ class CurveFigure:
         self.y = spec.get("y", {})
         self.tables = {}
         main = self.table(self.runs[0][0], {})
-        self.x_label = self.x.get("label") or scaled_name(
-            main.full_name(self.x.get("column", 0)), self.x.get("factor", 1.0))
+        self.x_label = labelled(self.x.get("label"), scaled_name(
+            main.full_name(self.x.get("column", 0)),
+            self.x.get("factor", 1.0)))
         self.y_label = self.label_of(self.panels()[0])
 
     def table(self, folder, curve):
         name = curve.get("table", self.spec.get("table", "histories.csv"))
         path = os.path.join(folder, name)
         if path not in self.tables:
-            self.tables[path] = Table(path)
+            self.tables[path] = self.rows_after(folder, Table(path))
         return self.tables[path]
+
+    def rows_after(self, folder, table):
+        """The rows from "after" on, of the run in this folder."""
+        if self.spec.get("after") is None:
+            return table
+        if table.names[:1] != ["time [s]"]:
+            raise ValueError(f"{table.path}: its rows have no time, after "
+                             f"which they could be drawn")
+        after = time_of(folder, self.spec["after"], begin)
+        table.rows = table.rows[table.rows[:, 0] >= after]
+        if len(table.rows) == 0:
+            raise ValueError(f"{table.path}: no row is after {after:g} s")
+        return table
 
     def points(self, folder, curve):
         """x and y of a curve of a run, as they are shown."""
@@ -224,9 +255,9 @@ class CurveFigure:
 
     def panels(self):
         """The curves of each axes with their numbers: those of one unit share
-        one, unless the y axis has a label for all."""
+        one, unless the y axis has a label with a unit for all."""
         curves = list(enumerate(self.spec["curves"]))
-        if self.y.get("label"):
+        if has_unit(self.y.get("label")):
             return [curves]
         panels = {}
         for c, curve in curves:
@@ -236,10 +267,10 @@ class CurveFigure:
 
     def label_of(self, panel):
         """Of the y axis."""
+        name = self.name_of(panel[0][1])
         if self.y.get("label") or len(panel) == 1:
-            return self.y.get("label") or self.name_of(panel[0][1])
-        unit = unit_of(self.name_of(panel[0][1]))
-        return f"[{unit}]" if unit else ""
+            return labelled(self.y.get("label"), name)
+        return f"[{unit_of(name)}]" if unit_of(name) else ""
 
     def place_at(self, time):
         """Where the first curve of the first run is at a time [s]."""
@@ -293,7 +324,8 @@ class CurveFigure:
                 label = (name if not several else run_label
                          if len(panel) == 1 else f"{run_label}: {name}")
                 self.line(axes, curve, self.points(folder, curve),
-                          style=STYLES[c % 4] if several else "-",
+                          style=STYLES[(c if several else c // len(CURVES))
+                                       % len(STYLES)],
                           colour=f"C{r if several else c}", label=label)
 
     def draw(self, axes, panel=None):
@@ -313,10 +345,13 @@ class CurveFigure:
             if "limits" in limits:
                 setter(*limits["limits"])
 
-    def draw_legend(self, axes, **look):
+    def has_legend(self, axes):
         handles, _ = axes.get_legend_handles_labels()
-        wanted = self.spec.get("legend", len(handles) > 1
-                               or self.spec.get("peak", False))
+        return self.spec.get("legend", len(handles) > 1
+                             or self.spec.get("peak", False))
+
+    def draw_legend(self, axes, **look):
+        wanted = self.has_legend(axes)
         if wanted:
             axes.legend(loc=wanted if isinstance(wanted, str) else "best",
                         **look)

@@ -13,6 +13,7 @@ from quoin import colours, run_parameters
 from quoin.csv_table import scale_for, with_unit
 from quoin.figures.stress_figure import cell_areas, round_near
 from quoin.joint_states import INTACT, NAMES, OPEN, SLIPPED, SLIPPING
+from quoin.shared_motion import enlarged
 from quoin.vtu import from_the_start
 
 # state: (name, colour, line width), drawn in this order
@@ -23,7 +24,7 @@ STATES = {
     OPEN: (NAMES[OPEN], colours.RED, 2.0),
 }
 # how a crack moves: (name, colour), in the order in which they are drawn
-MODES = (("shear slip", colours.ORANGE), ("tensile opening", colours.RED),
+MODES = (("inelastic slip", colours.ORANGE), ("tensile opening", colours.RED),
          ("crushing", colours.VIOLET))
 SHEAR, TENSION, CRUSHING = 0, 1, 2
 WIDEST_CRACK, THINNEST_CRACK = 4.0, 0.6      # [pt]
@@ -35,15 +36,16 @@ GAP = 0.05                           # of the size of a block: no crack any more
 WIDEST_CONTACT = 5.0                 # [pt]
 
 
-def current_position(grid, scale):
-    """Of joints and contacts, whose points are at their current places; None
-    where those cannot be enlarged."""
+def drawn_position(grid, scale, motion=None):
+    """Of joints and contacts, whose points are at their current places, beyond
+    the @p motion that all blocks share; None where those cannot be
+    enlarged."""
     if scale == 1.0:
         return grid.points
     if "displacement" not in grid.point_data:
         return None
     u = grid.point_data["displacement"][:, :2]
-    return grid.points + (scale - 1.0) * u
+    return enlarged(grid.points - u, grid.points, scale, motion)
 
 
 def add_lines(axes, lines, **look):
@@ -65,8 +67,7 @@ class StateJoints:
     def __init__(self, is_since=False):
         self.is_since = is_since
 
-    def draw(self, axes, joints, scale, with_count):
-        position = current_position(joints, scale)
+    def draw(self, axes, joints, position, with_count):
         state = joints.cell_data["state"]
         handles = []
         for number, (name, colour, width) in STATES.items():
@@ -147,8 +148,7 @@ class CrackJoints:
         self.widest = widest or round_near(
             usual_width(widths, block_size(frames[0].blocks)))
 
-    def draw(self, axes, joints, scale, with_count):
-        position = current_position(joints, scale)
+    def draw(self, axes, joints, position, with_count):
         mode, width = crack_modes(joints, *self.properties)
         is_crack = width >= LEAST_SHARE * self.widest
         add_lines(axes, position[joints.cells[~is_crack]],
@@ -192,8 +192,7 @@ class DamageJoints:
             raise ValueError("--joints damage is for joints of 'Law = "
                              "composite', which write a damage")
 
-    def draw(self, axes, joints, scale, with_count):
-        position = current_position(joints, scale)
+    def draw(self, axes, joints, position, with_count):
         damage = joints.point_data["damage"][joints.cells].mean(axis=1)
         order = np.argsort(damage)
         add_cracks(axes, position[joints.cells[order]],
@@ -224,10 +223,10 @@ class SlipJoints:
         """Of each face, the mean of its ends [m]."""
         return np.abs(joints.point_data["slip"])[joints.cells].mean(axis=1)
 
-    def draw(self, axes, joints, scale, with_count):
+    def draw(self, axes, joints, position, with_count):
         share = self.size(self.factor * self.slip(joints))
         order = np.argsort(share)
-        lines = current_position(joints, scale)[joints.cells[order]]
+        lines = position[joints.cells[order]]
         add_cracks(axes, lines, colors=DAMAGE_COLOURS(share[order]),
                    linewidths=0.4 + 3.0 * share[order])
         return []
@@ -243,8 +242,8 @@ def contact_forces(contacts):
         -traction.mean(axis=1) * contacts.cell_data["length"], 0.0)
 
 
-def draw_contacts(axes, contacts, scale, largest_force):
-    position = current_position(contacts, scale)
+def draw_contacts(axes, contacts, position, largest_force):
+    """At these places, None: nowhere; returns the handles of the legend."""
     force = contact_forces(contacts)
     state = contacts.cell_data["state"]
     shown = (force > 1e-3 * largest_force) & (state != OPEN)
@@ -258,7 +257,7 @@ def draw_contacts(axes, contacts, scale, largest_force):
                               colours.COMPRESSION))
     handles = [Line2D([], [], color=colours.COMPRESSION,
                       linewidth=WIDEST_CONTACT, solid_capstyle="round",
-                      label=f"contact, {largest_force / 1e3:.3g} kN/m")]
+                      label="contact, " + with_unit(largest_force, "N") + "/m")]
     if slipping.any():
         handles.append(Line2D([], [], color=STATES[SLIPPING][1],
                               linewidth=WIDEST_CONTACT / 2,

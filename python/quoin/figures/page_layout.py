@@ -130,15 +130,19 @@ def legend_in(axes, handles, remark):
                 loc="center")
 
 
-def place_legend(figure, all_axes, handles, remark):
-    """Centred below these axes, the remark above it."""
+def below(figure, all_axes):
+    """The middle of what lies below these axes, in parts of the figure."""
     figure.canvas.draw()
     boxes = [axes.get_tightbbox(figure.canvas.get_renderer())
              for axes in all_axes if axes.get_visible()]
-    to_figure = figure.transFigure.inverted().transform
-    x, y = to_figure((0.5 * (min(box.x0 for box in boxes)
-                             + max(box.x1 for box in boxes)),
-                      min(box.y0 for box in boxes)))
+    return figure.transFigure.inverted().transform(
+        (0.5 * (min(box.x0 for box in boxes) + max(box.x1 for box in boxes)),
+         min(box.y0 for box in boxes)))
+
+
+def place_legend(figure, all_axes, handles, remark):
+    """Centred below these axes, the remark above it."""
+    x, y = below(figure, all_axes)
     if handles:
         figure.legend(title=remark, title_fontsize=8, fontsize=8,
                       loc="upper center", bbox_to_anchor=(x, y),
