@@ -4,14 +4,13 @@
 #ifndef quoin_source_blocks_strip_kernel_h
 #define quoin_source_blocks_strip_kernel_h
 
+#include <quoin/base/lanes.h>
 #include <quoin/base/node_vector.h>
 #include <quoin/materials/plastic_history.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-
-#include "lanes.h"
 
 /**
  * The block kernel: one triangle strip per lane. Notation and formulas are

@@ -4,13 +4,12 @@
 #ifndef quoin_source_blocks_tetrahedron_kernel_h
 #define quoin_source_blocks_tetrahedron_kernel_h
 
+#include <quoin/base/lanes.h>
 #include <quoin/base/node_vector.h>
 #include <quoin/blocks/tetrahedron.h>
 
 #include <cstddef>
 #include <cstdint>
-
-#include "lanes.h"
 
 /** Forces of the tetrahedra of a chunk, several at once. */
 namespace quoin

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_base_lane_functions_h
+#define quoin_base_lane_functions_h
+
+#include <quoin/base/eigen_core.h>
+#include <quoin/base/lanes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+// As in intrinsics.h: Eigen's functions are instantiated here.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wuninitialized"
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+
+namespace quoin
+{
+  /** Functions of four or eight doubles, and of masks: all bits of a lane are
+      set, or none. */
+  template <int lanes>
+  struct LaneFunctions
+  {
+    using L     = Lanes<lanes>;
+    using Value = typename L::Value;
+    using Bits  = typename L::Bits;
+    using Bytes = typename L::Bytes;
+
+    static QUOIN_INLINE Value load(const double *from)
+    {
+      Value value;
+      std::memcpy(&value, from, sizeof(value));
+      return value;
+    }
+    static QUOIN_INLINE void store(double *to, const Value &value)
+    {
+      std::memcpy(to, &value, sizeof(value));
+    }
+    /** Stores the lanes of @p mask; the others keep what they have. */
+    static QUOIN_INLINE void store(double *to, const Value &value,
+                                   const Bits &mask)
+    {
+      store(to, mask ? value : load(to));
+    }
+
+    /** Small numbers from and to bytes. */
+    static QUOIN_INLINE Bits load_bytes(const std::uint8_t *from)
+    {
+      Bytes bytes;
+      std::memcpy(&bytes, from, sizeof(bytes));
+      return __builtin_convertvector(bytes, Bits);
+    }
+    static QUOIN_INLINE void store_bytes(std::uint8_t *to, const Bits &value,
+                                         const Bits &mask)
+    {
+      const Bytes bytes
+          = __builtin_convertvector(mask ? value : load_bytes(to), Bytes);
+      std::memcpy(to, &bytes, sizeof(bytes));
+    }
+
+    static QUOIN_INLINE Value absolute(const Value &a)
+    {
+      Value result;
+      L::absolute(a, result);
+      return result;
+    }
+    static QUOIN_INLINE Value square_root(const Value &a)
+    {
+      Value root;
+      L::square_root(a, root);
+      return root;
+    }
+    static QUOIN_INLINE Value minimum(const Value &a, const Value &b)
+    {
+      return b < a ? b : a;
+    }
+    static QUOIN_INLINE Value maximum(const Value &a, const Value &b)
+    {
+      return a < b ? b : a;
+    }
+
+    /** Bit l: whether lane l of @p mask is set. */
+    static QUOIN_INLINE unsigned int set_lanes(const Bits &mask)
+    {
+      if constexpr (lanes == 4)
+      {
+#ifdef __AVX__
+        return _mm256_movemask_pd((__m256d)mask);
+#else
+        return (mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8);
+#endif
+      }
+      else
+      {
+#ifdef __AVX512F__
+        return _mm512_cmplt_epi64_mask((__m512i)mask, _mm512_setzero_si512());
+#else
+        return LaneFunctions<4>::set_lanes(
+                   __builtin_shufflevector(mask, mask, 0, 1, 2, 3))
+               | LaneFunctions<4>::set_lanes(
+                     __builtin_shufflevector(mask, mask, 4, 5, 6, 7))
+                     << 4;
+#endif
+      }
+    }
+    static QUOIN_INLINE bool any(const Bits &mask)
+    {
+      return set_lanes(mask) != 0;
+    }
+    static QUOIN_INLINE bool all(const Bits &mask)
+    {
+      return set_lanes(mask) == (1u << lanes) - 1;
+    }
+
+    static QUOIN_INLINE double sum(const Value &a)
+    {
+      double result = 0.;
+      for (int l = 0; l < lanes; ++l)
+        result += a[l];
+      return result;
+    }
+
+    /** exp and log to an ulp or two, exp() of less than -709 as of that. */
+    static QUOIN_INLINE Value exponential(const Value &a)
+    {
+#ifdef __AVX__
+      return by_four(a,
+                     [](const __m256d x) { return Eigen::internal::pexp(x); });
+#else
+      Value result;
+      for (int l = 0; l < lanes; ++l)
+        result[l] = std::exp(std::max(a[l], -709.));
+      return result;
+#endif
+    }
+    static QUOIN_INLINE Value logarithm(const Value &a)
+    {
+#ifdef __AVX__
+      return by_four(a,
+                     [](const __m256d x) { return Eigen::internal::plog(x); });
+#else
+      Value result;
+      for (int l = 0; l < lanes; ++l)
+        result[l] = std::log(a[l]);
+      return result;
+#endif
+    }
+
+  private:
+#ifdef __AVX__
+    template <typename Function>
+    static QUOIN_INLINE Value by_four(const Value &a, const Function &function)
+    {
+      if constexpr (lanes == 4)
+        return function(a);
+      else
+      {
+        const Lanes<4>::Value low  = function(L::low(a)),
+                              high = function(L::high(a));
+        return __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+      }
+    }
+#endif
+  };
+} // namespace quoin
+
+#pragma GCC diagnostic pop
+
+#endif

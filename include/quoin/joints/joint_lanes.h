@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joints_joint_lanes_h
+#define quoin_joints_joint_lanes_h
+
+#include <quoin/base/lane_functions.h>
+#include <quoin/joints/joint_point.h>
+#include <quoin/joints/point_arrays.h>
+
+namespace quoin
+{
+  /** Points under one law that are updated together, one in each lane. */
+  template <int lanes>
+  struct PointLanes
+  {
+    using F     = LaneFunctions<lanes>;
+    using Value = typename F::Value;
+    using Bits  = typename F::Bits;
+
+    PointArrays arrays;  /**< the first point's entries */
+    Value opening, slip; /**< where they are brought to [m] */
+    Value sigma, tau;    /**< their tractions there [Pa] */
+    Bits elastic;        /**< they neither fail, slip nor are open */
+
+    QUOIN_INLINE Bits load_state() const
+    {
+      return F::load_bytes(
+          reinterpret_cast<const std::uint8_t *>(arrays.state));
+    }
+    QUOIN_INLINE void store_state(const Bits &state, const Bits &mask) const
+    {
+      F::store_bytes(reinterpret_cast<std::uint8_t *>(arrays.state), state,
+                     mask);
+    }
+    QUOIN_INLINE void store_tractions() const
+    {
+      F::store(arrays.normal_traction, sigma);
+      F::store(arrays.shear_traction, tau);
+    }
+    QUOIN_INLINE void store_tractions(const Bits &mask) const
+    {
+      F::store(arrays.normal_traction, sigma, mask);
+      F::store(arrays.shear_traction, tau, mask);
+    }
+  };
+
+  /** Dissipated energies [J] of the points that went through each lane. */
+  template <int lanes>
+  struct DissipationLanes
+  {
+    typename Lanes<lanes>::Value friction{}, fracture{}, crushing{};
+  };
+
+  /** Brings the point in lane @p l to where it comes to, by @p law itself, and
+      adds what that dissipated by its area @p weight. */
+  template <typename Law, int lanes>
+  void update_point(const Law &law, PointLanes<lanes> &points, const int l,
+                    const double weight, DissipationLanes<lanes> &lost)
+  {
+    auto point           = read_point(law, points.arrays, l);
+    const double opening = points.opening[l], slip = points.slip[l];
+    if (!points.elastic[l])
+    {
+      const JointDissipation own = law.update_failing(point, opening, slip);
+      lost.friction[l] += weight * own.friction;
+      lost.fracture[l] += weight * own.fracture;
+      lost.crushing[l] += weight * own.crushing;
+    }
+    else
+      law.update_elastic(point, opening, slip);
+    write_point(point, points.arrays, l);
+    points.sigma[l] = point.normal_traction;
+    points.tau[l]   = point.shear_traction;
+  }
+
+  /**
+   * The updates of @p Law for several points at once, with the numbers of the
+   * law itself but for rounding. What a point comes to does not depend on those
+   * in the other lanes, because two ranks may have it beside others. A law is
+   * specialised where speed matters; this one takes the points one by one.
+   */
+  template <typename Law, int lanes>
+  class LawLanes
+  {
+  public:
+    using F     = LaneFunctions<lanes>;
+    using Value = typename F::Value;
+    using Bits  = typename F::Bits;
+
+    explicit LawLanes(const Law &law) : law(law)
+    {
+    }
+
+    /**
+     * Sets elastic of @p points, and the tractions of those that are; changes
+     * no history. Returns those of which nothing but tractions changes.
+     */
+    Bits try_elastic(PointLanes<lanes> &points) const
+    {
+      Bits steady{};
+      points.elastic = Bits{};
+      for (int l = 0; l < lanes; ++l)
+      {
+        auto point       = read_point(law, points.arrays, l);
+        const auto state = point.state;
+        if (!law.update_elastic(point, points.opening[l], points.slip[l]))
+          continue;
+        points.elastic[l] = -1;
+        points.sigma[l]   = point.normal_traction;
+        points.tau[l]     = point.shear_traction;
+        steady[l]         = point.state == state ? -1 : 0;
+      }
+      return steady;
+    }
+
+    /**
+     * Brings the @p points of the mask @p present to where they come to, after
+     * try_elastic(), and adds what that dissipated by their areas @p weight.
+     */
+    void update(PointLanes<lanes> &points, const Bits &present,
+                const Value &weight, DissipationLanes<lanes> &lost) const
+    {
+      for (int l = 0; l < lanes; ++l)
+        if (present[l])
+          update_point(law, points, l, weight[l], lost);
+    }
+
+  private:
+    const Law law;
+  };
+} // namespace quoin
+
+#endif
