@@ -5,6 +5,7 @@
 #include <quoin/base/constants.h>
 #include <quoin/contact/block_gaps.h>
 #include <quoin/model/contact_bounds.h>
+#include <quoin/parameters/plausibility.h>
 
 #include <algorithm>
 #include <cmath>
@@ -185,12 +186,44 @@ namespace quoin
           " alone. For blocks that rebound with that take a tenth of "
           "E/L or less, or rigid blocks.");
       checks.warn_if(
-          sets[s].curves.empty() && by_block > 0. && by_block < rigid_block,
+          sets[s].curves.empty() && by_block > 0. && by_block < rigid_block
+              && impacts[s].stiffness >= softest_joint,
           "their normal stiffness ", impacts[s].stiffness, " Pa/m is ",
           by_block,
           " times E/L of the blocks that they are contacts of: blocks hardly "
           "deform. Check its unit, or make the blocks rigid, which takes far "
           "fewer steps.");
+    }
+  }
+
+  void check_rigid_blocks(const Model<2> &model, const double gravity,
+                          Advice &advice)
+  {
+    /** Closure by the size of blocks. */
+    constexpr double deep = 0.02;
+    const auto impacts    = typical_impacts(model);
+    const auto &sets      = model.properties().joints;
+    const double height   = height_of(model.nodes());
+    for (unsigned int s = 0; s < sets.size(); ++s)
+    {
+      const TypicalImpact &impact = impacts[s];
+      // Those in a wrong unit have been warned of.
+      if (!impact.exists || impact.by_block > 0.
+          || impact.stiffness < softest_joint)
+        continue;
+      const double closure
+          = impact.density * gravity * height / impact.stiffness;
+      Checks(advice, "joints " + sets[s].name + ": ")
+          .warn_if(closure > deep * impact.size,
+                   "under a column as high as "
+                   "the model, ",
+                   height, " m, rigid blocks of ", impact.size, " m sink by ",
+                   closure, " m into each other, ",
+                   100. * closure / impact.size,
+                   " % of their size: the normal stiffness ", impact.stiffness,
+                   " Pa/m is soft for their weight. Raise it ",
+                   closure / (deep * impact.size),
+                   " times, unless it was measured.");
     }
   }
 

@@ -4,6 +4,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/advice/contact_advice.h>
 #include <quoin/parameters/plausibility.h>
+#include <quoin/loads/time_function.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +26,10 @@ namespace quoin
           .warn_if(MPI::min(nodes.cells().size(), nodes.communicator()) == 0,
                    "the model has ", count_text(report.n_blocks, "block"),
                    " and the run ", MPI::n_mpi_processes(nodes.communicator()),
-                   " MPI processes, of which some have no cells: rigid "
-                   "blocks stay whole. Fewer processes would be as fast, but "
-                   "for boundary elements, which all share.");
+                   " MPI processes, of which some have no part of the model, "
+                   "because a rigid block is never divided. Fewer processes "
+                   "would be as fast, but for boundary elements, which all "
+                   "share.");
     }
 
     /** Warns of joints that the initial stress takes beyond their strength. */
@@ -216,10 +218,10 @@ namespace quoin
             !parameters.is_implicit && !stiffens(set.law)
                 && beside.stiffest_cell > 0. && by_cell > stiff,
             "the normal stiffness ", kn, " Pa/m is ", by_cell,
-            " times E/h of the smallest triangles beside them: they, not the "
-            "blocks, make the time step short, about ",
+            " times E/h of the smallest triangles beside them: the joints, not "
+            "the blocks, make the time step short, by a factor of about ",
             std::sqrt(by_cell),
-            " times. Unless it was measured take some ten times E/h, ",
+            ". Unless it was measured take some ten times E/h, ",
             10. * beside.stiffest_cell, " Pa/m.");
         const double by_block = kn / beside.softest_block;
         const double limit    = is_brittle(set.law) ? slow_if_brittle : slow;
@@ -247,7 +249,7 @@ namespace quoin
             "be found. Take ",
             1e4 * beside.softest_block, " Pa/m or less.");
         checks.warn_if(
-            kn < soft * beside.softest_block
+            kn >= softest_joint && kn < soft * beside.softest_block
                 && std::isfinite(beside.softest_block),
             "the normal stiffness ", kn,
             " Pa/m is less than a thousandth of E/L of the blocks beside "
@@ -256,6 +258,20 @@ namespace quoin
             " Pa/m: blocks hardly deform. Check its unit, or make the blocks "
             "rigid, which takes far fewer steps.");
       }
+    }
+
+    /** Largest acceleration of a load of gravity along an axis [m/s^2]; where
+        its function of time is not constant, at the start or in the end. */
+    double largest_gravity(const Parameters &parameters)
+    {
+      double largest = 0.;
+      for (const LoadParameters &load : parameters.loads)
+        if (load.type == LoadType::gravity)
+          for (const auto &given : load.given_components())
+            for (const double t : { 0., late_time })
+              largest = std::max(largest,
+                                 std::abs(given.component.value({ t, t })));
+      return std::isfinite(largest) ? largest : 0.;
     }
 
     void check_laws(const Parameters &parameters, Advice &advice)
@@ -330,6 +346,7 @@ namespace quoin
       check_joints(parameters, model, advice);
       if (!parameters.is_implicit)
         check_contacts(model, advice);
+      check_rigid_blocks(model, largest_gravity(parameters), advice);
     }
     check_output(parameters, advice);
     return advice;

@@ -22,8 +22,13 @@ namespace quoin
 {
   namespace
   {
+    bool is_in_pattern(const StageParameters &stage, const LoadParameters &load)
+    {
+      return stage.pattern && is_among(load.name, stage.pattern->loads);
+    }
+
     /** Smallest to largest value, or level of the water, over the stages in
-     * which @p load acts. */
+     * which @p load acts; where its factor is sought that at the factor 1. */
     std::string value_text(const Parameters &parameters,
                            const LoadParameters &load,
                            const LoadComponent &component)
@@ -32,6 +37,8 @@ namespace quoin
       for (unsigned int i = 0; i < parameters.stages.size(); ++i)
       {
         const StageParameters &stage = parameters.stages[i];
+        if (is_in_pattern(stage, load)) // constant
+          values.push_back(component.value({ 0., 0. }));
         if (!names_load(stage, load.name))
           continue;
         const double start = start_of_stage(parameters.stages, i);
@@ -169,10 +176,11 @@ namespace quoin
             "joints ", set.name, ": ",
             fewest == most ? count_text(most, "face")
                            : text_of(fewest, " to ", most, " faces"),
-            " between two blocks; while closed ",
-            fewest == most ? "" : "those of the fewest ", "too stiff by ",
+            " between two blocks, which while they are closed make a joint ",
             std::round(2000. / (double(fewest) * fewest)) / 10.,
-            " % in rotation"));
+            fewest == most ? " % too stiff when its blocks rotate"
+                           : " % too stiff when its blocks rotate where there "
+                             "are fewest"));
     }
     return lines;
   }
@@ -202,6 +210,9 @@ namespace quoin
         text += text_of(", moving, over ", load.shape->width, " m");
       if (load.type == LoadType::free_field)
         text += ", on the base " + load.base;
+      for (const StageParameters &stage : parameters.stages)
+        if (is_in_pattern(stage, load))
+          text += ", times the factor that stage " + stage.name + " seeks";
       lines.push_back(text);
     }
     return lines;

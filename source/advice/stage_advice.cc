@@ -346,6 +346,54 @@ namespace quoin
       return largest;
     }
 
+    /** Range of the displacement that the samples @p values of @p quantity
+        prescribe in @p duration [m]. */
+    double travel_of(const std::vector<double> &values,
+                     const LoadQuantity quantity, const double duration)
+    {
+      double now = 0., low = 0., high = 0.;
+      for (const double v : values)
+      {
+        now  = quantity == LoadQuantity::displacement
+                   ? v
+                   : now + v * duration / double(values.size() - 1);
+        low  = std::min(low, now);
+        high = std::max(high, now);
+      }
+      return high - low;
+    }
+
+    /** Warns of boundaries that move by more than @p size, that of the model
+        [m], and of steps beyond number: values in mm or ms do so. */
+    void check_units(const StageOfRun &run, const double size,
+                     const double time_step, Checks &checks)
+    {
+      constexpr double most_steps = 1e8;
+      if (run.stage.end != StageEnd::time)
+        return;
+      for (const LoadParameters *load : run.loads)
+        for (const auto &given : load->given_components())
+        {
+          if ((load->type != LoadType::prescribed_motion
+               && load->type != LoadType::platen)
+              || given.component.field || given.name == "rotation"
+              || given.component.quantity == LoadQuantity::force)
+            continue;
+          const double travel = travel_of(
+              sampled(run.function(given.component), run.stage.duration, 1025),
+              given.component.quantity, run.stage.duration);
+          checks.warn_if(travel > size, "the load ", load->name, " moves by ",
+                         travel, " m along '", given.name,
+                         "', farther than the model is long, ", size,
+                         " m. If its values are in mm or mm/s, give them in m "
+                         "or m/s.");
+        }
+      const double n = run.stage.duration / time_step;
+      checks.warn_if(n > most_steps, "its 'Duration = ", run.stage.duration,
+                     "' s takes ", n, " steps. If it is in ms, give ",
+                     1e-3 * run.stage.duration, " s.");
+    }
+
     /** Largest acceleration that a load of gravity has along an axis
         [m/s^2]. */
     double largest_acceleration(const StageOfRun &run)
@@ -399,6 +447,7 @@ namespace quoin
     check_damping(run, checks);
     check_supports(run, checks);
     check_weight(run, checks);
+    check_units(run, model.nodes().table().diagonal(), time_step, checks);
     const auto sizes
         = cell_sizes(model, state, parameters.model.materials.size());
     double rise = 0.;

@@ -8,6 +8,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
 #include <quoin/results/collective.h>
+#include <quoin/results/interruption.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -55,7 +56,8 @@ namespace quoin
                    "Print all parameters with defaults and meaning");
       app.add_flag("--print-schema", arguments.print_schema,
                    "Print all parameters as JSON, for other programs");
-      app.add_flag("--quiet", arguments.run.quiet, "Nothing on the screen");
+      app.add_flag("--quiet", arguments.run.quiet,
+                   "Warnings and errors alone on the screen; log.txt has all");
       app.set_version_flag("--version", std::string(QUOIN_VERSION));
       try
       {
@@ -137,6 +139,7 @@ namespace quoin
     const Errors errors;
     const bool first
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+    const Interruption interruption(first);
     const auto report = [&](const std::string &what, const int status)
     {
       // A failure on some ranks alone leaves the others waiting.

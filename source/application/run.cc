@@ -35,8 +35,7 @@ namespace quoin
     problem->report();
     if (options.check)
       return 0;
-    // Until here there is nothing to keep, and a signal ends the process.
-    const Interruption interruption;
+    Interruption::begin_steps();
     open_outputs();
     if (has_ended())
     {
@@ -81,7 +80,8 @@ namespace quoin
       if (n_writers != dealii::Utilities::MPI::n_mpi_processes(communicator))
         log.message("the checkpoint was written on ", n_writers,
                     n_writers == 1 ? " rank" : " ranks",
-                    ": results go on to rounding");
+                    ": the results agree with those of an uninterrupted run "
+                    "to rounding, not bit by bit");
     }
     tables.open(options.resume);
     context.on_first_rank(
@@ -181,7 +181,7 @@ namespace quoin
 
   void Run::write_summary()
   {
-    nlohmann::json summary
+    nlohmann::ordered_json summary
         = { { "title", parameters.title },
             { "version", QUOIN_VERSION },
             { "finished", has_ended() },

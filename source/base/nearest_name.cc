@@ -24,6 +24,18 @@ namespace quoin
     return row.back();
   }
 
+  std::string nearest_name(const std::string &wanted,
+                           const std::vector<std::string> &names)
+  {
+    const auto sorted = nearest_first(wanted, names);
+    // Two letters may have changed places.
+    const std::size_t most
+        = wanted.size() < 4 ? 1 : std::max<std::size_t>(2, wanted.size() / 3);
+    return sorted.empty() || edit_distance(wanted, sorted.front()) > most
+               ? ""
+               : sorted.front();
+  }
+
   std::vector<std::string> nearest_first(const std::string &wanted,
                                          std::vector<std::string> names)
   {

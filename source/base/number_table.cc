@@ -29,7 +29,8 @@ namespace quoin
   {
     std::ifstream stream(file);
     if (!stream)
-      throw InputError("the table '" + file + "' cannot be read.");
+      throw InputError("the table '" + file
+                       + "' cannot be read. Check its path.");
     std::vector<TableRow> rows;
     std::string line;
     for (unsigned int number = 1; std::getline(stream, line); ++number)

@@ -5,6 +5,7 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
+#include <quoin/base/parameter_section.h>
 
 #include <boost/algorithm/string/join.hpp>
 
@@ -68,22 +69,30 @@ namespace quoin
       std::vector<Origin> origins; /**< of each line */
     };
 
-    /** The subsections around line @p number of @p text, or all of its last
-        one, from the outermost. */
-    std::vector<std::string> path_of_line(const std::string &text,
-                                          const unsigned int number)
+    /** The lines that begin the subsections around line @p number of @p text,
+        or those that are open at its end, from the outermost. */
+    std::vector<Line> subsections_around(const std::string &text,
+                                         const unsigned int number)
     {
-      std::vector<std::string> path;
+      std::vector<Line> open;
       for (const Line &line : lines_of(text))
       {
         if (line.number > number)
           break;
         if (line.keyword == "subsection")
-          path.push_back(line.rest);
-        else if (line.keyword == "end" && !path.empty())
-          path.pop_back();
+          open.push_back(line);
+        else if (line.keyword == "end" && !open.empty())
+          open.pop_back();
       }
-      return path;
+      return open;
+    }
+
+    std::vector<std::string> names_of(const std::vector<Line> &subsections)
+    {
+      std::vector<std::string> names;
+      for (const Line &line : subsections)
+        names.push_back(line.rest);
+      return names;
     }
 
     /** The text in one line, cut to a readable length. */
@@ -128,21 +137,95 @@ namespace quoin
       return names;
     }
 
-    /** "The nearest known one is 'a'. ", of what a line names that does not
-        exist; empty if it does, or if there is nothing near. */
-    std::string nearest_text(const ParameterHandler &prm, const Line &line,
-                             std::vector<std::string> path)
+    /** What the entry @p name of the section @p path takes, as the library
+        describes it; empty if there is no such entry. */
+    std::string pattern_of(const ParameterHandler &prm,
+                           std::vector<std::string> path,
+                           const std::string &name)
+    {
+      std::stringstream stream;
+      prm.print_parameters(stream, ParameterHandler::JSON);
+      const nlohmann::json all = nlohmann::json::parse(stream, nullptr, false);
+      path.push_back(name);
+      const nlohmann::json *inner = &all;
+      for (const std::string &part : path)
+      {
+        if (!inner->contains(part))
+          return "";
+        inner = &inner->at(part);
+      }
+      return inner->value("pattern_description", "");
+    }
+
+    /** What is wrong with a line, and advice. */
+    struct Complaint
+    {
+      std::string what, advice;
+    };
+
+    Complaint complaint(std::string what, const std::string &nearest)
+    {
+      return { std::move(what), nearest.empty() ? ""
+                                                : "The nearest known one is '"
+                                                      + nearest + "'. " };
+    }
+
+    /** A complaint in our own words about @p line of the section @p path; none
+        if it has another fault than an unknown name or a wrong value. */
+    Complaint complaint_about(const ParameterHandler &prm, const Line &line,
+                              std::vector<std::string> path)
     {
       const bool is_section = line.keyword == "subsection";
       if (is_section && !path.empty())
         path.pop_back();
+      const auto equals = line.rest.find('=');
       const std::string name
-          = dealii::Utilities::trim(line.rest.substr(0, line.rest.find('=')));
+          = dealii::Utilities::trim(line.rest.substr(0, equals));
       const auto known
           = nearest_first(name, declared_names(prm, path, is_section));
-      return known.empty() || known.front() == name
-                 ? ""
-                 : "The nearest known one is '" + known.front() + "'. ";
+      if (!is_section && (line.keyword != "set" || equals == std::string::npos))
+        return {};
+      if (!is_among(name, known))
+        return complaint(std::string("there is no ")
+                             + (is_section ? "subsection" : "parameter") + " '"
+                             + name + "' here.",
+                         known.empty() ? "" : known.front());
+      const std::string value
+          = dealii::Utilities::trim(line.rest.substr(equals + 1));
+      const std::string pattern      = pattern_of(prm, path, name);
+      const std::string given        = "'" + name + " = " + value + "' ";
+      static const std::string begin = "[Selection ";
+      if (!is_section && pattern.rfind(begin, 0) == 0)
+      {
+        const auto words = dealii::Utilities::split_string_list(
+            pattern.substr(begin.size(), pattern.find(']') - begin.size()),
+            '|');
+        return complaint(given + "must be one of: " + known_names(words) + ".",
+                         nearest_name(value, words));
+      }
+      return is_section || pattern.empty() || pattern.front() == '['
+                 ? Complaint()
+                 : complaint(given + "must be a " + pattern + ".", "");
+    }
+
+    /** That an 'end' is missing before @p line of @p full, or at its end, if
+        that is likely. */
+    std::string open_text(const ParameterHandler &prm, const Line &line,
+                          const FullText &full)
+    {
+      const bool is_at_end = line.number >= full.origins.size();
+      const auto open      = subsections_around(full.text, line.number);
+      const bool is_of_top
+          = line.keyword == "subsection" && open.size() > 1
+            && is_among(line.rest, declared_names(prm, {}, true));
+      if (open.empty() || !(is_at_end || is_of_top))
+        return "";
+      const Line &begin   = open.front();
+      const Origin &place = full.origins[begin.number - 1];
+      return "a line 'end' is missing: the subsection '" + begin.rest
+             + "', which begins in line " + std::to_string(place.line) + " of "
+             + place.file + ", or one within it, is still open "
+             + (is_at_end ? "at the end of the file." : "here.");
     }
 
     /** The reason of a library's error in one line, and its place. */
@@ -150,34 +233,40 @@ namespace quoin
                          const ParameterHandler &prm, const std::string &source,
                          const FullText &full)
     {
+      const bool is_option = source.rfind("--set", 0) == 0;
       std::ostringstream reason;
       error.print_info(reason);
-      std::string message = one_line(reason.str());
-      std::smatch match;
-      std::string where = source, nearest;
-      if (std::regex_search(message, match,
-                            std::regex("[Ll]ine <?(\\d{1,9})>?")))
+      const std::string message = one_line(reason.str());
+      const auto lines          = lines_of(full.text);
+      std::string where         = source;
+      Complaint found;
+      unsigned int number = lines.size();
+      if (std::smatch match; std::regex_search(
+              message, match, std::regex("[Ll]ine <?(\\d{1,9})>?")))
       {
-        const unsigned int number
-            = std::min<std::size_t>(std::stoul(match[1]), full.origins.size());
+        number = std::min<std::size_t>(std::stoul(match[1]), lines.size());
         const Origin origin
             = number > 0 ? full.origins[number - 1] : Origin{ source, 0 };
-        const auto path = path_of_line(full.text, number);
+        const auto path = names_of(subsections_around(full.text, number));
         where           = origin.file
-                + (source.rfind("--set", 0) == 0
-                       ? std::string()
-                       : ", line " + std::to_string(origin.line))
+                + (is_option ? std::string()
+                             : ", line " + std::to_string(origin.line))
                 + ", section '"
                 + (path.empty() ? "/" : boost::algorithm::join(path, "/"))
                 + "'";
-        message = std::regex_replace(
+        if (number > 0)
+          found = complaint_about(prm, lines[number - 1], path);
+      }
+      if (number > 0 && !is_option)
+        if (const std::string open = open_text(prm, lines[number - 1], full);
+            !open.empty())
+          found = { open, "" };
+      if (found.what.empty())
+        found.what = std::regex_replace(
             message,
             std::regex("^ *[Ll]ine <?\\d{1,9}>? of (input )?file <[^>:]*>?: *"),
             "");
-        if (number > 0)
-          nearest = nearest_text(prm, lines_of(full.text)[number - 1], path);
-      }
-      return where + ": " + message + " " + nearest
+      return where + ": " + found.what + " " + found.advice
              + "Correct it; --print-parameters shows what exists.";
     }
 
@@ -242,10 +331,10 @@ namespace quoin
                            + "is being read already: this would never end. "
                              "Remove one of the lines 'include'.");
         const std::string included = read_text(path.string());
-        if (!path_of_line(included, -1).empty())
-          throw InputError(where + "leaves the subsection '"
-                           + path_of_line(included, -1).back()
-                           + "' open. Close it by a line 'end' there.");
+        if (const auto left = subsections_around(included, -1); !left.empty())
+          throw InputError(where + "leaves the subsection '" + left.back().rest
+                           + "' of line " + std::to_string(left.back().number)
+                           + " open. Close it by a line 'end' there.");
         expand(path.string(), included, folder, open, full);
         open.erase(inner);
       }
@@ -281,21 +370,30 @@ namespace quoin
       }
     }
 
-    /** The option "Section/Name=value" as text of a parameter file. */
-    std::string override_text(const std::string &option)
+    /** Sections and name of the entry that the option "Section/Name=value"
+        sets. */
+    std::vector<std::string> path_of_option(const std::string &option)
     {
       const auto equals = option.find('=');
-      auto path
+      const auto path
           = dealii::Utilities::split_string_list(option.substr(0, equals), '/');
       if (equals == std::string::npos || path.empty() || path.back().empty())
         throw InputError("--set '" + option
                          + "': give it as \"Section/Name=value\".");
+      return path;
+    }
+
+    /** That option as text of a parameter file. */
+    std::string override_text(const std::string &option)
+    {
+      auto path              = path_of_option(option);
       const std::string name = path.back();
       path.pop_back();
       std::string text;
       for (const auto &section : path)
         text += "subsection " + section + "\n";
-      text += "set " + name + " = " + option.substr(equals + 1) + "\n";
+      text
+          += "set " + name + " = " + option.substr(option.find('=') + 1) + "\n";
       for (unsigned int i = 0; i < path.size(); ++i)
         text += "end\n";
       return text;
@@ -375,6 +473,33 @@ namespace quoin
       else if (line.keyword == "end" && depth > 0)
         --depth;
     return names;
+  }
+
+  void ParameterFile::refuse_idle_overrides(NotedParameters &prm) const
+  {
+    for (const std::string &option : overrides)
+    {
+      const auto path = path_of_option(option);
+      if (prm.read.count(boost::algorithm::join(path, "/")) > 0)
+        continue;
+      const std::string begin = "--set \"" + option + "\": ";
+      if (path.size() == 3)
+        if (const auto listed
+            = ParameterSection(ParameterSection(prm, file), path[0])
+                  .list("Names");
+            !is_among(path[1], listed))
+          throw InputError(
+              begin + "it has no effect, because 'Names' of section '" + path[0]
+              + "' does not list '" + path[1]
+              + "'. Listed are: " + known_names_like(path[1], listed) + ".");
+      throw InputError(begin
+                       + "it has no effect, because the other parameters "
+                         "of "
+                       + file + " leave '" + path.back()
+                       + "' unused. Leave this option out, or change what "
+                         "the parameter goes with: --print-parameters says "
+                         "when it is used.");
+    }
   }
 
   void ParameterFile::parse(ParameterHandler &prm,

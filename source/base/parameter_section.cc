@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/finite_numbers.h>
+#include <quoin/base/noted_parameters.h>
 #include <quoin/base/parameter_section.h>
 
 #include <deal.II/base/utilities.h>
@@ -15,6 +16,17 @@
 namespace quoin
 {
   using dealii::Utilities::split_string_list;
+
+  namespace
+  {
+    /** Notes that the entry @p name of the section @p path is read. */
+    void note(dealii::ParameterHandler &prm, const std::string &path,
+              const std::string &name)
+    {
+      if (auto *const noted = dynamic_cast<NotedParameters *>(&prm))
+        noted->read.insert(path.empty() ? name : path + "/" + name);
+    }
+  } // namespace
 
   ParameterSection::ParameterSection(dealii::ParameterHandler &prm,
                                      std::string file)
@@ -38,6 +50,7 @@ namespace quoin
 
   std::string ParameterSection::text(const std::string &name) const
   {
+    note(prm, path, name);
     return prm.get(name);
   }
 
@@ -48,6 +61,7 @@ namespace quoin
 
   double ParameterSection::number(const std::string &name) const
   {
+    note(prm, path, name);
     double value = std::numeric_limits<double>::quiet_NaN();
     try
     {
@@ -97,6 +111,7 @@ namespace quoin
 
   unsigned int ParameterSection::integer(const std::string &name) const
   {
+    note(prm, path, name);
     return static_cast<unsigned int>(prm.get_integer(name));
   }
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/contact/contact_sets.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace quoin
       throw InputError("section 'Joints/" + set.name
                        + "': 'New contacts between' names '" + name
                        + "', which is no material. Materials are: "
-                       + known_names(materials) + ".");
+                       + known_names_like(name, materials) + ".");
     };
     std::vector<unsigned int> result(n * n, no_contact_set);
     unsigned int of_all = no_contact_set;

@@ -3,7 +3,7 @@
 
 #include <quoin/operators/archive.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/contact/matched_joints.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ namespace quoin
           if (line == names.end())
             throw InputError("section 'Joints/" + sets[s].name
                              + "': the mesh has no physical curve '" + curve
-                             + "'. It has: " + known_names(names)
+                             + "'. It has: " + known_names_like(curve, names)
                              + ". Correct 'Curves'.");
           auto &set = set_of_line[line - names.begin()];
           if (set != no_set)

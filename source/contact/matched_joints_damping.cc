@@ -81,6 +81,24 @@ namespace quoin
     }
   }
 
+  void MatchedJoints::add_elastic_forces(const NodeRecord<2> *nodes,
+                                         const NodeVector<2> *displacement,
+                                         NodeVector<2> *force) const
+  {
+    for (unsigned int i = 0; i < all_segments.size(); ++i)
+    {
+      const auto [kn, ks] = stiffness_bound(all_laws[all_segments[i].set]);
+      add_rate_forces(
+          i, nodes, displacement, [](unsigned int) { return true; },
+          [kn = kn, ks = ks](unsigned int, const Motion &motion)
+          {
+            return std::array<double, 2>{ { kn * motion.rate[0],
+                                            ks * motion.rate[1] } };
+          },
+          force);
+    }
+  }
+
   void MatchedJoints::set_blocks(const DashpotBlocks &blocks)
   {
     dashpots.set_blocks(blocks);

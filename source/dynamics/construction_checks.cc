@@ -4,7 +4,7 @@
 // Checks of the stages by Construction.
 
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/dynamics/construction.h>
 
 #include <algorithm>
@@ -140,10 +140,10 @@ namespace quoin
     const std::string where
         = step.where + ": 'Materials' has " + group + ":" + material;
     if (m == materials.size())
-      throw InputError(where + ", but '" + material
-                       + "' is no material. There are: "
-                       + known_names(materials, &MaterialParameters::name)
-                       + ". Name one of these.");
+      throw InputError(
+          where + ", but '" + material + "' is no material. There are: "
+          + known_names_like(material, materials, &MaterialParameters::name)
+          + ". Name one of these.");
     const auto groups = find_groups(model.nodes().table(), { group }, where);
     const unsigned int g
         = std::find(groups.begin(), groups.end(), true) - groups.begin();
@@ -178,7 +178,7 @@ namespace quoin
       if (position(at_start.joints, name) == at_start.joints.size())
         throw InputError(
             where + ", but '" + name + "' is no joint set. There are: "
-            + known_names(at_start.joints, &JointSetParameters::name)
+            + known_names_like(name, at_start.joints, &JointSetParameters::name)
             + ". Name one of these.");
     JointSetParameters &now
         = step.properties.joints[position(at_start.joints, set)];

@@ -180,10 +180,12 @@ namespace quoin
     if (displacement <= limit || passed <= 0. || times[0] - start > passed / 4.)
       return false;
     const double half = displacement_at(passed / 2.);
+    if (displacement < growth * half)
+      return false;
+    moved_on = true;
     // What accelerates only now has grown in one doubling as much as in two.
     return displacement >= growth * growth * half
-           || (displacement >= growth * half
-               && half >= growth * displacement_at(passed / 4.));
+           || half >= growth * displacement_at(passed / 4.);
   }
 
   double FailureWatch::displacement_at(const double time) const

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/base/point_text.h>
 #include <quoin/operators/archive.h>
 #include <quoin/model/block_placement.h>
@@ -143,7 +143,7 @@ namespace quoin
           == known_loads.end())
         throw InputError("section 'Stages/" + stage.name + "': 'Loads' names '"
                          + name + "', which is no load. Loads are: "
-                         + known_names(known_loads) + ".");
+                         + known_names_like(name, known_loads) + ".");
 
     for (const auto &constraint : all_constraints)
       if (names_load(stage, constraint->name())

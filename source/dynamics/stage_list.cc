@@ -4,6 +4,7 @@
 // Checks of the stages of a run against each other and the loads.
 
 #include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/base/named_sections.h>
 #include <quoin/base/number_text.h>
 #include <quoin/dynamics/solver.h>
@@ -38,7 +39,7 @@ namespace quoin
                      const bool has_excavated)
     {
       if (stage.end == StageEnd::static_ratio && !comes_to_rest)
-        section.fail("Damping", "leaves all motion in the model, which so "
+        section.fail("Damping", "takes no energy from the model, so that it "
                                 "never comes to the rest that 'End = "
                                     + section.text("End")
                                     + "' waits for. Take 'local' or "
@@ -104,8 +105,9 @@ namespace quoin
         const std::string what     = where + "'Load pattern' names '" + name;
         const LoadParameters *load = find_named(loads, name);
         if (!load)
-          throw InputError(what + "', which is no load. Loads are: "
-                           + known_names(loads, &LoadParameters::name) + ".");
+          throw InputError(
+              what + "', which is no load. Loads are: "
+              + known_names_like(name, loads, &LoadParameters::name) + ".");
         if (load->type != LoadType::traction && load->type != LoadType::gravity)
           throw InputError(what + "', of type '" + load->type_text()
                            + "', but a factor scales loads of type 'traction' "
@@ -138,8 +140,9 @@ namespace quoin
                                    + "': 'Loads' names '" + name;
           const LoadParameters *load = find_named(loads, name);
           if (!load)
-            throw InputError(what + "', which is no load. Loads are: "
-                             + known_names(loads, &LoadParameters::name) + ".");
+            throw InputError(
+                what + "', which is no load. Loads are: "
+                + known_names_like(name, loads, &LoadParameters::name) + ".");
           if (std::count(stage.loads.begin(), stage.loads.end(), name) > 1)
             throw InputError(what
                              + "' twice, but it acts once. Remove one, or give "

@@ -4,7 +4,7 @@
 #include <quoin/farfield/boundary_geometry.h>
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/base/plane_geometry.h>
 
 #include <algorithm>
@@ -265,7 +265,8 @@ namespace quoin
           fail(parameters.name, "'Curves' names '" + name
                                     + "', which is no physical curve of the "
                                       "mesh. These are: "
-                                    + known_names(mesh.face_names) + ".");
+                                    + known_names_like(name, mesh.face_names)
+                                    + ".");
       }
       return edges;
     }

@@ -100,9 +100,10 @@ namespace quoin
               .eigenvalues()(0);
     if (!(smallest > 0.))
       throw InputError(
-          "section 'Boundary elements': the impedance of the first lag is not "
-          "positive. Take longer steps, 'Step ratio', or a boundary with "
-          "elements of more equal length.");
+          "section 'Boundary elements': in the first time step the rock beyond "
+          "the blocks would not resist their motion, and the coupling would "
+          "not be stable. Raise 'Step ratio', or give a boundary with elements "
+          "of more equal length.");
   }
 
   // -- stages ----------------------------------------------------------------

@@ -355,14 +355,17 @@ namespace quoin
       entries.text("Group", rock.group,
                    "Physical surface of the blocks that are in no region.");
       entries.integer("Random seed", rock.seed, 0,
-                      "Seed of the joints: another seed, other joints.");
+                      "Seed of the random values from which joints are "
+                      "drawn: another seed gives other joints of the same "
+                      "statistics.");
       entries.choice("Dead ends", rock.dead_ends,
                      { { "cut", RockParameters::cut },
                        { "extend", RockParameters::extend },
                        { "keep", RockParameters::keep } },
-                     "Joints that end inside a block. cut: they go back to "
-                     "the last joint that they met; extend: they go straight "
-                     "on to the next joint or border; keep: they are cracks.");
+                     "What becomes of joints that end in intact rock and so "
+                     "part no blocks. cut: they end at the last joint that "
+                     "they meet; extend: they go straight on to the next joint "
+                     "or border; keep: they are cracks inside blocks.");
       enter_sizes(entries, rock);
       if (const ParameterSection *section = entries.read_section())
       {

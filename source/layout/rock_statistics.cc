@@ -308,56 +308,65 @@ namespace quoin
     {
       const double length
           = total_length(pieces_of(layout, layout.first_joint_line + j));
+      const std::size_t n_clipped = layout.traces[j].n_clipped;
+      const std::size_t n_redrawn = layout.traces[j].drawn.n_redrawn;
       text << "\njoints '" << rock.joints[j].name
            << "': " << count(layout.traces[j].n_traces, "trace", "traces")
-           << " of " << number_text(total_length(layout.traces[j].pieces))
-           << " m, of which " << number_text(length) << " m are in the blocks";
-      if (layout.traces[j].n_clipped > 0)
-        text << "; " << layout.traces[j].n_clipped << " were cut at borders";
-      if (layout.traces[j].drawn.n_redrawn > 0)
+           << ", " << number_text(total_length(layout.traces[j].pieces))
+           << " m in the rock, of which " << number_text(length)
+           << " m are joints or cracks of the model";
+      if (n_clipped > 0)
+        text << "; " << count(n_clipped, "trace was", "traces were")
+             << " cut off at the outline or the edge of their region";
+      if (n_redrawn > 0)
         text << "; "
-             << count(layout.traces[j].drawn.n_redrawn, "value was",
-                      "values were")
-             << " drawn again, not being positive";
+             << count(n_redrawn, "random value was", "random values were")
+             << " not positive and drawn again";
     }
     if (changes.n_joined > 0)
       text << "\n"
-           << count(changes.n_joined, "end was", "ends were")
-           << " moved by less than " << number_text(rock.shortest_edge)
-           << " m to meet another joint or corner";
+           << count(changes.n_joined, "joint end was", "joint ends were")
+           << " moved by less than 'Shortest edge', "
+           << number_text(rock.shortest_edge)
+           << " m, to meet another joint or a corner";
+    const std::string dead_ends
+        = "\ndead ends, joints that end in intact rock and part no blocks: ";
     if (changes.n_extended > 0)
-      text << "\n"
-           << count(changes.n_extended, "joint that ended", "joints that ended")
-           << " inside a block lengthened by "
-           << number_text(changes.extended_length) << " m";
+      text << dead_ends << count(changes.n_extended, "end was", "ends were")
+           << " lengthened to the next joint or border, by "
+           << number_text(changes.extended_length) << " m in all";
     if (changes.n_dead_ends > 0)
-      text << "\ndead ends: " << count(changes.n_dead_ends, "edge", "edges")
-           << " of " << number_text(changes.dead_length)
-           << " m ended inside blocks and were cut off";
+      text << dead_ends << count(changes.n_dead_ends, "piece", "pieces") << ", "
+           << number_text(changes.dead_length)
+           << " m in all, cut back to the last joint that they meet";
     if (changes.n_cracks > 0)
-      text << "\ndead ends: " << count(changes.n_cracks, "edge", "edges")
-           << " of " << number_text(changes.crack_length)
-           << " m end inside blocks and are cracks";
+      text << dead_ends << count(changes.n_cracks, "piece", "pieces") << ", "
+           << number_text(changes.crack_length)
+           << " m in all, kept as cracks inside blocks";
     if (changes.n_bridges > 0)
       text << "\n"
-           << count(changes.n_bridges, "edge", "edges") << " of "
+           << count(changes.n_bridges, "piece of a joint has",
+                    "pieces of joints have")
+           << " the same block on both sides, "
            << number_text(changes.bridge_length)
-           << " m with the same block on both sides are cracks";
+           << " m in all: cracks inside it";
     if (changes.n_short > 0)
       text << "\n"
-           << count(changes.n_short, "piece", "pieces")
-           << " of joints, shorter than " << number_text(rock.shortest_edge)
-           << " m, left out, " << number_text(changes.short_length)
-           << " m in all";
+           << count(changes.n_short, "piece of a joint", "pieces of joints")
+           << " shorter than 'Shortest edge', "
+           << number_text(rock.shortest_edge) << " m, left out, "
+           << number_text(changes.short_length) << " m in all";
     if (changes.n_slivers > 0)
-      text << "\nslivers: " << count(changes.n_slivers, "block", "blocks")
-           << " of " << number_text(changes.sliver_area)
-           << " m^2, smaller than " << number_text(rock.smallest_block)
-           << " m^2 or narrower than " << number_text(rock.narrowest_block)
-           << " m, joined to a neighbour";
+      text << "\nslivers, smaller than 'Smallest block', "
+           << number_text(rock.smallest_block)
+           << " m^2, or narrower than 'Narrowest block', "
+           << number_text(rock.narrowest_block)
+           << " m: " << count(changes.n_slivers, "block", "blocks") << ", "
+           << number_text(changes.sliver_area)
+           << " m^2 in all, joined to a neighbour";
     if (changes.n_kept_slivers > 0)
-      text << "\nslivers: " << count(changes.n_kept_slivers, "block", "blocks")
-           << " that small between borders alone stayed";
+      text << "\nslivers that stayed, having no joint that could be taken out: "
+           << count(changes.n_kept_slivers, "block", "blocks");
     return text.str();
   }
 } // namespace quoin

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/time_function.h>
@@ -25,8 +25,8 @@ namespace quoin
       if (name.empty() || found == names.end())
         throw InputError("section 'Loads/" + load + "': '" + parameter + " = "
                          + name + "', but the mesh has no " + kind
-                         + " of that name. It has: " + known_names(names)
-                         + ".");
+                         + " of that name. It has: "
+                         + known_names_like(name, names) + ".");
       return found - names.begin();
     }
   } // namespace

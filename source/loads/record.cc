@@ -93,7 +93,8 @@ namespace quoin
     {
       std::ifstream file(name);
       if (!file)
-        throw InputError("the record '" + name + "' cannot be read.");
+        throw InputError("the record '" + name
+                         + "' cannot be read. Check its path.");
       std::string line, header;
       std::size_t n = 0;
       double step   = 0.;

@@ -3,7 +3,7 @@
 
 #include <quoin/base/disjoint_sets.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 
@@ -236,11 +236,9 @@ namespace quoin
       if (!wanted.empty() && place != names.end())
         return place - names.begin();
 
-      const auto quoted
-          = [](const std::string &n) { return n.empty() ? n : "'" + n + "'"; };
       fail("there is no physical " + kind + " '" + wanted + "', which Mesh/"
-           + parameter + " names. The mesh has " + known_names(names, quoted)
-           + ".");
+           + parameter + " names. The mesh has "
+           + known_names_like(wanted, names) + ".");
     }
 
     template <int dim>

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/mesh/block_table.h>
 #include <quoin/mesh/kind_text.h>
 
@@ -20,7 +20,7 @@ namespace quoin
       const auto found = std::find(known.begin(), known.end(), name);
       if (found == known.end())
         throw InputError(where + ": the mesh has no " + group_kind<dim> + " '"
-                         + name + "'. It has: " + known_names(known)
+                         + name + "'. It has: " + known_names_like(name, known)
                          + ". Name one of these.");
       result[found - known.begin()] = true;
     }

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/model/material_waves.h>
 
 #include <algorithm>
@@ -35,7 +35,8 @@ namespace quoin
                      + "': 'Far field material = " + load.far_material
                      + "' is no linear elastic material of section "
                        "'Materials'. There are: "
-                     + known_names(materials, elastic) + ".");
+                     + known_names_like(load.far_material, materials, elastic)
+                     + ".");
   }
 
   template <int dim>

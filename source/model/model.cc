@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/mesh/kind_text.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/operators/archive.h>
@@ -53,10 +53,10 @@ namespace quoin
       {
         const auto found = std::find(names.begin(), names.end(), group);
         if (found == names.end())
-          throw InputError("section 'Materials/" + material.name
-                           + "': the mesh has no " + group_kind<dim> + " '"
-                           + group + "'. It has: " + known_names(names)
-                           + ". Correct 'Groups'.");
+          throw InputError(
+              "section 'Materials/" + material.name + "': the mesh has no "
+              + group_kind<dim> + " '" + group + "'. It has: "
+              + known_names_like(group, names) + ". Correct 'Groups'.");
         unsigned int &owner = now.material_of_group[found - names.begin()];
         if (owner != none)
           throw InputError("section 'Materials/" + material.name

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/base/named_sections.h>
 #include <quoin/dynamics/construction.h>
 #include <quoin/parameters/model_parameters.h>
@@ -147,18 +148,20 @@ namespace quoin
         if (!history.is_of_block())
           continue;
         const ParameterSection subsection(section, history.name);
-        const std::string known
-            = known_names(blocks, &NamedBlock::name)
-              + ". Name one, or add the name to section 'Blocks'.";
+        const auto known = [&](const std::string &name)
+        {
+          return known_names_like(name, blocks, &NamedBlock::name)
+                 + ". Name one, or add the name to section 'Blocks'.";
+        };
         if (!find_named(blocks, history.block))
-          subsection.fail("Block",
-                          "must be a named block. There are: " + known);
+          subsection.fail("Block", "must be a named block. There are: "
+                                       + known(history.block));
         if (history.other_block.empty())
           continue;
         if (!find_named(blocks, history.other_block))
           subsection.fail("Second block",
                           "must be a named block or empty. There are: "
-                              + known);
+                              + known(history.other_block));
         if (history.other_block == history.block)
           subsection.fail("Second block", "is 'Block' itself. Name another "
                                           "block, or leave it empty.");

@@ -169,7 +169,7 @@ namespace quoin
     declare_names(named_sections, names);
     input.parse(names, true);
 
-    ParameterHandler prm;
+    NotedParameters prm;
     declare_fixed(prm);
     declare_listed(named_sections, file, names, prm);
     Parameters parameters;
@@ -205,6 +205,8 @@ namespace quoin
     else
       read_block_model(top, parameters);
 
+    // Before plausibility, which looks at more than a run uses.
+    input.refuse_idle_overrides(prm);
     const auto doubts = implausible_values(top, parameters);
     parameters.warnings.insert(parameters.warnings.end(), doubts.begin(),
                                doubts.end());

@@ -47,6 +47,16 @@ namespace quoin
       return "";
     }
 
+    std::string meant_stiffness(const double value)
+    {
+      if (value >= 0.1 && value < 1e3)
+        return text_of("in GPa/m, which is MPa/mm and N/mm^3, it would be ",
+                       1e9 * value, " Pa/m");
+      if (value >= 1e3 && value < softest_joint)
+        return text_of("in MPa/m it would be ", 1e6 * value, " Pa/m");
+      return "";
+    }
+
     std::string meant_angle(const double value)
     {
       return text_of("as a coefficient of friction it would be an angle of ",
@@ -68,6 +78,8 @@ namespace quoin
     const Range cohesion{ "Cohesion", weakest, 1e10, "Pa", meant_strength };
     const Range tension{ "Tensile strength", weakest, 1e10, "Pa",
                          meant_strength };
+    const Range stiffness{ "Normal stiffness", softest_joint, 1e16, "Pa/m",
+                           meant_stiffness };
     const Range thickness{ "Thickness", 1e-3, 50., "m", [](const double value) {
                             return text_of("in mm it would be ", 1e-3 * value,
                                            " m");
@@ -128,7 +140,8 @@ namespace quoin
       for (const JointSetParameters &set : parameters.model.joints)
       {
         const ParameterSection own(section, set.name);
-        for (const Range *range : { &cohesion, &friction, &tension })
+        for (const Range *range :
+             { &stiffness, &cohesion, &friction, &tension })
           check(own, "joints " + set.name + ": ", *range, warnings);
       }
     }

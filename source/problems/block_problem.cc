@@ -4,6 +4,7 @@
 #include <quoin/results/entry_numbers.h>
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/advice/contact_advice.h>
+#include <quoin/dynamics/highest_frequency.h>
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/problems/block_problem.h>
 #include <quoin/problems/costs.h>
@@ -86,8 +87,8 @@ namespace quoin
       run.log.message(n_rigid, " of the blocks ",
                       n_rigid == 1 ? "is rigid" : "are rigid");
     if (const StaticFarField *far = system.solver->far_fields().elastostatic)
-      run.log.message("static boundary elements: their forces' matrix was "
-                      "symmetric to ",
+      run.log.message("static boundary elements: the stiffness of the rock "
+                      "beyond the blocks was made symmetric; it differed by ",
                       far->asymmetry(), " of its largest entry");
     if (run.options.check)
       for (const auto &lines :
@@ -112,6 +113,25 @@ namespace quoin
   }
 
   template <int dim>
+  void BlockProblem<dim>::report_highest_frequency()
+  {
+    const Model<dim> &model = *system.model;
+    const RigidBlockStage unscaled{
+      std::vector<double>(model.rigid_blocks().n_blocks(), 1.), {}
+    };
+    const double bound = dealii::Utilities::MPI::max(
+        model.stability().largest_eigenvalue(model.mass()),
+        system.communicator);
+    const double found
+        = highest_squared_frequency(model, model.mass(), unscaled);
+    if (found > 0. && found < bound)
+      run.log.message("by the stiffness of all blocks and joints together the "
+                      "critical step would be ",
+                      std::sqrt(bound / found),
+                      " times as long as by the bound that is used");
+  }
+
+  template <int dim>
   void BlockProblem<dim>::report_stages()
   {
     // Stages are begun with a copy, to find errors in them.
@@ -131,6 +151,8 @@ namespace quoin
       }
       context.steps.choose(stage);
       run.log.message(step_text(context, stage));
+      if (run.options.check && i == 0)
+        report_highest_frequency();
       advise_about_stage(i, begun);
       time_is_known &= stage.duration_is_known();
       if (time_is_known)
@@ -140,7 +162,8 @@ namespace quoin
     if (system.construction)
       system.construction->restart();
     if (system.implicit_solver)
-      run.log.message("inertia, damping and mass scaling are left out");
+      run.log.message("equilibria are sought: inertia, damping and mass "
+                      "scaling have no effect");
   }
 
   template <int dim>
@@ -249,7 +272,7 @@ namespace quoin
   }
 
   template <int dim>
-  void BlockProblem<dim>::summarise(nlohmann::json &summary,
+  void BlockProblem<dim>::summarise(nlohmann::ordered_json &summary,
                                     const double seconds) const
   {
     const MeshReport &report = system.mesh_report;
@@ -304,7 +327,7 @@ namespace quoin
   }
 
   template <int dim>
-  void BlockProblem<dim>::summarise_time(nlohmann::json &summary,
+  void BlockProblem<dim>::summarise_time(nlohmann::ordered_json &summary,
                                          const double seconds) const
   {
     const PhaseClock &clock = system.solver->time_spent();
@@ -330,14 +353,15 @@ namespace quoin
   }
 
   template <int dim>
-  void BlockProblem<dim>::summarise_searches(nlohmann::json &summary) const
+  void
+  BlockProblem<dim>::summarise_searches(nlohmann::ordered_json &summary) const
   {
     for (unsigned int i = 0; i < context.searches.size(); ++i)
     {
       const FactorSearch &search = context.searches[i];
       if (search.trials().empty())
         continue;
-      nlohmann::json &result
+      nlohmann::ordered_json &result
           = summary["factor of safety"][parameters.stages[i].name];
       result = { { "stable at", search.highest_stable() },
                  { "trials", search.trials().size() },
@@ -350,17 +374,19 @@ namespace quoin
   }
 
   template <int dim>
-  void BlockProblem<dim>::summarise_outcomes(nlohmann::json &summary) const
+  void
+  BlockProblem<dim>::summarise_outcomes(nlohmann::ordered_json &summary) const
   {
     for (unsigned int i = 0; i < context.outcomes.size(); ++i)
     {
       const StageOutcome &ended = context.outcomes[i];
       if (ended.outcome.empty())
         continue;
-      nlohmann::json &stage = summary["stages"][parameters.stages[i].name];
-      stage                 = { { "outcome", ended.outcome },
-                                { "time [s]", ended.time },
-                                { "step", ended.step } };
+      nlohmann::ordered_json &stage
+          = summary["stages"][parameters.stages[i].name];
+      stage = { { "outcome", ended.outcome },
+                { "time [s]", ended.time },
+                { "step", ended.step } };
       if (!ended.condition.empty())
         stage["condition"] = ended.condition;
       context.loads[i].summarise(stage);
@@ -370,7 +396,7 @@ namespace quoin
     }
     if (context.failure.empty())
       return;
-    nlohmann::json &stage
+    nlohmann::ordered_json &stage
         = summary["stages"][parameters.stages[state.stage].name];
     stage = { { "outcome", "failed" },
               { "reason", context.failure },
@@ -380,7 +406,7 @@ namespace quoin
   }
 
   template <>
-  void BlockProblem<2>::summarise_contacts(nlohmann::json &summary,
+  void BlockProblem<2>::summarise_contacts(nlohmann::ordered_json &summary,
                                            const double seconds) const
   {
     const BlockContacts *contacts = system.solver->contacts();
@@ -400,7 +426,7 @@ namespace quoin
   }
 
   template <int dim>
-  void BlockProblem<dim>::summarise_bandwidth(nlohmann::json &summary,
+  void BlockProblem<dim>::summarise_bandwidth(nlohmann::ordered_json &summary,
                                               const double seconds) const
   {
     namespace MPI = dealii::Utilities::MPI;
@@ -440,7 +466,7 @@ namespace quoin
 
   template <int dim>
   Problem::ClosingLines
-  BlockProblem<dim>::closing_lines(const nlohmann::json &summary) const
+  BlockProblem<dim>::closing_lines(const nlohmann::ordered_json &summary) const
   {
     const auto millions = [&](const char *name)
     { return text_of(summary[name].get<double>() / 1e6, " million "); };

@@ -122,8 +122,7 @@ namespace quoin
     if (stage.is_dynamic() || !system.explicit_solver
         || loads.constraints.empty())
       return;
-    const auto [applied, supports] = force_balance(system, state, load_time);
-    record.add_forces(applied, supports, time);
+    record.add_forces(force_balance(system, state, load_time), time);
   }
 
   template <int dim>

@@ -119,7 +119,7 @@ namespace quoin
     }
   }
 
-  void BoundaryProblem::summarise(nlohmann::json &summary,
+  void BoundaryProblem::summarise(nlohmann::ordered_json &summary,
                                   double /*seconds*/) const
   {
     const Eigen::VectorXd lengths = system.geometry.boundary.lengths();
@@ -157,7 +157,7 @@ namespace quoin
   }
 
   Problem::ClosingLines
-  BoundaryProblem::closing_lines(const nlohmann::json &summary) const
+  BoundaryProblem::closing_lines(const nlohmann::ordered_json &summary) const
   {
     return { settings.is_static ? "static solution"
                                 : text_of(context.state.step, " steps"),

@@ -16,9 +16,10 @@ namespace quoin
   {
     constexpr std::array<const char *, 3> axis_names = { "x", "y", "z" };
 
-    /** Difference of the forces, by the applied one, that is warned of [-]. */
+    /** Difference of the forces, by the size of the loads, that is warned of
+        [-]. */
     constexpr double most_difference = 0.05;
-    /** Change of the applied force, by its magnitude, that is loading [-]. */
+    /** Change of the applied force, by that size, that is loading [-]. */
     constexpr double least_change = 0.01;
   } // namespace
 
@@ -29,15 +30,15 @@ namespace quoin
       peak = { factor, displacement, time };
   }
 
-  void LoadRecord::add_forces(const std::array<double, 3> &applied,
-                              const std::array<double, 3> &supports,
-                              const double time)
+  void LoadRecord::add_forces(const ForceBalance &forces, const double time)
   {
+    const auto &[applied, supports, size] = forces;
     for (unsigned int d = 0; d < 3; ++d)
     {
       Axis &axis     = axes[d];
       axis.lowest    = std::min(axis.lowest, applied[d]);
       axis.highest   = std::max(axis.highest, applied[d]);
+      axis.size      = std::max(axis.size, size[d]);
       axis.most_up   = std::max(axis.most_up, supports[d]);
       axis.most_down = std::max(axis.most_down, -supports[d]);
       // Constant loads have rounding.
@@ -55,9 +56,8 @@ namespace quoin
 
   bool LoadRecord::Axis::parts() const
   {
-    const double size = std::abs(applied);
     return highest - lowest > least_change * size
-           && std::abs(taken()) < (1. - most_difference) * size;
+           && std::abs(applied) - std::abs(taken()) > most_difference * size;
   }
 
   std::string LoadRecord::warning() const
@@ -79,7 +79,7 @@ namespace quoin
     return text;
   }
 
-  void LoadRecord::summarise(nlohmann::json &stage) const
+  void LoadRecord::summarise(nlohmann::ordered_json &stage) const
   {
     if (peak.time >= 0.)
       stage["largest load factor"]
@@ -109,24 +109,33 @@ namespace quoin
     ForceBalance result;
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       for (unsigned int d = 0; d < dim && !absent[i]; ++d)
+      {
         result.applied[d] += force[i].v[d];
-    MPI_Allreduce(MPI_IN_PLACE, result.applied.data(), 3, MPI_DOUBLE, MPI_SUM,
-                  nodes.communicator());
+        result.size[d] += std::abs(force[i].v[d]);
+      }
+    for (auto *const sums : { &result.applied, &result.size })
+      MPI_Allreduce(MPI_IN_PLACE, sums->data(), 3, MPI_DOUBLE, MPI_SUM,
+                    nodes.communicator());
     if (loads.pattern)
     {
       const double factor = state.template get<LoadPatternState>().factor;
       const auto all      = loads.pattern->resultant();
       for (unsigned int d = 0; d < dim; ++d)
+      {
         result.applied[d] += factor * all[d];
+        result.size[d] += std::abs(factor * all[d]);
+      }
     }
     for (const MotionConstraint<dim> *constraint : loads.constraints)
     {
       const auto &traits = constraint->traits();
       const auto forces  = system.solver->resultant(constraint->name());
       for (unsigned int d = 0; d < dim; ++d)
-        (traits.is_rigid_body() && !traits.holds[d] ? result.applied
-                                                    : result.supports)[d]
-            += forces[d];
+      {
+        const bool is_load = traits.is_rigid_body() && !traits.holds[d];
+        (is_load ? result.applied : result.supports)[d] += forces[d];
+        result.size[d] += is_load ? std::abs(forces[d]) : 0.;
+      }
     }
     return result;
   }

@@ -215,7 +215,16 @@ namespace quoin
               || watch.has_failed(state.time, largest_displacement()))
             trial.verdict = Verdict::failing;
           else if (share >= 1. && has_settled())
-            trial.verdict = Verdict::stable;
+          {
+            if (!watch.has_moved_on())
+              trial.verdict = Verdict::stable;
+            else
+              log.message("stage ", stage.name, ": factor ", trial.factor,
+                          ": the model came to rest after it had moved on "
+                          "beyond the failure displacement of ",
+                          limit, " m, which proves nothing of this factor");
+            return;
+          }
           if (trial.verdict != Verdict::undecided
               || state.stage_step >= stage.maximum_steps || is_interrupted())
             return;
@@ -335,13 +344,15 @@ namespace quoin
       const auto open         = search.undecided();
       const std::string begin = "stage " + stage.name + ": ";
       if (open)
-        log.warning(begin, "factors from ", (*open)[0], " to ", (*open)[1],
-                    " are undecided: the model neither came to rest nor kept "
-                    "moving. Raise 'Maximum steps', or lower 'Failure "
-                    "displacement' if blocks keep moving and do not get that "
-                    "far. Until then the factor of safety is ",
-                    stable == 0. ? "not known to be above any" : "at least ",
-                    stable == 0. ? std::string() : text_of(stable));
+        log.warning(
+            begin, "factors from ", (*open)[0], " to ", (*open)[1],
+            " are undecided: the model neither came to rest nor kept "
+            "moving, or it was caught after a long way. Raise 'Maximum "
+            "steps', lower 'Failure displacement' if blocks keep "
+            "moving and do not get that far, or raise it if blocks "
+            "may settle farther than that. Until then the factor of safety is ",
+            stable == 0. ? "not known to be above any" : "at least ",
+            stable == 0. ? std::string() : text_of(stable));
       if (stable == 0. && !open)
         log.warning(begin, "even the lowest factor, ", failing,
                     ", fails: the model has no equilibrium under these loads, "

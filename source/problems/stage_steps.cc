@@ -164,9 +164,9 @@ namespace quoin
                 range_text(lengths.minCoeff(), lengths.maxCoeff()),
                 " m long; S waves of up to ",
                 far.domain().medium.c2 / (8. * lengths.maxCoeff()),
-                " Hz have eight of them");
+                " Hz have eight of the longest to a wavelength");
     log.message("boundary elements: time step ", far.time_step(), " s, ",
-                far.n_substeps(), " block steps, ",
+                far.n_substeps(), " steps of the blocks, ",
                 step_ratio_text(domain, far.domain().medium, far.time_step()));
     const auto passivity = passivity_of(
         far.influence_kernel(), far.boundary_history(), domain,

@@ -6,6 +6,7 @@
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
+#include <quoin/base/nearest_name.h>
 #include <quoin/blocks/triangle.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/contact/law_fields.h>
@@ -407,7 +408,8 @@ namespace quoin
       throw InputError(section + "'Load = " + wanted.load
                        + "' is no prescribed motion, platen or "
                          "viscous boundary. These are: "
-                       + known_names(constraints, &MotionConstraint<dim>::name)
+                       + known_names_like(wanted.load, constraints,
+                                          &MotionConstraint<dim>::name)
                        + ".");
     if ((*found)->traits().is_rigid_body())
       probe.platen = found->get();

@@ -98,7 +98,7 @@ namespace quoin
       const auto found = std::find(known.begin(), known.end(), name);
       if (found == known.end())
         throw InputError(begin + "but '" + name + "' is no history. Known are: "
-                         + known_names(nearest_first(name, known)) + ".");
+                         + known_names_like(name, known) + ".");
       if (std::count(known.begin(), known.end(), name) > 1)
         throw InputError(begin + "but '" + name
                          + "' may mean two of the histories, of the time and "

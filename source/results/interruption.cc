@@ -3,7 +3,10 @@
 
 #include <quoin/results/interruption.h>
 
+#include <unistd.h>
+
 #include <csignal>
+#include <cstring>
 #include <ctime>
 #include <string>
 
@@ -13,14 +16,48 @@ namespace quoin
   {
     constexpr int signals[] = { SIGINT, SIGTERM, SIGUSR1 };
     /** Time within which further signals belong to the first one [s]. */
-    constexpr double one_request = 0.1;
+    constexpr double one_request = 0.5;
 
     // A handler of signals can reach nothing else than variables like these.
+    volatile std::sig_atomic_t speaks       = 0; // this rank
+    volatile std::sig_atomic_t steps_begun  = 0;
     volatile std::sig_atomic_t first_signal = 0;
     timespec time_of_first{};
 
+    const char *name_of(const int number)
+    {
+      return number == SIGINT    ? "SIGINT"
+             : number == SIGTERM ? "SIGTERM"
+                                 : "SIGUSR1";
+    }
+
+    /** Ends the process as soon as the handler returns. */
+    void end_process(const int number)
+    {
+      std::signal(number, SIG_DFL);
+      std::raise(number);
+    }
+
+    void say(const char *const text)
+    {
+      // Nobody can be told if it fails.
+      [[maybe_unused]] const auto written
+          = ::write(STDERR_FILENO, text, std::strlen(text));
+    }
+
     extern "C" void take_signal(const int number)
     {
+      if (steps_begun == 0)
+      {
+        if (speaks != 0)
+        {
+          say("interrupted by ");
+          say(name_of(number));
+          say(" before the first step: nothing was computed\n");
+        }
+        end_process(number);
+        return;
+      }
       timespec now{};
       clock_gettime(CLOCK_MONOTONIC, &now);
       if (first_signal == 0)
@@ -32,16 +69,15 @@ namespace quoin
       const double passed
           = double(now.tv_sec - time_of_first.tv_sec)
             + 1e-9 * double(now.tv_nsec - time_of_first.tv_nsec);
-      if (passed < one_request)
-        return;
-      // It ends the process as soon as this function returns.
-      std::signal(number, SIG_DFL);
-      std::raise(number);
+      if (passed >= one_request)
+        end_process(number);
     }
   } // namespace
 
-  Interruption::Interruption()
+  Interruption::Interruption(const bool is_first_rank)
   {
+    speaks       = is_first_rank;
+    steps_begun  = 0;
     first_signal = 0;
     struct sigaction action
     {
@@ -61,6 +97,11 @@ namespace quoin
       std::signal(number, SIG_DFL);
   }
 
+  void Interruption::begin_steps()
+  {
+    steps_begun = 1;
+  }
+
   int Interruption::received()
   {
     return first_signal;
@@ -68,8 +109,6 @@ namespace quoin
 
   std::string signal_name(const int number)
   {
-    return number == SIGINT    ? "SIGINT"
-           : number == SIGTERM ? "SIGTERM"
-                               : "SIGUSR1";
+    return name_of(number);
   }
 } // namespace quoin

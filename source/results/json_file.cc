@@ -8,7 +8,7 @@
 
 namespace quoin
 {
-  void write_json(const std::string &path, const nlohmann::json &object)
+  void write_json(const std::string &path, const nlohmann::ordered_json &object)
   {
     // File names need not be valid UTF-8; invalid bytes are replaced.
     write_text(path, object.dump(2, ' ', false,

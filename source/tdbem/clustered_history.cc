@@ -488,7 +488,8 @@ namespace quoin
       all_fit = fits(k);
     if (!all_fit)
       throw InputError("Boundary elements: the history in the checkpoint is "
-                       "that of another boundary or tolerance.");
+                       "that of another boundary or tolerance. Start the run "
+                       "without --resume.");
     auto next       = saved.common.begin();
     const auto take = [&next](auto &&values)
     {

@@ -171,7 +171,9 @@ namespace quoin
           if (depth > 60)
             throw InputError("Boundary elements cross or overlap near ("
                              + std::to_string(f.a.x()) + ", "
-                             + std::to_string(f.a.y()) + ").");
+                             + std::to_string(f.a.y())
+                             + ") m. Boundaries may meet only end to end: move "
+                               "one of them.");
           for (const unsigned k : { 0u, 1u })
             if (size_f >= size_e)
               integrate_apart(e, f.half(k), depth + 1);
@@ -225,7 +227,8 @@ namespace quoin
         if (end - begin > 2. * gap || wave_number_ * h * (end - begin) > 8.)
         {
           if (depth > 40)
-            throw InputError("Boundary elements that meet overlap.");
+            throw InputError("Boundary elements that meet lie on each other. "
+                             "Look for a boundary that turns back on itself.");
           const double middle = 0.5 * (begin + end);
           integrate_wedge(along_e, along_f, h, begin, middle, depth + 1);
           integrate_wedge(along_e, along_f, h, middle, end, depth + 1);

@@ -35,7 +35,7 @@ def time_step(quoin, prm, sets):
                               stdout=subprocess.PIPE,
                               universal_newlines=True).stdout
     return (float(re.search(r"stage pulse: time step (\S+) s", text).group(1)),
-            int(re.search(r"time step \S+ s, (\d+) block steps?,",
+            int(re.search(r"time step \S+ s, (\d+) steps of the blocks,",
                           text).group(1)))
 
 

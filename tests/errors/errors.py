@@ -17,6 +17,7 @@ import math
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -164,6 +165,22 @@ def base_case_runs(quoin, folder):
     times = [[row[0] for row in rows] for rows in tables(output)[0].values()]
     if times[0] != times[1]:
         raise Failure("the tables have rows of other times")
+
+
+def quiet_run(quoin, folder):
+    """--quiet leaves warnings on the screen; the log has all."""
+    prm = prepare(folder)
+    status, printed = run([quoin, prm, "--quiet"])
+    expect(status, printed, 0, ["Warning: stage first: local damping"])
+    for line in printed.splitlines():
+        if not line.startswith("Warning: "):
+            raise Failure("it printed: %s" % line)
+    with open(os.path.join(folder, "output", "log.txt")) as stream:
+        log = stream.read()
+    expect(0, log, 0, printed.splitlines() + ["finished: "])
+    status, printed = run([quoin, prm, "--quiet", "--check"])
+    if status != 0 or printed:
+        raise Failure("exit status %d; it printed:\n%s" % (status, printed))
 
 
 def boundary_case_runs(quoin, folder):
@@ -680,6 +697,33 @@ def starting(words, folder):
     return process
 
 
+def interrupted_before_the_steps(quoin, folder):
+    """Ctrl-C while the mesh is made: one line, and the run ends."""
+    prm = prepare(folder)
+    with open(os.path.join(folder, "base.geo"), "a") as stream:
+        stream.write("\nMesh.CharacteristicLengthMax = 5e-4;\n")
+    process = subprocess.Popen([quoin, prm], env=ENVIRONMENT, text=True,
+                               stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    children = "/proc/%d/task/%d/children" % (process.pid, process.pid)
+    deadline = time.monotonic() + 60
+    while process.poll() is None and time.monotonic() < deadline:
+        with open(children) as stream:
+            if stream.read():
+                break
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    _, printed = process.communicate(timeout=60)
+    if process.returncode != -signal.SIGINT:
+        raise Failure("exit status %d; it printed:\n%s"
+                      % (process.returncode, printed))
+    if printed != "interrupted by SIGINT before the first step: nothing was " \
+                  "computed\n":
+        raise Failure("it printed:\n%s" % printed)
+    if os.path.exists(os.path.join(folder, "output")):
+        raise Failure("it left an output folder")
+    return printed
+
+
 LONG = ["--set", "Stages/first/Duration=1e3", "--set", "Histories/Interval=1",
         "--set", "Output/Checkpoint interval=0.05"]
 
@@ -939,15 +983,15 @@ def full_disk_on_two_ranks(quoin, folder):
     return fill_disk(quoin, folder, 2)
 
 
-FUNCTIONS = [base_case_runs, boundary_case_runs, check_writes_nothing,
-             error_in_an_included_file, schema, no_arguments,
+FUNCTIONS = [base_case_runs, quiet_run, boundary_case_runs,
+             check_writes_nothing, error_in_an_included_file, schema, no_arguments,
              unknown_option, output_below_a_file,
              read_only_output_on_two_ranks, full_disk, no_number,
              no_number_at_the_end, runaway, reported_block, deleted_block,
              other_ranks, failure_of_one_rank, more_ranks_than_rigid_blocks,
              other_parameters, nothing_to_resume, failing_block_leaves,
              safety_changes_nothing, last_allowed_step, implicit_checkpoints,
-             implicit_limit_load,
+             implicit_limit_load, interrupted_before_the_steps,
              two_runs_at_once, odd_names, file_of_another_system,
              far_from_the_origin, blocks_that_overlap, gmsh_comes_to_its_end,
              output_is_a_file, old_results, changed_inputs,

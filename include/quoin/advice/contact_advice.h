@@ -43,6 +43,11 @@ namespace quoin
       for new contacts alone beside which blocks do not deform. */
   void check_contacts(const Model<2> &model, Advice &advice);
 
+  /** Warns of sets between rigid blocks that sink into each other under
+      @p gravity [m/s^2] of a column as high as the model. Collective. */
+  void check_rigid_blocks(const Model<2> &model, double gravity,
+                          Advice &advice);
+
   /** What the loads of a stage do to blocks; 0: not known. */
   struct Agitation
   {

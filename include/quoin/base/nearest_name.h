@@ -4,6 +4,8 @@
 #ifndef quoin_base_nearest_name_h
 #define quoin_base_nearest_name_h
 
+#include <quoin/base/known_names.h>
+
 #include <string>
 #include <vector>
 
@@ -15,6 +17,30 @@ namespace quoin
   /** @p names, those like @p wanted first. */
   std::vector<std::string> nearest_first(const std::string &wanted,
                                          std::vector<std::string> names);
+
+  /** The one of @p names that was likely meant by @p wanted; empty: none. */
+  std::string nearest_name(const std::string &wanted,
+                           const std::vector<std::string> &names);
+
+  /** known_names() for a message that @p wanted is none of @p items; ". The
+     nearest one is 'b'" follows if that was likely meant. */
+  template <typename Items, typename NameOf>
+  std::string known_names_like(const std::string &wanted, const Items &items,
+                               const NameOf &name_of)
+  {
+    std::vector<std::string> names;
+    for (const auto &item : items)
+      names.push_back(std::invoke(name_of, item));
+    const std::string nearest = nearest_name(wanted, names);
+    return known_names(names)
+           + (nearest.empty() ? "" : ". The nearest one is '" + nearest + "'");
+  }
+  template <typename Names>
+  std::string known_names_like(const std::string &wanted, const Names &names)
+  {
+    return known_names_like(wanted, names,
+                            [](const std::string &name) { return name; });
+  }
 } // namespace quoin
 
 #endif

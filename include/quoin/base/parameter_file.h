@@ -4,7 +4,7 @@
 #ifndef quoin_base_parameter_file_h
 #define quoin_base_parameter_file_h
 
-#include <deal.II/base/parameter_handler.h>
+#include <quoin/base/noted_parameters.h>
 
 #include <string>
 #include <vector>
@@ -32,6 +32,10 @@ namespace quoin
     /** The names of the subsections that it has in @p section, in their order.
      */
     std::vector<std::string> subsections(const std::string &section) const;
+
+    /** Throws an InputError about an override of an entry of @p prm that has
+        not been read, so that it has no effect. */
+    void refuse_idle_overrides(NotedParameters &prm) const;
 
   private:
     std::string file;

@@ -161,6 +161,14 @@ namespace quoin
                             NodeVector<2> *force) const;
 
     /**
+     * Adds the forces [N] of intact joints that are as stiff as they can become
+     * to @p force, for nodes displaced by @p displacement [m] from @p nodes.
+     */
+    void add_elastic_forces(const NodeRecord<2> *nodes,
+                            const NodeVector<2> *displacement,
+                            NodeVector<2> *force) const;
+
+    /**
      * What add_forces() does, of all segments or of segment @p i, with its
      * derivative, consistent with the update of @p history, if
      * @p with_stiffness; otherwise stiffness and inelastic_gradient are not

@@ -125,12 +125,24 @@ namespace quoin
     /** Takes the largest @p displacement [m] at a @p time later than before. */
     bool has_failed(double time, double displacement);
 
+    /**
+     * Whether the model has moved on at some time: beyond the limit, by 1.8
+     * times in the last doubling of the time. If it is at rest afterwards,
+     * something has caught it, perhaps the heap that it fell to, which proves
+     * neither that it stands nor that it fails.
+     */
+    bool has_moved_on() const
+    {
+      return moved_on;
+    }
+
   private:
     /** The displacement at @p time since the start, interpolated [m]. */
     double displacement_at(double time) const;
 
     static constexpr double growth = 1.8;
     const double limit, start;
+    bool moved_on = false;
     std::vector<double> times, displacements;
   };
 } // namespace quoin

@@ -134,6 +134,9 @@ namespace quoin
     }
     /** The same for the cells as plastic flow has left them; collective. */
     StableTimeStep<dim> stability_at(const State<dim> &state) const;
+    /** Adds springs wherever blocks may touch to the bound of local nodes
+        [N/m]. Collective. */
+    void add_contact_bound(std::vector<NodeStiffness<dim>> &bound) const;
     /**
      * Lumped masses of owned nodes and ghosts [kg]; zero at the corners of
      * quadratic triangles.
@@ -160,8 +163,6 @@ namespace quoin
     /** Adds springs of the joints to the bound of the local nodes. */
     void add_joint_bound(const State<dim> &state,
                          std::vector<NodeStiffness<dim>> &bound) const;
-    /** Adds springs wherever blocks may touch. Collective. */
-    void add_contact_bound(std::vector<NodeStiffness<dim>> &bound) const;
     /** Adds to both bounds, of owned nodes [N/m] and of rigid blocks [1/s^2],
         what dashpots take of the step. Collective. */
     void add_dashpot_bound(std::vector<NodeStiffness<dim>> &bound,

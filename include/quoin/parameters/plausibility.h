@@ -11,6 +11,9 @@ namespace quoin
   /** Young's modulus below which no stone, brick or soil is [Pa]. */
   constexpr double softest_modulus = 1e6;
 
+  /** Normal stiffness below which no joint of blocks that matter is [Pa/m]. */
+  constexpr double softest_joint = 1e5;
+
   /**
    * Warnings about values that are allowed but far from those of all rocks,
    * bricks, mortars, concretes and soils, with the unit that was likely meant:

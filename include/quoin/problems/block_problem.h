@@ -24,8 +24,10 @@ namespace quoin
     std::unique_ptr<Stage> make_stage(unsigned int index) override;
     void restore(unsigned int index) override;
     void open_outputs() override;
-    void summarise(nlohmann::json &summary, double seconds) const override;
-    ClosingLines closing_lines(const nlohmann::json &summary) const override;
+    void summarise(nlohmann::ordered_json &summary,
+                   double seconds) const override;
+    ClosingLines
+    closing_lines(const nlohmann::ordered_json &summary) const override;
     void complete_state() override;
     void save(boost::archive::binary_oarchive &archive) override;
     void load(boost::archive::binary_iarchive &archive,
@@ -37,15 +39,19 @@ namespace quoin
     /** Reports the time step of each stage, or its number of degrees of
         freedom, and warnings; throws an InputError about wrong stages. */
     void report_stages();
+    /** Says how careful the bound of the time step is. */
+    void report_highest_frequency();
     /** Warns of likely mistakes, once stage @p index has begun with the state
         @p begun. */
     void advise_about_stage(unsigned int index, const State<dim> &begun) const;
-    void summarise_searches(nlohmann::json &summary) const;
-    void summarise_outcomes(nlohmann::json &summary) const;
+    void summarise_searches(nlohmann::ordered_json &summary) const;
+    void summarise_outcomes(nlohmann::ordered_json &summary) const;
     /** Adds the share of each phase in the time. Collective. */
-    void summarise_time(nlohmann::json &summary, double seconds) const;
-    void summarise_contacts(nlohmann::json &summary, double seconds) const;
-    void summarise_bandwidth(nlohmann::json &summary, double seconds) const;
+    void summarise_time(nlohmann::ordered_json &summary, double seconds) const;
+    void summarise_contacts(nlohmann::ordered_json &summary,
+                            double seconds) const;
+    void summarise_bandwidth(nlohmann::ordered_json &summary,
+                             double seconds) const;
     /** Whether a result with a large energy residual can be used, and what to
         change. */
     std::string residual_advice() const;
@@ -63,7 +69,7 @@ namespace quoin
 
   // Members that exist in two dimensions only.
   template <>
-  void BlockProblem<2>::summarise_contacts(nlohmann::json &summary,
+  void BlockProblem<2>::summarise_contacts(nlohmann::ordered_json &summary,
                                            double seconds) const;
 } // namespace quoin
 

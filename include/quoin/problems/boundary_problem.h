@@ -21,8 +21,10 @@ namespace quoin
     unsigned int n_stages() const override;
     std::unique_ptr<Stage> make_stage(unsigned int index) override;
     void open_outputs() override;
-    void summarise(nlohmann::json &summary, double seconds) const override;
-    ClosingLines closing_lines(const nlohmann::json &summary) const override;
+    void summarise(nlohmann::ordered_json &summary,
+                   double seconds) const override;
+    ClosingLines
+    closing_lines(const nlohmann::ordered_json &summary) const override;
     void complete_state() override;
     void save(boost::archive::binary_oarchive &archive) override;
     void load(boost::archive::binary_iarchive &archive,

@@ -15,6 +15,16 @@
 
 namespace quoin
 {
+  /** Forces of a stage along the axes [N]. */
+  struct ForceBalance
+  {
+    std::array<double, 3> applied{};  /**< resultants of the loads */
+    std::array<double, 3> supports{}; /**< resultants of the supports */
+    /** Sums of the magnitudes of the loads on nodes and platens, whose
+        resultant may be zero. */
+    std::array<double, 3> size{};
+  };
+
   /**
    * What the rows of a stage have shown of its loads: the largest factor of a
    * load pattern, and whether the supports took what was applied.
@@ -33,22 +43,20 @@ namespace quoin
     /** Takes a row with the @p factor of a load pattern. */
     void add_factor(double factor, double displacement, double time);
 
-    /** Takes a row at @p time [s]: resultants of the @p applied loads and of
-        the @p supports along the axes [N]. */
-    void add_forces(const std::array<double, 3> &applied,
-                    const std::array<double, 3> &supports, double time);
+    /** Takes a row at @p time [s]. */
+    void add_forces(const ForceBalance &forces, double time);
 
     /**
      * What is to be warned of: that along an axis along which the applied force
      * varies, the largest force that supports took at any time is less than the
-     * largest applied one, by more than 5 %. A model that vibrates about a
-     * balance passes, as its supports take more than is applied, too. Empty:
-     * nothing.
+     * largest applied one, by more than 5 % of the size of the loads. A model
+     * that vibrates about a balance passes, as its supports take more than is
+     * applied, too; so do loads that balance each other. Empty: nothing.
      */
     std::string warning() const;
 
     /** Adds its figures to those of the stage in summary.json. */
-    void summarise(nlohmann::json &stage) const;
+    void summarise(nlohmann::ordered_json &stage) const;
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
@@ -56,7 +64,7 @@ namespace quoin
       archive &peak.factor &peak.displacement &peak.time;
       for (Axis &axis : axes)
         archive &axis.lowest &axis.highest &axis.most_up &axis.most_down &axis
-            .applied &axis.time;
+            .applied &axis.time &axis.size;
     }
 
   private:
@@ -69,6 +77,7 @@ namespace quoin
       double highest = -std::numeric_limits<double>::infinity();
       double most_up = 0., most_down = 0.;
       double applied = 0., time = 0.;
+      double size = 0.; /**< largest sum of magnitudes of the loads [N] */
 
       /** Largest applied force that supports took, in its direction [N]. */
       double taken() const;
@@ -80,15 +89,9 @@ namespace quoin
     std::array<Axis, 3> axes;
   };
 
-  /** Resultants along the axes of the loads and of the supports of a stage [N].
-   */
-  struct ForceBalance
-  {
-    std::array<double, 3> applied{}, supports{};
-  };
-
   /**
-   * Those at @p load_time [s] of the stage that has begun, after the step of
+   * The forces at @p load_time [s] of the stage that has begun, after the step
+   * of
    * @p state from there on. Forces of platens count as applied, reactions of
    * all other loads that move nodes, and of driven platens, as supports.
    * Collective.

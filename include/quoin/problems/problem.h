@@ -126,14 +126,16 @@ namespace quoin
     virtual void open_outputs() = 0;
     /** Adds figures to summary.json; @p seconds that this process has computed.
      */
-    virtual void summarise(nlohmann::json &summary, double seconds) const = 0;
+    virtual void summarise(nlohmann::ordered_json &summary,
+                           double seconds) const = 0;
     /** Last line of the log from this summary: "3 steps", and the text after
         the run time. */
     struct ClosingLines
     {
       std::string what, figures;
     };
-    virtual ClosingLines closing_lines(const nlohmann::json &summary) const = 0;
+    virtual ClosingLines
+    closing_lines(const nlohmann::ordered_json &summary) const = 0;
 
     /** Called before save(): checks and completes the state. */
     virtual void complete_state()                        = 0;

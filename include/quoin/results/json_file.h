@@ -16,7 +16,8 @@ namespace quoin
    *
    * @throws RunError if the file cannot be written
    */
-  void write_json(const std::string &path, const nlohmann::json &object);
+  void write_json(const std::string &path,
+                  const nlohmann::ordered_json &object);
 } // namespace quoin
 
 #endif

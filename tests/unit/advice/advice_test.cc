@@ -258,8 +258,9 @@ TEST(ModelSummary, SaysWhatThereIs)
             "joints joint: 3 m; elastic, kn 2e+10 Pa/m, ks 1e+10 Pa/m");
   const auto faces = face_lines(parameters, nodes);
   ASSERT_EQ(faces.size(), 1U);
-  EXPECT_EQ(faces[0], "joints joint: 3 faces between two blocks; while closed "
-                      "too stiff by 22.2 % in rotation");
+  EXPECT_EQ(faces[0], "joints joint: 3 faces between two blocks, which while "
+                      "they are closed make a joint 22.2 % too stiff when its "
+                      "blocks rotate");
   const auto loads = load_lines<2>(parameters, nodes);
   ASSERT_EQ(loads.size(), 2U);
   EXPECT_EQ(loads[0], "load base: prescribed motion on 4 nodes of bottom, "
@@ -268,6 +269,20 @@ TEST(ModelSummary, SaysWhatThereIs)
                       "0 to 1000 Pa");
   EXPECT_EQ(parameters.stages[0].text(false),
             "stage stage: loads base, push; lasts 1 s; no damping");
+}
+
+TEST(ModelSummary, LoadsWhoseFactorIsSought)
+{
+  Parameters parameters        = good_parameters();
+  parameters.loads[1]          = traction("push", "top", "1e3", "");
+  parameters.stages[0].loads   = { "base" };
+  parameters.stages[0].pattern = PatternParameters{ { "push" }, {}, {} };
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  const auto loads = load_lines<2>(parameters, TestNodes(mesh));
+  ASSERT_EQ(loads.size(), 2U);
+  EXPECT_EQ(loads[1], "load push: traction on 4 nodes of top, horizontal 1000 "
+                      "Pa, times the factor that stage stage seeks");
 }
 
 namespace

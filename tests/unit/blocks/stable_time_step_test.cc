@@ -4,6 +4,9 @@
 #include "../model/test_models.h"
 
 #include <quoin/blocks/stable_time_step.h>
+#include <quoin/dynamics/highest_frequency.h>
+
+#include <Eigen/Dense>
 
 using namespace quoin;
 using namespace quoin::test;
@@ -31,14 +34,12 @@ namespace
     return result;
   }
 
-  /**
-   * The largest omega^2 of the assembled operator: power iteration with the
-   * stiffness by central differences of the forces.
-   */
+  /** The largest omega^2 of the assembled operator, with the stiffness by
+      central differences of the forces. */
   double exact_eigenvalue(const Model<2> &model)
   {
     const unsigned int n = 2 * model.mass().size();
-    std::vector<std::vector<double>> K(n, std::vector<double>(n));
+    Eigen::MatrixXd A(n, n); // M^-1/2 K M^-1/2
     const double h = 1e-6;
     for (unsigned int j = 0; j < n; ++j)
     {
@@ -48,33 +49,14 @@ namespace
       u[j]             = -h;
       const auto minus = forces(model, u);
       for (unsigned int i = 0; i < n; ++i)
-        K[i][j] = (minus[i] - plus[i]) / (2. * h);
+        A(i, j) = (minus[i] - plus[i])
+                  / (2. * h * std::sqrt(model.mass()[i / 2])
+                     * std::sqrt(model.mass()[j / 2]));
     }
-
-    std::mt19937 random(7);
-    std::uniform_real_distribution<double> uniform(-1., 1.);
-    std::vector<double> x(n), y(n);
-    for (double &value : x)
-      value = uniform(random);
-    double eigenvalue = 0.;
-    for (unsigned int iteration = 0; iteration < 20000; ++iteration)
-    {
-      double xKx = 0., xMx = 0., norm = 0.;
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        y[i] = 0.;
-        for (unsigned int j = 0; j < n; ++j)
-          y[i] += K[i][j] * x[j];
-        xKx += x[i] * y[i];
-        xMx += x[i] * x[i] * model.mass()[i / 2];
-        y[i] /= model.mass()[i / 2];
-        norm += y[i] * y[i];
-      }
-      eigenvalue = xKx / xMx;
-      for (unsigned int i = 0; i < n; ++i)
-        x[i] = y[i] / std::sqrt(norm);
-    }
-    return eigenvalue;
+    return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+               0.5 * (A + A.transpose()), Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
   }
 
   double largest_speed(const State<2> &state)
@@ -151,6 +133,26 @@ TEST(StableTimeStep, BoundsTheLargestFrequencyClosely)
     EXPECT_GE(bound, exact * (1. - 1e-6)) << kn;
     EXPECT_LE(bound, 1.3 * exact) << kn;
   }
+}
+
+TEST(HighestFrequency, IsThatOfTheAssembledOperator)
+{
+  // Few degrees of freedom, of which the iteration finds all, and more.
+  for (const unsigned int n : { 2U, 5U })
+    for (const auto &[kn, ks] : joint_stiffnesses)
+    {
+      BlockMesh<2> mesh;
+      make_stack(mesh, 2 * n, n);
+      ModelParameters parameters = two_blocks(kn, ks);
+      parameters.materials       = { material("lower", 8000., 1e9, 0.4),
+                                     material("upper", 1000., 5e10, 0.) };
+      const TestNodes nodes(mesh);
+      const Model<2> model(nodes, parameters);
+      const double exact = exact_eigenvalue(model);
+      const double found = highest_squared_frequency(model, model.mass(), {});
+      EXPECT_GE(found, exact * (1. - 1e-6)) << n << " " << kn;
+      EXPECT_LE(found, exact * 1.015) << n << " " << kn;
+    }
 }
 
 TEST(StableTimeStep, BoundsTheLargestFrequencyOfUnequalBlocks)

@@ -108,6 +108,21 @@ TEST(FailureWatch, WhatSlowsDownHasNotFailed)
   FailureWatch settles(4.5, 0.);
   for (unsigned int i = 1; i <= 100; ++i)
     EXPECT_FALSE(settles.has_failed(i, 5. * (1. - std::exp(-1. / 3. * i))));
+  EXPECT_FALSE(settles.has_moved_on());
+}
+
+TEST(FailureWatch, WhatIsCaughtFarAwayHasMovedOn)
+{
+  // It falls from 1 m at t = 10 to 2.5 m at t = 13 and lies still: 2.5 times as
+  // far as at half the time, where that of a quarter was no less.
+  for (const double limit : { 1.5, 3. })
+  {
+    FailureWatch caught(limit, 0.);
+    for (double t = 0.1; t <= 40.; t += 0.1)
+      EXPECT_FALSE(
+          caught.has_failed(t, 1. + 0.5 * std::clamp(t - 10., 0., 3.)));
+    EXPECT_EQ(caught.has_moved_on(), limit < 2.5);
+  }
 }
 
 TEST(FailureWatch, WhatGoesOnMovingHasFailed)

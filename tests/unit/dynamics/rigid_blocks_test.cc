@@ -6,6 +6,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/blocks/rigid_blocks.h>
+#include <quoin/dynamics/highest_frequency.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/mesh/block_numbering.h>
 
@@ -559,6 +560,12 @@ TEST(RigidBlocks, BoundOfTheFrequency)
       const double bound = model.stability().largest_eigenvalue(model.mass());
       EXPECT_GE(bound, exact * (1. - 1e-6));
       EXPECT_LE(bound, 1.5 * exact);
+      EXPECT_NEAR(
+          highest_squared_frequency(model, model.mass(), { { 1., 1. }, {} }),
+          exact, 1e-5 * exact);
+      EXPECT_NEAR(
+          highest_squared_frequency(model, model.mass(), { { 4., 4. }, {} }),
+          exact / 4., 1e-5 * exact);
     }
 }
 

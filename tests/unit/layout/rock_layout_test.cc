@@ -244,7 +244,13 @@ TEST(RockLayout, keeps_the_area_and_overlaps_nowhere)
           EXPECT_LT(overlap, 1e-9) << seed;
         }
 
+      const std::string report = rock_report(rock, layout);
+      const auto says          = [&](const std::string &words)
+      { return report.find(words) != std::string::npos; };
+      EXPECT_EQ(says("kept as cracks"), ends == RockParameters::keep);
+      EXPECT_EQ(says("lengthened"), ends == RockParameters::extend);
       const double cut = layout.changes.dead_length;
+      EXPECT_EQ(says("cut back"), layout.changes.n_dead_ends > 0);
       if (ends == RockParameters::cut)
       {
         EXPECT_GT(cut, 0.);
@@ -278,7 +284,9 @@ TEST(RockLayout, joins_slivers_to_the_neighbour_with_the_longest_joint)
   EXPECT_EQ(layout.n_blocks(), 2u);
   EXPECT_EQ(layout.changes.n_slivers, 1u);
   EXPECT_NEAR(layout.changes.sliver_area, 2., 1e-12);
-  EXPECT_NE(rock_report(rock, layout).find("slivers: 1 block of 2 m^2"),
+  EXPECT_NE(rock_report(rock, layout)
+                .find("0.3 m: 1 block, 2 m^2 in "
+                      "all, joined to a neighbour"),
             std::string::npos);
 }
 

@@ -285,13 +285,14 @@ TEST(BlockSplitter, RefusesNamesThatDoNotExist)
   add_curve(data, "fault", 0, 1, 2, 1);
   BlockMesh<2> mesh;
   expect_input_error([&] { split_into_blocks(data, along({ "falt" }), mesh); },
-                     { "no physical curve 'falt'", "The mesh has 'fault'" });
+                     { "no physical curve 'falt'",
+                       "The mesh has fault. The nearest one is 'fault'." });
   expect_input_error([&] { split_into_blocks(data, along({ "" }), mesh); },
                      { "no physical curve ''" });
   SplitOptions options;
   options.joints_between = { { "rock", "soil" } };
   expect_input_error([&] { split_into_blocks(data, options, mesh); },
-                     { "no physical surface 'soil'", "The mesh has 'rock'" });
+                     { "no physical surface 'soil'", "The mesh has rock." });
   options.joints_between = { { "rock", "rock" } };
   expect_input_error([&] { split_into_blocks(data, options, mesh); },
                      { "'rock' with itself" });

@@ -125,15 +125,16 @@ TEST(BlockOutput, UnwritableDirectory)
 TEST(JsonFile, RoundTrip)
 {
   const TemporaryDirectory directory;
-  nlohmann::json object;
+  nlohmann::ordered_json object;
   object["energy residual"] = 1e-12;
   object["steps"]           = 5;
   object["ratio"]           = std::nan("");
   write_json(directory / "summary.json", object);
-  const nlohmann::json back
-      = nlohmann::json::parse(contents(directory / "summary.json"));
+  const nlohmann::ordered_json back
+      = nlohmann::ordered_json::parse(contents(directory / "summary.json"));
   EXPECT_EQ(back["steps"], 5);
   EXPECT_EQ(back["energy residual"], 1e-12);
   EXPECT_TRUE(back["ratio"].is_null());
+  EXPECT_EQ(std::next(back.begin()).key(), "steps"); // the order is kept
   EXPECT_THROW(write_json(directory / "summary.json/x.json", object), RunError);
 }

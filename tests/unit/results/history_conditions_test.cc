@@ -90,7 +90,7 @@ TEST(HistoryConditions, LongWords)
 
 TEST(HistoryConditions, RefusesWhatItCannotDecide)
 {
-  expect_refused("forces > 1", "'forces' is no history. Known are: force, ");
+  expect_refused("forces > 1", "The nearest one is 'force'.");
   expect_refused("crown settlement > 1", "'crown' is no history. Known are: ");
   expect_refused("force", "compares nothing");
   expect_refused("1 < 2", "names no history. Known are: time, force, "

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/dynamics/highest_frequency.h>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace quoin
+{
+  namespace
+  {
+    constexpr unsigned int n_iterations = 80;
+    /** The result is rounded up to as many binary digits, so that it is the
+        same on any number of ranks. */
+    constexpr int n_digits = 20;
+
+    /** A number of the normal distribution that follows from @p seed. */
+    double random_number(std::uint64_t seed)
+    {
+      const auto uniform = [&seed]() // splitmix64, in (0, 1]
+      {
+        seed += 0x9e3779b97f4a7c15U;
+        std::uint64_t z = (seed ^ (seed >> 30)) * 0xbf58476d1ce4e5b9U;
+        z               = (z ^ (z >> 27)) * 0x94d049bb133111ebU;
+        return double((z >> 11) + 1) / 9007199254740992.;
+      };
+      const double radius = std::sqrt(-2. * std::log(uniform()));
+      return radius * std::cos(6.283185307179586 * uniform());
+    }
+
+    /** The stiffness between unit masses: M^-1/2 K M^-1/2 of the degrees of
+        freedom of this rank, dim of each deformable node and three of each
+        rigid block. */
+    template <int dim>
+    class ScaledStiffness
+    {
+    public:
+      ScaledStiffness(const Model<dim> &model, const std::vector<double> &mass,
+                      const RigidBlockStage &rigid_stage)
+        : model(model), nodes(model.nodes()), state(model.initial_state()),
+          velocity(nodes.n_local(), NodeVector<dim>{}),
+          force(nodes.n_local(), NodeVector<dim>{})
+      {
+        for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
+          for (unsigned int d = 0; d < dim; ++d)
+            scale.push_back(1. / std::sqrt(mass[i]));
+        const RigidBlocks &rigid = model.rigid_blocks();
+        for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+        {
+          const double factor = rigid_stage.mass_factor[b];
+          const auto &block   = rigid.block(b);
+          for (const double inertia : { block.mass, block.mass, block.inertia })
+            scale.push_back(1. / std::sqrt(factor * inertia));
+        }
+        if constexpr (dim == 2)
+          if (model.parameters().large_displacements)
+          {
+            contacts.assign(nodes.n_local(), NodeStiffness<dim>{});
+            model.add_contact_bound(contacts);
+            nodes.exchange().add_to_owners(contacts.data());
+          }
+      }
+
+      unsigned int size() const
+      {
+        return scale.size();
+      }
+
+      /** The same numbers for the same bodies on any number of ranks. */
+      Eigen::VectorXd random_vector() const
+      {
+        Eigen::VectorXd result(size());
+        unsigned int k = 0;
+        for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
+        {
+          std::uint64_t seed = nodes.block_of_node(i);
+          for (const double x : state.nodes[i].X)
+          {
+            std::uint64_t bits;
+            std::memcpy(&bits, &x, sizeof(bits));
+            seed = 0x9e3779b97f4a7c15U * (seed ^ bits ^ (bits >> 31));
+          }
+          for (unsigned int d = 0; d < dim; ++d)
+            result[k++] = random_number(seed + d);
+        }
+        const RigidBlocks &rigid = model.rigid_blocks();
+        for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
+          for (unsigned int d = 0; d < 3; ++d)
+            result[k++] = random_number(
+                4 * nodes.block_of_node(rigid.block(b).begin) + d);
+        return result;
+      }
+
+      /** Collective. */
+      Eigen::VectorXd times(const Eigen::VectorXd &x)
+      {
+        set_velocities(x);
+        nodes.exchange().update_ghosts(velocity.data());
+        std::fill(force.begin(), force.end(), NodeVector<dim>{});
+        // The forces of stiffness-proportional damping with unit coefficient.
+        for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
+          model.blocks().add_viscous_forces(tile, state.nodes.data(),
+                                            velocity.data(), 1., force.data());
+        if constexpr (dim == 2)
+          if (contacts.empty())
+            model.joints().add_elastic_forces(state.nodes.data(),
+                                              velocity.data(), force.data());
+        nodes.exchange().add_to_owners(force.data());
+        if constexpr (dim == 2)
+          for (unsigned int i = 0; i < nodes.n_owned() && !contacts.empty();
+               ++i)
+          {
+            const auto [xx, yy, xy] = contacts[i];
+            const auto [vx, vy]     = velocity[i].v;
+            force[i].v[0] -= xx * vx + xy * vy;
+            force[i].v[1] -= xy * vx + yy * vy;
+          }
+        return scaled_forces();
+      }
+
+    private:
+      void set_velocities(const Eigen::VectorXd &x)
+      {
+        unsigned int k = 0;
+        for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
+          for (unsigned int d = 0; d < dim; ++d, ++k)
+            velocity[i].v[d] = scale[k] * x[k];
+        if constexpr (dim == 2)
+          for_each_rigid_node(
+              [&](const unsigned int k, const unsigned int i,
+                  const std::array<double, 2> &arm)
+              {
+                const double spin = scale[k + 2] * x[k + 2];
+                velocity[i].v[0]  = scale[k] * x[k] - spin * arm[1];
+                velocity[i].v[1]  = scale[k + 1] * x[k + 1] + spin * arm[0];
+              });
+      }
+
+      Eigen::VectorXd scaled_forces() const
+      {
+        Eigen::VectorXd result = Eigen::VectorXd::Zero(size());
+        unsigned int k         = 0;
+        for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)
+          for (unsigned int d = 0; d < dim; ++d, ++k)
+            result[k] = -scale[k] * force[i].v[d];
+        if constexpr (dim == 2)
+          for_each_rigid_node(
+              [&](const unsigned int k, const unsigned int i,
+                  const std::array<double, 2> &arm)
+              {
+                const double *f = force[i].v;
+                result[k] -= scale[k] * f[0];
+                result[k + 1] -= scale[k + 1] * f[1];
+                result[k + 2] -= scale[k + 2] * (arm[0] * f[1] - arm[1] * f[0]);
+              });
+        return result;
+      }
+
+      /** Calls @p use (first degree of freedom, node, its arm) for the nodes of
+          rigid blocks. */
+      template <typename Use>
+      void for_each_rigid_node(const Use &use) const
+      {
+        const RigidBlocks &rigid = model.rigid_blocks();
+        const auto &states       = state.template get<RigidBlockStates>();
+        unsigned int k           = dim * nodes.n_deformable_nodes();
+        for (unsigned int b = 0; b < rigid.n_blocks(); ++b, k += 3)
+        {
+          const RigidBlocks::Block &block = rigid.block(b);
+          for (unsigned int i = block.begin; i < block.end; ++i)
+          {
+            std::array<double, 2> arm;
+            for (unsigned int d = 0; d < 2; ++d)
+              arm[d] = state.nodes[i].X[d] + state.nodes[i].u[d]
+                       - block.centre[d] - states[b].displacement[d];
+            use(k, i, arm);
+          }
+        }
+      }
+
+      const Model<dim> &model;
+      const NodeMap<dim> &nodes;
+      const State<dim> state;
+      std::vector<double> scale;                /**< 1 / sqrt(mass) */
+      std::vector<NodeStiffness<dim>> contacts; /**< or empty */
+      AlignedArray<NodeVector<dim>> velocity, force;
+    };
+  } // namespace
+
+  template <int dim>
+  double highest_squared_frequency(const Model<dim> &model,
+                                   const std::vector<double> &mass,
+                                   const RigidBlockStage &rigid_stage)
+  {
+    const MPI_Comm communicator = model.nodes().communicator();
+    const auto product = [&](const Eigen::VectorXd &a, const Eigen::VectorXd &b)
+    { return dealii::Utilities::MPI::sum(a.dot(b), communicator); };
+
+    ScaledStiffness<dim> stiffness(model, mass, rigid_stage);
+    const double n
+        = dealii::Utilities::MPI::sum(double(stiffness.size()), communicator);
+    Eigen::VectorXd v      = stiffness.random_vector();
+    Eigen::VectorXd before = Eigen::VectorXd::Zero(v.size());
+    v /= std::sqrt(product(v, v));
+    std::vector<double> diagonal, beside;
+    double beta = 0.;
+    while (diagonal.size() < n_iterations)
+    {
+      Eigen::VectorXd w  = stiffness.times(v) - beta * before;
+      const double alpha = product(v, w);
+      w -= alpha * v;
+      beta = std::sqrt(product(w, w));
+      diagonal.push_back(alpha);
+      // The start is in few eigenvectors, of which all are found.
+      if (diagonal.size() >= n || beta <= 1e-8 * std::abs(diagonal[0]))
+        break;
+      beside.push_back(beta);
+      before = v;
+      v      = w / beta;
+    }
+    const unsigned int k = diagonal.size();
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+    solver.computeFromTridiagonal(
+        Eigen::Map<const Eigen::VectorXd>(diagonal.data(), k),
+        Eigen::Map<const Eigen::VectorXd>(beside.data(), k - 1),
+        Eigen::EigenvaluesOnly);
+    double error = 0.; // relative
+    if (k == n_iterations)
+    {
+      const double share = std::log(n * std::pow(k - 1., 4.)) / (k - 1.);
+      error              = 0.103 * share * share;
+    }
+    int exponent = 0;
+    const double fraction
+        = std::frexp(solver.eigenvalues().maxCoeff() / (1. - error), &exponent);
+    return std::ldexp(std::ceil(std::ldexp(fraction, n_digits)),
+                      exponent - n_digits);
+  }
+
+  template double highest_squared_frequency(const Model<2> &,
+                                            const std::vector<double> &,
+                                            const RigidBlockStage &);
+  template double highest_squared_frequency(const Model<3> &,
+                                            const std::vector<double> &,
+                                            const RigidBlockStage &);
+} // namespace quoin
