@@ -392,7 +392,7 @@ TEST(SpaceMesh, RefusesWhatIsNoJoint)
       { "surface 'inside' is no face of the mesh", "Surface{...} In Volume" });
   expect_input_error([&]
                      { split_into_blocks(data, along({ "nowhere" }), mesh); },
-                     { "no physical surface 'nowhere'", "'side'" });
+                     { "no physical surface 'nowhere'", "has side, inside." });
   SplitOptions between;
   between.joints_between = { { "rock", "soil" } };
   expect_input_error([&] { split_into_blocks(data, between, mesh); },
