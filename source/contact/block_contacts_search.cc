@@ -384,8 +384,9 @@ namespace quoin
         point.shear_traction  = history.shear_traction[p];
         point.plastic_slip    = history.plastic_slip[p];
         point.plastic_opening = history.plastic_opening[p];
-        for (unsigned int j = 0; j < history.n_internal; ++j)
-          point.internal[j] = history.internal[p * history.n_internal + j];
+        for (unsigned int j = 0; j < JointHistory::most_internal; ++j)
+          if (!history.internal[j].empty())
+            point.internal[j] = history.internal[j][p];
         point.state   = history.state[p];
         point.area    = segment.area[k];
         point.opening = gaps[k][0];

@@ -5,11 +5,14 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/nearest_name.h>
 #include <quoin/contact/matched_joints.h>
+#include <quoin/joints/composite_lanes.h>
+#include <quoin/joints/coulomb_lanes.h>
 
 #include <algorithm>
 
 #include "joint_frame.h"
 #include "joint_points.h"
+#include "segment_lanes.h"
 
 namespace quoin
 {
@@ -116,6 +119,39 @@ namespace quoin
                               all_segments.begin(), all_segments.end(),
                               [s](const JointSegment &a) { return a.set <= s; })
                           - all_segments.begin());
+    group_segments();
+  }
+
+  void MatchedJoints::group_segments()
+  {
+    groups.clear();
+    group_begin.assign(1, 0);
+    for (unsigned int s = 0; s + 1 < set_begin.size(); ++s)
+    {
+      for (unsigned int i = set_begin[s]; i < set_begin[s + 1];
+           i += native_lanes)
+      {
+        SegmentGroup<native_lanes> group{};
+        group.first = i;
+        group.size  = std::min(native_lanes, set_begin[s + 1] - i);
+        for (unsigned int l = 0; l < native_lanes; ++l)
+        {
+          const JointSegment &segment
+              = all_segments[i + std::min(l, group.size - 1)];
+          for (unsigned int k = 0; k < 2; ++k)
+          {
+            group.nodes[k][l]     = segment.lower[k] * sizeof(NodeVector<2>);
+            group.nodes[2 + k][l] = segment.upper[k] * sizeof(NodeVector<2>);
+            if (l >= group.size)
+              continue;
+            group.area[2 * l + k]   = segment.area[k];
+            group.weight[2 * l + k] = segment.area[k] * segment.share;
+          }
+        }
+        groups.push_back(group);
+      }
+      group_begin.push_back(groups.size());
+    }
   }
 
   std::array<std::array<double, 2>, 2> joint_gaps(const JointSegment &segment,
@@ -133,54 +169,63 @@ namespace quoin
                                      EnergyAccounts &energy,
                                      NodeVector<2> *force) const
   {
-    // Positions first, for some all_segments at a time: the square roots and
-    // divisions of several then overlap, where one followed by its law would
-    // wait for each.
-    constexpr unsigned int chunk = 32;
-    std::array<JointFrame, chunk> frames;
-    std::array<std::array<double, 2>, 2 * chunk> gaps;
-    std::array<double, chunk> couples;
-
-    const unsigned int end = set_begin[set + 1];
-    for (unsigned int begin = set_begin[set]; begin < end; begin += chunk)
+    using F     = LaneFunctions<native_lanes>;
+    using Bits  = F::Bits;
+    using Value = F::Value;
+    const LawLanes<Law, native_lanes> laws(law);
+    const PointArrays arrays = arrays_of(history);
+    DissipationLanes<native_lanes> lost;
+    // Of the last group: beyond its end are points of another set, or none.
+    PointPack<2 * native_lanes> pack;
+    for (unsigned int g = group_begin[set]; g < group_begin[set + 1]; ++g)
     {
-      const unsigned int n = std::min(chunk, end - begin);
-      for (unsigned int j = 0; j < n; ++j)
-      {
-        const JointSegment &segment = all_segments[begin + j];
-        frames[j]                   = joint_frame(segment, nodes);
-        couples[j]                  = 0.;
-        for (unsigned int k = 0; k < 2; ++k)
-          gaps[2 * j + k] = joint_gap(segment, frames[j], nodes, k);
-      }
-      for (unsigned int j = 0; j < 2 * n; ++j)
-      {
-        const JointSegment &segment = all_segments[begin + j / 2];
-        const JointFrame &local     = frames[j / 2];
-        const unsigned int k        = j % 2;
-        const unsigned int p        = 2 * begin + j;
-        const auto [opening, slip]  = gaps[j];
-        if (history.handed_over[begin + j / 2])
-          continue;
-        const auto point
-            = advance_joint(law, opening, slip, segment.area[k] * segment.share,
-                            history, p, energy);
+      const auto &group  = groups[g];
+      const Bits present = SegmentLanes<native_lanes>::present(
+          group, history.handed_over.data());
+      if (!F::any(present))
+        continue;
+      const SegmentLanes<native_lanes> segments(group, nodes, present);
 
-        const double sigma = segment.area[k] * point.normal_traction;
-        const double tau   = segment.area[k] * point.shear_traction;
-        couples[j / 2] += tau * opening - sigma * slip;
-        NodeVector<2> &lower = force[segment.lower[k]];
-        NodeVector<2> &upper = force[segment.upper[k]];
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          const double f = sigma * local.normal[d] + tau * local.tangent[d];
-          lower.v[d] += f;
-          upper.v[d] -= f;
-        }
+      // Points of the group, in the order of the history.
+      const Value opening[2]
+          = { F::interleave_low(segments.opening[0], segments.opening[1]),
+              F::interleave_high(segments.opening[0], segments.opening[1]) };
+      const Value slip[2]
+          = { F::interleave_low(segments.slip[0], segments.slip[1]),
+              F::interleave_high(segments.slip[0], segments.slip[1]) };
+      const Bits there[2]     = { F::interleave_low(present, present),
+                                  F::interleave_high(present, present) };
+      const bool is_full      = group.size == native_lanes;
+      const PointArrays all   = arrays.from(2 * group.first);
+      const PointArrays first = is_full ? all : pack.arrays();
+      if (!is_full)
+        copy_points(all, first, 2 * group.size);
+      Value sigma[2], tau[2];
+      for (unsigned int h = 0; h < 2; ++h)
+      {
+        PointLanes<native_lanes> points{};
+        points.arrays     = first.from(h * native_lanes);
+        points.opening    = opening[h];
+        points.slip       = slip[h];
+        const Bits steady = laws.try_elastic(points);
+        if (F::all(steady & there[h]))
+          points.store_tractions();
+        else
+          laws.update(points, there[h],
+                      F::load(group.weight + h * native_lanes), lost);
+        const Value area = F::load(group.area + h * native_lanes);
+        sigma[h]         = area * points.sigma;
+        tau[h]           = area * points.tau;
       }
-      for (unsigned int j = 0; j < n; ++j)
-        subtract_couple(all_segments[begin + j], frames[j], couples[j], force);
+      if (!is_full)
+        copy_points(first, all, 2 * group.size);
+      segments.add_forces(
+          group, { F::even(sigma[0], sigma[1]), F::odd(sigma[0], sigma[1]) },
+          { F::even(tau[0], tau[1]), F::odd(tau[0], tau[1]) }, force);
     }
+    energy.friction += F::sum(lost.friction);
+    energy.fracture += F::sum(lost.fracture);
+    energy.crushing += F::sum(lost.crushing);
   }
 
   void MatchedJoints::prepare(State<2> &state) const

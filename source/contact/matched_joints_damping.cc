@@ -9,6 +9,7 @@
 
 #include "dashpot_tractions.h"
 #include "joint_frame.h"
+#include "segment_lanes.h"
 
 namespace quoin
 {
@@ -52,33 +53,70 @@ namespace quoin
     subtract_couple(segment, local, couple, force);
   }
 
+  template <typename Law>
+  void MatchedJoints::add_set_viscous_forces(
+      const unsigned int set, const Law &law, const NodeRecord<2> *nodes,
+      const JointHistory &history, const NodeVector<2> *velocity,
+      const double beta, NodeVector<2> *force) const
+  {
+    using F     = LaneFunctions<native_lanes>;
+    using Bits  = F::Bits;
+    using Value = F::Value;
+    for (unsigned int g = group_begin[set]; g < group_begin[set + 1]; ++g)
+    {
+      const auto &group = groups[g];
+      // beta kn and beta ks times the area, of the points that act.
+      double factor[2][2 * native_lanes]{};
+      bool acts = false;
+      for (unsigned int j = 0; j < 2 * group.size; ++j)
+      {
+        const unsigned int p = 2 * group.first + j;
+        if (history.state[p] == JointState::slipping
+            || history.state[p] == JointState::open)
+          continue;
+        const auto [kn, ks] = law.stiffness_at(history.normal_traction[p]);
+        factor[0][j]        = beta * kn * group.area[j];
+        factor[1][j]        = beta * ks * group.area[j];
+        acts                = true;
+      }
+      if (!acts)
+        continue;
+      const Bits present = SegmentLanes<native_lanes>::present(
+          group, history.handed_over.data());
+      const SegmentLanes<native_lanes> segments(group, nodes, present);
+      Value opening_rate[2], slip_rate[2];
+      segments.find_rates(group, velocity, opening_rate, slip_rate);
+      const auto of_point = [](const double *values, Value(&result)[2])
+      {
+        const Value a = F::load(values), b = F::load(values + native_lanes);
+        result[0] = F::even(a, b);
+        result[1] = F::odd(a, b);
+      };
+      Value sigma[2], tau[2];
+      of_point(factor[0], sigma);
+      of_point(factor[1], tau);
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        sigma[k] *= opening_rate[k];
+        tau[k] *= slip_rate[k];
+      }
+      segments.add_forces(group, sigma, tau, force);
+    }
+  }
+
   void MatchedJoints::add_viscous_forces(const NodeRecord<2> *nodes,
                                          const JointHistory &history,
                                          const NodeVector<2> *velocity,
                                          const double beta,
                                          NodeVector<2> *force) const
   {
-    const auto acts = [&](const unsigned int p)
-    {
-      return history.state[p] != JointState::slipping
-             && history.state[p] != JointState::open;
-    };
-    for (unsigned int i = 0; i < all_segments.size(); ++i)
-    {
-      const JointLaw &law = all_laws[all_segments[i].set];
-      add_rate_forces(
-          i, nodes, velocity, acts,
-          [&](const unsigned int p, const Motion &motion)
-          {
-            const auto [kn, ks] = std::visit(
-                [&](const auto &own)
-                { return own.stiffness_at(history.normal_traction[p]); },
-                law);
-            return std::array<double, 2>{ { beta * kn * motion.rate[0],
-                                            beta * ks * motion.rate[1] } };
+    for (unsigned int set = 0; set < all_laws.size(); ++set)
+      std::visit(
+          [&](const auto &law) {
+            add_set_viscous_forces(set, law, nodes, history, velocity, beta,
+                                   force);
           },
-          force);
-    }
+          all_laws[set]);
   }
 
   void MatchedJoints::add_elastic_forces(const NodeRecord<2> *nodes,

@@ -115,6 +115,39 @@ namespace quoin
       return set_lanes(mask) == (1u << lanes) - 1;
     }
 
+    /** a0, b0, a1, b1, ... of the first half of the lanes, or the second. */
+    template <typename Vector>
+    static QUOIN_INLINE Vector interleave_low(const Vector &a, const Vector &b)
+    {
+      if constexpr (lanes == 4)
+        return __builtin_shufflevector(a, b, 0, 4, 1, 5);
+      else
+        return __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11);
+    }
+    template <typename Vector>
+    static QUOIN_INLINE Vector interleave_high(const Vector &a, const Vector &b)
+    {
+      if constexpr (lanes == 4)
+        return __builtin_shufflevector(a, b, 2, 6, 3, 7);
+      else
+        return __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15);
+    }
+    /** The even lanes of @p a and @p b, or the odd ones. */
+    static QUOIN_INLINE Value even(const Value &a, const Value &b)
+    {
+      if constexpr (lanes == 4)
+        return __builtin_shufflevector(a, b, 0, 2, 4, 6);
+      else
+        return __builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14);
+    }
+    static QUOIN_INLINE Value odd(const Value &a, const Value &b)
+    {
+      if constexpr (lanes == 4)
+        return __builtin_shufflevector(a, b, 1, 3, 5, 7);
+      else
+        return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
+    }
+
     static QUOIN_INLINE double sum(const Value &a)
     {
       double result = 0.;

@@ -5,6 +5,7 @@
 #define quoin_base_lanes_h
 
 #include <quoin/base/intrinsics.h>
+#include <quoin/base/native_lanes.h>
 
 #include <cmath>
 #include <cstddef>
@@ -19,12 +20,6 @@
     arithmetic, comparisons that give masks, and mask ? a : b of their own. */
 namespace quoin
 {
-#ifdef __AVX512F__
-  constexpr unsigned int native_lanes = 8;
-#else
-  constexpr unsigned int native_lanes = 4;
-#endif
-
   using Pair
       = double __attribute__((vector_size(16), may_alias)); // x, y of a node
 

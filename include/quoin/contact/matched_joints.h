@@ -6,6 +6,7 @@
 
 #include <quoin/base/thickness.h>
 #include <quoin/contact/pair_dashpots.h>
+#include <quoin/contact/segment_group.h>
 #include <quoin/joints/joint_history.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/joints/joint_parameters.h>
@@ -194,11 +195,20 @@ namespace quoin
     double excess(unsigned int point, const JointHistory &history) const;
 
   private:
+    void group_segments();
+
     /** add_forces() of a set. */
     template <typename Law>
     void add_set_forces(unsigned int set, const Law &law,
                         const NodeRecord<2> *nodes, JointHistory &history,
                         EnergyAccounts &energy, NodeVector<2> *force) const;
+    /** add_viscous_forces() of a set. */
+    template <typename Law>
+    void add_set_viscous_forces(unsigned int set, const Law &law,
+                                const NodeRecord<2> *nodes,
+                                const JointHistory &history,
+                                const NodeVector<2> *velocity, double beta,
+                                NodeVector<2> *force) const;
 
     void add_dashpot_forces(const NodeRecord<2> *nodes,
                             const JointHistory &history,
@@ -225,6 +235,8 @@ namespace quoin
     PairDashpots dashpots;
     std::vector<JointLaw> all_laws;
     std::vector<unsigned int> set_begin; /**< first segment of each set */
+    AlignedArray<SegmentGroup<native_lanes>> groups;
+    std::vector<unsigned int> group_begin; /**< first group of each set */
   };
 } // namespace quoin
 

@@ -38,7 +38,7 @@ namespace quoin
       points.tau
           = law.shear_stiffness * (points.slip - F::load(at.plastic_slip));
       points.elastic   = is_elastic(at, points.sigma, points.tau,
-                                    F::load(at.internal[crack_opening].values));
+                                    F::load(at.internal[crack_opening]));
       const Bits state = points.load_state();
       return points.elastic
              & ((state == 0) | (state == elastic_state(points.sigma)));
@@ -92,7 +92,7 @@ namespace quoin
                                  const Value &tau,
                                  const Value &crack_opening) const
     {
-      const Value bond_now = F::load(at.internal[bond].values);
+      const Value bond_now = F::load(at.internal[bond]);
       const Bits below
           = (sigma <= law.tension * bond_now)
             & (F::absolute(tau)
@@ -111,7 +111,7 @@ namespace quoin
       const Bits is_far = load <= law.cap.lowest_load();
       if (!has_cap || !F::any(asked & ~is_far))
         return is_far;
-      const Value limit = cap_limit(F::load(at.internal[crushing].values));
+      const Value limit = cap_limit(F::load(at.internal[crushing]));
       return is_far | (load <= limit * limit);
     }
 
@@ -150,8 +150,8 @@ namespace quoin
       const Value none{};
       const Value sigma_old     = F::load(at.normal_traction);
       const Value tau_old       = F::load(at.shear_traction);
-      const Value bond_old      = F::load(at.internal[bond].values);
-      const Value crack_old     = F::load(at.internal[crack_opening].values);
+      const Value bond_old      = F::load(at.internal[bond]);
+      const Value crack_old     = F::load(at.internal[crack_opening]);
       const Bits intact         = points.load_state() == 0;
       const Value opening_trial = points.opening, slip_trial = points.slip;
       Value plastic_opening = F::load(at.plastic_opening);
@@ -211,9 +211,8 @@ namespace quoin
                flows ? opening_trial - sigma_new / kn : plastic_opening,
                done & (closes | flows));
       F::store(at.plastic_slip, slip_trial - tau_new / ks, flows);
-      F::store(at.internal[bond].values, flow.bond, flows);
-      F::store(at.internal[crack_opening].values, crack_new,
-               done & (closes | flows));
+      F::store(at.internal[bond], flow.bond, flows);
+      F::store(at.internal[crack_opening], crack_new, done & (closes | flows));
 
       const unsigned int rest = F::set_lanes(present & ~done);
       for (int l = 0; l < lanes && rest >> l != 0; ++l)

@@ -7,6 +7,7 @@
 #include <quoin/base/archive_members.h>
 #include <quoin/base/node_vector.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -35,17 +36,18 @@ namespace quoin
     AlignedArray<double> shear_traction;  /**< [Pa] */
     AlignedArray<double> plastic_slip;    /**< inelastic slip [m] */
     AlignedArray<double> plastic_opening; /**< dilation, offsets [m] */
-    /** Internal variables of the laws: n_internal numbers for each point. */
-    AlignedArray<double> internal;
-    unsigned int n_internal = 0;
+    static constexpr unsigned int most_internal = 4;
+    /** Internal variables of the laws; those that none has are empty. */
+    std::array<AlignedArray<double>, most_internal> internal;
     AlignedArray<JointState> state;
     /** Whether each segment, two points, is a general contact by now. */
     AlignedArray<std::uint8_t> handed_over;
 
+    /** For @p n points with @p n_internal internal variables. */
     void resize(const std::size_t n, const unsigned int n_internal = 0)
     {
-      this->n_internal = n_internal;
-      internal.resize(n * n_internal, 0.);
+      for (unsigned int i = 0; i < n_internal; ++i)
+        internal[i].resize(n, 0.);
       normal_traction.resize(n, 0.);
       shear_traction.resize(n, 0.);
       plastic_slip.resize(n, 0.);
@@ -62,8 +64,8 @@ namespace quoin
       visitor.own(shear_traction, 2);
       visitor.own(plastic_slip, 2);
       visitor.own(plastic_opening, 2);
-      visitor.same(n_internal);
-      visitor.own(internal, 2 * n_internal);
+      for (AlignedArray<double> &variable : internal)
+        visitor.own(variable, 2);
       visitor.own(state, 2);
       visitor.own(handed_over);
     }

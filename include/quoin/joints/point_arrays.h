@@ -6,6 +6,7 @@
 
 #include <quoin/joints/joint_history.h>
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 
@@ -19,18 +20,13 @@ namespace quoin
   /** Where the arrays of a JointHistory, or of a part of it, begin. */
   struct PointArrays
   {
-    static constexpr unsigned int most_internal = 4;
-
-    struct Variable
-    {
-      double *values;
-    };
+    static constexpr unsigned int most_internal = JointHistory::most_internal;
 
     double *normal_traction;
     double *shear_traction;
     double *plastic_slip;
     double *plastic_opening;
-    std::array<Variable, most_internal> internal;
+    std::array<double *, most_internal> internal; /**< null: none has it */
     JointState *state;
 
     /** From point @p p on. */
@@ -40,9 +36,55 @@ namespace quoin
         normal_traction + p, shear_traction + p, plastic_slip + p,
         plastic_opening + p, internal,           state + p
       };
-      for (Variable &variable : part.internal)
-        variable.values += p;
+      for (double *&variable : part.internal)
+        if (variable)
+          variable += p;
       return part;
+    }
+  };
+
+  inline PointArrays arrays_of(JointHistory &history)
+  {
+    PointArrays result{ history.normal_traction.data(),
+                        history.shear_traction.data(),
+                        history.plastic_slip.data(),
+                        history.plastic_opening.data(),
+                        {},
+                        history.state.data() };
+    for (unsigned int i = 0; i < PointArrays::most_internal; ++i)
+      result.internal[i]
+          = history.internal[i].empty() ? nullptr : history.internal[i].data();
+    return result;
+  }
+
+  inline void copy_points(const PointArrays &from, const PointArrays &to,
+                          const unsigned int n)
+  {
+    std::copy_n(from.normal_traction, n, to.normal_traction);
+    std::copy_n(from.shear_traction, n, to.shear_traction);
+    std::copy_n(from.plastic_slip, n, to.plastic_slip);
+    std::copy_n(from.plastic_opening, n, to.plastic_opening);
+    std::copy_n(from.state, n, to.state);
+    for (unsigned int i = 0; i < PointArrays::most_internal; ++i)
+      if (from.internal[i] && to.internal[i])
+        std::copy_n(from.internal[i], n, to.internal[i]);
+  }
+
+  /** Arrays of @p n points of their own. */
+  template <int n>
+  struct PointPack
+  {
+    alignas(64) double values[4 + PointArrays::most_internal][n]{};
+    JointState state[n]{};
+
+    PointArrays arrays()
+    {
+      PointArrays result{
+        values[0], values[1], values[2], values[3], {}, state
+      };
+      for (unsigned int i = 0; i < PointArrays::most_internal; ++i)
+        result.internal[i] = values[4 + i];
+      return result;
     }
   };
 
@@ -59,7 +101,7 @@ namespace quoin
     point.plastic_opening = history.plastic_opening[p];
     point.state           = history.state[p];
     for (unsigned int i = 0; i < Point::internal.size(); ++i)
-      point.*Point::internal[i] = history.internal[i].values[p];
+      point.*Point::internal[i] = history.internal[i][p];
     return point;
   }
 
@@ -72,7 +114,7 @@ namespace quoin
     history.plastic_opening[p] = point.plastic_opening;
     history.state[p]           = point.state;
     for (unsigned int i = 0; i < Point::internal.size(); ++i)
-      history.internal[i].values[p] = point.*Point::internal[i];
+      history.internal[i][p] = point.*Point::internal[i];
   }
 } // namespace quoin
 

@@ -284,7 +284,7 @@ TEST(JointTangent, RockJointsInAllBranches)
       // Slips of either size against the peak slip
       const double size = seed % 2 == 0 ? 5e-5 : 5e-4;
       walk(joint, seed, 20, size, 2e-4, 1e-11, errors, visits);
-      worn = std::max(worn, joint.history.internal[0]);
+      worn = std::max(worn, joint.history.internal[0][0]);
     }
     EXPECT_LT(errors.stiffness, 1e-4);
     EXPECT_LT(errors.gradient, 2e-4);

@@ -2,9 +2,13 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../model/test_models.h"
+#include "../joints/composite_walk.h"
 #include "../joints/rock_walk.h"
 
 #include <quoin/contact/joint_changes.h>
+#include <quoin/joints/point_arrays.h>
+
+#include <random>
 
 using namespace quoin;
 using namespace quoin::test;
@@ -99,7 +103,128 @@ namespace
     coulomb_law(set).peak = coulomb_law(set).residual = { 0., 0.5, 0. };
     return set;
   }
+
+  /** MatchedJoints::add_forces() point by point, by the equations of theory.md,
+      "Joints". */
+  template <typename Law>
+  void add_forces_by_point(const Law &law, const MatchedJoints &joints,
+                           const std::vector<NodeRecord<2>> &nodes,
+                           JointHistory &history, EnergyAccounts &energy,
+                           AlignedArray<NodeVector<2>> &force)
+  {
+    const auto place = [&](const unsigned int v, const unsigned int d)
+    { return nodes[v].X[d] + nodes[v].u[d]; };
+    for (unsigned int i = 0; i < joints.segments().size(); ++i)
+    {
+      const JointSegment &segment = joints.segments()[i];
+      if (history.handed_over[i])
+        continue;
+      const auto &[a, b] = std::tie(segment.lower, segment.upper);
+      double edge[2];
+      for (unsigned int d = 0; d < 2; ++d)
+        edge[d]
+            = place(a[1], d) - place(a[0], d) + place(b[1], d) - place(b[0], d);
+      const double length   = std::hypot(edge[0], edge[1]);
+      const double normal[] = { edge[1] / length, -edge[0] / length };
+      const auto gaps       = joint_gaps(segment, nodes.data());
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const auto [opening, slip] = gaps[k];
+        auto point                 = read_point(law, history, 2 * i + k);
+        JointDissipation lost;
+        if (!law.update_elastic(point, opening, slip))
+          lost = law.update_failing(point, opening, slip);
+        write_point(point, history, 2 * i + k);
+        const double weight = segment.area[k] * segment.share;
+        energy.friction += weight * lost.friction;
+        energy.fracture += weight * lost.fracture;
+        energy.crushing += weight * lost.crushing;
+        const double sigma  = segment.area[k] * point.normal_traction;
+        const double tau    = segment.area[k] * point.shear_traction;
+        const double couple = (tau * opening - sigma * slip) / length;
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double pull
+              = sigma * normal[d] + tau * (d == 0 ? normal[1] : -normal[0]);
+          force[a[k]].v[d] += pull;
+          force[b[k]].v[d] -= pull;
+          for (const unsigned int end : { 0, 1 })
+            for (const auto &side : { a, b })
+              force[side[end]].v[d]
+                  += (end == 0 ? -1. : 1.) * couple * normal[d];
+        }
+      }
+    }
+  }
+
+  /** Walks of @p n segments at random, the last but one of which becomes a
+      general contact on the way; @p reach: size of their gaps [m]. */
+  template <typename Law>
+  void expect_same_as_by_point(const Law &law, const unsigned int n,
+                               const double reach)
+  {
+    JointSetParameters set = elastic_joint(kn, ks);
+    set.law                = law;
+    Stack stack(n, 20. * degree, set);
+    std::vector<NodeRecord<2>> nodes(stack.state.nodes.begin(),
+                                     stack.state.nodes.end());
+    JointHistory history = stack.state.get<JointHistory>();
+    EnergyAccounts energy;
+    std::mt19937 random(n);
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    unsigned int n_failed = 0;
+    for (unsigned int step = 0; step < 40; ++step)
+    {
+      for (unsigned int v = 0; v < nodes.size(); ++v)
+        for (unsigned int d = 0; d < 2; ++d)
+          stack.state.nodes[v].u[d] = nodes[v].u[d]
+              += 0.2 * reach * uniform(random);
+      if (n > 1 && step == 20)
+        stack.state.get<JointHistory>().handed_over[n - 2]
+            = history.handed_over[n - 2] = 1;
+      stack.find_forces();
+      AlignedArray<NodeVector<2>> force(stack.force.size(), NodeVector<2>{});
+      add_forces_by_point(law, stack.joints, nodes, history, energy, force);
+
+      const double unit = reach * kn * 0.3;
+      for (unsigned int v = 0; v < force.size(); ++v)
+        for (unsigned int d = 0; d < 2; ++d)
+          EXPECT_NEAR(stack.force[v].v[d], force[v].v[d], 1e-14 * unit);
+      const JointHistory &now = stack.state.get<JointHistory>();
+      for (unsigned int p = 0; p < 2 * n; ++p)
+      {
+        EXPECT_EQ(now.state[p], history.state[p]);
+        EXPECT_NEAR(now.plastic_slip[p], history.plastic_slip[p],
+                    1e-14 * reach);
+        n_failed += now.state[p] != JointState::intact;
+      }
+      const EnergyAccounts &lost = stack.energy;
+      for (const auto &[a, b] :
+           { std::make_pair(lost.friction, energy.friction),
+             std::make_pair(lost.fracture, energy.fracture),
+             std::make_pair(lost.crushing, energy.crushing) })
+        EXPECT_NEAR(a, b, 1e-13 * n * unit * reach);
+    }
+    EXPECT_GT(n_failed, n);
+  }
 } // namespace
+
+TEST(MatchedJoints, SegmentsTogetherAreAsPointByPoint)
+{
+  CoulombLaw brittle;
+  brittle.normal_stiffness            = kn;
+  brittle.shear_stiffness             = ks;
+  brittle.peak                        = { 1e6, 0.75, 0.4e6 };
+  brittle.residual                    = { 0.1e6, 0.6, 0.05e6 };
+  brittle.dilation                    = 0.3;
+  brittle.critical_shear_displacement = 5e-4;
+  for (const unsigned int n : { 1U, 3U, 4U, 7U, 8U, 21U })
+  {
+    expect_same_as_by_point(brittle, n, 5e-4);
+    expect_same_as_by_point(composite_test::wall(), n, 3e-5);
+    expect_same_as_by_point(rock_test::rough(), n, 1e-4);
+  }
+}
 
 TEST(MatchedJoints, TributaryAreasSumToTheJoint)
 {
@@ -491,6 +616,33 @@ TEST(MatchedJoints, ViscousForcesOfStickingPoints)
   stack.state.get<JointHistory>().state[1] = JointState::open;
   damp();
   stack.expect_on_lower(0., 0., 0.);
+}
+
+TEST(MatchedJoints, ViscousForcesByRatesAsElasticOnesByDisplacements)
+{
+  for (const unsigned int n : { 1U, 7U, 9U })
+  {
+    Stack stack(n, 35. * degree);
+    std::mt19937 random(n);
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    AlignedArray<NodeVector<2>> velocity(stack.state.nodes.size());
+    for (unsigned int v = 0; v < velocity.size(); ++v)
+      for (unsigned int d = 0; d < 2; ++d)
+      {
+        stack.state.nodes[v].u[d] = 0.02 * uniform(random);
+        velocity[v].v[d]          = uniform(random);
+      }
+    AlignedArray<NodeVector<2>> viscous(velocity.size(), NodeVector<2>{});
+    AlignedArray<NodeVector<2>> elastic(velocity.size(), NodeVector<2>{});
+    stack.joints.add_viscous_forces(stack.state.nodes.data(),
+                                    stack.state.get<JointHistory>(),
+                                    velocity.data(), 1., viscous.data());
+    stack.joints.add_elastic_forces(stack.state.nodes.data(), velocity.data(),
+                                    elastic.data());
+    for (unsigned int v = 0; v < velocity.size(); ++v)
+      for (unsigned int d = 0; d < 2; ++d)
+        EXPECT_NEAR(viscous[v].v[d], elastic[v].v[d], 1e-14 * kn);
+  }
 }
 
 TEST(MatchedJoints, BooksFrictionPerArea)

@@ -19,33 +19,19 @@ using namespace quoin;
 
 namespace
 {
-  /** Histories of the points that go through the lanes together. */
   template <int lanes>
-  struct Pack
+  using Pack = PointPack<lanes>;
+
+  /** The point in lane @p l in all lanes. */
+  template <int lanes>
+  Pack<lanes> filled_with(const Pack<lanes> &pack, const int l)
   {
-    double values[4 + PointArrays::most_internal][lanes]{};
-    JointState state[lanes]{};
-
-    PointArrays arrays()
-    {
-      PointArrays result{
-        values[0], values[1], values[2], values[3], {}, state
-      };
-      for (unsigned int i = 0; i < PointArrays::most_internal; ++i)
-        result.internal[i].values = values[4 + i];
-      return result;
-    }
-
-    /** That of lane @p l in all lanes. */
-    Pack filled_with(const int l) const
-    {
-      Pack result;
-      for (unsigned int i = 0; i < 4 + PointArrays::most_internal; ++i)
-        std::fill_n(result.values[i], lanes, values[i][l]);
-      std::fill_n(result.state, lanes, state[l]);
-      return result;
-    }
-  };
+    Pack<lanes> result;
+    for (unsigned int i = 0; i < 4 + PointArrays::most_internal; ++i)
+      std::fill_n(result.values[i], lanes, pack.values[i][l]);
+    std::fill_n(result.state, lanes, pack.state[l]);
+    return result;
+  }
 
   /** What points have come to, and what that dissipated. */
   template <int lanes>
@@ -190,7 +176,7 @@ namespace
           double same_opening[lanes], same_slip[lanes];
           std::fill_n(same_opening, lanes, opening[l]);
           std::fill_n(same_slip, lanes, slip[l]);
-          const Update<lanes> alone = update(law, before.filled_with(l),
+          const Update<lanes> alone = update(law, filled_with(before, l),
                                              same_opening, same_slip, weight);
           for (unsigned int i = 0; i < 4 + PointArrays::most_internal; ++i)
             worst.n_neighbours += alone.pack.values[i][0] != pack.values[i][l];
