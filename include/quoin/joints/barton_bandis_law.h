@@ -91,7 +91,7 @@ namespace quoin
   {
     static constexpr std::array<LawName, 1> names
         = { { { "Barton-Bandis",
-                "rock joint that closes along a hyperbola, whose roughness is "
+                "rock joint with hyperbolic closure and a roughness that is "
                 "mobilised and worn by slip" } } };
 
     HyperbolicClosure closure;

@@ -121,7 +121,7 @@ namespace quoin
     static constexpr std::array<LawName, 1> names
         = { { { "composite",
                 "cohesion, friction and tension that soften with fracture "
-                "energies, and a cap that crushes, for masonry" } } };
+                "energies, and a compressive cap, for masonry" } } };
     static constexpr bool bridges = true;
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();

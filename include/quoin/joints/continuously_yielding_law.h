@@ -107,9 +107,10 @@ namespace quoin
    */
   struct ContinuouslyYieldingLaw : RockLaw<ContinuouslyYieldingLaw>
   {
-    static constexpr std::array<LawName, 1> names
-        = { { { "continuously yielding",
-                "rock joint that yields from the first slip on" } } };
+    static constexpr std::array<LawName, 1> names = {
+      { { "continuously yielding",
+          "rock joint with inelastic slip from the start of shearing" } }
+    };
 
     PowerClosure closure;
     PowerStiffness stiffness;   /**< ks */

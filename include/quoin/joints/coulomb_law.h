@@ -64,7 +64,7 @@ namespace quoin
       { { "Coulomb",
           "cohesion, friction and tension that drop to their residual values "
           "at failure" },
-        { "elastic", "never fails" },
+        { "elastic", "linear springs that never fail" },
         { "no tension",
           "Coulomb without tension whose cohesion is never lost" } }
     };

@@ -50,7 +50,7 @@ namespace quoin
     static constexpr const char *kind = "a slip-weakening law";
     static constexpr std::array<LawName, 1> names
         = { { { "slip weakening",
-                "cohesion and friction that fall in proportion to slip, "
+                "cohesion and friction that decrease linearly with slip, "
                 "without tension, for faults" } } };
 
     double normal_stiffness  = 0.; /**< kn [Pa/m] */
