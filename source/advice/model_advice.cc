@@ -105,7 +105,7 @@ namespace quoin
       bool exist            = false;
       double stiffest_cell  = 0.;       /**< E by shortest edge [Pa/m] */
       double softest_block  = infinity; /**< E by size of the block [Pa/m] */
-      double stiffest_block = 0.;       /**< the same */
+      double stiffest_block = 0.; /**< E by size of the stiffest block [Pa/m] */
       unsigned int softest_material = 0;
       double softest                = infinity; /**< E [Pa] */
     };

@@ -45,8 +45,9 @@ namespace quoin
       const Parameters &parameters;
       const unsigned int index;
       const StageParameters &stage;
-      const StageParameters *before; /**< that changed the state, or null */
-      const double start;            /**< [s] */
+      /** Previous stage that changed the state, or null. */
+      const StageParameters *before;
+      const double start; /**< [s] */
       std::vector<const LoadParameters *> loads;
     };
 
@@ -249,7 +250,7 @@ namespace quoin
           longest of a tetrahedron, which are those of a cube of six. 0: there
           is no cell. */
       double edge = 0.;
-      dealii::Point<dim> position; /**< of that cell [m] */
+      dealii::Point<dim> position; /**< position of that cell [m] */
     };
 
     /** Cell size of each material; blocks absent in @p state do not count. */

@@ -33,8 +33,8 @@ namespace quoin
     {
       JointTangent<2> tangent;
       std::array<double, 2> stiffness;      /**< kn, ks of the moment [Pa/m] */
-      double slip_by_pressure;              /**< of the law [m/Pa] */
-      double plastic_opening, plastic_slip; /**< what was added [m] */
+      double slip_by_pressure;              /**< derivative in the law [m/Pa] */
+      double plastic_opening, plastic_slip; /**< plastic increments [m] */
       double opens, slips;                  /**< sign_of_growth() of these */
     };
 

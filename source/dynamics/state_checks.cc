@@ -40,8 +40,8 @@ namespace quoin
     template <int dim>
     struct InvertedCell
     {
-      dealii::Point<dim> before, now; /**< its centroid [m] */
-      unsigned int block;             /**< of the whole mesh */
+      dealii::Point<dim> before, now; /**< centroid before and now [m] */
+      unsigned int block; /**< number of the block in the whole mesh */
       double shape; /**< smallest height by longest edge, in the mesh [-] */
     };
 

@@ -239,7 +239,7 @@ namespace quoin
       std::map<Edge, int> lines;
       std::map<Edge, std::vector<unsigned int>> blocks_of;
       std::map<std::string, GmshNumbers> curves, surfaces;
-      std::set<std::string> joints; /**< those of the curves */
+      std::set<std::string> joints; /**< joint curves */
       std::ostringstream text;
     };
 

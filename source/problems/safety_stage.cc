@@ -81,9 +81,11 @@ namespace quoin
       const SafetyParameters &safety;
       FactorSearch &search;
       const State<2> base;
-      const Energies energies = system.solver->energies(); /**< at its start */
+      /** Energies at the start of the search. */
+      const Energies energies = system.solver->energies();
       ModelProperties strong;
-      double raised    = 1.;    /**< their strength by that of the parameters */
+      /** Ratio of trial strength to that of the parameters. */
+      double raised    = 1.;
       bool interrupted = false; /**< the present trial */
     };
 

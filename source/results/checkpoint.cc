@@ -33,7 +33,7 @@ namespace quoin
     {
       CheckpointInfo info;
       std::string directory;
-      std::vector<ArchiveRecord> archives; /**< one for each rank */
+      std::vector<ArchiveRecord> archives; /**< archive of each rank */
     };
 
     const std::string first_words = "quoin checkpoint, format ";

@@ -33,7 +33,7 @@ namespace quoin
     /** An element of a grid that has an array. */
     struct Element
     {
-      std::string tag;  /**< with its attributes */
+      std::string tag;  /**< XML tag with attributes */
       std::string type; /**< attributes of the array */
       std::string_view bytes;
       bool is_mesh       = false;

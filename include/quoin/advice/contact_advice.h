@@ -18,12 +18,12 @@ namespace quoin
   struct TypicalImpact
   {
     bool exists        = false; /**< whether the set acts on a block */
-    double mass        = 0.;    /**< of a block [kg] */
-    double size        = 0.;    /**< of its side [m] */
+    double mass        = 0.;    /**< mass of a block [kg] */
+    double size        = 0.;    /**< length of the side in contact [m] */
     double density     = 0.;    /**< [kg/m^3] */
     double stiffness   = 0.;    /**< normal one of the set [Pa/m] */
     double frequency   = 0.;    /**< undamped [Hz] */
-    double duration    = 0.;    /**< of the contact [s] */
+    double duration    = 0.;    /**< duration of the contact [s] */
     double restitution = 1.;    /**< [-] */
     /** kn L/E with the side L; 0: blocks are rigid. */
     double by_block = 0.;

@@ -52,7 +52,7 @@ namespace quoin
      */
     AlignedArray<std::array<double, 4>> initial_stress;
 
-    Thickness thickness; /**< of cells of each stiffness */
+    Thickness thickness; /**< out-of-plane thickness for each stiffness */
 
     /**
      * Whether each four cells are one six-node triangle, cut as by NodeMap.
@@ -123,7 +123,8 @@ namespace quoin
     std::array<unsigned int, 6> nodes;
     std::array<double, 12> force;                     /**< [N] */
     std::array<std::array<double, 12>, 12> stiffness; /**< [N/m] */
-    double dissipated; /**< by the update of the internal variables [J] */
+    /** Energy dissipated by the update of internal variables [J]. */
+    double dissipated;
   };
 
   struct NodeRange
@@ -243,12 +244,12 @@ namespace quoin
     /** Strips of equal stiffness that go through the lanes together. */
     struct Run
     {
-      std::size_t first_step; /**< into offsets, masks, lane_stress */
+      std::size_t first_step; /**< index into offsets, masks, lane_stress */
       std::size_t n_steps;
       double bulk;             /**< plane bulk modulus times thickness [N/m] */
       double shear;            /**< shear modulus times thickness [N/m] */
-      unsigned int stiffness;  /**< of which of the different ones */
-      std::size_t first_group; /**< into node_groups */
+      unsigned int stiffness;  /**< index of the stiffness */
+      std::size_t first_group; /**< index into node_groups */
       std::size_t n_groups;
     };
 

@@ -285,7 +285,7 @@ namespace quoin
     struct Losses
     {
       double friction = 0., fracture = 0., crushing = 0.;
-      double contact = 0.; /**< with areas and contacts that go */
+      double contact = 0.; /**< loss with contact areas and contacts that end */
     };
     void gather_velocities(const NodeVector<2> *velocity);
     void add_point_forces(unsigned int pair, unsigned int k, const Geometry &g,

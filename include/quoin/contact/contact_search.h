@@ -15,7 +15,7 @@ namespace quoin
   /** Where an edge is: its two ends [m]. */
   struct EdgeEnds
   {
-    unsigned int edge; /**< of ContactEdges */
+    unsigned int edge; /**< index into ContactEdges */
     double x[2], y[2];
     bool is_own = true; /**< whether it is an edge of this rank */
   };

@@ -23,7 +23,7 @@ namespace quoin
     double slip_offset     = 0.; /**< slip at the anchors [m] */
     double anchor_lower    = 0.; /**< where on the edges, 0 to 1, slip is */
     double anchor_upper    = 0.; /**< counted from */
-    double area            = 0.; /**< as last used [m^2] */
+    double area            = 0.; /**< area of the last step [m^2] */
     /** As last computed; infinite: not yet [m]. */
     double opening = std::numeric_limits<double>::infinity();
     /** Internal variables of its law; there is room for most_internal. */
@@ -43,7 +43,7 @@ namespace quoin
   {
     unsigned int lower     = 0; /**< edges, see ContactEdges */
     unsigned int upper     = 0;
-    unsigned int set       = 0; /**< of joints, whose law it follows */
+    unsigned int set       = 0; /**< joint set whose law the pair follows */
     std::uint8_t active    = 0; /**< whether the points have a history */
     std::uint8_t was_joint = 0; /**< whether it was a matched joint */
     std::uint8_t was_open  = 0; /**< whether the edges were seen apart */
@@ -67,13 +67,14 @@ namespace quoin
 
     AlignedArray<ContactPair> pairs; /**< ascending in their edges */
 
-    AlignedArray<std::uint8_t> handed_over; /**< of interfaces of joints */
+    /** Flag of each interface of joints. */
+    AlignedArray<std::uint8_t> handed_over;
 
     /** Positions of the boundary nodes when pairs were last searched [m]. */
     AlignedArray<NodeVector<2>> search_positions;
     std::uint64_t next_check = 0; /**< step of the next look at motions */
     std::uint64_t n_searches = 0;
-    double skin              = 0.; /**< of the last search [m] */
+    double skin              = 0.; /**< skin of the last search [m] */
     std::uint64_t searched   = 0;  /**< step of the last search */
     /** Step from which on there are more searches to gain than to lose. */
     std::uint64_t renewal = 0;

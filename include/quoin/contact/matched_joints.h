@@ -60,10 +60,10 @@ namespace quoin
   struct JointSegment
   {
     std::array<unsigned int, 2> lower, upper; /**< local nodes */
-    std::array<double, 2> area;               /**< of each point [m^2] */
-    float share; /**< of the energy that this rank counts */
+    std::array<double, 2> area;               /**< area of each point [m^2] */
+    float share; /**< fraction of the energy that this rank counts */
     unsigned int set;
-    unsigned int face; /**< into LocalFaces::joints */
+    unsigned int face; /**< index into LocalFaces::joints */
   };
 
   /** Opening and slip [m] of both points of @p segment. */
@@ -219,9 +219,10 @@ namespace quoin
                          const NodeVector<2> *velocity, const Acts &acts,
                          const Traction &traction, NodeVector<2> *force) const;
 
-    std::vector<JointSegment> all_segments;        /**< sorted by set */
-    std::vector<PairDashpots::Item> segment_sides; /**< of each */
-    std::vector<JointDamping> dampings;            /**< of each set */
+    std::vector<JointSegment> all_segments; /**< sorted by set */
+    /** Blocks and groups of each segment. */
+    std::vector<PairDashpots::Item> segment_sides;
+    std::vector<JointDamping> dampings; /**< damping of each joint set */
     PairDashpots dashpots;
     std::vector<JointLaw> all_laws;
     std::vector<unsigned int> set_begin; /**< first segment of each set */

@@ -44,8 +44,8 @@ namespace quoin
      */
     struct Item
     {
-      std::array<unsigned int, 2> blocks; /**< of the mesh */
-      std::array<unsigned int, 2> groups; /**< of the cells behind */
+      std::array<unsigned int, 2> blocks; /**< blocks of the mesh */
+      std::array<unsigned int, 2> groups; /**< groups of the adjacent cells */
     };
 
     void set_blocks(const DashpotBlocks &new_blocks)
@@ -87,7 +87,7 @@ namespace quoin
 
     DashpotBlocks blocks;
     std::vector<Pair> pairs;              /**< ascending */
-    std::vector<unsigned int> item_pairs; /**< of each item */
+    std::vector<unsigned int> item_pairs; /**< pair of each item */
     std::vector<std::array<double, 2>> item_impedance;
     /** Pairs of divided blocks of all ranks, ascending; local number or -1. */
     std::vector<unsigned int> divided_pairs;

@@ -21,7 +21,7 @@ namespace quoin
     double first     = 1.;   /**< factor to try first [-] */
     double lowest    = 0.1;  /**< [-] */
     double highest   = 10.;  /**< [-] */
-    double tolerance = 0.01; /**< of the bracket [-] */
+    double tolerance = 0.01; /**< width of the bracket [-] */
     /** Displacement beyond which a trial may fail [m]; 0: automatic. */
     double failure_displacement = 0.;
     bool reduces_blocks         = true;
@@ -49,10 +49,11 @@ namespace quoin
   /** Outcome of a trial, with the strength divided by a factor. */
   struct SafetyTrial
   {
-    double factor           = 0.; /**< [-] */
-    Verdict verdict         = Verdict::undecided;
-    std::uint64_t n_steps   = 0;
-    double unbalanced_ratio = 0.; /**< at its end [-] */
+    double factor         = 0.; /**< [-] */
+    Verdict verdict       = Verdict::undecided;
+    std::uint64_t n_steps = 0;
+    /** Unbalanced ratio at the end of the trial [-]. */
+    double unbalanced_ratio = 0.;
     double displacement     = 0.; /**< largest since its start [m] */
 
     template <typename Archive>

@@ -27,7 +27,7 @@ namespace quoin
     double distance = 0.; /**< [m] */
     /** Velocity along the displacement, positive: it moves on [m/s]. */
     double speed       = 0.;
-    unsigned int block = 0;         /**< of the whole mesh */
+    unsigned int block = 0; /**< number of the block in the whole mesh */
     dealii::Point<dim> before, now; /**< [m] */
   };
 

@@ -63,9 +63,10 @@ namespace quoin
 
     std::function<double(double)> f;
     SignalRange range;
-    long n_steps; /**< of the range */
+    long n_steps; /**< number of steps of the range */
     std::vector<double> samples;
-    std::vector<Complex> spectrum; /**< of the samples, padded with zeros */
+    /** Spectrum of the samples, padded with zeros. */
+    std::vector<Complex> spectrum;
     mutable std::vector<std::vector<Complex>> levels;
   };
 } // namespace quoin

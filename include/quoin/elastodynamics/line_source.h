@@ -58,12 +58,12 @@ namespace quoin
     struct Knot
     {
       double time;   /**< [s] */
-      double change; /**< of the slope [N/s] */
+      double change; /**< change of the slope [N/s] */
     };
 
     ElasticMedium medium;
     Eigen::Vector2d position;
-    std::vector<Knot> knots; /**< in the order of time */
+    std::vector<Knot> knots; /**< knots in ascending order of time */
   };
 } // namespace quoin
 

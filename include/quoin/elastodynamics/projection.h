@@ -9,8 +9,8 @@ namespace quoin
   /** How the boundary integral equation is required on an element. */
   enum class Projection
   {
-    collocation, /**< at its middle */
-    galerkin     /**< in the mean over it */
+    collocation, /**< equation at the midpoint of the element */
+    galerkin     /**< equation weighted over the element */
   };
 } // namespace quoin
 

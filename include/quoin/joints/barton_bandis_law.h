@@ -100,7 +100,7 @@ namespace quoin
     double roughness      = 0.; /**< JRC, as an angle [rad] */
     double wall_strength  = 0.; /**< JCS [Pa] */
     double peak_slip      = 0.; /**< [m] */
-    double divisor        = 1.; /**< of the shear strength [-] */
+    double divisor        = 1.; /**< divisor of the shear strength [-] */
 
     /** phi_r + i of the peak is not above this [rad]. */
     static constexpr double largest_angle = 70. * constants::degree;

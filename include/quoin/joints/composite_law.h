@@ -33,7 +33,7 @@ namespace quoin
     double tension  = 0.; /**< fracture, mode I */
     double shear    = 0.; /**< loss of cohesion, mode II */
     double friction = 0.; /**< slip beyond that, and its dilation */
-    double crushing = 0.; /**< on the cap */
+    double crushing = 0.; /**< work of crushing on the cap */
 
     double total() const
     {
@@ -136,9 +136,10 @@ namespace quoin
     double friction          = 0.;       /**< tan(phi0) */
     double residual_friction = 0.;       /**< tan(phi_r) */
 
-    double dilation          = 0.;       /**< tan(psi0) */
-    double dilation_pressure = infinity; /**< where it ends, sigma_u [Pa] */
-    double dilation_decay    = 0.;       /**< with k2, delta [1/m] */
+    double dilation = 0.; /**< tan(psi0) */
+    /** Pressure where dilation ends, sigma_u [Pa]. */
+    double dilation_pressure = infinity;
+    double dilation_decay = 0.; /**< decay of dilation with k2, delta [1/m] */
 
     CompositeCap cap;
 

@@ -84,7 +84,7 @@ namespace quoin
   private:
     PowerStiffness law;
     double low_stiffness, high_stiffness; /**< [Pa/m] */
-    double low_closure, high_closure;     /**< where the power holds [m] */
+    double low_closure, high_closure;     /**< range of the power law [m] */
   };
 
   /**

@@ -77,7 +77,7 @@ namespace quoin
     double dilation = 0.; /**< tan(psi) */
     double critical_shear_displacement
         = std::numeric_limits<double>::infinity(); /**< u_cs [m] */
-    bool is_no_tension = false; /**< by its word in the parameter file */
+    bool is_no_tension = false; /**< whether the law was named 'no tension' */
 
     /** The law of a set of joints, or its entries of the parameter file. */
     static CoulombLaw read(LawEntries &entries);
@@ -209,10 +209,10 @@ namespace quoin
     template <int dim>
     struct Drive
     {
-      Slip<dim> direction; /**< of tau */
+      Slip<dim> direction; /**< direction of tau */
       double psi;          /**< dw by |dp|, negative on the way back */
-      double excess;       /**< of |tau| above the strength [Pa] */
-      double stiffness;    /**< by which |dp| lowers it [Pa/m] */
+      double excess;       /**< excess of |tau| over the strength [Pa] */
+      double stiffness;    /**< decrease of the excess per |dp| [Pa/m] */
     };
     /** At trial tractions [Pa] and the @p slip [m]. */
     template <int dim>

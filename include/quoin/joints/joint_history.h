@@ -16,7 +16,7 @@ namespace quoin
   enum class JointState : std::uint8_t
   {
     intact   = 0, /**< never failed */
-    slipping = 1, /**< at the shear limit now */
+    slipping = 1, /**< slip at the shear limit in this step */
     slipped  = 2, /**< failed earlier, closed and sticking now */
     open     = 3  /**< failed in tension or open now */
   };

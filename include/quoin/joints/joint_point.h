@@ -128,8 +128,8 @@ namespace quoin
   /** Energy per area that an update dissipated [J/m^2]. */
   struct JointDissipation
   {
-    double friction = 0.; /**< in slip and dilation */
-    double fracture = 0.; /**< as the joint breaks */
+    double friction = 0.; /**< energy dissipated in slip and dilation */
+    double fracture = 0.; /**< energy dissipated in failure */
     double crushing = 0.;
   };
 

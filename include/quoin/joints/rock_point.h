@@ -25,7 +25,7 @@ namespace quoin
   struct RockPoint : JointPoint<2>
   {
     double worn_slip = 0.; /**< sum of |dp| while closed [m] */
-    double dilated   = 0.; /**< of w, what slip back takes back [m] */
+    double dilated   = 0.; /**< part of w that reverse slip recovers [m] */
     double reload    = 0.; /**< |tau|/strength where loading began anew [-] */
 
     static constexpr std::array<double RockPoint::*, 3> internal
@@ -38,9 +38,9 @@ namespace quoin
   {
     Number shear_traction = 0.; /**< [Pa] */
     Number plastic_slip   = 0.; /**< p at the end [m] */
-    Number opening        = 0.; /**< what w grows by, dilation [m] */
-    Number wear           = 0.; /**< what worn_slip grows by [m] */
-    Number reload         = 0.; /**< as RockPoint's, at the end */
+    Number opening        = 0.; /**< increment of w, dilation [m] */
+    Number wear           = 0.; /**< increment of worn_slip [m] */
+    Number reload         = 0.; /**< RockPoint::reload at the end */
     bool slips            = false;
   };
 

@@ -24,7 +24,7 @@ namespace quoin
       fill
     };
     Kind kind;
-    std::string name; /**< of a voussoir; may be empty */
+    std::string name; /**< name of a voussoir; may be empty */
     /** Into ArchLayout::points, counter-clockwise. */
     std::vector<unsigned int> corners;
   };

@@ -18,7 +18,7 @@ namespace quoin
     normal,
     log_normal,
     exponential, /**< the deviation is the mean */
-    von_mises    /**< of angles: Fisher's distribution in two dimensions */
+    von_mises    /**< distribution of angles: Fisher's in two dimensions */
   };
 
   /**

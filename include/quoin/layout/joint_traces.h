@@ -24,7 +24,7 @@ namespace quoin
     std::vector<Piece> pieces;
     std::vector<unsigned int> trace; /**< number of the trace of each piece */
     unsigned int n_traces = 0;
-    DrawnValues drawn;          /**< of a set */
+    DrawnValues drawn;          /**< drawn values of a set */
     unsigned int n_clipped = 0; /**< traces that end at the outline */
   };
 

@@ -28,7 +28,7 @@ namespace quoin
     unsigned int row;
     double left;  /**< [m] */
     double right; /**< [m] */
-    bool cracks;  /**< has a potential crack at mid-length */
+    bool cracks;  /**< whether the unit has a potential crack at mid-length */
     /** Of a unit the name of its course, of a lintel or slab that of the
         storey; may be empty. */
     std::string part;

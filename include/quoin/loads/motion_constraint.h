@@ -58,7 +58,7 @@ namespace quoin
   {
     absorbing,  /**< viscous and free-field boundaries, boundary elements */
     prescribed, /**< some components of each node, as functions of time */
-    rigid_body  /**< all nodes together; its results are those of all ranks */
+    rigid_body  /**< all nodes together; results are those of all ranks */
   };
 
   /** What a constraint is, in all stages. */

@@ -14,10 +14,12 @@ namespace quoin
   struct PlatenState
   {
     bool active = false;
-    double centre[2]{};       /**< position when it first acted [m] */
-    double displacement[3]{}; /**< since then [m, m, rad] */
-    double stage_start[3]{};  /**< at the start of the stage */
-    double velocity[3]{};     /**< at time - dt/2 [m/s, m/s, rad/s] */
+    double centre[2]{}; /**< position when it first acted [m] */
+    /** Displacement since it first acted [m, m, rad]. */
+    double displacement[3]{};
+    /** Displacement at the start of the stage [m, m, rad]. */
+    double stage_start[3]{};
+    double velocity[3]{};     /**< velocity at time - dt/2 [m/s, m/s, rad/s] */
     std::vector<double> arms; /**< x, y of nodes from centre, then [m] */
 
     template <typename Visitor>

@@ -29,10 +29,11 @@ namespace quoin
   template <int dim>
   struct UnsupportedBody
   {
-    unsigned int block;        /**< its first block */
-    unsigned int n_blocks;     /**< number of its blocks */
-    dealii::Point<dim> centre; /**< of that block, of the first body [m] */
-    bool is_loose;             /**< all of its rigid body modes are free */
+    unsigned int block;    /**< first block of the body */
+    unsigned int n_blocks; /**< number of its blocks */
+    /** Centroid of this block of the first body [m]. */
+    dealii::Point<dim> centre;
+    bool is_loose; /**< whether all of its rigid body modes are free */
   };
 
   /**

@@ -27,7 +27,7 @@ namespace quoin
   struct ModelParameters
   {
     PlaneAssumption plane = PlaneAssumption::plane_strain;
-    double thickness      = 1.; /**< of materials that give none [m] */
+    double thickness = 1.; /**< thickness of materials that give none [m] */
     std::vector<MaterialParameters> materials;
     std::vector<JointSetParameters> joints;
     std::vector<LoadParameters> initial_stresses;
@@ -46,7 +46,8 @@ namespace quoin
   struct ModelProperties
   {
     std::vector<MaterialParameters> materials;
-    std::vector<unsigned int> material_of_group; /**< of physical surfaces */
+    /** Material of each physical surface. */
+    std::vector<unsigned int> material_of_group;
     std::vector<JointSetParameters> joints;
   };
 
@@ -173,10 +174,13 @@ namespace quoin
 
     ModelProperties now;
     Thickness group_thickness;
-    std::vector<bool> absent_group; /**< of physical surfaces, at the start */
+    /** Flag of each physical surface at the start. */
+    std::vector<bool> absent_group;
     std::vector<double> node_mass;
-    std::vector<std::array<double, 4>> cell_stress; /**< or empty */
-    std::vector<JointFaceStress> face_stress;       /**< or empty */
+    /** Stress of each cell; may be empty. */
+    std::vector<std::array<double, 4>> cell_stress;
+    /** Stress of joint faces; may be empty. */
+    std::vector<JointFaceStress> face_stress;
     BlockForces<dim> block_forces;
     RigidBlocks rigid;
     MatchedJoints matched_joints;

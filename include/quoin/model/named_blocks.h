@@ -22,11 +22,14 @@ namespace quoin
   {
     std::string name;
     bool has_point = false;
-    dealii::Point<2> point;        /**< in the block at rest [m] */
-    std::string group;             /**< physical surface of this block alone */
-    dealii::Tensor<1, 2> velocity; /**< of the centroid at t = 0 [m/s] */
-    double spin         = 0.; /**< about it at t = 0, anticlockwise [rad/s] */
-    unsigned int number = -1; /**< in the whole mesh; find_named_blocks() */
+    dealii::Point<2> point; /**< point in the block at rest [m] */
+    std::string group;      /**< physical surface of this block alone */
+    /** Velocity of the centroid at t = 0 [m/s]. */
+    dealii::Tensor<1, 2> velocity;
+    /** Spin about the centroid at t = 0, anticlockwise [rad/s]. */
+    double spin = 0.;
+    /** Number in the whole mesh; find_named_blocks(). */
+    unsigned int number = -1;
 
     /** Whether it moves at the start of the run. */
     bool moves() const

@@ -57,9 +57,10 @@ namespace quoin
     } state;
 
     std::unique_ptr<TimeMarching> marching; /**< during the time marching */
-    std::optional<StaticSolution> solution; /**< of statics */
-    std::uint64_t n_done = 0;               /**< steps of this process */
-    double march_seconds = 0.;              /**< of these steps */
+    /** Solution of a static analysis. */
+    std::optional<StaticSolution> solution;
+    std::uint64_t n_done = 0;  /**< steps of this process */
+    double march_seconds = 0.; /**< wall-clock time of these steps [s] */
   };
 
   // Members of the stages are collective.

@@ -29,7 +29,7 @@ namespace quoin
   struct PlannedOutput
   {
     std::uint64_t fields = 0;     /**< output times of fields */
-    std::uint64_t rows   = 0;     /**< of histories.csv and energies.csv */
+    std::uint64_t rows   = 0;     /**< rows of histories.csv and energies.csv */
     bool is_least        = false; /**< a stage may write more */
   };
 

@@ -38,7 +38,7 @@ namespace quoin
     struct Look
     {
       bool is_due = false; /**< a checkpoint */
-      int signal  = 0;     /**< that a rank has received; 0: none */
+      int signal  = 0;     /**< signal that a rank has received; 0: none */
     };
     /** Collective: the first rank's clock counts for all, and a signal to any
         of them. */

@@ -73,8 +73,9 @@ namespace quoin
 
     std::uint64_t text_size = 0; /**< without closing tags; on first rank [B] */
     unsigned int file_number = 0;
-    std::uint64_t data_size  = 0;        /**< of the last data file [B] */
-    std::map<std::string, Place> places; /**< of this rank's last arrays */
+    std::uint64_t data_size  = 0; /**< size of the last data file [B] */
+    /** Places of this rank's last arrays. */
+    std::map<std::string, Place> places;
   };
 } // namespace quoin
 

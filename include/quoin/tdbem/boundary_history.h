@@ -14,7 +14,7 @@ namespace quoin
   /** What BoundaryHistory::save() gives. */
   struct SavedHistory
   {
-    std::vector<double> common; /**< the same on all ranks */
+    std::vector<double> common; /**< common part of all ranks */
     /** Histories of the equations that ranks share, group by group: from
         @p first_group on those of one rank, or all of them. */
     std::vector<std::vector<double>> groups;
