@@ -135,7 +135,7 @@ namespace quoin
                 x.end());
       }
 
-      /** Of the vertical side at @p x of a unit with nothing beside it. */
+      /** Name of the outer vertical side at @p x of a unit. */
       std::string outer_name(const WallUnit &unit, const double x) const
       {
         const std::string side = x < exact                   ? "left"

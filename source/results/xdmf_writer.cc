@@ -84,7 +84,7 @@ namespace quoin
       }
     }
 
-    /** Of a complete grid; they refer to its arrays. */
+    /** XML elements of a complete grid, which refer to its arrays. */
     std::vector<Element> elements_of(const VtuGrid &grid)
     {
       std::vector<Element> elements;

@@ -48,7 +48,7 @@ namespace quoin
   void check_rigid_blocks(const Model<2> &model, double gravity,
                           Advice &advice);
 
-  /** What the loads of a stage do to blocks; 0: not known. */
+  /** Motion of blocks under the loads of a stage; 0: not known. */
   struct Agitation
   {
     Shaking shaking;          /**< the fastest of them */

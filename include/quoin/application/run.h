@@ -33,7 +33,7 @@ namespace quoin
     {
       return output + "/used_parameters.prm";
     }
-    /** How the parameters differ from those that the folder's run used. */
+    /** Differences from the parameters of the run in the output directory. */
     std::string changed_parameters() const;
     void run_stage();
     void take_step();

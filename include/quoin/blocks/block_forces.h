@@ -189,7 +189,7 @@ namespace quoin
         const State<2> &state, const NodeRatio &ratio,
         std::vector<NodeStiffness<2>> &stiffness) const override;
 
-    /** What prepare() was given; cell_states.h has what follows from it. */
+    /** Argument of prepare(); see cell_states.h for the states of cells. */
     const BlockForcesData<2> &cell_data() const
     {
       return data;

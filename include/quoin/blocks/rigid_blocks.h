@@ -59,7 +59,7 @@ namespace quoin
     }
   };
 
-  /** How the rigid blocks of a rank move in a stage. */
+  /** Motion of the rigid blocks of a rank in a stage. */
   struct RigidBlockStage
   {
     std::vector<double> mass_factor; /**< mass scaling factor of each block */

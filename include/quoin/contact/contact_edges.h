@@ -27,8 +27,8 @@ namespace quoin
     unsigned int interface; /**< index into BlockTable::joined, or none */
     double length;          /**< length in the reference state [m] */
     double height; /**< height of the adjacent cell above the edge [m] */
-    /** At either node 1 for a corner of the block, 0 where it goes straight
-        on, in between for turns of some degrees. */
+    /** Weight of either node as a corner: 1 for a corner of the block, 0 where
+       the boundary is straight, in between for turns of some degrees. */
     std::array<double, 2> corner;
 
     template <typename Archive>
@@ -84,8 +84,9 @@ namespace quoin
       return foreign_edges;
     }
 
-    /** Where blocks are divided: edges of other ranks before or after own ones,
-        and their ranks. Those have edges of this rank beside theirs, too. */
+    /** Edges of other ranks before or after own ones, with their ranks, where
+        blocks are divided. These ranks have edges of this rank next to theirs.
+     */
     const std::map<unsigned int, unsigned int> &ranks_beside() const
     {
       return rank_of_neighbour;

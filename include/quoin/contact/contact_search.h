@@ -12,7 +12,7 @@
 
 namespace quoin
 {
-  /** Where an edge is: its two ends [m]. */
+  /** Current positions of the two ends of an edge [m]. */
   struct EdgeEnds
   {
     unsigned int edge; /**< index into ContactEdges */

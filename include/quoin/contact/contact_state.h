@@ -21,19 +21,19 @@ namespace quoin
     double plastic_slip    = 0.; /**< [m] */
     double plastic_opening = 0.; /**< [m] */
     double slip_offset     = 0.; /**< slip at the anchors [m] */
-    double anchor_lower    = 0.; /**< where on the edges, 0 to 1, slip is */
-    double anchor_upper    = 0.; /**< counted from */
-    double area            = 0.; /**< area of the last step [m^2] */
-    /** As last computed; infinite: not yet [m]. */
+    /** Positions on the edges, 0 to 1, from which slip is measured. */
+    double anchor_lower = 0., anchor_upper = 0.;
+    double area = 0.; /**< area of the last step [m^2] */
+    /** Opening of the last step; infinite: not computed yet [m]. */
     double opening = std::numeric_limits<double>::infinity();
     /** Internal variables of its law; there is room for most_internal. */
     static constexpr unsigned int most_internal = 4;
     double internal[most_internal]{};
-    /** How its normal leans, from -1, that of the lower edge, to 1, that of the
-        upper; as last used. */
+    /** Direction of the normal in the last step, from -1, the normal of the
+       lower edge, to 1, that of the upper one. */
     double lean = 0.;
-    /** What it takes off the overlap that it is from corner to corner, as last
-        used [m]. */
+    /** Reduction of the overlap of a contact from corner to corner in the last
+        step [m]. */
     double sideways  = 0.;
     JointState state = JointState::slipped;
   };

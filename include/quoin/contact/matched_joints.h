@@ -145,8 +145,8 @@ namespace quoin
     bool has_dashpots() const;
 
     /**
-     * Brings the histories to the positions in @p nodes, adds the joint
-     * forces to @p force and books the dissipation.
+     * Updates the internal variables for the positions in @p nodes, adds the
+     * joint forces to @p force and the dissipation to @p energy.
      */
     void add_forces(const NodeRecord<2> *nodes, JointHistory &history,
                     EnergyAccounts &energy, NodeVector<2> *force) const;

@@ -13,7 +13,7 @@
 
 namespace quoin
 {
-  /** What the dashpots of joints and contacts know of the blocks. */
+  /** Data of the blocks for the dashpots of joints and contacts. */
   struct DashpotBlocks
   {
     MPI_Comm communicator = MPI_COMM_NULL;
@@ -58,7 +58,7 @@ namespace quoin
       return !blocks.inverse_mass.empty();
     }
 
-    /** Takes the items that this rank has from now on. Collective. */
+    /** Sets the items of this rank. Collective. */
     void bind(const std::vector<Item> &items);
 
     // In each step, in this order.

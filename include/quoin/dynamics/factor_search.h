@@ -35,7 +35,7 @@ namespace quoin
     void enter(ParameterEntries &entries);
   };
 
-  /** What a trial has shown of its factor. */
+  /** Outcome of a trial of a factor. */
   enum class Verdict : std::uint8_t
   {
     undecided, /**< neither of the others within the steps allowed */

@@ -112,8 +112,8 @@ namespace quoin
 
     /** The controlled displacement, from the reference on [m]; collective. */
     double displacement(const AlignedArray<NodeRecord<dim>> &nodes) const;
-    /** What it has to be at @p load_time [s], from the start of the stage on
-        [m]. */
+    /** Prescribed value at @p load_time [s], from the start of the stage on
+     * [m]. */
     double target(const double load_time) const
     {
       return control({ load_time, load_time });

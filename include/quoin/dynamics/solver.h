@@ -31,8 +31,8 @@ namespace quoin
     double joint   = 0.; /**< recoverable, since the start */
     /** Energy of static boundary elements since the start. */
     double far_field = 0.;
-    /** What blocks and joints stored at the start, which their energies since
-        then have the rounding of. */
+    /** Stored energy of blocks and joints at the start, which determines the
+        rounding error of their energies since then. */
     double at_start = 0.;
     EnergyAccounts accounts;
 

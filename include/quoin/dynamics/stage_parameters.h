@@ -50,7 +50,7 @@ namespace quoin
     TimeFunction control;
   };
 
-  /** What results count from the start of a stage: see ResultOrigin. */
+  /** Results that are reset at the start of a stage: see ResultOrigin. */
   struct ResultReset
   {
     bool displacements = false;

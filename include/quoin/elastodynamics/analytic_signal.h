@@ -57,7 +57,7 @@ namespace quoin
   private:
     using Complex = std::complex<double>;
 
-    /** At the complex time z in samples. */
+    /** Sum at the complex time z in samples. */
     Complex sum(const Complex &z) const;
     const std::vector<Complex> &level(std::size_t m) const;
 

@@ -54,7 +54,7 @@ namespace quoin
                                   double t1) const override;
 
   private:
-    /** Where the slope of the moment changes. */
+    /** Change of the slope of the moment. */
     struct Knot
     {
       double time;   /**< [s] */

@@ -6,7 +6,7 @@
 
 namespace quoin
 {
-  /** How the boundary integral equation is required on an element. */
+  /** Projection of the boundary integral equation on an element. */
   enum class Projection
   {
     collocation, /**< equation at the midpoint of the element */

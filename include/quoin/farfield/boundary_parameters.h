@@ -29,7 +29,7 @@ namespace quoin
     interface /**< curves of the mesh with blocks on the other side */
   };
 
-  /** Which polygon stands for a circle. */
+  /** Polygon that approximates a circle. */
   enum class CirclePolygon
   {
     inscribed, /**< vertices on the circle */
@@ -37,7 +37,7 @@ namespace quoin
     equal_perimeter
   };
 
-  /** On which side of a boundary the domain is. */
+  /** Side of a boundary on which the domain lies. */
   enum class DomainSide
   {
     inside,

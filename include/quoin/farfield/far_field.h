@@ -23,7 +23,7 @@
 
 namespace quoin
 {
-  /** How the forces of the boundary elements follow the nodes in a step. */
+  /** Coupling of the boundary elements' forces to the nodes in a step. */
   enum class CouplingScheme
   {
     /**
@@ -42,7 +42,7 @@ namespace quoin
     staggered
   };
 
-  /** What is beyond the interface. */
+  /** Domain beyond the interface. */
   struct FarFieldDomain
   {
     Boundary boundary;
@@ -199,7 +199,7 @@ namespace quoin
       Eigen::VectorXd velocity;     /**< mean over the step [m/s] */
       Eigen::VectorXd traction;     /**< [Pa] */
     };
-    /** Those after the last step. */
+    /** Total fields after the last step. */
     TotalFields total_fields(const State<2> &state) const;
 
     void prepare(State<2> &state) const override;

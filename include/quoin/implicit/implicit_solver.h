@@ -133,7 +133,8 @@ namespace quoin
 
     std::array<double, 3> resultant(const std::string &load) const override;
 
-    /** What it has done; whoever reports it empties the lists. */
+    /** Record of steps and iterations; the caller that reports them empties the
+     * lists. */
     ImplicitRecord &record()
     {
       return done;

@@ -39,8 +39,8 @@ namespace quoin
     double drag_path    = 0.; /**< path's length in the jump so far [m] */
     unsigned int n_drag = 0;  /**< steps of the jump so far */
     double jump_loss = 0.; /**< dissipated by drag since the jump began [J] */
-    /** In checkpoints within a jump: the archived State of the equilibrium
-        before it. */
+    /** Archived State of the equilibrium before a jump, in checkpoints within
+     * it. */
     std::string before_jump;
 
     template <typename Visitor>

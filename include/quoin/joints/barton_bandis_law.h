@@ -54,11 +54,11 @@ namespace quoin
 
   private:
     double first, limit, largest; /**< kni [Pa/m], Vm [m], [Pa/m] */
-    /** Where the straight part begins [m], [Pa]. */
+    /** Closure and traction where the linear part begins [m], [Pa]. */
     double end_closure, end_traction;
   };
 
-  /** Where @cite BartonBandisBakhtar1985 have the roughness by slip. */
+  /** Mobilised roughness by slip of @cite BartonBandisBakhtar1985. */
   struct RoughnessTable
   {
     static constexpr unsigned int size = 8;
@@ -108,10 +108,10 @@ namespace quoin
     /** The law of a set of joints, or its entries of the parameter file. */
     static BartonBandisLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
-    /** With the shear strength divided by @p factor. */
+    /** The law with the shear strength divided by @p factor. */
     BartonBandisLaw reduced(double factor) const;
 
     /** ks [Pa/m]. */

@@ -76,7 +76,7 @@ namespace quoin
       return compression * compression / 49.;
     }
 
-    /** What the square of the cap is held against [Pa^2]. */
+    /** Value that is compared with the square of the cap [Pa^2]. */
     double load(const double sigma, const double tau) const
     {
       return (normal * sigma + offset) * sigma + shear * tau * tau;
@@ -148,10 +148,11 @@ namespace quoin
     /** The law of a set of joints, or its entries of the parameter file. */
     static CompositeLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
-    /** What to say of a law that drops by itself; empty: it softens gently. */
+    /** Warning about a strength that drops abruptly; empty: it softens
+     * gradually. */
     std::string warning() const;
 
     /** Strengths divided by @p factor, peak and residual, without the cap;
@@ -195,7 +196,7 @@ namespace quoin
                  { "crushing", [](const Here &p) { return p.crushing; } } } };
     }
 
-    /** Brings @p point to @p opening and @p slip [m], overwriting it. */
+    /** Updates @p point for @p opening and @p slip [m]. */
     template <int dim>
     CompositeDissipation update(CompositePoint<dim> &point, double opening,
                                 const Slip<dim> &slip) const;

@@ -8,7 +8,7 @@
 
 namespace quoin
 {
-  /** Where an increment ends, and the multipliers that take it there. */
+  /** End of an increment and its plastic multipliers. */
   struct CompositeFlow
   {
     double sigma    = 0.; /**< [Pa] */

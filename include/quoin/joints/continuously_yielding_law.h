@@ -124,10 +124,10 @@ namespace quoin
     /** The law of a set of joints, or its entries of the parameter file. */
     static ContinuouslyYieldingLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
-    /** With the tangents of both angles divided by @p factor. */
+    /** The law with the tangents of both angles divided by @p factor. */
     ContinuouslyYieldingLaw reduced(double factor) const;
 
     /** ks [Pa/m] at the traction s [Pa]. */

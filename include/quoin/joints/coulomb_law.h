@@ -82,7 +82,7 @@ namespace quoin
     /** The law of a set of joints, or its entries of the parameter file. */
     static CoulombLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
     /** Strengths divided by @p factor, peak and residual; dilation is not
@@ -152,8 +152,8 @@ namespace quoin
                                     const bool breaks,
                                     JointTangent<dim> &tangent) const;
 
-    /** By how much an intact @p point exceeds its strength, as a share of its
-        stress; zero or less: it holds. */
+    /** Excess of the stress of an intact @p point over its strength, as a
+       fraction of its stress; zero or less: it holds. */
     template <int dim>
     double excess(const JointPoint<dim> &point) const;
 
@@ -205,7 +205,8 @@ namespace quoin
     }
 
   private:
-    /** What drives a failed joint to slip beyond its trial tractions. */
+    /** Driving quantities of the slip of a failed joint at its trial tractions.
+     */
     template <int dim>
     struct Drive
     {
@@ -214,7 +215,7 @@ namespace quoin
       double excess;       /**< excess of |tau| over the strength [Pa] */
       double stiffness;    /**< decrease of the excess per |dp| [Pa/m] */
     };
-    /** At trial tractions [Pa] and the @p slip [m]. */
+    /** Drive at trial tractions [Pa] and the @p slip [m]. */
     template <int dim>
     Drive<dim> drive(double sigma, const Slip<dim> &tau,
                      const Slip<dim> &slip) const;

@@ -12,7 +12,7 @@
 
 namespace quoin
 {
-  /** What a joint point has been through; the order is written to output. */
+  /** State of a joint point; the order is written to output. */
   enum class JointState : std::uint8_t
   {
     intact   = 0, /**< never failed */

@@ -71,10 +71,10 @@ namespace quoin
   /** Laws of one kind remember the same of a joint. */
   std::string kind_of_law(const JointLaw &law);
 
-  /** What --check says of the law. */
+  /** Description of the law for --check. */
   std::string law_text(const JointLaw &law);
 
-  /** What a user should know of its parameters; or empty. */
+  /** Warning about the parameters of the law; may be empty. */
   std::string law_warning(const JointLaw &law);
 
   /** Numbers that a joint point remembers beside those of JointPoint. */

@@ -147,7 +147,7 @@ namespace quoin
     const char *word, *sentence;
   };
 
-  /** What most joint laws do alike; a law hides what it does otherwise. See
+  /** Common defaults of joint laws, which a law hides where it differs. See
       joint_law.h. */
   struct JointLawDefaults
   {
@@ -164,7 +164,7 @@ namespace quoin
     {
       return "";
     }
-    /** What a user should know of its parameters, a sentence; or empty. */
+    /** Warning about the parameters, a sentence; may be empty. */
     std::string warning() const
     {
       return "";
@@ -179,8 +179,8 @@ namespace quoin
     {
       return true;
     }
-    /** Gives @p point the internal variables of a contact that comes up: that
-        of a joint with no more than its residual strength. */
+    /** Sets the internal variables of @p point to those of a new contact: a
+       joint at its residual strength. */
     template <typename Point>
     void wear_out(Point &) const
     {
@@ -191,8 +191,8 @@ namespace quoin
     {
       return {};
     }
-    /** What the elastic slip of @p point changes by with its normal traction
-        at the same shear traction [m/Pa]. */
+    /** Derivative of the elastic slip of @p point by its normal traction at
+        constant shear traction [m/Pa]. */
     template <typename Point>
     double slip_by_pressure(const Point &) const
     {

@@ -16,7 +16,7 @@ namespace quoin
   template <typename Law>
   using PointOf = typename std::decay_t<Law>::template Point<2>;
 
-  /** Where the arrays of a JointHistory, or of a part of it, begin. */
+  /** Pointers to the arrays of a JointHistory, or of a part of it. */
   struct PointArrays
   {
     static constexpr unsigned int most_internal = 4;
@@ -33,7 +33,7 @@ namespace quoin
     std::array<Variable, most_internal> internal;
     JointState *state;
 
-    /** From point @p p on. */
+    /** Arrays from point @p p on. */
     PointArrays from(const unsigned int p) const
     {
       PointArrays part{

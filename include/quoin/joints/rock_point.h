@@ -32,7 +32,7 @@ namespace quoin
         = { &RockPoint::worn_slip, &RockPoint::dilated, &RockPoint::reload };
   };
 
-  /** What slip does to a point whose closure is known. */
+  /** Shear response of a point with known closure. */
   template <typename Number>
   struct RockFlow
   {
@@ -44,7 +44,7 @@ namespace quoin
     bool slips            = false;
   };
 
-  /** What a point comes to. */
+  /** Updated variables of a point. */
   template <typename Number>
   struct RockStep
   {
@@ -194,7 +194,7 @@ namespace quoin
     static constexpr const char *kind = "a law of rock joints";
     static constexpr bool stiffens    = true;
 
-    /** Brings @p point to @p opening and @p slip [m], overwriting it. */
+    /** Updates @p point for @p opening and @p slip [m]. */
     JointDissipation update(RockPoint &point, const double opening,
                             const double slip) const
     {

@@ -64,13 +64,14 @@ namespace quoin
     /** The law of a set of joints, or its entries of the parameter file. */
     static SlipWeakeningLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
-    /** With cohesions and frictions divided by @p factor. */
+    /** The law with cohesions and friction coefficients divided by @p factor.
+     */
     SlipWeakeningLaw reduced(double factor) const;
 
-    /** What to say of a law that drops by itself without any pressure. */
+    /** Warning about a strength that drops abruptly without pressure. */
     std::string warning() const;
 
     bool can_dilate() const
@@ -123,8 +124,8 @@ namespace quoin
       point.slipped = std::numeric_limits<double>::infinity();
     }
 
-    /** Brings @p point to @p opening and @p slip [m], if it neither slips nor
-        is open there; else false. */
+    /** Updates @p point for @p opening and @p slip [m] if it neither slips nor
+       is open there; otherwise returns false. */
     template <int dim>
     bool update_elastic(SlipWeakeningPoint<dim> &point, const double opening,
                         const Slip<dim> &slip) const
@@ -183,12 +184,12 @@ namespace quoin
     }
 
   private:
-    /** At the normal traction @p sigma [Pa]. */
+    /** Residual strength at the normal traction @p sigma [Pa]. */
     double residual_strength(const double sigma) const
     {
       return residual_cohesion - sigma * residual_friction;
     }
-    /** What the strength loses over D_c [Pa]. */
+    /** Loss of strength over D_c [Pa]. */
     double loss(const double sigma) const
     {
       return cohesion - residual_cohesion

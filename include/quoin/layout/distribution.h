@@ -10,7 +10,7 @@
 
 namespace quoin
 {
-  /** How a property of joints scatters about its mean. */
+  /** Statistical distribution of a property of joints. */
   enum class DistributionKind
   {
     constant,

@@ -108,7 +108,7 @@ namespace quoin
       }
     };
 
-    /** Where two edges cross that share no end. */
+    /** Crossing of two edges that share no end. */
     struct Crossing
     {
       unsigned int first, second;

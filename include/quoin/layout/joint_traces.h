@@ -8,7 +8,7 @@
 
 namespace quoin
 {
-  /** What was drawn for a joint set, before anything is cut. */
+  /** Random values of a joint set before joints are cut. */
   struct DrawnValues
   {
     std::vector<double> dip;     /**< [deg] */

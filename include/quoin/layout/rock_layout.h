@@ -76,7 +76,7 @@ namespace quoin
    */
   RockLayout lay_rock(const RockParameters &rock);
 
-  /** What was made and what was changed, in lines. */
+  /** Lines on the generated joints and blocks and on what was changed. */
   std::string rock_report(const RockParameters &rock, const RockLayout &layout);
 
   /**

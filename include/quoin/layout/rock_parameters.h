@@ -68,7 +68,7 @@ namespace quoin
   /** The sections 'Rock', 'Rock regions' and 'Rock joints'. */
   struct RockParameters
   {
-    /** What becomes of joints that end inside a block. */
+    /** Treatment of joints that end inside a block. */
     enum DeadEnds
     {
       cut,    /**< back to the last joint that they met */

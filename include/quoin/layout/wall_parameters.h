@@ -13,7 +13,7 @@
 
 namespace quoin
 {
-  /** How the units of a wall are laid. */
+  /** Masonry bond of a wall. */
   enum class WallBond
   {
     none,    /**< no wall is generated */
@@ -48,7 +48,7 @@ namespace quoin
     /** Names of courses, counted from 1. */
     std::map<unsigned int, std::string> named_courses;
 
-    /** Of course @p number: its own, or that of the storey. */
+    /** Name of course @p number, which is that of the storey if it has none. */
     const std::string &course_name(const unsigned int number) const
     {
       const auto found = named_courses.find(number);
@@ -95,7 +95,7 @@ namespace quoin
     bool structured     = true;
 
     static void declare(dealii::ParameterHandler &prm);
-    /** Of the whole file; storeys are read only if there is a wall. */
+    /** Wall of the parameter file; storeys are read only if there is a wall. */
     static WallParameters read(const ParameterSection &top);
 
     double height() const; /**< height with slabs and platens [m] */

@@ -29,7 +29,7 @@ namespace quoin
     boundary_elements /**< boundary elements of section 'Boundary elements' */
   };
 
-  /** What a time function of a load stands for. */
+  /** Quantity of a time function of a load. */
   enum class LoadQuantity
   {
     free,

@@ -61,11 +61,12 @@ namespace quoin
     rigid_body  /**< all nodes together; results are those of all ranks */
   };
 
-  /** What a constraint is, in all stages. */
+  /** Properties of a constraint in all stages. */
   struct ConstraintTraits
   {
     MotionKind kind = MotionKind::absorbing;
-    /** Which of x, y and, for platens, rotation it prescribes. */
+    /** Flags of the components x, y and, for platens, rotation that it
+     * prescribes. */
     std::array<bool, 3> holds{};
     /** Whether a stiffness resists motion of its nodes, prescribed or not. */
     bool supports = false;

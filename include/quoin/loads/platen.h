@@ -78,10 +78,10 @@ namespace quoin
     }
 
   private:
-    bool driven(const unsigned int freedom) const
+    bool driven(const unsigned int d) const
     {
-      return components[freedom].quantity == LoadQuantity::velocity
-             || components[freedom].quantity == LoadQuantity::displacement;
+      return components[d].quantity == LoadQuantity::velocity
+             || components[d].quantity == LoadQuantity::displacement;
     }
 
     /** Force and moment [N, N m] of the nodes, summed over all ranks. */

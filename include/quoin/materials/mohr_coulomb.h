@@ -65,7 +65,7 @@ namespace quoin
     std::uint8_t state   = 0; /**< bits of yielding; 0: has never yielded */
   };
 
-  /** What MohrCoulomb::update() gives to its caller. */
+  /** Result of MohrCoulomb::update(). */
   struct PlasticStep
   {
     /**

@@ -6,7 +6,7 @@
 
 namespace quoin
 {
-  /** What is taken to vanish out of the plane. */
+  /** Assumption on the out-of-plane direction. */
   enum class PlaneAssumption
   {
     plane_strain, /**< zero strain out of the plane: long bodies */

@@ -76,7 +76,7 @@ namespace quoin
 
     /** Lines of text without a final newline. */
     std::string to_text() const;
-    /** What is most likely a mistake in the mesh, a sentence each. */
+    /** Sentences on likely mistakes in the mesh. */
     std::vector<std::string> warnings() const;
   };
 

@@ -95,7 +95,8 @@ namespace quoin
      */
     void set_properties(const ModelProperties &properties,
                         const ConstructionState &construction);
-    /** As set_properties(), with stresses and tractions of @p state kept. */
+    /** Does what set_properties() does and keeps stresses and tractions of @p
+     * state. */
     void change_properties(const ModelProperties &properties,
                            State<dim> &state);
     /** Sets the stress at zero strain of the cells of @p groups to zero. */
@@ -106,7 +107,7 @@ namespace quoin
     {
       return node_map;
     }
-    /** That of each physical surface. */
+    /** Out-of-plane thickness of each physical surface [m]. */
     const Thickness &thickness() const
     {
       return group_thickness;
@@ -128,15 +129,17 @@ namespace quoin
     {
       return matched_joints;
     }
-    /** Bound of the step; none for quadratic meshes (corners without mass). */
+    /** Bound of the critical step; none for quadratic meshes, whose corners
+     * have no mass. */
     const StableTimeStep<dim> &stability() const
     {
       return *stable_step;
     }
-    /** The same for the cells as plastic flow has left them; collective. */
+    /** Bound of the critical step with the plastic strains of @p state;
+     * collective. */
     StableTimeStep<dim> stability_at(const State<dim> &state) const;
-    /** Adds springs wherever blocks may touch to the bound of local nodes
-        [N/m]. Collective. */
+    /** Adds springs wherever blocks may come into contact to the bound of local
+       nodes [N/m]. Collective. */
     void add_contact_bound(std::vector<NodeStiffness<dim>> &bound) const;
     /**
      * Lumped masses of owned nodes and ghosts [kg]; zero at the corners of

@@ -52,14 +52,14 @@ namespace quoin
                          std::vector<NamedBlock> &blocks);
 
   /** Mass [kg], centroid [m] and moment of inertia about it [kg m^2] of a block
-      at rest; of a deformable one those of its lumped masses. */
+      at rest; those of the lumped masses if the block is deformable. */
   struct BlockInertia
   {
     double mass = 0.;
     dealii::Point<2> centroid;
     double moment = 0.;
   };
-  /** That of @p block of the whole mesh; collective. */
+  /** Inertia of @p block of the whole mesh; collective. */
   BlockInertia inertia_of_block(const Model<2> &model, unsigned int block);
 
   /** A line on each of @p blocks for the log; collective. */

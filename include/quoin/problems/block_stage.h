@@ -15,7 +15,7 @@
 
 namespace quoin
 {
-  /** How and when a stage ended. */
+  /** Outcome and end time of a stage. */
   struct StageOutcome
   {
     std::string outcome;     /**< empty: it has not ended */

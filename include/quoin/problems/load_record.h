@@ -40,10 +40,10 @@ namespace quoin
       double time = -1.; /**< -1: there is none */
     };
 
-    /** Takes a row with the @p factor of a load pattern. */
+    /** Adds a row with the @p factor of a load pattern. */
     void add_factor(double factor, double displacement, double time);
 
-    /** Takes a row at @p time [s]. */
+    /** Adds a row at @p time [s]. */
     void add_forces(const ForceBalance &forces, double time);
 
     /**

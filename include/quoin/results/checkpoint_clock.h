@@ -34,7 +34,7 @@ namespace quoin
       last = WallClock::now();
     }
 
-    /** What all ranks have to know. */
+    /** Decision that all ranks share. */
     struct Look
     {
       bool is_due = false; /**< a checkpoint */

@@ -73,7 +73,7 @@ namespace quoin
     /** The row for the time before the step; collective. */
     std::vector<double> after_step(const State<dim> &state);
 
-    /** What a checkpoint needs of them. */
+    /** Writes or reads the part of a checkpoint. */
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
@@ -140,7 +140,7 @@ namespace quoin
     /** Displacement controlled by a load pattern, NaN without [m]. */
     double controlled = 0.;
     std::vector<double> row;
-    /** What each column counts from, by whole_row(). */
+    /** Reference value of each column, by whole_row(). */
     std::vector<double> origin;
   };
 

@@ -56,7 +56,7 @@ namespace quoin
     std::string unit;
     std::array<double, 3> point{}; /**< [m]; z in three dimensions */
     bool point_has_z = false;      /**< z was given */
-    /** Of quantities of two points, the second one [m]. */
+    /** Second point of quantities of two points [m]. */
     std::array<double, 3> other_point{};
     std::string load;
     std::string curve;

@@ -51,7 +51,7 @@ namespace quoin
     }
 
   private:
-    /** Where an array lies, and what is in it. */
+    /** Hash, size and offset of an array in the data file. */
     struct Place
     {
       std::uint64_t hash = 0, size = 0, offset = 0;

@@ -11,7 +11,7 @@
 
 namespace quoin
 {
-  /** What BoundaryHistory::save() gives. */
+  /** Result of BoundaryHistory::save(). */
   struct SavedHistory
   {
     std::vector<double> common; /**< common part of all ranks */

@@ -47,9 +47,10 @@ namespace quoin
     {
       /** Relative, of each block's matrices and of the sum. */
       double tolerance = 1e-6;
-      /** For which the sum of exponentials must last. */
+      /** Number of steps for which the sum of exponentials must be accurate. */
       unsigned long n_steps = 1000000;
-      /** Number of elements of a cluster at most; 0: by their number. */
+      /** Largest number of elements of a cluster; 0: from the number of
+       * elements. */
       unsigned cluster_size = 0;
       /** Steps for which known history is applied at once; 0: by number. */
       unsigned block_size = 0;

@@ -31,7 +31,7 @@ namespace quoin
    */
   ZTransform z_transform(const InfluenceKernel &kernel, unsigned n_lags);
 
-  /** Where the discrete impedance of a boundary creates most energy. */
+  /** Frequency at which the boundary may add most energy. */
   struct PassivityReport
   {
     /**
@@ -45,13 +45,13 @@ namespace quoin
     std::vector<double> frequencies; /**< looked at, ascending [Hz] */
     std::vector<double> eigenvalues; /**< the smallest at each [rho c_2] */
 
-    /** Up to a tolerance, 1e-6. */
+    /** Whether the boundary is passive, up to a tolerance of 1e-6. */
     bool passive() const
     {
       return smallest_eigenvalue > -1e-6;
     }
 
-    /** In words: the result and, unless passive, what to do about it. */
+    /** Result in words and, unless the boundary is passive, the remedy. */
     std::string advice() const;
   };
 

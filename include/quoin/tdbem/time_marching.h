@@ -43,7 +43,8 @@ namespace quoin
      */
     void step(const Eigen::VectorXd &given);
 
-    /** As step(), without adding the step to the history: see finish_step(). */
+    /** Does what step() does without adding the step to the history: see
+     * finish_step(). */
     void begin_step(const Eigen::VectorXd &given);
 
     /**
