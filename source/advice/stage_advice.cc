@@ -85,13 +85,12 @@ namespace quoin
                                              - control({ t, t })));
       }
       const double first = std::abs(control({ early, early }));
-      checks.warn_if(first > 0.5 * fastest && fastest > 0.,
-                     "'Control function' begins with a velocity of ",
-                     first / early,
-                     " m/s, a jump that shakes the model and the factor of the "
-                     "load pattern. Let it begin slowly, such as with v * "
-                     "if(t < T, t^2 / (2 * T), t - T / 2), or give a 'Kinetic "
-                     "energy limit'.");
+      checks.warn_if(
+          first > 0.5 * fastest && fastest > 0.,
+          "'Control function' begins with a velocity of ", first / early,
+          " m/s, a jump that makes the model and the load factor oscillate. "
+          "Let it begin slowly, such as with v * if(t < T, t^2 / (2 * T), t - "
+          "T / 2), or give a 'Kinetic energy limit'.");
     }
 
     void check_damping(const StageOfRun &run, Checks &checks)

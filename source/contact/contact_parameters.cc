@@ -17,8 +17,8 @@ namespace quoin
       if (!contact.has_box)
         return;
       if (!contact.large_displacements)
-        section.fail("Box", "needs 'Displacements = large': with small ones "
-                            "no block goes anywhere.");
+        section.fail("Box", "needs 'Displacements = large': with small "
+                            "displacements no block leaves its place.");
       if (!(contact.box[0] < contact.box[2] && contact.box[1] < contact.box[3]))
         section.fail("Box", "must be xmin, ymin, xmax, ymax with xmin < xmax "
                             "and ymin < ymax.");

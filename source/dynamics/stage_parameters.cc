@@ -230,8 +230,8 @@ namespace quoin
                                       "1e-9.");
       if (stage.slows_loads() && !by_time)
         section->fail("Kinetic energy limit",
-                      "needs 'End = time': a stage that settles has loads that "
-                      "rest in the end.");
+                      "needs 'End = time': the loads of a stage that ends at "
+                      "equilibrium must become constant.");
       if (section->text("Start time") != "previous end"
           && stage.start_time < 0.)
         section->fail("Start time",
@@ -387,7 +387,7 @@ namespace quoin
     std::string end_text(const StageParameters &stage, const bool is_implicit)
     {
       if (stage.safety)
-        return "looks for the factor of safety";
+        return "searches for the factor of safety";
       if (stage.end == StageEnd::time)
         return text_of("lasts ", stage.duration, " s",
                        stage.slows_loads() ? " of load time" : "");

@@ -118,8 +118,8 @@ namespace quoin
                 "it there, or leave out short edges and sharp corners of the "
                 "geometry.";
       else if (state.step == 0)
-        text << "Nothing has moved yet but by 'Initial motion', whose "
-                "displacements turn it over: give smaller ones.";
+        text << "Only 'Initial motion' has moved nodes, and its displacements "
+                "turn the cell over: give smaller ones.";
       else
         text << "Its shape in the mesh is good: it has been crushed, and the "
                 "loads of this stage are "

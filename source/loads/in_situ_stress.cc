@@ -59,9 +59,9 @@ namespace quoin
     std::vector<std::array<double, 2>>
     read_surface(const ParameterSection &section)
     {
-      const std::string must_be = "must be the height of a level surface, "
-                                  "points x, y; x, y with x ascending, or an "
-                                  "expression of x [m].";
+      const std::string must_be
+          = "must be the height of a horizontal surface, points x, y; x, y "
+            "with x ascending, or an expression of x [m].";
       const bool is_level
           = section.text("Surface").find_first_of(",;") == std::string::npos;
       const auto rows = section.rows("Surface", is_level ? 1 : 2, must_be);
