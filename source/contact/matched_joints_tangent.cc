@@ -28,7 +28,7 @@ namespace quoin
                                : 0.;
     }
 
-    /** A point brought to its gap, and the derivatives there. */
+    /** A point updated for its gap, and the derivatives there. */
     struct Response
     {
       JointTangent<2> tangent;
@@ -38,7 +38,7 @@ namespace quoin
       double opens, slips;                  /**< sign_of_growth() of these */
     };
 
-    /** Brings point @p p to @p opening and @p slip [m]. */
+    /** Updates point @p p for @p opening and @p slip [m]. */
     template <typename Law>
     Response respond(const Law &law, const double opening, const double slip,
                      const bool may_break, const double weight,

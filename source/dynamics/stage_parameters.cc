@@ -80,7 +80,7 @@ namespace quoin
                                   const StageParameters &stage)
     {
       // Local damping needs no search for its strength, and does not show in
-      // an equilibrium, but bears a part of the weight of what moves steadily.
+      // an equilibrium, but carries a part of the weight of steady motion.
       if (stage.slows_loads() || section.text("End") == "factor of safety")
         return DampingType::adaptive;
       return stage.end == StageEnd::static_ratio ? DampingType::local

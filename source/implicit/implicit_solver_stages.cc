@@ -141,7 +141,7 @@ namespace quoin
         far.elastostatic_acts ? far.elastostatic : nullptr,
         acting.pattern.get());
     equilibrium->set_release(acting.release);
-    // Multigrid knows no factor.
+    // Multigrid gives no factor.
     linear_solver = std::make_unique<LinearSolver>(
         acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
         model, *dof_map);

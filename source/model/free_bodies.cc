@@ -74,7 +74,7 @@ namespace quoin
              const std::vector<MotionConstraint<dim> *> &constraints,
              const State<dim> &state, bool with_drag);
 
-      /** The block that stands for the body of @p block. */
+      /** The block that represents the body of @p block. */
       unsigned int body(const unsigned int block)
       {
         return sets.find_set(block);

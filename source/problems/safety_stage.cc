@@ -291,7 +291,7 @@ namespace quoin
           }
           // Loads that are released slowly may lead ground that flows from one
           // equilibrium to the next, until it lies as a heap. Whether it keeps
-          // moving shows when it is let go.
+          // moving shows when it is released.
           if (!now.jumps && now.released < 1. && displacement > limit)
             solver.move_against_drag(state);
           if (context.run.progress.due())

@@ -175,7 +175,7 @@ namespace quoin
           });
     }
 
-    /** Cuts a file back to the length that a checkpoint knows. */
+    /** Truncates a file to the length recorded in a checkpoint. */
     void cut(const std::string &file, const std::uint64_t size)
     {
       std::error_code error;

@@ -39,7 +39,7 @@ namespace quoin
   std::vector<std::string> contact_lines(const Model<2> &model,
                                          const State<2> &state);
 
-  /** Warns of restitution that the waves in blocks will not let be, and of sets
+  /** Warns of restitution that waves in blocks will change, and of sets
       for new contacts alone beside which blocks do not deform. */
   void check_contacts(const Model<2> &model, Advice &advice);
 

@@ -227,7 +227,8 @@ namespace quoin
                    PlasticHistory &history, CellLinearisation &result,
                    bool with_stiffness = true) const;
 
-    /** Updates @p history as add_forces(); returns the dissipation [J]. */
+    /** Updates @p history as add_forces() does and returns the dissipation [J].
+     */
     double update(const NodeRecord<2> *nodes, PlasticHistory &history) const;
 
     /**

@@ -123,7 +123,7 @@ namespace quoin
                    PlasticHistory &history, CellLinearisation &result,
                    bool with_stiffness = true) const;
 
-    /** No history to update; returns 0 [J]. */
+    /** Returns 0 [J], because there are no internal variables. */
     double update(const NodeRecord<3> *, PlasticHistory &) const
     {
       return 0.;

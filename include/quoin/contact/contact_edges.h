@@ -78,7 +78,7 @@ namespace quoin
     {
       return own_nodes;
     }
-    /** Edges of other ranks that this one knows by now, ascending. */
+    /** Edges of other ranks that this one has received, ascending. */
     const std::vector<ContactEdge> &foreign() const
     {
       return foreign_edges;

@@ -44,7 +44,7 @@ namespace quoin
     unsigned int lower     = 0; /**< edges, see ContactEdges */
     unsigned int upper     = 0;
     unsigned int set       = 0; /**< joint set whose law the pair follows */
-    std::uint8_t active    = 0; /**< whether the points have a history */
+    std::uint8_t active    = 0; /**< whether the points are active */
     std::uint8_t was_joint = 0; /**< whether it was a matched joint */
     std::uint8_t was_open  = 0; /**< whether the edges were seen apart */
     /** Slip of the matched joint that became this pair [m], and what of it is
@@ -72,7 +72,7 @@ namespace quoin
 
     /** Positions of the boundary nodes when pairs were last searched [m]. */
     AlignedArray<NodeVector<2>> search_positions;
-    std::uint64_t next_check = 0; /**< step of the next look at motions */
+    std::uint64_t next_check = 0; /**< step of the next check of motions */
     std::uint64_t n_searches = 0;
     double skin              = 0.; /**< skin of the last search [m] */
     std::uint64_t searched   = 0;  /**< step of the last search */

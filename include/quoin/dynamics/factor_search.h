@@ -112,7 +112,8 @@ namespace quoin
    * Whether a trial fails: its largest displacement exceeds a limit, and it
    * keeps moving, by 1.8 times in each of the last two doublings of the time.
    * At constant velocity this ratio is two, at constant acceleration four; it
-   * tends to one as the model comes to rest. The time may be a pseudo-time.
+   * tends to one as the model approaches equilibrium. The time may be a
+   * pseudo-time.
    */
   class FailureWatch
   {

@@ -37,7 +37,7 @@ namespace quoin
                                   const State<dim> &state);
 
   /**
-   * The largest slip of a matched joint that bears pressure, by the length of
+   * The largest slip of a matched joint under pressure, by the length of
    * its face [-]: beyond about one half its blocks no longer face each other,
    * and small displacements are no longer valid. Collective.
    */

@@ -50,7 +50,7 @@ namespace quoin
    * the motion at that time. It acts implicitly, as K times the mean
    * (u_{n-1} + 2 u_n + u_{n+1}) / 4: the same as adding dt^2 K / 4 to the
    * masses of the interface's nodes, which cannot lower the critical step and
-   * does not change where the blocks come to rest.
+   * does not change the equilibrium of the blocks.
    */
   class StaticFarField : public MotionConstraint<2>
   {

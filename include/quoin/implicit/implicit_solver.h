@@ -109,7 +109,7 @@ namespace quoin
      */
     void step(State<2> &state);
 
-    /** Lets the next steps of a search for the factor of safety be those of a
+    /** Makes the next steps of a search for the factor of safety those of a
         jump, from @p state on and with all forces released. */
     void move_against_drag(State<2> &state);
 

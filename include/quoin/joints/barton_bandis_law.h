@@ -18,7 +18,7 @@ namespace quoin
    *     s = kni V / (1 - V/Vm),
    *
    * the same curve loading and unloading. Beyond the closure where its slope
-   * has come to a largest stiffness it goes on straight with that, so that
+   * has reached a largest stiffness it continues linearly with that, so that
    * there is a stable time step.
    */
   class HyperbolicClosure
@@ -149,7 +149,7 @@ namespace quoin
      */
     void initialise(RockPoint &point, double normal, double shear) const;
 
-    /** Whether @p point, at zero opening and slip, bears its tractions; at
+    /** Whether @p point, at zero opening and slip, has admissible tractions; at
         rest they would come down to what it does bear if not. */
     bool holds(RockPoint point) const
     {

@@ -19,7 +19,7 @@ namespace quoin
   {
     double bond     = 1.; /**< ft/ft0 = c/c0 = exp(-k) [-] */
     double crushing = 0.; /**< k3 [m] */
-    /** Share of w that tension opened and closing takes back [m]. */
+    /** Part of w that tension opened and closing recovers [m]. */
     double crack_opening = 0.;
 
     static constexpr std::array<double CompositePoint::*, 3> internal
@@ -64,7 +64,7 @@ namespace quoin
       return limit(crushing, slope);
     }
 
-    /** k3 where the cap has come down to fm/2, km [m]. */
+    /** k3 at which the cap has softened to fm/2, km [m]. */
     double middle_crushing() const
     {
       return 75. / 67. * compression_energy / compression + peak_crushing;
@@ -180,7 +180,7 @@ namespace quoin
       point.plastic_slip    = -shear / shear_stiffness;
     }
 
-    /** Contacts that come up have no bond, but a cap that nothing crushed. */
+    /** New contacts have no bond, but an intact cap. */
     template <int dim>
     void wear_out(CompositePoint<dim> &point) const
     {
@@ -242,7 +242,8 @@ namespace quoin
                       / shear_stiffness);
     }
 
-    /** Whether @p point bears its tractions, if it is intact; the cap apart. */
+    /** Whether the tractions of @p point, if it is intact, are admissible,
+       without regard to the cap. */
     template <int dim>
     bool holds(const CompositePoint<dim> &point) const
     {

@@ -165,7 +165,8 @@ namespace quoin
              + (initial_angle - residual_angle) * exp(-(worn / roughness));
     }
 
-    /** Whether @p point bears its tractions; slip would lower them if not. */
+    /** Whether the tractions of @p point are admissible; otherwise slip would
+       lower them. */
     bool holds(const RockPoint &point) const
     {
       constexpr double margin = 1e-9;

@@ -26,7 +26,7 @@ namespace quoin
     double friction = 0.;
     double tension  = std::numeric_limits<double>::infinity();
 
-    /** Whether it bears these tractions [Pa]; at the limit it does. */
+    /** Whether these tractions [Pa] are admissible; at the limit they are. */
     bool bears(const double normal, const double shear) const
     {
       const double margin = 1e-9 * (std::abs(normal) + std::abs(shear));
@@ -124,7 +124,7 @@ namespace quoin
     }
 
     /**
-     * Brings @p point to the given @p opening and @p slip [m] and returns
+     * Updates @p point for @p opening and @p slip [m] and returns
      * what that dissipated, by the trapezoidal rule of the explicit scheme.
      */
     template <int dim>
@@ -197,7 +197,7 @@ namespace quoin
                       / shear_stiffness);
     }
 
-    /** Whether @p point bears its tractions, if it is intact. */
+    /** Whether the tractions of @p point, if it is intact, are admissible. */
     template <int dim>
     bool holds(const JointPoint<dim> &point) const
     {

@@ -39,7 +39,7 @@ namespace quoin
     AlignedArray<double> internal;
     unsigned int n_internal = 0;
     AlignedArray<JointState> state;
-    /** Whether each segment, two points, is a general contact by now. */
+    /** Whether each segment, two points, has become a general contact. */
     AlignedArray<std::uint8_t> handed_over;
 
     void resize(const std::size_t n, const unsigned int n_internal = 0)

@@ -30,7 +30,7 @@ namespace quoin
    *   reduced(factor), the law with its strength divided by a factor;
    * - Point<dim>, what it reads and overwrites: JointPoint or derived from it;
    *   initialise(point, normal, shear), tractions at rest, and holds(point),
-   *   whether it bears them; wear_out(point), fields() for results;
+   *   whether these are admissible; wear_out(point), fields() for results;
    * - update_elastic(point, opening, slip), false where the joint fails, slips
    *   or is open, and update_failing() for the rest, which returns what it
    *   dissipated; update(point, opening, slip, tangent), both with the
@@ -56,7 +56,7 @@ namespace quoin
     for_each_law(use, static_cast<const JointLaw *>(nullptr));
   }
 
-  /** The largest kn and ks [Pa/m] that a joint can come to. */
+  /** The largest kn and ks [Pa/m] that a joint can reach. */
   std::array<double, 2> stiffness_bound(const JointLaw &law);
 
   /** Whether kn and ks grow with the pressure, from less than the bound. */

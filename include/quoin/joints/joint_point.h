@@ -141,7 +141,7 @@ namespace quoin
     double (*value)(const Point &point);
   };
 
-  /** A word for 'Law' in the parameter file and what to say of it there. */
+  /** A word for 'Law' in the parameter file and its description there. */
   struct LawName
   {
     const char *word, *sentence;
@@ -159,7 +159,8 @@ namespace quoin
     /** Whether a joint that is open may bear tension. */
     static constexpr bool bridges = false;
 
-    /** Why it is not for contacts that come up, "which ..."; empty: it is. */
+    /** Reason why the law does not apply to new contacts, "which ..."; empty:
+     * it does. */
     std::string no_new_contacts() const
     {
       return "";

@@ -131,7 +131,7 @@ namespace quoin
   }
 
   /**
-   * Brings @p point to @p step and returns what that dissipated: its work by
+   * Updates @p point by @p step and returns the dissipation: its work by
    * the trapezoidal rule less the change of stored energy. What the rule
    * makes of the curve of the closure is left to the energy residual.
    */
@@ -254,7 +254,7 @@ namespace quoin
                own().largest_shear_stiffness() };
     }
 
-    /** Contacts that come up are as smooth as any slip makes them. */
+    /** New contacts have the smallest roughness that slip can lead to. */
     void wear_out(RockPoint &point) const
     {
       point.worn_slip = std::numeric_limits<double>::infinity();

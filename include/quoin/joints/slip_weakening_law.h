@@ -107,7 +107,7 @@ namespace quoin
       point.plastic_slip    = -point.shear_traction / shear_stiffness;
     }
 
-    /** Whether @p point bears its tractions. */
+    /** Whether the tractions of @p point are admissible. */
     template <int dim>
     bool holds(const SlipWeakeningPoint<dim> &point) const
     {
@@ -117,7 +117,7 @@ namespace quoin
       return tau <= strength(sigma, point.slipped) + margin;
     }
 
-    /** Contacts that come up have slipped enough. */
+    /** New contacts have slipped by more than D_c. */
     template <int dim>
     void wear_out(SlipWeakeningPoint<dim> &point) const
     {
@@ -246,7 +246,7 @@ namespace quoin
     point.plastic_slip += dp * direction;
     point.slipped += dp;
     point.state = JointState::slipping;
-    // What the joint bears beyond its residual strength is fracture.
+    // The work beyond the residual strength is fracture.
     const double work = 0.5 * (tau_old + point.shear_traction) * direction * dp;
     const double residual
         = 0.5 * (residual_strength(sigma_old) + residual_strength(sigma)) * dp;

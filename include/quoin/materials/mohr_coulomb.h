@@ -136,9 +136,9 @@ namespace quoin
                 PlaneAssumption assumption);
 
     /**
-     * Brings @p point to the elastic Biot strain @p e (U_e - I with the point's
-     * present Q) under the @p initial stress [Pa] (xx, yy, xy, zz; in plane
-     * stress zz is 0), which belongs to a cell that has never yielded:
+     * Updates @p point for the elastic Biot strain @p e (U_e - I with the
+     * point's present Q) under the @p initial stress [Pa] (xx, yy, xy, zz; in
+     * plane stress zz is 0), which belongs to a cell that has never yielded:
      * when it does, its elastic stretch becomes the one that has the present
      * stress alone. A cell that is inverted is elastic.
      *
@@ -402,7 +402,7 @@ namespace quoin
 
     /** Stiffness times the direction of shear flow (N_psi, 0, -1) [Pa]. */
     Principal flow;
-    double plane_modulus; /**< F_s that a unit of this flow takes away [Pa] */
+    double plane_modulus; /**< decrease of F_s per unit of this flow [Pa] */
     /** Sum of plane_modulus of the two planes at s1 = s2. */
     double major_modulus;
     /** Sum of plane_modulus of the two planes at s2 = s3. */

@@ -18,7 +18,7 @@
 namespace quoin
 {
   /**
-   * What every rank knows of the whole mesh: names, sizes and an entry for each
+   * Data of the whole mesh on every rank: names, sizes and an entry for each
    * block, but nothing for each cell or node.
    */
   template <int dim>

@@ -11,7 +11,7 @@
 
 namespace quoin
 {
-  // Geometry of the whole mesh that no rank knows alone. All of these functions
+  // Geometry of the whole mesh that no rank has alone. All of these functions
   // are collective: all ranks call them and get the same result.
 
   /** An OuterFace of any rank. */

@@ -37,9 +37,9 @@ namespace quoin
   };
 
   /**
-   * The joints of a BlockTriangulation, of which deal.II knows nothing: blocks
-   * share no vertices. Each rank has the pairs of which it owns a side, by
-   * ascending number.
+   * The joints of a BlockTriangulation, which are not part of deal.II's mesh:
+   * blocks share no vertices. Each rank has the pairs of which it owns a side,
+   * by ascending number.
    */
   template <int dim>
   using JointMap = std::vector<JointPair<dim>>;

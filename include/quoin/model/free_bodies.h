@@ -16,8 +16,9 @@ namespace quoin
   /**
    * Throws an InputError naming the first body (blocks that joints tie
    * together) with a rigid body mode that the prescribed degrees of freedom of
-   * @p constraints leave free: it could never come to rest. Blocks that are
-   * absent in @p state do not count. @p stage is for the message. Collective.
+   * @p constraints leave free: it could never reach equilibrium. Blocks that
+   * are absent in @p state do not count. @p stage is for the message.
+   * Collective.
    */
   template <int dim>
   void

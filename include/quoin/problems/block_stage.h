@@ -146,7 +146,7 @@ namespace quoin
     void warn_of_slip() const;
     /** Records the loads of the row for @p time [s]. */
     void record_loads(double time);
-    /** Warns of local damping that has borne a part of the loads. */
+    /** Warns of local damping that has carried a part of the loads. */
     void warn_of_damping() const;
     /** Warns if the stage ends far from its control function. Collective. */
     void warn_of_control() const;

@@ -20,7 +20,8 @@ namespace quoin
   template <int dim>
   void report_block_costs(BlockContext<dim> &context);
 
-  /** Reports those of boundary elements alone; spoils the history of @p system.
+  /** Reports costs of boundary elements alone; invalidates the history of @p
+   * system.
    */
   void report_boundary_costs(BoundarySystem &system, const StepControl &control,
                              const RunContext &run);

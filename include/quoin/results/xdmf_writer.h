@@ -25,7 +25,8 @@ namespace quoin
    *
    * An array that has not changed since the last time is not written again: the
    * mesh, numbers of blocks. Both files are readable after each write(). Their
-   * lengths are part of a checkpoint: a resumed run cuts them back and goes on.
+   * lengths are part of a checkpoint: a resumed run truncates the files to them
+   * and continues.
    */
   class XdmfWriter
   {

@@ -71,7 +71,7 @@ namespace quoin
 
     /**
      * All that push() has changed, for a checkpoint. After restore(), which
-     * takes it, this object goes on bitwise as the saved one.
+     * takes it, this object continues bitwise as the saved one.
      */
     virtual SavedHistory save() const               = 0;
     virtual void restore(const SavedHistory &saved) = 0;

@@ -35,14 +35,15 @@ namespace quoin
   struct PassivityReport
   {
     /**
-     * Smallest eigenvalue of the Hermitian part of Z(w) among the w looked
-     * at, in units of rho c_2: negative if energy can be created.
+     * Smallest eigenvalue of the Hermitian part of Z(w) among the examined w,
+     * in units of rho c_2: negative if the boundary can add energy.
      */
     double smallest_eigenvalue;
-    double frequency;                /**< arg w / (2 pi dt) of it [Hz] */
-    double nyquist;                  /**< 1 / (2 dt) [Hz] */
-    unsigned n_scanned;              /**< number of frequencies looked at */
-    std::vector<double> frequencies; /**< looked at, ascending [Hz] */
+    double frequency;   /**< arg w / (2 pi dt) of it [Hz] */
+    double nyquist;     /**< 1 / (2 dt) [Hz] */
+    unsigned n_scanned; /**< number of frequencies examined */
+    std::vector<double>
+        frequencies; /**< examined frequencies, ascending [Hz] */
     std::vector<double> eigenvalues; /**< the smallest at each [rho c_2] */
 
     /** Whether the boundary is passive, up to a tolerance of 1e-6. */
@@ -56,7 +57,7 @@ namespace quoin
   };
 
   /**
-   * Looks for energy that a discrete boundary element domain may create.
+   * Searches for energy that a discrete boundary element domain may add.
    *
    * With velocities constant in each step, their transform is
    * v(w) = (1 - w) u(w) / dt, and p = Z v with the discrete impedance

@@ -91,7 +91,7 @@ namespace quoin
     BoundaryHistory &history;
     std::vector<bool> traction_is_given;
     Eigen::MatrixXd G0, H0;
-    double traction_scale; /**< brings the columns to a similar size [Pa/m] */
+    double traction_scale; /**< scale of columns to a similar size [Pa/m] */
     Eigen::PartialPivLU<Eigen::MatrixXd> solver;
     Eigen::VectorXd displacement, traction;
     Eigen::VectorXd past; /**< the history's prediction for the next step */
