@@ -245,7 +245,7 @@ def contrast(options):
 
 
 def sizes(options):
-    """From a micrometre to a thousand kilometres, and at the coordinates of
+    """Sizes from a micrometre to a thousand kilometres, and the coordinates of
     a map."""
     for solver in "implicit", "explicit":
         for size, x, y in ((1e-6, 0, 0), (1e6, 0, 0), (1, 456789., 5412345.),
