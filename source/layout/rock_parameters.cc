@@ -292,8 +292,8 @@ namespace quoin
       if (entries.reads_if(joints.kind == RockJoints::traces))
       {
         entries.text("File", joints.file,
-                     "Table of traces with x1, y1, x2, y2 in each row, "
-                     "relative to the folder of this file [m]");
+                     "Table of traces with x1, y1, x2, y2 [m] in each row, "
+                     "relative to the folder of this file.");
         if (const ParameterSection *section = entries.read_section())
           check_file(*section, joints.file);
       }
