@@ -651,7 +651,7 @@ def implicit_checkpoints(quoin, folder):
 
 
 def implicit_limit_load(quoin, folder):
-    """A load that no equilibrium can bear: where it stopped is kept, and from
+    """A load above the limit load: the last equilibrium is kept, and from
     the checkpoint it gets no farther."""
     prm = prepare(folder)
     output = os.path.join(folder, "output")
@@ -659,7 +659,7 @@ def implicit_limit_load(quoin, folder):
         "Solver=implicit", "Implicit/Jumps=no",
         "Loads/push/Horizontal=if(T > 1e-3, 1e8*(T - 1e-3), 0)"]})
     says = ["stage 'second'", "no equilibrium", "load time 0.0005773 of",
-            "steps were cut", "in block", "at (", "limit load",
+            "steps were reduced", "in block", "at (", "limit load",
             "Path following", "last equilibrium is kept"]
     status, printed = run(words)
     expect(status, printed, 2, says)
