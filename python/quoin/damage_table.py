@@ -59,7 +59,7 @@ def set_numbers(output, names):
 
 
 def grid_of(record):
-    """Of a record of vtu.read_pvd()."""
+    """Grid of a record of vtu.read_pvd()."""
     return vtu.merge([vtu.read_vtu(file) for file in record[1]])
 
 

@@ -49,16 +49,16 @@ def is_inside(place, vertices):
 
 
 def distance_to(places, a, b):
-    """Of places to the line from a to b [m], and where their feet are, as
-    a share of it within 0 and 1."""
+    """Distance of places to the line from a to b [m], and their projections on
+    it as a fraction within 0 and 1."""
     share = np.clip((places - a) @ (b - a) / ((b - a) @ (b - a)), 0.0, 1.0)
     return np.linalg.norm(a + share[..., None] * (b - a) - places,
                           axis=-1), share
 
 
 def crossing(a, b, c, d, tolerance):
-    """Where the line from a to b crosses those from c to d, (n, 2), apart from
-    their ends; a place [m] or None."""
+    """Point where the line from a to b crosses one of those from c to d, (n,
+    2), apart from their ends [m], or None."""
     way, ways = b - a, d - c
     turn = cross(way, ways)
     is_turned = np.abs(turn) > 1e-12 * np.linalg.norm(way) \
@@ -146,7 +146,7 @@ def partition(polygons):
 
 
 def checked_vertices(polygon):
-    """As an array (n, 2) [m]."""
+    """Vertices of the polygon as an array (n, 2) [m], checked."""
     try:
         vertices = np.array(polygon.vertices, dtype=float)
     except (TypeError, ValueError):
@@ -185,8 +185,9 @@ def check_overlaps(polygons, points, loops, tolerance):
 
 
 def overlap(loop, other, corners, others, tolerance, is_same):
-    """Where an edge of @p loop crosses an edge of the other or lies within it;
-    of the same polygon, where it crosses itself; or None."""
+    """Point where an edge of @p loop crosses an edge of the other or lies
+    within it, or where it crosses itself if both are of the same polygon; or
+    None."""
     c, d = others, np.roll(others, -1, axis=0)
     known = set() if is_same else set(zip(other, other[1:] + other[:1]))
     for i, j, a, b in zip(loop, loop[1:] + loop[:1], corners,
@@ -204,8 +205,8 @@ def overlap(loop, other, corners, others, tolerance, is_same):
 
 
 def size_of(sizes, group):
-    """Of the cells of a group [m]; @p sizes a number or {group: size}, in
-    which "" stands for all others."""
+    """Size of the cells of a group [m]; @p sizes is a number or {group: size},
+    in which "" is for all others."""
     if not isinstance(sizes, dict):
         sizes = {"": sizes}
     size = sizes.get(group, sizes.get(""))

@@ -54,7 +54,7 @@ class Results:
 
     @property
     def warnings(self):
-        """What log.txt warns of: a list of texts, each once."""
+        """Warnings in log.txt: a list of texts, each once."""
         try:
             with open(os.path.join(self.output, "log.txt"),
                       encoding="utf-8") as file:

@@ -46,8 +46,8 @@ def of_joint_sets(output, entry):
 
 
 def peak_crushing(output):
-    """Of each joint set, the plastic closing at the compressive strength
-    [m]; infinite where the joint does not crush."""
+    """Plastic closure at the compressive strength of each joint set [m];
+    infinite where the joint does not crush."""
     joints = read(output).get("Joints", {})
     return [
         peak if joints[name]["Law"] == "composite"
@@ -58,7 +58,8 @@ def peak_crushing(output):
 
 
 def lines_of(path):
-    """Of a parameter file and those that it includes, without comments."""
+    """Lines of a parameter file and those that it includes, without
+    comments."""
     with open(path, encoding="utf-8") as file:
         for line in file:
             line = line.split("#")[0].strip()

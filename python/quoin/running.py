@@ -65,7 +65,8 @@ def command(case, output, entries=(), options=(), ranks=1, quoin=None):
 
 
 def environment():
-    """Of runs that share a machine; Open MPI refuses root unless told."""
+    """Environment variables of runs that share a machine; Open MPI refuses
+    root unless told."""
     return dict(os.environ, OPENBLAS_NUM_THREADS="1",
                 OMPI_ALLOW_RUN_AS_ROOT="1",
                 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
@@ -74,8 +75,8 @@ def environment():
 
 
 def end_with_parent(number):
-    """What a new process does so that the kernel sends it a signal when the
-    thread that started it ends; nothing where there is no such kernel."""
+    """Makes the kernel send a new process a signal when the thread that
+    started it ends; does nothing where there is no such kernel."""
     try:
         prctl = ctypes.CDLL(None).prctl
     except AttributeError:

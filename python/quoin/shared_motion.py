@@ -21,12 +21,12 @@ class Motion(namedtuple("Motion", "turn shift")):
                 else np.eye(3))
 
     def taken_off(self, places):
-        """Where these places, (n, 2 or 3) [m], would be without it."""
+        """Positions, (n, 2 or 3) [m], without the shared motion."""
         return (places - self.shift) @ self.rotation()
 
 
 def cell_turns(X, x, cells):
-    """How far each triangle turned [rad]."""
+    """Rotation of each triangle [rad]."""
     before, now = (np.stack([p[cells[:, 1]] - p[cells[:, 0]],
                              p[cells[:, 2]] - p[cells[:, 0]]], axis=2)
                    for p in (X, x))

@@ -41,8 +41,8 @@ def turns_back(x):
 
 
 def way_of(x, is_cyclic):
-    """How far the loading has gone, which never decreases: x, in the sense
-    in which it goes; or under cycles the sum of all its steps."""
+    """Progress of the loading, which never decreases: x in its direction or,
+    under cycles, the sum of the magnitudes of all its steps."""
     if is_cyclic:
         return np.append(0.0, np.cumsum(np.abs(np.diff(x))))
     sense = np.sign(x[np.abs(x - x[0]).argmax()] - x[0]) or 1.0
@@ -95,7 +95,7 @@ class Run:
         return (times, np.interp(times, self.time, self.way)) if series else None
 
     def numbers(self, x_unit, y_unit):
-        """What compare.json has of one run."""
+        """Numbers of one run for compare.json."""
         return {
             "folder": self.folder,
             f"peak{y_unit}": float(self.peak),

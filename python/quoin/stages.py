@@ -43,7 +43,7 @@ def begin(output, name):
 
 
 def time_or_name(word):
-    """Of an option: a time [s], or the name of a stage as it is."""
+    """Value of an option: a time [s], or the name of a stage as it is."""
     try:
         return float(word)
     except ValueError:
@@ -55,8 +55,8 @@ def times_or_names(text):
 
 
 def stage_and_time(text):
-    """Of "push+0.01", 0.01 s after push began: ("push", 0.01), of "push":
-    ("push", None)."""
+    """Stage and time since its begin: ("push", 0.01) for "push+0.01", 0.01 s
+    after push began, and ("push", None) for "push"."""
     name, _, passed = text.rpartition("+")
     try:
         return (name.strip(), float(passed)) if name else (text, None)
@@ -74,7 +74,7 @@ def time_of(output, moment, at):
 
 
 def since_text(moment):
-    """What a caption says of --since."""
+    """Text of a caption on --since."""
     if not isinstance(moment, str):
         return f"since t = {moment:.4g} s"
     name, passed = stage_and_time(moment)

@@ -46,7 +46,8 @@ def combinations(grid):
 
 
 def fingerprint(case, overrides, options=()):
-    """Of a parameter file, those that it includes, and what is changed."""
+    """Fingerprint of a parameter file, those that it includes, and what is
+    changed."""
     words = [line for line in run_parameters.lines_of(case) if line]
     words += sorted(entry(*item) for item in overrides.items())
     words += options
@@ -54,7 +55,7 @@ def fingerprint(case, overrides, options=()):
 
 
 def record_of(folder):
-    """How the run in a folder ended, or None if it did not."""
+    """Record of how the run in a folder ended, or None if it did not."""
     try:
         with open(os.path.join(folder, RECORD), encoding="utf-8") as file:
             return json.load(file)

@@ -257,7 +257,7 @@ def cut(trace, outline):
 
 
 def file_name(stem, group):
-    """Of the traces of a set."""
+    """Name of the file with the traces of a set."""
     return f"{stem}_{re.sub(r'[^A-Za-z0-9_-]+', '_', group)}.csv"
 
 

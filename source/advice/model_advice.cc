@@ -28,8 +28,8 @@ namespace quoin
                    " and the run ", MPI::n_mpi_processes(nodes.communicator()),
                    " MPI processes, of which some have no part of the model, "
                    "because a rigid block is never divided. Fewer processes "
-                   "would be as fast, but for boundary elements, which all "
-                   "share.");
+                   "would be as fast, except for boundary elements, whose work "
+                   "all processes share.");
     }
 
     /** Warns of joints that the initial stress takes beyond their strength. */
@@ -105,7 +105,7 @@ namespace quoin
       bool exist            = false;
       double stiffest_cell  = 0.;       /**< E by shortest edge [Pa/m] */
       double softest_block  = infinity; /**< E by size of the block [Pa/m] */
-      double stiffest_block = 0.;       /**< the same */
+      double stiffest_block = 0.; /**< E by size of the stiffest block [Pa/m] */
       unsigned int softest_material = 0;
       double softest                = infinity; /**< E [Pa] */
     };
@@ -170,17 +170,16 @@ namespace quoin
       const bool is_soft = kn > limit * beside.softest_block
                            && kn <= limit * beside.stiffest_block;
       Checks(advice, "material " + material.name + ": ")
-          .warn_if(is_soft,
-                   "E/L of its softest block beside joints of the set ",
-                   set.name, " is ", beside.softest_block,
-                   " Pa/m, of which their normal stiffness, ", kn, " Pa/m, is ",
-                   kn / beside.softest_block, " times, and ",
-                   kn / beside.stiffest_block,
-                   " times that of other blocks: the block is soft, not the "
-                   "joints stiff, and the run may not come to its end. Check "
-                   "its Young's modulus, or give its joints a set of their own "
-                   "with ten times its E/L, ",
-                   10. * beside.softest_block, " Pa/m.");
+          .warn_if(
+              is_soft, "E/L of its softest block beside joints of the set ",
+              set.name, " is ", beside.softest_block,
+              " Pa/m, of which their normal stiffness, ", kn, " Pa/m, is ",
+              kn / beside.softest_block, " times, and ",
+              kn / beside.stiffest_block,
+              " times that of other blocks: the block is soft, not the joints "
+              "stiff, and the run may not finish. Check its Young's modulus, "
+              "or give its joints a set of their own with ten times its E/L, ",
+              10. * beside.softest_block, " Pa/m.");
       return is_soft;
     }
 
@@ -234,10 +233,10 @@ namespace quoin
             parameters.is_implicit && can_fail(set.law) && by_block <= rigid
                 && by_block > limit && !is_block,
             "the normal stiffness ", kn, " Pa/m is ", by_block,
-            " times E/L of the softest block beside them: as one point fails "
-            "the next ones take over all of its load within a hair's breadth, "
-            "steps are cut, and the run may not come to its end. Unless it was "
-            "measured take ten times E/L, ",
+            " times E/L of the softest block beside them: as one point fails, "
+            "the next ones take over its load within a very small "
+            "displacement, steps are reduced, and the run may not finish. "
+            "Unless the stiffness was measured, take ten times E/L, ",
             10. * beside.softest_block,
             " Pa/m, which adds a tenth to the compliance of blocks, or the "
             "explicit solver.");

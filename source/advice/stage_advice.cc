@@ -45,8 +45,9 @@ namespace quoin
       const Parameters &parameters;
       const unsigned int index;
       const StageParameters &stage;
-      const StageParameters *before; /**< that changed the state, or null */
-      const double start;            /**< [s] */
+      /** Previous stage that changed the state, or null. */
+      const StageParameters *before;
+      const double start; /**< [s] */
       std::vector<const LoadParameters *> loads;
     };
 
@@ -84,13 +85,12 @@ namespace quoin
                                              - control({ t, t })));
       }
       const double first = std::abs(control({ early, early }));
-      checks.warn_if(first > 0.5 * fastest && fastest > 0.,
-                     "'Control function' begins with a velocity of ",
-                     first / early,
-                     " m/s, a jump that shakes the model and the factor of the "
-                     "load pattern. Let it begin slowly, such as with v * "
-                     "if(t < T, t^2 / (2 * T), t - T / 2), or give a 'Kinetic "
-                     "energy limit'.");
+      checks.warn_if(
+          first > 0.5 * fastest && fastest > 0.,
+          "'Control function' begins with a velocity of ", first / early,
+          " m/s, a jump that makes the model and the load factor oscillate. "
+          "Let it begin slowly, such as with v * if(t < T, t^2 / (2 * T), t - "
+          "T / 2), or give a 'Kinetic energy limit'.");
     }
 
     void check_damping(const StageOfRun &run, Checks &checks)
@@ -249,7 +249,7 @@ namespace quoin
           longest of a tetrahedron, which are those of a cube of six. 0: there
           is no cell. */
       double edge = 0.;
-      dealii::Point<dim> position; /**< of that cell [m] */
+      dealii::Point<dim> position; /**< position of that cell [m] */
     };
 
     /** Cell size of each material; blocks absent in @p state do not count. */

@@ -84,13 +84,14 @@ namespace quoin
                      ParameterHandler &prm)
   {
     for (const SectionEntries &section : sections)
-      in_section(prm, section.name,
-                 [](ParameterHandler &all)
-                 {
-                   all.declare_entry(
-                       "Names", "", dealii::Patterns::Anything(),
-                       "Comma-separated names; each is a subsection.");
-                 });
+      in_section(
+          prm, section.name,
+          [](ParameterHandler &all)
+          {
+            all.declare_entry(
+                "Names", "", dealii::Patterns::Anything(),
+                "Comma-separated names, each of which has a subsection.");
+          });
   }
 
   void declare_listed(const std::vector<SectionEntries> &sections,

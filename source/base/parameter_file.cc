@@ -30,9 +30,9 @@ namespace quoin
     /** A line of a parameter file, without its comment. */
     struct Line
     {
-      unsigned int number = 0; /**< from 1 on */
+      unsigned int number = 0; /**< line number, from 1 on */
       std::string text;
-      std::string keyword; /**< its first word */
+      std::string keyword; /**< first word of the line */
       std::string rest;    /**< the rest of the line */
     };
 
@@ -66,7 +66,7 @@ namespace quoin
     struct FullText
     {
       std::string text;
-      std::vector<Origin> origins; /**< of each line */
+      std::vector<Origin> origins; /**< origin of each line */
     };
 
     /** The lines that begin the subsections around line @p number of @p text,

@@ -13,7 +13,7 @@ namespace quoin
 {
   namespace
   {
-    /** Pairs of edges to be looked at, about. */
+    /** Approximate set of pairs of edges to be examined. */
     constexpr double most_pairs = 1e7;
     /** Distance of blocks that touch, by the reach. */
     constexpr double touching = 1e-5;

@@ -17,8 +17,8 @@ namespace quoin
       if (!contact.has_box)
         return;
       if (!contact.large_displacements)
-        section.fail("Box", "needs 'Displacements = large': with small ones "
-                            "no block goes anywhere.");
+        section.fail("Box", "needs 'Displacements = large': with small "
+                            "displacements no block leaves its place.");
       if (!(contact.box[0] < contact.box[2] && contact.box[1] < contact.box[3]))
         section.fail("Box", "must be xmin, ymin, xmax, ymax with xmin < xmax "
                             "and ymin < ymax.");
@@ -29,43 +29,43 @@ namespace quoin
       using Outside = ContactParameters::Outside;
       entries.choice("Displacements", contact.large_displacements,
                      { { "small", false }, { "large", true } },
-                     "small: blocks touch at the matched joints of the mesh "
-                     "alone; large: joints may slide and open without limit, "
-                     "and blocks come into contact wherever they meet.");
+                     "Contact detection. small: blocks are in contact only at "
+                     "the matched joints of the mesh; large: joints may slide "
+                     "and open without limit, and new contacts are detected.");
       entries.within("Corner rounding", contact.rounding, 1e-6, 0.5,
-                     "Share of the shorter edge over which the normal of a "
-                     "contact turns where a corner passes a corner [-]");
+                     "Fraction of the shorter edge over which the contact "
+                     "normal rotates where a corner passes a corner [-]");
       entries.within("Handover", contact.handover, 1e-6, 0.5,
-                     "Slip or opening of a matched joint, as a share of its "
-                     "edge, at which the joints between its two blocks "
-                     "become general contacts [-]");
+                     "Slip or opening of a matched joint, as a fraction of the "
+                     "length of its edge, at which the joints between its two "
+                     "blocks become general contacts [-]");
       entries.nonnegative(
           "Skin", contact.skin,
-          "Distance within which pairs of edges are watched; "
-          "pairs are searched again when a block has moved "
-          "half of it; 0: automatic, by the speed of the blocks "
-          "[m]");
+          "Distance within which pairs of edges are candidates for contact; "
+          "the search is repeated when a block has moved half of this "
+          "distance; 0: automatic, from the velocities of the blocks [m]");
       entries.within("Deepest overlap", contact.deepest, 1e-6, 1.,
-                     "Largest overlap of two blocks, as a share of the height "
-                     "of the cells behind the edges; the run stops beyond it "
-                     "[-]");
+                     "Largest admissible overlap of two blocks, as a fraction "
+                     "of the height of the cells behind the edges; the run "
+                     "stops if it is exceeded [-]");
       entries.other("Box", "",
-                    "xmin, ymin, xmax, ymax of the box that blocks should "
-                    "not leave; empty: none [m]",
+                    "Box xmin, ymin, xmax, ymax that blocks should not leave; "
+                    "empty: no box [m]",
                     [&](const ParameterSection &section)
                     {
                       contact.has_box = !section.text("Box").empty();
                       if (contact.has_box && contact.large_displacements)
                         contact.box = section.numbers<4>("Box");
                     });
-      entries.choice("Outside the box", contact.outside,
-                     { { "report", Outside::report },
-                       { "delete", Outside::remove },
-                       { "stop", Outside::stop } },
-                     "What happens to a block that has left the box with all "
-                     "of its nodes. delete: it is gone, with its energy, "
-                     "unless a load of this or a later stage moves it, or "
-                     "matched joints tie it to a block that stays.");
+      entries.choice(
+          "Outside the box", contact.outside,
+          { { "report", Outside::report },
+            { "delete", Outside::remove },
+            { "stop", Outside::stop } },
+          "Action when all nodes of a block are outside the box. report: the "
+          "block is reported; delete: the block and its energy are removed, "
+          "unless a load of this or a later stage moves it, or matched joints "
+          "connect it to a block that stays; stop: the run stops.");
       if (const ParameterSection *section = entries.read_section())
         check_box(*section, contact);
     }

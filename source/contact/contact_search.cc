@@ -290,7 +290,7 @@ namespace quoin
       std::ostringstream message;
       message << "more than " << most_pairs
               << " pairs of edges are nearer than " << skin
-              << " m to each other, too many to be watched. The edge "
+              << " m to each other, too many for the contact search. The edge "
               << "from (" << edge.x[0] << ", " << edge.y[0] << ") to ("
               << edge.x[1] << ", " << edge.y[1] << ") m is near " << n
               << " more. Let fewer blocks meet at a point, or take "

@@ -156,7 +156,7 @@ namespace quoin
                                          const NodeVector<2> *velocity,
                                          NodeVector<2> *force)
   {
-    // A point that never failed bears, too, where it is pulled.
+    // A point that never failed carries tension, too.
     const auto bears = [&](const unsigned int p)
     {
       return !history.handed_over[p / 2]

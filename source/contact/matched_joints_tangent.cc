@@ -28,17 +28,17 @@ namespace quoin
                                : 0.;
     }
 
-    /** A point brought to its gap, and the derivatives there. */
+    /** A point updated for its gap, and the derivatives there. */
     struct Response
     {
       JointTangent<2> tangent;
       std::array<double, 2> stiffness;      /**< kn, ks of the moment [Pa/m] */
-      double slip_by_pressure;              /**< of the law [m/Pa] */
-      double plastic_opening, plastic_slip; /**< what was added [m] */
+      double slip_by_pressure;              /**< derivative in the law [m/Pa] */
+      double plastic_opening, plastic_slip; /**< plastic increments [m] */
       double opens, slips;                  /**< sign_of_growth() of these */
     };
 
-    /** Brings point @p p to @p opening and @p slip [m]. */
+    /** Updates point @p p for @p opening and @p slip [m]. */
     template <typename Law>
     Response respond(const Law &law, const double opening, const double slip,
                      const bool may_break, const double weight,

@@ -85,9 +85,9 @@ namespace quoin
         + "'. Lower 'Share of critical time step' (or 'Time step') in section "
           "'Time stepping' to "
         + number_text(0.8 * critical / time_step)
-        + " of what it was, or more if cells will flow on; if few cells have "
-          "flowed so far, at a corner, say, make the mesh coarser there. The "
-          "last checkpoint is kept.");
+        + " of its value, or further if cells continue to yield; if only few "
+          "cells have yielded, such as at a corner, make the mesh coarser "
+          "there. The last checkpoint is kept.");
   }
 
   template <>

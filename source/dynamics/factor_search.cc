@@ -26,8 +26,8 @@ namespace quoin
     } reduced
         = all;
     entries.positive("First factor", first,
-                     "Factor by which strengths are divided first, for 'End = "
-                     "factor of safety' [-]");
+                     "First trial factor of the search for the factor of "
+                     "safety, by which strengths are divided [-]");
     entries.positive("Lowest factor", lowest,
                      "Lowest factor of the search for the factor of safety "
                      "[-]");
@@ -35,26 +35,26 @@ namespace quoin
                      "Highest factor of the search for the factor of safety "
                      "[-]");
     entries.positive("Factor tolerance", tolerance,
-                     "Distance between a stable factor and one that fails at "
-                     "which the search for the factor of safety ends; at least "
+                     "Distance between a stable and an unstable factor at "
+                     "which the search for the factor of safety ends, at least "
                      "a millionth of 'Highest factor' [-]");
-    entries.nonnegative("Failure displacement", failure_displacement,
-                        "A trial of a factor fails when the largest "
-                        "displacement since its start exceeds this and keeps "
-                        "growing, by 1.8 times in each of the last two "
-                        "doublings of the time or by 3.24 in the last one; 0: "
-                        "ten times the mean "
-                        "displacement by which the loads have deformed blocks "
-                        "and joints, twice their stored energy by the weights "
-                        "and tractions, or a thousandth of the model's "
-                        "diagonal if there are none [m]");
-    entries.choice("Reduced strength", reduced,
-                   { { "joints and blocks", all },
-                     { "joints", joints },
-                     { "blocks", blocks } },
-                   "Whose cohesion, tensile strength and tangent of the "
-                   "friction angle are divided by the factor, for 'End = "
-                   "factor of safety'.");
+    entries.nonnegative(
+        "Failure displacement", failure_displacement,
+        "Displacement that makes a trial of the search for the factor of "
+        "safety unstable: the largest displacement since the start of the "
+        "trial exceeds it and keeps growing, by a factor of 1.8 in each of the "
+        "last two doublings of the time or by 3.24 in the last one; 0: ten "
+        "times the mean elastic displacement under the loads, which is twice "
+        "the stored energy of blocks and joints divided by the weights and "
+        "tractions, or a thousandth of the model's diagonal without loads [m]");
+    entries.choice(
+        "Reduced strength", reduced,
+        { { "joints and blocks", all },
+          { "joints", joints },
+          { "blocks", blocks } },
+        "Joints and blocks, joints alone or blocks alone, whose cohesion, "
+        "tensile strength and tangent of the friction angle are divided by the "
+        "trial factors of the search for the factor of safety.");
     reduces_blocks                  = reduced != joints;
     reduces_joints                  = reduced != blocks;
     const ParameterSection *section = entries.read_section();

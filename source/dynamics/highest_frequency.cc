@@ -187,7 +187,7 @@ namespace quoin
       const NodeMap<dim> &nodes;
       const State<dim> state;
       std::vector<double> scale;                /**< 1 / sqrt(mass) */
-      std::vector<NodeStiffness<dim>> contacts; /**< or empty */
+      std::vector<NodeStiffness<dim>> contacts; /**< contacts; may be empty */
       AlignedArray<NodeVector<dim>> velocity, force;
     };
   } // namespace

@@ -178,7 +178,7 @@ namespace quoin
       const ConstraintTraits &traits = constraint->traits();
       if (traits.kind == MotionKind::absorbing)
         throw InputError("section 'Stages/" + stage_name
-                         + "': 'Load pattern' goes with slow loading, but "
+                         + "': 'Load pattern' is for quasi-static loading, but "
                            "waves pass through the boundary of the load '"
                          + constraint->name()
                          + "'. Hold that boundary by a prescribed motion.");

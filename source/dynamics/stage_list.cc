@@ -39,8 +39,8 @@ namespace quoin
                      const bool has_excavated)
     {
       if (stage.end == StageEnd::static_ratio && !comes_to_rest)
-        section.fail("Damping", "takes no energy from the model, so that it "
-                                "never comes to the rest that 'End = "
+        section.fail("Damping", "dissipates no energy, so that the model never "
+                                "reaches the equilibrium that 'End = "
                                     + section.text("End")
                                     + "' waits for. Take 'local' or "
                                       "'adaptive'.");
@@ -63,8 +63,9 @@ namespace quoin
     {
       if (stages.front().safety)
         ParameterSection(section, stages.front().name)
-            .fail("End", "needs a stage before it that brings the model to "
-                         "rest: a factor of safety begins with its state.");
+            .fail("End",
+                  "needs a stage before it that ends at equilibrium: the "
+                  "search for the factor of safety starts from its state.");
       if (stages.front().reset.any())
         ParameterSection(section, stages.front().name)
             .fail("Reset", "has no effect in the first stage, from whose start "
@@ -77,10 +78,10 @@ namespace quoin
         if (stage.start_time >= 0.)
         {
           if (std::isnan(end))
-            subsection.fail("Start time",
-                            "cannot be kept, because the stage before "
-                            "ends when it has settled or a condition is met. "
-                            "Use 'previous end'.");
+            subsection.fail(
+                "Start time",
+                "cannot be kept, because the stage before ends at equilibrium "
+                "or when a condition is met. Use 'previous end'.");
           if (std::abs(stage.start_time - end) > 1e-9 * (1. + end))
             subsection.fail(
                 "Start time",

@@ -33,42 +33,44 @@ namespace quoin
     void enter_construction(ParameterEntries &entries, StageParameters &stage)
     {
       entries.list("Excavate", stage.excavate,
-                   "Physical surfaces whose blocks are taken away where "
-                   "the stage begins.");
-      entries.list("Fill", stage.fill,
-                   "Physical surfaces whose blocks are placed where the "
-                   "stage begins, as the mesh has them and free of stress. "
-                   "What is not excavated before is absent until then.");
-      entries.within("Release", stage.release, 0., 1.,
-                     "Share of the forces of all excavated blocks on those "
-                     "that stay which is gone at the end of this stage [-]");
-      entries.number_or("automatic", -1., "Release duration",
-                        stage.release_duration,
-                        "Load time that the release of the forces of "
-                        "excavated blocks takes; automatic: the stage's "
-                        "duration or, of an explicit stage with 'End = static "
-                        "ratio', twice the time of a shear wave along the "
-                        "model's diagonal [s]");
-      entries.choice("Release ramp", stage.releases_linearly,
-                     { { "smooth", false }, { "linear", true } },
-                     "How the forces of excavated blocks decrease with time; "
-                     "smooth: by half a cosine.");
+                   "Physical surfaces whose blocks are excavated at the start "
+                   "of the stage.");
+      entries.list(
+          "Fill", stage.fill,
+          "Physical surfaces whose blocks are placed at the start of the "
+          "stage, with the geometry of the mesh and free of stress. Blocks "
+          "that no earlier stage excavates are absent until then.");
+      entries.within(
+          "Release", stage.release, 0., 1.,
+          "Stress relaxation at the end of this stage: the released fraction "
+          "of the forces of all excavated blocks on those that remain [-]");
+      entries.number_or(
+          "automatic", -1., "Release duration", stage.release_duration,
+          "Load time over which the forces of excavated blocks are released; "
+          "automatic: the duration of the stage or, in an explicit stage with "
+          "'End = static ratio', twice the travel time of a shear wave along "
+          "the model's diagonal [s]");
+      entries.choice(
+          "Release ramp", stage.releases_linearly,
+          { { "smooth", false }, { "linear", true } },
+          "Variation in time of the released forces of excavated blocks. "
+          "smooth: by half a cosine; linear: at a constant rate.");
       entries.pairs(
           "Materials", stage.materials,
           "must be pairs such as lining:young_concrete, rock:grouted.",
-          "Pairs group:material: what physical surfaces are "
-          "made of from this stage on; stresses stay.");
+          "Pairs group:material of physical surfaces whose material changes at "
+          "the start of this stage; stresses do not change.");
       entries.pairs("Joint properties", stage.joint_properties,
                     "must be pairs such as bed:weak_bed.",
-                    "Pairs set:other set: joint sets that follow the law "
-                    "of another, which may be without curves, from this "
-                    "stage on; tractions stay.");
-      entries.positive("Strength factor", stage.strength_factor,
-                       "Cohesion, tensile strength and tangent of the friction "
-                       "angle of all joints and blocks in this stage by those "
-                       "of their parameters, such as 3 for a slope that must "
-                       "come to rest before a factor of safety below 1 can be "
-                       "looked for; tractions and stresses stay [-]");
+                    "Pairs set:other set of joint sets that follow the law of "
+                    "another set, which needs no curves, from this stage on; "
+                    "tractions do not change.");
+      entries.positive(
+          "Strength factor", stage.strength_factor,
+          "Factor on cohesion, tensile strength and tangent of the friction "
+          "angle of all joints and blocks in this stage, such as 3 for a slope "
+          "that must reach equilibrium before a factor of safety below 1 is "
+          "searched; tractions and stresses do not change [-]");
       if (const ParameterSection *section = entries.read_section())
         check_release(*section, stage);
     }
@@ -78,7 +80,7 @@ namespace quoin
                                   const StageParameters &stage)
     {
       // Local damping needs no search for its strength, and does not show in
-      // an equilibrium, but bears a part of the weight of what moves steadily.
+      // an equilibrium, but carries a part of the weight of steady motion.
       if (stage.slows_loads() || section.text("End") == "factor of safety")
         return DampingType::adaptive;
       return stage.end == StageEnd::static_ratio ? DampingType::local
@@ -88,20 +90,20 @@ namespace quoin
     void enter_damping(ParameterEntries &entries, StageParameters &stage)
     {
       std::optional<DampingType> damping;
-      entries.choice("Damping", damping,
-                     { { "automatic", std::nullopt },
-                       { "none", DampingType::none },
-                       { "local", DampingType::local },
-                       { "adaptive", DampingType::adaptive },
-                       { "Rayleigh", DampingType::rayleigh } },
-                     "local: a share of the unbalanced force, against the "
-                     "velocity; adaptive: mass-proportional with a "
-                     "coefficient that keeps the damping power at half the "
-                     "rate of kinetic energy; Rayleigh: alpha and beta; "
-                     "automatic: local with 'End = static ratio', adaptive "
-                     "with 'Kinetic energy limit' or 'End = factor of safety', "
-                     "else none. Explicit stages that settle need one, or a "
-                     "viscous or free-field boundary.");
+      entries.choice(
+          "Damping", damping,
+          { { "automatic", std::nullopt },
+            { "none", DampingType::none },
+            { "local", DampingType::local },
+            { "adaptive", DampingType::adaptive },
+            { "Rayleigh", DampingType::rayleigh } },
+          "Damping of the stage. local: a fraction of the unbalanced force "
+          "opposes the velocity; adaptive: mass-proportional with a "
+          "coefficient that keeps the damping power at half the rate of "
+          "kinetic energy; Rayleigh: alpha and beta; automatic: local with "
+          "'End = static ratio', adaptive with 'Kinetic energy limit' or 'End "
+          "= factor of safety', otherwise none. Explicit stages that end at "
+          "equilibrium need damping, or a viscous or free-field boundary.");
       if (const ParameterSection *section = entries.read_section())
         stage.damping = damping ? *damping : automatic_damping(*section, stage);
       double local_coefficient = default_local_damping;
@@ -109,29 +111,28 @@ namespace quoin
       {
         entries.within("Local damping coefficient", local_coefficient, 0.,
                        0.999,
-                       "Share of the unbalanced force that local damping "
-                       "opposes to the velocity [-]");
+                       "Fraction of the unbalanced force with which local "
+                       "damping opposes the velocity [-]");
         stage.local_coefficient = local_coefficient;
       }
       if (entries.reads_if(stage.damping == DampingType::rayleigh))
       {
-        entries.nonnegative("Rayleigh mass coefficient", stage.mass_coefficient,
-                            "Coefficient alpha of the mass in Rayleigh damping "
-                            "[1/s]");
-        entries.nonnegative("Rayleigh stiffness coefficient",
-                            stage.stiffness_coefficient,
-                            "Coefficient beta of the stiffness in Rayleigh "
-                            "damping; it lowers the critical time step [s]");
+        entries.nonnegative(
+            "Rayleigh mass coefficient", stage.mass_coefficient,
+            "Mass-proportional coefficient alpha of Rayleigh damping [1/s]");
+        entries.nonnegative(
+            "Rayleigh stiffness coefficient", stage.stiffness_coefficient,
+            "Stiffness-proportional coefficient beta of Rayleigh damping, "
+            "which lowers the critical time step [s]");
       }
       bool scales_mass = false;
       entries.flag("Mass scaling", scales_mass,
-                   "Whether mass is added where 'Scaled time step' would not "
-                   "be stable without; for static work only.");
+                   "Whether mass is added where 'Scaled time step' would "
+                   "otherwise be unstable, for quasi-static analyses only.");
       if (entries.reads_if(scales_mass))
         entries.positive("Scaled time step", stage.scaled_time_step,
-                         "Time step to which 'Mass scaling' raises the "
-                         "critical one, before the safety factor on it "
-                         "[s]");
+                         "Critical time step that 'Mass scaling' provides, "
+                         "before the safety factor on the time step [s]");
     }
 
     /** Reads "outcome: expression; expression". */
@@ -166,59 +167,60 @@ namespace quoin
 
     void enter_end(ParameterEntries &entries, StageParameters &stage)
     {
-      entries.choice("End", stage.end,
-                     { { "time", StageEnd::time },
-                       { "static ratio", StageEnd::static_ratio },
-                       { "factor of safety", StageEnd::static_ratio } },
-                     "What ends the stage: its duration; or that the sum of "
-                     "the unbalanced forces has fallen to a share of that of "
-                     "the applied ones. Factor of safety: strengths are "
-                     "divided by factors, each time from the state of the "
-                     "stage before, until it is known which one the model "
-                     "still bears; it then goes on as it was.");
+      entries.choice(
+          "End", stage.end,
+          { { "time", StageEnd::time },
+            { "static ratio", StageEnd::static_ratio },
+            { "factor of safety", StageEnd::static_ratio } },
+          "End of the stage. time: after 'Duration'; static ratio: when the "
+          "ratio of unbalanced to applied forces, each summed over nodes, "
+          "falls below 'Static ratio'; factor of safety: strengths are divided "
+          "by trial factors, each from the state at the end of the previous "
+          "stage, until the factor of safety is bracketed, and the run then "
+          "continues from that state.");
       const bool by_time = stage.end == StageEnd::time;
       if (entries.reads_if(by_time))
         entries.positive("Duration", stage.duration,
                          "Duration of a stage with 'End = time' [s]");
-      entries.within("Kinetic energy limit", stage.kinetic_limit, 0., 1.,
-                     "Quasi-static loading to collapse: the loading rate is "
-                     "reduced, at most ten thousand times, so that kinetic "
-                     "energy stays below this share of the energy throughput; "
-                     "the load time, of which loads are functions, then runs "
-                     "slower than the time, and 'Duration' is one of load "
-                     "time; 0: load time is the time since the start of the "
-                     "stage [-]");
+      entries.within(
+          "Kinetic energy limit", stage.kinetic_limit, 0., 1.,
+          "Kinetic energy limit of quasi-static loading, as a fraction of the "
+          "energy throughput: the loading rate is reduced, at most ten "
+          "thousand times, so that kinetic energy stays below it; 'Duration' "
+          "is then one of load time, of which loads are functions and which is "
+          "slower than time; 0: load time is the time since the start of the "
+          "stage [-]");
       if (entries.reads_if(!by_time))
       {
         entries.positive("Static ratio", stage.static_ratio,
-                         "Unbalanced by applied force at which a stage with "
-                         "'End = static ratio' ends, and a factor of safety "
-                         "is stable; below 1 [-]");
-        entries.nonnegative("Minimum duration", stage.minimum_duration,
-                            "Time that a stage with 'End = static ratio' lasts "
-                            "at least; it lasts in any case until its loads "
-                            "have come to rest [s]");
+                         "Ratio of unbalanced to applied force, below 1, at "
+                         "which a stage with 'End = static ratio' ends and a "
+                         "trial of a factor of safety is stable [-]");
+        entries.nonnegative(
+            "Minimum duration", stage.minimum_duration,
+            "Minimum duration of a stage with 'End = static ratio', which "
+            "lasts in any case until its loads are constant [s]");
       }
       entries.other(
           "End conditions", "",
-          "Comparisons of histories, separated by ';', each with the name of "
-          "its outcome before a colon if one is wanted, such as 'collapsed: "
-          "abs(displacement) > 0.02; softened: force < 0.8*peak_force': the "
-          "first one that is met where a row of histories.csv is written ends "
-          "the stage, and the next one begins; empty: none. Names are those "
-          "of 'Histories', where _ stands for what is no letter or digit, "
-          "'time' [s], and 'peak_' before a name for the largest magnitude of "
-          "that history so far in the stage.",
+          "Comparisons of histories, separated by ';', each with an optional "
+          "name of its outcome before a colon, such as 'collapsed: "
+          "abs(displacement) > 0.02; softened: force < 0.8*peak_force'. The "
+          "first one that is met when a row of histories.csv is written ends "
+          "the stage, and the next stage begins; empty: none. Names are those "
+          "of 'Histories', with _ for characters other than letters and "
+          "digits, 'time' [s], and 'peak_' before a name for the largest "
+          "magnitude of that history so far in the stage.",
           [&](const ParameterSection &from)
           { stage.end_conditions = end_conditions(from); });
       entries.number_or("previous end", -1., "Start time", stage.start_time,
-                        "Time at which the stage is meant to begin, as a "
-                        "check, or 'previous end' [s]");
+                        "Expected start time of the stage, as a check, or "
+                        "'previous end' [s]");
       stage.maximum_steps = 10000000;
       entries.integer("Maximum steps", stage.maximum_steps, 1,
-                      "Number of steps after which a stage that has not "
-                      "settled ends the run as failed, and a trial of a "
-                      "factor of safety is undecided [-]");
+                      "Maximum number of steps, after which a stage that has "
+                      "not reached equilibrium ends the run as failed, and a "
+                      "trial of a factor of safety is undecided [-]");
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;
@@ -228,8 +230,8 @@ namespace quoin
                                       "1e-9.");
       if (stage.slows_loads() && !by_time)
         section->fail("Kinetic energy limit",
-                      "needs 'End = time': a stage that settles has loads that "
-                      "rest in the end.");
+                      "needs 'End = time': the loads of a stage that ends at "
+                      "equilibrium must become constant.");
       if (section->text("Start time") != "previous end"
           && stage.start_time < 0.)
         section->fail("Start time",
@@ -255,26 +257,27 @@ namespace quoin
     void enter_pattern(ParameterEntries &entries, StageParameters &stage)
     {
       PatternParameters pattern;
-      entries.list("Load pattern", pattern.loads,
-                   "Names of tractions and gravities that act beside 'Loads', "
-                   "multiplied by a factor that the stage finds: that at which "
-                   "a displacement follows 'Control function', also where the "
-                   "model bears less and less. Their values, constant in time, "
-                   "are those of the factor 1; empty: none.");
+      entries.list(
+          "Load pattern", pattern.loads,
+          "Names of tractions and gravities that act in addition to 'Loads', "
+          "multiplied by a load factor for which the controlled displacement "
+          "follows 'Control function', also beyond the peak load. Their values "
+          "are constant in time and belong to the load factor 1; empty: none.");
       if (entries.reads_if(!pattern.loads.empty()))
       {
-        entries.text("Controlled displacement", pattern.controlled,
-                     "Load pattern: 'mean', the displacement of the blocks in "
-                     "the direction of its loads, weighted by them; or the "
-                     "name of a history with the quantity displacement or "
-                     "relative displacement, which the explicit solver follows "
-                     "by changing the rate of the mean.");
-        entries.other("Control function", "",
-                      "Load pattern: the controlled displacement from the "
-                      "start of the stage on, a function of t as those of "
-                      "loads [m]",
-                      [&](const ParameterSection &from)
-                      { pattern.control = control_function(from); });
+        entries.text(
+            "Controlled displacement", pattern.controlled,
+            "Displacement that controls the load pattern: 'mean', the "
+            "displacement of the blocks in the direction of its loads, "
+            "weighted by the loads; or the name of a history of a displacement "
+            "or relative displacement, which the explicit solver follows by "
+            "changing the rate of the mean.");
+        entries.other(
+            "Control function", "",
+            "Controlled displacement of the load pattern from the start of the "
+            "stage on, a function of t as those of loads [m]",
+            [&](const ParameterSection &from)
+            { pattern.control = control_function(from); });
       }
       const ParameterSection *section = entries.read_section();
       if (!section)
@@ -301,11 +304,11 @@ namespace quoin
     void enter_reset(ParameterEntries &entries, ResultReset &reset)
     {
       std::vector<std::string> words;
-      entries.list("Reset", words,
-                   "What results count from the start of this stage on: "
-                   "displacements, slips, joint states, any of the three. "
-                   "Forces, stresses, strengths and energies go on as they "
-                   "are; empty: results go on, too.");
+      entries.list(
+          "Reset", words,
+          "Results that are reset to zero at the start of this stage: "
+          "displacements, slips, joint states, any of the three. Forces, "
+          "stresses, strengths and energies are not reset; empty: no reset.");
       for (const std::string &word : words)
       {
         if (word == "displacements")
@@ -327,7 +330,7 @@ namespace quoin
     {
       entries.list("Loads", stage.loads,
                    "Names of the loads that act in this stage; initial "
-                   "stresses act in all and are not among them.");
+                   "stresses act in all stages and are not listed.");
       enter_end(entries, stage);
       enter_pattern(entries, stage);
       enter_damping(entries, stage);
@@ -384,7 +387,7 @@ namespace quoin
     std::string end_text(const StageParameters &stage, const bool is_implicit)
     {
       if (stage.safety)
-        return "looks for the factor of safety";
+        return "searches for the factor of safety";
       if (stage.end == StageEnd::time)
         return text_of("lasts ", stage.duration, " s",
                        stage.slows_loads() ? " of load time" : "");

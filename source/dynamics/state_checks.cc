@@ -40,8 +40,8 @@ namespace quoin
     template <int dim>
     struct InvertedCell
     {
-      dealii::Point<dim> before, now; /**< its centroid [m] */
-      unsigned int block;             /**< of the whole mesh */
+      dealii::Point<dim> before, now; /**< centroid before and now [m] */
+      unsigned int block; /**< number of the block in the whole mesh */
       double shape; /**< smallest height by longest edge, in the mesh [-] */
     };
 
@@ -118,8 +118,8 @@ namespace quoin
                 "it there, or leave out short edges and sharp corners of the "
                 "geometry.";
       else if (state.step == 0)
-        text << "Nothing has moved yet but by 'Initial motion', whose "
-                "displacements turn it over: give smaller ones.";
+        text << "Only 'Initial motion' has moved nodes, and its displacements "
+                "turn the cell over: give smaller ones.";
       else
         text << "Its shape in the mesh is good: it has been crushed, and the "
                 "loads of this stage are "

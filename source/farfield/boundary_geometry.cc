@@ -343,7 +343,7 @@ namespace quoin
       return curve;
     }
 
-    /** Takes out the points between edges in one line. */
+    /** Removes the points between collinear edges. */
     Curve without_straight_points(const Curve &curve)
     {
       const std::size_t n = curve.points.size();

@@ -115,24 +115,24 @@ namespace quoin
                        { "mesh", Shape::mesh },
                        { "interface", Shape::interface } },
                      "Shape of the boundary. Closed: circle, polygon. Open: "
-                     "line (through several points), arc. Mesh: curves of the "
-                     "mesh file, closed or open. Interface: the same, along "
-                     "blocks that move with the boundary elements; each "
-                     "element spans whole edges of blocks.");
+                     "line (through several points), arc. mesh: physical "
+                     "curves of the mesh file, closed or open. interface: "
+                     "physical curves along blocks that move with the boundary "
+                     "elements, each of which spans whole edges of blocks.");
       const ParameterSection *section = entries.read_section();
       const Shape shape               = boundary.shape;
       if (entries.reads_if(shape == Shape::circle || shape == Shape::arc))
       {
         std::array<double, 2> degrees{ { 0., 360. } };
         entries.numbers("Centre", boundary.centre,
-                        "x, y of the centre of a circle or an arc [m]");
+                        "Centre x, y of a circle or an arc [m]");
         entries.positive("Radius", boundary.radius,
                          "Radius of a circle or an arc [m]");
-        entries.numbers("Angles", degrees,
-                        "Angles at which an arc begins and ends, anticlockwise "
-                        "from the x axis; its direction is from the first to "
-                        "the second. The first one is the place of a vertex of "
-                        "a circle [deg]");
+        entries.numbers(
+            "Angles", degrees,
+            "Angles at which an arc begins and ends, anticlockwise from the x "
+            "axis; its direction is from the first to the second. A vertex of "
+            "a circle lies at the first angle [deg]");
         if (section && shape == Shape::arc)
           check_angles(*section, degrees);
         boundary.angles = { { degrees[0] * degree, degrees[1] * degree } };
@@ -140,7 +140,7 @@ namespace quoin
       if (entries.reads_if(shape == Shape::polygon || shape == Shape::line))
         entries.other("Points", "",
                       "Corners of a polygon, or points of a line in its "
-                      "direction: x, y; x, y; ... [m]",
+                      "direction, as x, y; x, y; ... [m]",
                       [&](const ParameterSection &from)
                       {
                         boundary.points = points(from, "Points");
@@ -148,22 +148,23 @@ namespace quoin
                       });
       if (entries.reads_if(shape == Shape::mesh || shape == Shape::interface))
       {
-        entries.list("Curves", boundary.curves,
-                     "Physical curves of the shapes 'mesh' and 'interface', "
-                     "joined end to end; the first one gives the direction.");
+        entries.list(
+            "Curves", boundary.curves,
+            "Physical curves of the shapes 'mesh' and 'interface', which are "
+            "joined end to end in the direction of the first one.");
         if (section && boundary.curves.empty())
           section->fail("Curves",
                         "must name physical curves of the file in section "
                         "'Mesh'.");
       }
-      entries.choice("Domain", boundary.domain,
-                     { { "inside", DomainSide::inside },
-                       { "outside", DomainSide::outside },
-                       { "left", DomainSide::left },
-                       { "right", DomainSide::right } },
-                     "Where the domain is: inside or outside a closed "
-                     "boundary, left or right of the direction of an open "
-                     "one.");
+      entries.choice(
+          "Domain", boundary.domain,
+          { { "inside", DomainSide::inside },
+            { "outside", DomainSide::outside },
+            { "left", DomainSide::left },
+            { "right", DomainSide::right } },
+          "Side on which the domain lies: inside or outside a closed boundary, "
+          "left or right of the direction of an open one.");
       if (section)
         check_domain(*section, boundary);
     }
@@ -206,24 +207,26 @@ namespace quoin
     {
       enter_shape(entries, boundary);
       entries.integer("Elements", boundary.n_elements, 0,
-                      "Number of elements, 20000 on all boundaries at most; "
-                      "0: from the element length [-]",
+                      "Number of elements, at most 20000 on all boundaries; 0: "
+                      "from the element length [-]",
                       1000000);
-      entries.nonnegative("Element length", boundary.element_length,
-                          "Longest element or, if elements are graded, the "
-                          "shortest one; 0: 'Element length' of section "
-                          "'Boundary elements', and if that is 0, too, the "
-                          "edges of the mesh [m]");
-      entries.within("Grading", boundary.grading, 1e-6, 1e6,
-                     "Length of the last element by that of the first one of "
-                     "an arc or a line with two points, 1e-6 to 1e6 [-]");
-      entries.choice("Area", boundary.polygon,
-                     { { "polygon", CirclePolygon::inscribed },
-                       { "equal", CirclePolygon::equal_area },
-                       { "equal perimeter", CirclePolygon::equal_perimeter } },
-                     "Which polygon stands for a circle: one with vertices on "
-                     "the circle, with the area of the circle, or, most exact, "
-                     "with its perimeter.");
+      entries.nonnegative(
+          "Element length", boundary.element_length,
+          "Longest element or, if elements are graded, the shortest one; 0: "
+          "'Element length' of section 'Boundary elements', and if that is 0 "
+          "as well, the edges of the mesh [m]");
+      entries.within(
+          "Grading", boundary.grading, 1e-6, 1e6,
+          "Ratio of the length of the last element to that of the first one of "
+          "an arc or a line with two points, from 1e-6 to 1e6 [-]");
+      entries.choice(
+          "Area", boundary.polygon,
+          { { "polygon", CirclePolygon::inscribed },
+            { "equal", CirclePolygon::equal_area },
+            { "equal perimeter", CirclePolygon::equal_perimeter } },
+          "Polygon that approximates a circle. polygon: its vertices are on "
+          "the circle; equal: it has the area of the circle; equal perimeter: "
+          "it has the perimeter of the circle, which is most accurate.");
       const ParameterSection *section = entries.read_section();
       if (section)
         check_elements(*section, boundary);
@@ -231,10 +234,10 @@ namespace quoin
       for (unsigned int d = 0; d < 2; ++d)
         entries.other(directions[d], "traction 0",
                       directions[d]
-                          + " component that is given: 'traction' [Pa] or "
-                            "'displacement' [m] and an expression of x, y, t "
-                            "[m, s]; or 'table FILE' or a signal, alone or "
-                            "'times EXPRESSION'.",
+                          + " component of the boundary values: 'traction' "
+                            "[Pa] or 'displacement' [m], followed by an "
+                            "expression of x, y, t [m, s], or by 'table FILE' "
+                            "or a signal, alone or with 'times EXPRESSION'.",
                       [&](const ParameterSection &from)
                       {
                         bool is_traction = true;
@@ -243,9 +246,9 @@ namespace quoin
                         boundary.traction_is_given[d] = is_traction;
                       });
       entries.other("Pressure", "0",
-                    "Pressure that pushes on the domain and adds to given "
-                    "tractions: an expression of x, y, t [m, s], 'table FILE' "
-                    "or a signal [Pa]",
+                    "Pressure that pushes on the domain and is added to "
+                    "prescribed tractions: an expression of x, y, t [m, s], "
+                    "'table FILE' or a signal [Pa]",
                     [&](const ParameterSection &from) {
                       boundary.pressure
                           = function(from, "Pressure", from.text("Pressure"));
@@ -303,38 +306,44 @@ namespace quoin
                                "travels along the surface to +x or -x.");
       entries.within("Angle", wave.angle, -limit, limit,
                      "Direction of propagation, from the upward vertical "
-                     "towards +x; Rayleigh: 90 or -90 [deg]",
+                     "towards +x; 90 or -90 for Rayleigh waves [deg]",
                      degree);
     }
 
     void enter_wave(ParameterEntries &entries, IncidentWaveParameters &wave)
     {
       using Type = IncidentWaveType;
-      entries.choice("Type", wave.type, wave_words,
-                     "Plane P: motion along the direction of propagation; "
-                     "plane SV: across it; Rayleigh: along the free surface; "
-                     "line source: an explosion in the domain.");
+      entries.choice(
+          "Type", wave.type, wave_words,
+          "Type of the wave. plane P: motion along the direction of "
+          "propagation; plane SV: motion across it; Rayleigh: along the free "
+          "surface; line source: an explosion in the domain.");
       entries.choice("Space", wave.half_plane,
                      { { "full plane", false }, { "half-plane", true } },
-                     "Half-plane: the medium is below y = 0, where the wave "
-                     "is reflected; no boundary may be above. Rayleigh waves "
-                     "need it, line sources must not have it.");
+                     "Medium of the wave. full plane: no free surface; "
+                     "half-plane: the medium is below y = 0, where the wave is "
+                     "reflected, and no boundary may be above. Rayleigh waves "
+                     "need 'half-plane', line sources 'full plane'.");
       enter_angle(entries, wave);
       if (entries.reads_if(wave.type == Type::line_source))
-        entries.numbers("Position", wave.position, "x, y of a line source [m]");
+        entries.numbers("Position", wave.position,
+                        "Position x, y of a line source [m]");
       std::string signal, displacement = "0";
-      entries.text("Signal", signal,
-                   "Function of t [s]: motion of the incident wave at the "
-                   "origin, vertical if it is a Rayleigh wave; moment per "
-                   "length of a line source. Expression, table, wavelet, "
-                   "pulse, record or synthetic; 0 before the wave's start.");
+      entries.text(
+          "Signal", signal,
+          "Time history of the wave, a function of t [s]: motion of the "
+          "incident wave at the origin, which is the vertical one for a "
+          "Rayleigh wave, or moment per length of a line source. It is given "
+          "by an expression, table, wavelet, pulse, record or synthetic "
+          "motion, and is 0 before the wave's start.");
       entries.choice<unsigned int>(
           "Motion", wave.n_integrations,
           { { "displacement", 0 }, { "velocity", 1 }, { "acceleration", 2 } },
-          "What 'Signal' is; integrated from t = 0 on, or in "
-          "closed form. A moment is not integrated.");
+          "Quantity of 'Signal'. Velocities and accelerations are integrated "
+          "from t = 0 on, or in closed form; the moment of a line source is "
+          "not integrated.");
       entries.number("Amplitude", wave.amplitude,
-                     "Factor of the signal [m, m/s, m/s^2; line source: N]");
+                     "Factor on the signal [m, m/s, m/s^2; line source: N]");
       entries.text("Displacement", displacement,
                    "Displacement of the incident wave as a function of t, "
                    "instead of 'Signal', for 'Motion = displacement' [m]");
@@ -367,19 +376,19 @@ namespace quoin
 
     void enter_field(ParameterEntries &entries, SampledFieldParameters &field)
     {
-      entries.other("Box", "",
-                    "xmin, ymin, xmax, ymax of the rectangle in which the "
-                    "field is computed, at the end of the run, for "
-                    "field.pvd; empty: nowhere [m]",
-                    [&](const ParameterSection &from)
-                    {
-                      field.has_box = !from.text("Box").empty();
-                      if (field.has_box)
-                        field.box = from.numbers<4>("Box");
-                    });
+      entries.other(
+          "Box", "",
+          "Rectangle xmin, ymin, xmax, ymax in which the field is computed at "
+          "the end of the run, for field.pvd; empty: no field [m]",
+          [&](const ParameterSection &from)
+          {
+            field.has_box = !from.text("Box").empty();
+            if (field.has_box)
+              field.box = from.numbers<4>("Box");
+          });
       if (entries.reads_if(field.has_box))
         entries.positive("Spacing", field.spacing,
-                         "Distance between the points of the field [m]");
+                         "Spacing of the points of the sampled field [m]");
       if (entries.read_section() && field.has_box)
         check_box(*entries.read_section(), field);
     }
@@ -428,76 +437,80 @@ namespace quoin
     void enter_time(ParameterEntries &entries,
                     BoundaryElementParameters &parameters)
     {
-      entries.nonnegative("Step ratio", parameters.step_ratio,
-                          "c_1 times time step by length of the shortest "
-                          "element; used if 'Time step' is 0. 0: 1, more if "
-                          "Poisson's ratio is above 0.25 (c_2 times time step "
-                          "then is 0.58 lengths), at most 1.5; with "
-                          "convolution quadrature 0.5 [-]");
-      entries.nonnegative("Time step", parameters.time_step,
-                          "Time step of the boundary elements, which is "
-                          "shortened until the run ends at a step; 0: as "
-                          "'Step ratio' says [s]");
+      entries.nonnegative(
+          "Step ratio", parameters.step_ratio,
+          "Ratio of c_1 times the time step to the length of the shortest "
+          "element, used if 'Time step' is 0; 0: automatic, 1 or, if Poisson's "
+          "ratio is above 0.25, as much as makes c_2 times the time step 0.58 "
+          "lengths, at most 1.5; with convolution quadrature 0.5 [-]");
+      entries.nonnegative(
+          "Time step", parameters.time_step,
+          "Time step of the boundary elements, which is shortened so that the "
+          "run ends at a step; 0: from 'Step ratio' [s]");
       entries.nonnegative("Duration", parameters.duration,
                           "Duration of a run with 'Model = boundary elements' "
                           "[s]");
-      entries.choice("Coupling", parameters.coupling,
-                     { { "implicit", CouplingScheme::implicit },
-                       { "staggered", CouplingScheme::staggered } },
-                     "Coupling with blocks. Implicit: the newest impedance "
-                     "acts on each block step, on the nodes of the interface "
-                     "implicitly; keeps the critical step. Staggered: by "
-                     "extrapolated displacements, as Jin, Wang & Zhang do; "
-                     "often unstable.");
-      entries.nonnegative("Decay", parameters.decay,
-                          "Rate of the decay of both kernels of Galerkin and "
-                          "collocation [1/s]");
+      entries.choice(
+          "Coupling", parameters.coupling,
+          { { "implicit", CouplingScheme::implicit },
+            { "staggered", CouplingScheme::staggered } },
+          "Coupling of blocks and boundary elements. implicit: the impedance "
+          "of the newest boundary element step acts on the interface nodes "
+          "implicitly in each block step, and does not lower the critical time "
+          "step; staggered: extrapolated displacements as in Jin, Wang & "
+          "Zhang, which is often unstable.");
+      entries.nonnegative(
+          "Decay", parameters.decay,
+          "Decay rate of both kernels of Galerkin and collocation [1/s]");
       entries.nonnegative("Mass damping", parameters.damping.mass,
-                          "Coefficient of the mass in Rayleigh damping, for "
-                          "convolution quadrature only [1/s]");
+                          "Mass-proportional coefficient of Rayleigh damping, "
+                          "for convolution quadrature only [1/s]");
       entries.nonnegative("Stiffness damping", parameters.damping.stiffness,
-                          "Coefficient of the stiffness in Rayleigh damping, "
-                          "for convolution quadrature only [s]");
+                          "Stiffness-proportional coefficient of Rayleigh "
+                          "damping, for convolution quadrature only [s]");
     }
 
     void enter_section(ParameterEntries &entries,
                        BoundaryElementParameters &parameters)
     {
       entries.text("Material", parameters.material,
-                   "Material of the domain; empty: the only one there is. What "
-                   "lies beyond blocks of a Mohr-Coulomb material has its "
-                   "elasticity and does not yield.");
+                   "Material of the domain; empty: the only material of the "
+                   "file. A Mohr-Coulomb material has its elastic constants "
+                   "there and does not yield.");
       entries.choice(
           "Formulation", parameters.formulation,
           { { "Galerkin", Formulation::galerkin },
             { "collocation", Formulation::collocation },
             { "convolution quadrature", Formulation::convolution_quadrature } },
-          "Formulation of the integral equation: in the mean over each element "
-          "or at its middle, with tractions and velocities constant in each "
-          "time step; or in the mean by convolution quadrature.");
+          "Formulation of the boundary integral equation. Galerkin: weighted "
+          "over each element; collocation: at the middle of each element, both "
+          "with tractions and velocities constant in each time step; "
+          "convolution quadrature: Galerkin in space with convolution "
+          "quadrature in time.");
       entries.choice("Analysis", parameters.is_static,
                      { { "dynamic", false }, { "static", true } },
-                     "dynamic: time marching; static: one solution, with the "
-                     "given values at t = 'Duration'.");
+                     "Analysis of boundary elements alone. dynamic: time "
+                     "marching; static: one elastostatic solution for the "
+                     "boundary values at t = 'Duration'.");
       entries.nonnegative("Element length", parameters.element_length,
-                          "Longest element of boundaries that have no "
-                          "'Element length' of their own [m]");
-      entries.nonnegative("Highest frequency", parameters.highest_frequency,
-                          "Highest frequency of the waves that are to leave or "
-                          "come in: makes the 'Element length' a tenth of the "
-                          "length of the S wave of this frequency; 0: the "
-                          "length is given [Hz]");
+                          "Longest element of boundaries without an 'Element "
+                          "length' of their own [m]");
+      entries.nonnegative(
+          "Highest frequency", parameters.highest_frequency,
+          "Highest frequency of waves to be resolved: the 'Element length' "
+          "becomes a tenth of the S wavelength at this frequency; 0: 'Element "
+          "length' is given [Hz]");
       enter_time(entries, parameters);
       entries.choice("History", parameters.direct_history,
                      { { "compressed", false }, { "direct", true } },
-                     "How past steps are summed: at bounded cost, or as they "
-                     "are written, at growing cost.");
+                     "Summation of the convolution over past steps. "
+                     "compressed: at bounded cost per step; direct: term by "
+                     "term, at a cost that grows with the number of steps.");
       entries.within("Tolerance", parameters.tolerance, 1e-12, 1e-2,
-                     "Relative error of the compressed history [-]");
+                     "Relative error of the compressed convolution [-]");
       entries.integer("Passivity frequencies", parameters.n_frequencies, 0,
-                      "Number of frequencies at which is looked, before the "
-                      "run, whether the boundary can create energy; 0: not "
-                      "at all [-]",
+                      "Number of frequencies at which the passivity of the "
+                      "boundary is checked before the run; 0: no check [-]",
                       100000);
       if (const ParameterSection *section = entries.read_section())
         check_analysis(*section, parameters);

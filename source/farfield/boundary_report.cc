@@ -167,7 +167,7 @@ namespace quoin
     for (unsigned int k = 0; k < settings.boundaries.size(); ++k)
       for (const GivenValues &values : given_values(settings.boundaries[k]))
         fastest.take_faster(
-            "what is given on the boundary " + settings.boundaries[k].name,
+            "what is prescribed on the boundary " + settings.boundaries[k].name,
             frequency_on(values, geometry.middles(k), duration));
     return element_advice(fastest, settings.medium.c2,
                           geometry.boundary.lengths().maxCoeff(), with_stress);
@@ -191,7 +191,7 @@ namespace quoin
           "boundary elements: ", shaking.name, " brings frequencies of up to ",
           shaking.frequency, " Hz, whose S waves are ", n,
           " elements long. That is enough for displacements, but the hoop "
-          "stress at that frequency lacks about ",
+          "stress at that frequency is too low by about ",
           500. / (n * n), " % of its peak. Take ", good_for_stress,
           " elements to a wave for ",
           500. / (good_for_stress * good_for_stress), " %: elements of ",

@@ -108,7 +108,7 @@ namespace quoin
           if (!std::isfinite(value))
           {
             std::ostringstream message;
-            message << "what is given on the boundary '"
+            message << "what is prescribed on the boundary '"
                     << parameters.boundaries[k].name
                     << "' is not a finite number at time " << end
                     << " s. Correct its expressions.";

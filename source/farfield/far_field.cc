@@ -101,9 +101,9 @@ namespace quoin
     if (!(smallest > 0.))
       throw InputError(
           "section 'Boundary elements': in the first time step the rock beyond "
-          "the blocks would not resist their motion, and the coupling would "
-          "not be stable. Raise 'Step ratio', or give a boundary with elements "
-          "of more equal length.");
+          "the blocks would not resist their motion, and the coupling would be "
+          "unstable. Raise 'Step ratio', or give a boundary with elements of "
+          "more equal length.");
   }
 
   // -- stages ----------------------------------------------------------------

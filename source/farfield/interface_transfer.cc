@@ -26,7 +26,7 @@ namespace quoin
     struct Overlap
     {
       double begin, end; /**< places on the edge, 0 to 1 */
-      double distance;   /**< of their middles across the element [m] */
+      double distance; /**< distance of the midpoints across the element [m] */
     };
 
     Overlap overlap(const BoundaryElement &element, const Vector2d &a,

@@ -23,53 +23,57 @@ namespace quoin
 
     void enter(ParameterEntries &entries, ImplicitParameters &parameters)
     {
-      entries.positive("First step", parameters.first_step,
-                       "First step of a stage, as a share of its duration and "
-                       "of the out-of-balance forces at its start [-]");
-      entries.within("Largest step", parameters.largest_step, 0., 1.,
-                     "Share of the stage up to which steps grow while few "
-                     "iterations are needed [-]");
+      entries.positive(
+          "First step", parameters.first_step,
+          "First load increment of a stage, as a fraction of its duration and "
+          "of the out-of-balance forces at its start [-]");
+      entries.within(
+          "Largest step", parameters.largest_step, 0., 1.,
+          "Largest load increment, as a fraction of the stage, up to which "
+          "increments grow while few iterations are needed [-]");
       entries.positive("Smallest step", parameters.smallest_step,
-                       "Share of the stage to which steps are cut; a stage "
-                       "fails that does not converge with it [-]");
+                       "Smallest load increment, as a fraction of the stage; "
+                       "the stage fails if it does not converge with it [-]");
       entries.within("Force ratio", parameters.force_ratio, 1e-14, 0.1,
-                     "Unbalanced by applied force, each summed over nodes, "
-                     "at which iterations end [-]");
+                     "Ratio of unbalanced to applied force, each summed over "
+                     "nodes, at which iterations have converged [-]");
       entries.integer("Wanted iterations", parameters.wanted_iterations, 1,
                       "Number of iterations of a step below which steps grow "
-                      "and above which they shrink [-]");
+                      "and above which they are reduced [-]");
       entries.integer("Maximum iterations", parameters.maximum_iterations, 2,
-                      "Number of iterations beyond which a step is cut [-]");
+                      "Number of iterations beyond which a step is repeated "
+                      "with a smaller increment [-]");
       entries.flag("Line search", parameters.line_search,
-                   "Whether iterations that do not bring the unbalanced force "
-                   "down are shortened.");
+                   "Whether a line search shortens iterations that do not "
+                   "reduce the unbalanced force.");
       entries.flag("Jumps", parameters.jumps,
                    "Whether the model, where no equilibrium is near, moves at "
-                   "constant loads against a drag until there is one, as a "
-                   "test under given displacements would; what the drag takes "
-                   "is booked as damping. If not, the stage fails there.");
-      entries.choice("Path following", parameters.path,
-                     { { "never", PathFollowing::never },
-                       { "automatic", PathFollowing::automatic },
-                       { "always", PathFollowing::always } },
-                     "Whether the load time becomes an unknown, which may go "
-                     "back, and steps are those of the mean inelastic opening "
-                     "and slip of joints. automatic: where steps of the loads "
-                     "do not converge; always: as soon as joints yield.");
+                   "constant loads against a viscous drag until it reaches "
+                   "one, as in a displacement-controlled test; the work of the "
+                   "drag is booked as damping. If not, the stage fails there.");
+      entries.choice(
+          "Path following", parameters.path,
+          { { "never", PathFollowing::never },
+            { "automatic", PathFollowing::automatic },
+            { "always", PathFollowing::always } },
+          "Whether the load time becomes an unknown, which may decrease, with "
+          "steps that are increments of the mean inelastic opening and slip of "
+          "joints. never: load steps only; automatic: where load steps do not "
+          "converge; always: as soon as joints yield.");
       entries.list("Path joints", parameters.path_joints,
-                   "Joint sets whose inelastic opening and slip measure "
-                   "the path; empty: all.");
+                   "Joint sets whose inelastic opening and slip control path "
+                   "following; empty: all sets.");
       entries.positive("Largest path step", parameters.largest_path_step,
-                       "Largest step along the path: inelastic opening and "
-                       "slip in the mean over the area of the path joints "
-                       "[m]");
-      entries.choice("Linear solver", parameters.linear_solver,
-                     { { "automatic", LinearSolverType::automatic },
-                       { "direct", LinearSolverType::direct },
-                       { "iterative", LinearSolverType::iterative } },
-                     "direct: LU factors, by Amesos; iterative: GMRES with "
-                     "algebraic multigrid that knows the rigid motions; "
-                     "automatic: iterative beyond 200 000 degrees of freedom.");
+                       "Largest step of path following: the mean of inelastic "
+                       "opening and slip over the area of the path joints [m]");
+      entries.choice(
+          "Linear solver", parameters.linear_solver,
+          { { "automatic", LinearSolverType::automatic },
+            { "direct", LinearSolverType::direct },
+            { "iterative", LinearSolverType::iterative } },
+          "Solver of linear systems. direct: LU factors, by Amesos; iterative: "
+          "GMRES with algebraic multigrid that includes the rigid body modes; "
+          "automatic: iterative beyond 200 000 degrees of freedom.");
       if (const ParameterSection *section = entries.read_section())
         check_steps(*section, parameters);
     }

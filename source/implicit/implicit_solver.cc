@@ -34,7 +34,7 @@ namespace quoin
     constexpr double collapse_share = 0.05;
     /** Ratio of drag to applied force below which a jump may have ended. */
     constexpr double jump_ends = 1e-4;
-    /** Unbalanced by drag force that a trial of the factor of safety bears. */
+    /** Ratio of unbalanced to drag force in a trial of the factor of safety. */
     constexpr double drag_share = 0.1;
     /** Steps ahead on the path before return to load control. */
     constexpr unsigned int steps_ahead = 5;
@@ -182,7 +182,7 @@ namespace quoin
                              : configuration.load_time == target.load_time
                                    && configuration.released == target.released;
       // Points of joints that close and open in turn with every iteration must
-      // not hold up a trial that asks whether the model goes on moving.
+      // not hold up a trial that asks whether the model keeps moving.
       const double tolerance
           = stage.safety && state.get<ImplicitState>().jumps
                     && target.path == 0.
@@ -394,7 +394,7 @@ namespace quoin
   bool ImplicitSolver::begin_jump(State<2> &state) const
   {
     ImplicitState &now = state.get<ImplicitState>();
-    // A search for the factor of safety asks whether the model goes on moving.
+    // A search for the factor of safety asks whether the model keeps moving.
     if (!stage.safety && (!parameters.jumps || now.released < 1.))
       return false;
     now.follows_path = false;

@@ -54,10 +54,10 @@ namespace quoin
       set_names(joint_sets)
   {
     if (model.parameters().large_displacements)
-      throw InputError("section 'Contact': 'Displacements = large' asks for "
-                       "contacts that come and go, which the implicit solver "
-                       "does not follow. Take 'small', or 'Solver = "
-                       "explicit'.");
+      throw InputError(
+          "section 'Contact': 'Displacements = large' asks for contacts that "
+          "form and end, which the implicit solver does not follow. Take "
+          "'small', or 'Solver = explicit'.");
     for (const std::string &name : parameters.path_joints)
     {
       const auto found = std::find(joint_sets.begin(), joint_sets.end(), name);
@@ -76,9 +76,9 @@ namespace quoin
     const auto last           = values(late_time);
     if (values(1.7 * late_time) != last)
       throw InputError("section 'Stages/" + stage.name
-                       + "': 'End = static ratio', but its loads never rest. "
-                         "Take 'End = time' and a 'Duration', or functions of "
-                         "time that become constant.");
+                       + "': 'End = static ratio', but its loads never become "
+                         "constant. Take 'End = time' and a 'Duration', or "
+                         "functions of time that become constant.");
     for (const MotionConstraint<2> *constraint : acting.constraints)
     {
       if (constraint->parts())
@@ -86,11 +86,11 @@ namespace quoin
           if (part.quantity == LoadQuantity::velocity
               && part.value({ late_time, stage_start + late_time }) != 0.)
             throw InputError("section 'Loads/" + constraint->name()
-                             + "': a velocity that does not become zero never "
-                               "lets the stage '"
+                             + "': a velocity that does not become zero "
+                               "prevents equilibrium in the stage '"
                              + stage.name
-                             + "' rest, whose 'End' is 'static "
-                               "ratio'. Take 'End = time' and a 'Duration'.");
+                             + "', whose 'End' is 'static ratio'. Take 'End = "
+                               "time' and a 'Duration'.");
     }
     double rests = late_time, moves = 0.;
     for (double t = late_time; t > earliest; t *= 0.9)
@@ -141,7 +141,7 @@ namespace quoin
         far.elastostatic_acts ? far.elastostatic : nullptr,
         acting.pattern.get());
     equilibrium->set_release(acting.release);
-    // Multigrid knows no factor.
+    // Multigrid gives no factor.
     linear_solver = std::make_unique<LinearSolver>(
         acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
         model, *dof_map);
@@ -460,12 +460,12 @@ namespace quoin
                           + " % of what was out of balance at the start"
                     : "the load time " + number_text(state.load_time) + " of "
                           + number_text(stage_duration) + " s")
-            << (jumped ? ", and the model went on moving when it was released "
-                         "against a drag, after steps were cut to "
-                       : ", although steps were cut to ")
+            << (jumped ? ", and the model kept moving when it was released "
+                         "against a viscous drag, after steps were reduced to "
+                       : ", although steps were reduced to ")
             << number_text(tried)
             << " of the stage. Forces are out of balance most " << where
-            << ". The model may have come to its limit load there"
+            << ". The model may have reached its limit load there"
             << (parameters.path == PathFollowing::never
                     ? ": 'Path following = automatic' in section 'Implicit' "
                       "could follow it down"

@@ -54,17 +54,17 @@ namespace quoin
     refuse_bond(entries);
     entries.ignore("Friction angle");
     double first = 0., limit = 0., largest = 0.;
-    entries.positive("Normal stiffness", first, "kn of the unloaded joint",
-                     "Pa/m");
+    entries.positive("Normal stiffness", first,
+                     "normal stiffness kn of the unloaded joint", "Pa/m");
     entries.positive("Largest closure", limit,
-                     "Vm, which the closure of the joint comes near to under "
+                     "maximum closure Vm, the limit of the joint closure under "
                      "high pressure",
                      "m");
-    entries.nonnegative("Largest normal stiffness", largest,
-                        "where the slope of the closure has come to this it "
-                        "stays so; the time step allows for it. 0: 25 times "
-                        "'Normal stiffness'",
-                        "Pa/m");
+    entries.nonnegative(
+        "Largest normal stiffness", largest,
+        "upper limit of the normal stiffness, on which the critical time step "
+        "is based; 0: 25 times 'Normal stiffness'",
+        "Pa/m");
     if (largest == 0.)
       largest = stiffening * first;
     entries.check(largest >= first, "Largest normal stiffness",
@@ -73,25 +73,27 @@ namespace quoin
 
     BartonBandisLaw law{ {}, HyperbolicClosure(first, limit, largest) };
     double roughness = 0., length = 0., samples = 0.;
-    entries.positive("Shear stiffness", law.stiffness, "ks", "Pa/m");
+    entries.positive("Shear stiffness", law.stiffness, "shear stiffness ks",
+                     "Pa/m");
     law.residual_angle = read_residual_angle(entries);
-    entries.within("Joint roughness", roughness, 0., 30.,
-                   "roughness coefficient JRC, 0 (smooth) to 20, at most 30",
-                   "-");
+    entries.within(
+        "Joint roughness", roughness, 0., 30.,
+        "joint roughness coefficient JRC, from 0 (smooth) to 20, at most 30",
+        "-");
     entries.positive("Joint wall strength", law.wall_strength,
-                     "compressive strength JCS of the rock beside the joint",
-                     "Pa");
+                     "joint wall compressive strength JCS", "Pa");
     entries.nonnegative("Peak slip", law.peak_slip,
-                        "slip at the peak of the shear strength; 0: "
+                        "slip at the peak shear strength; 0: "
                         "(L/500)(JRC/L)^0.33 with 'Joint length' L in m",
                         "m");
     entries.nonnegative("Joint length", length,
                         "length of the joint between others that cross it",
                         "m");
-    entries.nonnegative("Laboratory length", samples,
-                        "length of the samples that JRC and JCS are from, to "
-                        "be corrected for 'Joint length'; 0: no correction",
-                        "m");
+    entries.nonnegative(
+        "Laboratory length", samples,
+        "length of the laboratory samples of JRC and JCS, for their scale "
+        "correction to 'Joint length'; 0: no correction",
+        "m");
     if (samples > 0.)
     {
       entries.check(length >= samples, "Joint length",

@@ -237,22 +237,27 @@ namespace quoin
   {
     CompositeLaw law;
     double angle = 0., dilation_angle = 0.;
-    entries.positive("Normal stiffness", law.normal_stiffness, "kn", "Pa/m");
-    entries.positive("Shear stiffness", law.shear_stiffness, "ks", "Pa/m");
-    entries.nonnegative("Tensile strength", law.tension, "ft", "Pa");
-    entries.positive_or_none("Tensile fracture energy", law.tension_energy,
-                             "mode I fracture energy GfI, or 'none': tension "
-                             "does not soften",
-                             "J/m^2");
+    entries.positive("Normal stiffness", law.normal_stiffness,
+                     "normal stiffness kn", "Pa/m");
+    entries.positive("Shear stiffness", law.shear_stiffness,
+                     "shear stiffness ks", "Pa/m");
+    entries.nonnegative("Tensile strength", law.tension, "tensile strength ft",
+                        "Pa");
+    entries.positive_or_none(
+        "Tensile fracture energy", law.tension_energy,
+        "mode I fracture energy GfI, or 'none' if tension does not soften",
+        "J/m^2");
     entries.nonnegative("Cohesion", law.cohesion, "peak cohesion c", "Pa");
-    entries.positive_or_none("Shear fracture energy", law.shear_energy,
-                             "mode II fracture energy GfII, or 'none': "
-                             "cohesion does not soften",
-                             "J/m^2");
-    entries.within("Friction angle", angle, 0., 89., "phi", "deg");
+    entries.positive_or_none(
+        "Shear fracture energy", law.shear_energy,
+        "mode II fracture energy GfII, or 'none' if cohesion does not soften",
+        "J/m^2");
+    entries.within("Friction angle", angle, 0., 89., "friction angle phi",
+                   "deg");
     double residual = angle;
-    entries.angle_or_same("Residual friction angle", residual,
-                          "friction angle once failed, or 'same'");
+    entries.angle_or_same(
+        "Residual friction angle", residual,
+        "friction angle of the failed joint, or 'same' as 'Friction angle'");
     entries.check(residual >= 0. && residual <= 89., "Residual friction angle",
                   "must lie between 0 and 89 degrees, or be 'same'.");
     law.friction          = tangent_of_degrees(angle);
@@ -265,24 +270,29 @@ namespace quoin
 
     entries.within("Dilation angle", dilation_angle, 0.,
                    std::min(angle, residual),
-                   "psi, at most the friction angle, once failed too", "deg");
+                   "dilation angle psi, at most the smaller of the friction "
+                   "angles before and after failure",
+                   "deg");
     law.dilation = tangent_of_degrees(dilation_angle);
-    entries.positive_or_none("Dilation pressure", law.dilation_pressure,
-                             "pressure under which the joint dilates no more, "
-                             "or 'none': any",
-                             "Pa");
+    entries.positive_or_none(
+        "Dilation pressure", law.dilation_pressure,
+        "pressure above which the joint no longer dilates, or 'none' if it "
+        "dilates under any pressure",
+        "Pa");
     entries.nonnegative("Dilation decay", law.dilation_decay,
-                        "how fast dilation wears off with slip, delta; not "
-                        "read without 'Cohesion' and 'Shear fracture energy'",
+                        "degradation coefficient delta of dilation with slip, "
+                        "which needs 'Cohesion' and 'Shear fracture energy'",
                         "1/m");
     entries.either("Cracks", law.cracks_close, "stay open", "close",
-                   "what unloading does to a crack that tension opened. stay "
-                   "open: unloading is elastic, compression comes back before "
-                   "the crack is closed, as published; close: it closes "
-                   "without resistance first, for cyclic loading");
+                   "behaviour of tensile cracks at unloading. stay open: "
+                   "unloading is elastic and compression returns before the "
+                   "crack is closed, as published; close: the crack first "
+                   "closes without resistance, for cyclic loading");
 
     entries.positive_or_none("Compressive strength", law.cap.compression,
-                             "fm of the masonry, or 'none': no crushing", "Pa");
+                             "compressive strength fm of the masonry, or "
+                             "'none' if it does not crush",
+                             "Pa");
     if (entries.reads() && std::isinf(law.cap.compression))
     {
       entries.refuse_numbers({ "Compressive fracture energy", "Peak crushing" },
@@ -290,15 +300,17 @@ namespace quoin
       return law;
     }
     entries.positive("Compressive fracture energy", law.cap.compression_energy,
-                     "Gfc", "J/m^2");
+                     "compressive fracture energy Gfc", "J/m^2");
     entries.positive("Peak crushing", law.cap.peak_crushing,
-                     "plastic closing at fm, kappa_p", "m");
+                     "plastic closure kappa_p at the compressive strength",
+                     "m");
     entries.positive("Cap shear", law.cap.shear,
-                     "weight Css of the shear traction in the cap", "-");
+                     "coefficient Css of the shear traction in the cap", "-");
     entries.positive("Cap normal", law.cap.normal,
-                     "weight Cnn of the normal traction in the cap", "-");
-    entries.nonnegative("Cap offset", law.cap.offset,
-                        "Cn of the cap, whose centre is at -Cn/(2 Cnn)", "Pa");
+                     "coefficient Cnn of the normal traction in the cap", "-");
+    entries.nonnegative(
+        "Cap offset", law.cap.offset,
+        "coefficient Cn of the cap, whose centre is at -Cn/(2 Cnn)", "Pa");
     return law;
   }
 

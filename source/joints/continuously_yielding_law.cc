@@ -54,43 +54,46 @@ namespace quoin
     normal.lowest             = 1e4;
     normal.highest            = 1e8;
     entries.positive("Reference stress", normal.reference_traction,
-                     "pressure at which the stiffnesses are 'Normal stiffness' "
-                     "and 'Shear stiffness'",
+                     "normal pressure at which the stiffnesses are 'Normal "
+                     "stiffness' and 'Shear stiffness'",
                      "Pa");
     entries.positive("Lowest stress", normal.lowest,
-                     "pressure below which the stiffnesses are constant", "Pa");
+                     "normal pressure below which the stiffnesses are constant",
+                     "Pa");
     entries.positive("Highest stress", normal.highest,
-                     "pressure above which they are constant; the time step "
-                     "allows for this one",
+                     "normal pressure above which the stiffnesses are "
+                     "constant, on which the critical time step is based",
                      "Pa");
     entries.check(normal.highest >= normal.lowest, "Highest stress",
                   "must not be less than 'Lowest stress', below which "
                   "stiffnesses are constant too.");
     PowerStiffness shear = normal;
     entries.positive("Normal stiffness", normal.reference,
-                     "kn at 'Reference stress'", "Pa/m");
-    entries.within("Normal exponent", normal.exponent, 0., 1.,
-                   "power of the pressure with which the normal stiffness "
-                   "grows, 0 to 1",
-                   "-");
+                     "normal stiffness kn at 'Reference stress'", "Pa/m");
+    entries.within(
+        "Normal exponent", normal.exponent, 0., 1.,
+        "exponent of the normal pressure in the normal stiffness, from 0 to 1",
+        "-");
     entries.positive("Shear stiffness", shear.reference,
-                     "ks at 'Reference stress'", "Pa/m");
-    entries.within("Shear exponent", shear.exponent, 0., 1.,
-                   "the same of the shear stiffness", "-");
+                     "shear stiffness ks at 'Reference stress'", "Pa/m");
+    entries.within(
+        "Shear exponent", shear.exponent, 0., 1.,
+        "exponent of the normal pressure in the shear stiffness, from 0 to 1",
+        "-");
 
     ContinuouslyYieldingLaw law{ {}, PowerClosure(normal), shear };
     law.residual_angle = read_residual_angle(entries);
     double angle       = 0.;
-    entries.within("Friction angle", angle, 0., 89., "that of the unworn joint",
-                   "deg");
+    entries.within("Friction angle", angle, 0., 89.,
+                   "friction angle of the unworn joint", "deg");
     law.initial_angle = angle * degree;
     entries.check(law.initial_angle >= law.residual_angle, "Friction angle",
                   "must not be less than 'Residual friction angle': it is that "
                   "of the joint before it is worn.");
     entries.positive("Roughness", law.roughness,
-                     "R, the inelastic slip over which the friction angle "
-                     "comes from 'Friction angle' near 'Residual friction "
-                     "angle'",
+                     "roughness parameter R, the inelastic slip over which the "
+                     "friction angle decreases from 'Friction angle' towards "
+                     "'Residual friction angle'",
                      "m");
     return law;
   }

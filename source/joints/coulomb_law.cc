@@ -38,8 +38,10 @@ namespace quoin
   CoulombLaw CoulombLaw::read(LawEntries &entries)
   {
     CoulombLaw law;
-    entries.positive("Normal stiffness", law.normal_stiffness, "kn", "Pa/m");
-    entries.positive("Shear stiffness", law.shear_stiffness, "ks", "Pa/m");
+    entries.positive("Normal stiffness", law.normal_stiffness,
+                     "normal stiffness kn", "Pa/m");
+    entries.positive("Shear stiffness", law.shear_stiffness,
+                     "shear stiffness ks", "Pa/m");
     if (entries.law() == "elastic")
       return law;
 
@@ -47,8 +49,10 @@ namespace quoin
     law.critical_shear_displacement = 1e300;
     double peak_angle = 0., dilation_angle = 0.;
     entries.nonnegative("Cohesion", law.peak.cohesion, "peak cohesion c", "Pa");
-    entries.within("Friction angle", peak_angle, 0., 89., "phi", "deg");
-    entries.nonnegative("Tensile strength", law.peak.tension, "ft", "Pa");
+    entries.within("Friction angle", peak_angle, 0., 89., "friction angle phi",
+                   "deg");
+    entries.nonnegative("Tensile strength", law.peak.tension,
+                        "tensile strength ft", "Pa");
     law.peak.friction = tangent_of_degrees(peak_angle);
     law.residual      = law.peak;
 
@@ -57,11 +61,12 @@ namespace quoin
     {
       law.residual.cohesion = law.residual.tension = 0.;
       entries.nonnegative("Residual cohesion", law.residual.cohesion,
-                          "cohesion once failed", "Pa");
-      entries.angle_or_same("Residual friction angle", failed_angle,
-                            "friction angle once failed, or 'same'");
+                          "cohesion of the failed joint", "Pa");
+      entries.angle_or_same(
+          "Residual friction angle", failed_angle,
+          "friction angle of the failed joint, or 'same' as 'Friction angle'");
       entries.nonnegative("Residual tensile strength", law.residual.tension,
-                          "tensile strength once failed", "Pa");
+                          "tensile strength of the failed joint", "Pa");
       entries.check(failed_angle >= 0. && failed_angle <= 89.,
                     "Residual friction angle",
                     "must lie between 0 and 89 degrees, or be 'same'.");
@@ -84,11 +89,13 @@ namespace quoin
     // would create energy.
     entries.within("Dilation angle", dilation_angle, 0.,
                    std::min(peak_angle, failed_angle),
-                   "psi, at most the friction angle, once failed too", "deg");
+                   "dilation angle psi, at most the smaller of the friction "
+                   "angles before and after failure",
+                   "deg");
     law.dilation = tangent_of_degrees(dilation_angle);
     entries.nonnegative("Critical shear displacement",
                         law.critical_shear_displacement,
-                        "slip beyond which the joint dilates no more", "m");
+                        "slip beyond which the joint no longer dilates", "m");
     return law;
   }
 

@@ -60,30 +60,30 @@ namespace quoin
   void JointSetParameters::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry("Curves", "", Anything(),
-                      "Physical curves of the mesh whose joints form this "
-                      "set; empty: the curve that bears the set's own name; "
-                      "'unnamed': joints on no named curve; 'none': no joint "
-                      "where the run begins, only what stages lead to.");
+                      "Physical curves of the mesh whose joints form this set; "
+                      "empty: the curve that bears the set's name; 'unnamed': "
+                      "joints on no named curve; 'none': no joint at the start "
+                      "of the run, for sets that only stages assign.");
     prm.declare_entry("New contacts between", "", Anything(),
-                      "Pairs a:b of materials between which contacts that "
-                      "come up while blocks move follow this set, or 'all': "
-                      "the pairs that no other set names. They start at "
-                      "residual strength. For large displacements; such a "
-                      "set needs no curve.");
+                      "Pairs a:b of materials whose new contacts belong to "
+                      "this set, or 'all' for the pairs that no other set "
+                      "names. New contacts start at residual strength and need "
+                      "'Displacements = large'; such a set needs no curve.");
     LawEntries::all().declare(prm);
-    prm.declare_entry("Restitution", "1", Double(),
-                      "Coefficient of restitution of two blocks that meet "
-                      "squarely, each as a mass: sets 'Normal damping'; 1: "
-                      "that is as given. From 0.05 to 1 [-]");
-    prm.declare_entry("Normal damping", "0", Double(),
-                      "Dashpot beside the normal springs, as a share of "
-                      "critical damping of the two blocks on the springs at "
-                      "which they press on each other; up to 2. It does not "
-                      "pull, and lowers the critical time step [-]");
+    prm.declare_entry(
+        "Restitution", "1", Double(),
+        "Coefficient of restitution of the central impact of two blocks, each "
+        "as a point mass, from 0.05 to 1; it determines 'Normal damping'; 1: "
+        "'Normal damping' is as given [-]");
+    prm.declare_entry(
+        "Normal damping", "0", Double(),
+        "Viscous damping parallel to the normal springs, as a fraction of "
+        "critical damping of the two blocks on the springs in contact, at most "
+        "2; it bears no tension and lowers the critical time step [-]");
     prm.declare_entry("Shear damping", "same", Anything(),
-                      "The same of the shear springs, within the friction of "
-                      "the whole pressure; 'same': that of the normal ones "
-                      "[-]");
+                      "Viscous damping parallel to the shear springs, as a "
+                      "fraction of critical damping, limited by the friction "
+                      "of the total pressure; 'same': as 'Normal damping' [-]");
   }
 
   JointSetParameters JointSetParameters::read(const ParameterSection &section,

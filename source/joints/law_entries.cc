@@ -6,6 +6,7 @@
 #include <quoin/joints/law_entries.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -28,14 +29,14 @@ namespace quoin
       return text;
     }
 
-    /** "'a' and 'b'" */
+    /** "'a', 'b' or 'c'" */
     std::string quoted(const std::vector<std::string> &words)
     {
       std::string text;
       for (unsigned int i = 0; i < words.size(); ++i)
         text += (i == 0                 ? "'"
                  : i + 1 < words.size() ? "', '"
-                                        : "' and '")
+                                        : "' or '")
                 + words[i];
       return text + "'";
     }
@@ -65,12 +66,12 @@ namespace quoin
 
   void LawEntries::declare(dealii::ParameterHandler &prm) const
   {
-    std::string pattern, sentence;
+    std::string pattern, sentence = "Constitutive law of the joints. ";
     for (const LawName &name : names)
     {
-      pattern += (pattern.empty() ? "" : "|") + std::string(name.word);
-      sentence += (sentence.empty() ? "" : "; ") + std::string(name.word) + ": "
+      sentence += (pattern.empty() ? "" : "; ") + std::string(name.word) + ": "
                   + name.sentence;
+      pattern += (pattern.empty() ? "" : "|") + std::string(name.word);
     }
     prm.declare_entry("Law", names.front().word,
                       dealii::Patterns::Selection(pattern), sentence + ".");
@@ -81,15 +82,14 @@ namespace quoin
 
   std::string LawEntries::description(const Entry &entry) const
   {
-    std::string text;
-    for (const Note &note : entry.notes)
-    {
-      if (!text.empty())
-        text += "; ";
-      if (note.laws.front() != names.front().word)
-        text += (text.empty() ? "Of " : "of ") + quoted(note.laws) + ": ";
-      text += note.sentence;
-    }
+    const Note &first = entry.notes.front();
+    std::string text  = first.sentence;
+    text.front()      = std::toupper(text.front());
+    if (entry.notes.size() == 1 && first.laws.size() < names.size())
+      text += "; read if 'Law' is " + quoted(first.laws);
+    for (unsigned int i = 1; i < entry.notes.size(); ++i)
+      text += "; " + entry.notes[i].sentence + " if 'Law' is "
+              + quoted(entry.notes[i].laws);
     return text + (entry.unit.empty() ? "." : " [" + entry.unit + "]");
   }
 

@@ -11,8 +11,8 @@ namespace quoin
   {
     const std::string name = "Residual friction angle";
     double angle           = 0.;
-    const bool is_given
-        = entries.angle_or_same(name, angle, "that of the worn joint");
+    const bool is_given    = entries.angle_or_same(
+           name, angle, "friction angle of the worn joint");
     entries.check(is_given, name,
                   "must be given for this law: the angle that is left when "
                   "the joint is smooth, in degrees.");

@@ -14,15 +14,19 @@ namespace quoin
   {
     SlipWeakeningLaw law;
     double angle = 0.;
-    entries.positive("Normal stiffness", law.normal_stiffness, "kn", "Pa/m");
-    entries.positive("Shear stiffness", law.shear_stiffness, "ks", "Pa/m");
+    entries.positive("Normal stiffness", law.normal_stiffness,
+                     "normal stiffness kn", "Pa/m");
+    entries.positive("Shear stiffness", law.shear_stiffness,
+                     "shear stiffness ks", "Pa/m");
     entries.nonnegative("Cohesion", law.cohesion, "peak cohesion c", "Pa");
-    entries.within("Friction angle", angle, 0., 89., "phi", "deg");
+    entries.within("Friction angle", angle, 0., 89., "friction angle phi",
+                   "deg");
     entries.nonnegative("Residual cohesion", law.residual_cohesion,
-                        "cohesion once failed", "Pa");
+                        "cohesion of the failed joint", "Pa");
     double residual = angle;
-    entries.angle_or_same("Residual friction angle", residual,
-                          "friction angle once failed, or 'same'");
+    entries.angle_or_same(
+        "Residual friction angle", residual,
+        "friction angle of the failed joint, or 'same' as 'Friction angle'");
     entries.check(residual >= 0. && residual <= angle,
                   "Residual friction angle",
                   "must lie between 0 and 'Friction angle', or be 'same'.");
@@ -31,8 +35,8 @@ namespace quoin
     law.friction          = tangent_of_degrees(angle);
     law.residual_friction = tangent_of_degrees(residual);
     entries.positive("Weakening slip", law.weakening_slip,
-                     "slip Dc over which cohesion and friction come down to "
-                     "their residual values",
+                     "slip-weakening distance Dc, over which cohesion and "
+                     "friction decrease to their residual values",
                      "m");
     for (const char *name :
          { "Tensile strength", "Residual tensile strength", "Dilation angle" })

@@ -239,7 +239,7 @@ namespace quoin
       std::map<Edge, int> lines;
       std::map<Edge, std::vector<unsigned int>> blocks_of;
       std::map<std::string, GmshNumbers> curves, surfaces;
-      std::set<std::string> joints; /**< those of the curves */
+      std::set<std::string> joints; /**< joint curves */
       std::ostringstream text;
     };
 
@@ -284,7 +284,7 @@ namespace quoin
       return "ring_joint";
     }
 
-    /** Of the edge from @p a to @p b of a block with nothing beside it. */
+    /** Name of the outer edge from @p a to @p b of a block. */
     std::string Writer::outer_name(const ArchBlock &block, const unsigned int a,
                                    const unsigned int b) const
     {

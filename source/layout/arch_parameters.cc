@@ -80,30 +80,30 @@ namespace quoin
     {
       entries.nonnegative(
           "Span", arch.span,
-          "Clear span of an arch that the program makes itself, instead of "
-          "reading 'Mesh/File'; its intrados springs at y = 0 to both sides of "
-          "x = 0; 0: no such arch [m]");
+          "Clear span of an arch that the program generates instead of reading "
+          "'Mesh/File', with the springings of the intrados at y = 0 on both "
+          "sides of x = 0; 0: no arch is generated [m]");
       if (!entries.reads_if(arch.span > 0.))
         return;
       entries.positive("Rise", arch.rise,
-                       "Rise of the intrados, an arc of a circle; at most "
-                       "half of the span [m]");
+                       "Rise of the intrados, which is an arc of a circle, at "
+                       "most half of the span [m]");
       entries.positive("Ring thickness", arch.ring,
-                       "Thickness of the voussoirs, from intrados to extrados "
-                       "[m]");
+                       "Thickness of the ring from intrados to extrados [m]");
       entries.integer("Voussoirs", arch.n_voussoirs, 0,
-                      "Number of voussoirs, of straight sides and between "
+                      "Number of voussoirs, which have straight sides and "
                       "radial joints [-]");
       entries.numbers("Abutments", arch.abutment,
-                      "Width of each abutment, from the intrados outwards, "
-                      "and height below y = 0 [m]");
-      entries.nonnegative("Backing", arch.backing,
-                          "Level y up to which masonry fills the spandrels, "
-                          "or that of a joint of the ring that is nearer than "
-                          "a tenth of 'Element size'; 0: no backing [m]");
-      entries.nonnegative("Cover", arch.cover,
-                          "Height of the fill above the crown of the ring; "
-                          "0: no fill [m]");
+                      "Width of each abutment from the intrados outwards, and "
+                      "its height below y = 0 [m]");
+      entries.nonnegative(
+          "Backing", arch.backing,
+          "Level y up to which masonry backing fills the spandrels; a joint of "
+          "the ring within a tenth of 'Element size' of this level replaces "
+          "it; 0: no backing [m]");
+      entries.nonnegative(
+          "Cover", arch.cover,
+          "Height of the fill above the crown of the ring; 0: no fill [m]");
       std::vector<std::pair<std::string, std::string>> names;
       const std::string form
           = "must be pairs NAME:NUMBER, or NAME:FIRST-LAST of several, with "
@@ -111,15 +111,16 @@ namespace quoin
             "voussoir at most once, such as loaded:5-7, key:10.";
       entries.pairs("Named voussoirs", names, form,
                     "Voussoirs with names of their own, counted from 1 at the "
-                    "left, such as loaded:5-7, key:10: the physical surface "
-                    "'voussoir_NAME' and curves 'extrados_NAME' and "
-                    "'intrados_NAME'.");
+                    "left, such as loaded:5-7, key:10; a name gives the "
+                    "physical surface 'voussoir_NAME' and the curves "
+                    "'extrados_NAME' and 'intrados_NAME'.");
       entries.nonnegative("Element size", arch.element_size,
-                          "Longest edge of elements of the voussoirs; 0: half "
-                          "of the ring's thickness [m]");
-      entries.nonnegative("Fill element size", arch.fill_element_size,
-                          "Longest edge of elements of fill, backing and "
-                          "abutments away from the ring; 0: as there [m]");
+                          "Longest edge of the elements of voussoirs; 0: half "
+                          "the thickness of the ring [m]");
+      entries.nonnegative(
+          "Fill element size", arch.fill_element_size,
+          "Longest edge of the elements of fill, backing and abutments away "
+          "from the ring; 0: as 'Element size' [m]");
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;

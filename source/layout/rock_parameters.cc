@@ -115,7 +115,7 @@ namespace quoin
     }
 
     const std::string distribution_text
-        = "A number, or one of 'uniform', 'normal', 'log-normal' with mean and "
+        = "a number, or one of 'uniform', 'normal', 'log-normal' with mean and "
           "standard deviation, or 'exponential' with the mean";
 
     enum class RegionShape
@@ -128,43 +128,46 @@ namespace quoin
     void enter_region_shape(ParameterEntries &entries, RockRegion &region)
     {
       RegionShape shape = RegionShape::polygon;
-      entries.choice("Shape", shape,
-                     { { "polygon", RegionShape::polygon },
-                       { "circle", RegionShape::circle },
-                       { "arch", RegionShape::arch } },
-                     "Shape of the region; arch: the section of a tunnel with "
-                     "floor, walls and a roof that is an arc of a circle.");
+      entries.choice(
+          "Shape", shape,
+          { { "polygon", RegionShape::polygon },
+            { "circle", RegionShape::circle },
+            { "arch", RegionShape::arch } },
+          "Shape of the region. polygon: given by its corners; circle: a "
+          "polygon with corners on a circle; arch: a tunnel section with "
+          "floor, walls and a roof that is an arc of a circle.");
       const ParameterSection *section = entries.read_section();
       std::array<double, 2> centre{};
       double radius = 0., width = 0., height = 0., rise = 0.;
       unsigned int n = 24;
       if (entries.reads_if(shape == RegionShape::polygon))
         entries.other("Points", "",
-                      "Corners of the polygon: x, y; x, y; ... [m]",
+                      "Corners of the polygon as x, y; x, y; ... [m]",
                       [&](const ParameterSection &from)
                       {
                         region.polygon = read_points(from, "Points", 3);
                         check_polygon(from, "Points", region.polygon);
                       });
-      entries.numbers("Centre", centre,
-                      "x, y of the circle's centre, or of the middle of the "
-                      "arch's floor [m]");
+      entries.numbers(
+          "Centre", centre,
+          "Centre x, y of the circle, or of the floor of the arch [m]");
       if (entries.reads_if(shape == RegionShape::circle))
         entries.positive("Radius", radius, "Radius of the circle [m]");
       if (entries.reads_if(shape == RegionShape::arch))
       {
-        entries.positive("Width", width, "Width of the arch [m]");
+        entries.positive("Width", width,
+                         "Width of the arch-shaped section [m]");
         entries.nonnegative("Wall height", height,
-                            "Height of the walls below the arch [m]");
+                            "Height of the walls below the roof arch [m]");
         entries.within("Rise", rise, 0., 0.5 * width,
-                       "Rise of the arch above its walls, at most half of "
-                       "its width [m]");
+                       "Rise of the roof arch above the walls, at most half of "
+                       "the width [m]");
         if (section && height + rise == 0.)
           section->fail("Wall height", "and 'Rise' must not both be zero.");
       }
       entries.integer("Corners", n, 3,
-                      "Number of corners of the polygon instead of the circle, "
-                      "or of chords of the arch's roof [-]",
+                      "Number of corners of the polygon that stands for the "
+                      "circle, or of chords of the roof arch [-]",
                       10000);
       const Point middle(centre[0], centre[1]);
       if (section && shape == RegionShape::circle)
@@ -178,22 +181,23 @@ namespace quoin
     void enter_region(ParameterEntries &entries, RockRegion &region)
     {
       enter_region_shape(entries, region);
-      entries.choice("Use", region.use,
-                     { { "body", RockRegion::body },
-                       { "hole", RockRegion::hole },
-                       { "zone", RockRegion::zone } },
-                     "body: a physical surface with the region's name, for a "
-                     "material of its own or to be excavated; hole: nothing "
-                     "is there; zone: only joints that name it know it. Of "
-                     "regions that overlap, the later one prevails.");
+      entries.choice(
+          "Use", region.use,
+          { { "body", RockRegion::body },
+            { "hole", RockRegion::hole },
+            { "zone", RockRegion::zone } },
+          "Use of the region. body: a physical surface with the region's name, "
+          "for a material of its own or for excavation; hole: a void; zone: a "
+          "region for joints that name it, without effect on anything else. "
+          "Where regions overlap, the later one prevails.");
       entries.flag("Outline is a joint", region.is_outlined,
                    "Whether the outline of a body, the physical curve with the "
                    "region's name, is a joint.");
       entries.flag("Joints inside", region.has_joints,
-                   "Whether joints go through a body.");
+                   "Whether joints pass through a body.");
       entries.flag("Refine mesh", region.refines_mesh,
-                   "Whether elements are as fine as 'Finest element size' "
-                   "of section 'Rock' says along the region's outline.");
+                   "Whether elements along the region's outline have the "
+                   "'Finest element size' of section 'Rock'.");
       const ParameterSection *section = entries.read_section();
       if (section && region.refines_mesh && region.use == RockRegion::zone)
         section->fail("Refine mesh", "needs the outline of a body or a hole: a "
@@ -216,30 +220,30 @@ namespace quoin
     {
       using Section = ParameterSection;
       entries.other("Dip", "0",
-                    "Dip of a set, anticlockwise from the x axis. A number, or "
+                    "Dip of a set, anticlockwise from the x axis: a number, or "
                     "one of 'uniform', 'normal', 'Fisher' with mean and "
                     "standard deviation, such as 'Fisher 30, 5' [deg]",
                     [&](const Section &section)
                     { joints.dip = read_dip(section); });
       entries.other("Spacing", "0",
-                    "Spacing of the lines of a set, across the mean dip. "
+                    "Spacing of the lines of a set, normal to the mean dip: "
                         + distribution_text + " [m]",
                     [&](const Section &section)
                     { joints.spacing = read_length(section, "Spacing"); });
-      entries.other("Trace length", "persistent",
-                    "Length of the traces of a set, as 'Spacing', or "
-                    "'persistent': from border to border [m]",
-                    [&](const Section &section)
-                    {
-                      joints.is_persistent
-                          = section.text("Trace length") == "persistent";
-                      if (!joints.is_persistent)
-                        joints.length = read_length(section, "Trace length");
-                    });
+      entries.other(
+          "Trace length", "persistent",
+          "Length of the traces of a set: a number or distribution as for "
+          "'Spacing', or 'persistent' for traces from border to border [m]",
+          [&](const Section &section)
+          {
+            joints.is_persistent = section.text("Trace length") == "persistent";
+            if (!joints.is_persistent)
+              joints.length = read_length(section, "Trace length");
+          });
       entries.other(
           "Gap", "0",
-          "Gap between traces on a line of a set, as 'Spacing', or 0 "
-          "[m]",
+          "Gap between traces on a line of a set: a number or distribution as "
+          "for 'Spacing', or 0 for none [m]",
           [&](const Section &section)
           {
             if (joints.is_persistent)
@@ -250,7 +254,7 @@ namespace quoin
           });
       std::array<double, 2> origin{};
       entries.numbers("Origin", origin,
-                      "x, y of a point on the first line of a set [m]");
+                      "Point x, y on the first line of a set [m]");
       joints.origin = Point(origin[0], origin[1]);
     }
 
@@ -269,76 +273,79 @@ namespace quoin
 
     void enter_joints(ParameterEntries &entries, RockJoints &joints)
     {
-      entries.choice("Kind", joints.kind,
-                     { { "set", RockJoints::set },
-                       { "polyline", RockJoints::polyline },
-                       { "traces", RockJoints::traces },
-                       { "Voronoi", RockJoints::voronoi } },
-                     "set: parallel lines on which traces and gaps follow "
-                     "each other; polyline: one joint through given points; "
-                     "traces: straight joints from a file; Voronoi: the "
-                     "borders of random polygons.");
+      entries.choice(
+          "Kind", joints.kind,
+          { { "set", RockJoints::set },
+            { "polyline", RockJoints::polyline },
+            { "traces", RockJoints::traces },
+            { "Voronoi", RockJoints::voronoi } },
+          "Kind of joints. set: traces and gaps that alternate on parallel "
+          "lines; polyline: one joint through given points; traces: straight "
+          "joints from a file; Voronoi: the borders of random polygons.");
       if (entries.reads_if(joints.kind == RockJoints::set))
         enter_set(entries, joints);
       if (entries.reads_if(joints.kind == RockJoints::polyline))
-        entries.other("Points", "", "Points of a polyline: x, y; x, y; ... [m]",
+        entries.other("Points", "",
+                      "Points of a polyline as x, y; x, y; ... [m]",
                       [&](const ParameterSection &section)
                       { joints.points = read_points(section, "Points", 2); });
       if (entries.reads_if(joints.kind == RockJoints::traces))
       {
         entries.text("File", joints.file,
-                     "Table of traces with x1, y1, x2, y2 in each row [m], "
+                     "Table of traces with x1, y1, x2, y2 [m] in each row, "
                      "relative to the folder of this file.");
         if (const ParameterSection *section = entries.read_section())
           check_file(*section, joints.file);
       }
       if (entries.reads_if(joints.kind == RockJoints::voronoi))
       {
-        entries.positive("Block size", joints.block_size,
-                         "Root of the mean area of Voronoi polygons [m]");
+        entries.positive(
+            "Block size", joints.block_size,
+            "Square root of the mean area of Voronoi polygons [m]");
         entries.integer("Relaxation", joints.relaxation, 0,
-                        "How often the sites of Voronoi polygons are moved to "
-                        "the middle of their polygons, which become more "
-                        "regular; 5 are many [-]",
+                        "Number of relaxation steps that move the sites of "
+                        "Voronoi polygons to the centroids of their polygons, "
+                        "which become more regular; 5 are many [-]",
                         1000);
       }
       entries.text("Region", joints.region,
-                   "Region of section 'Rock regions' in which alone these "
-                   "joints are; empty: everywhere.");
+                   "Region of section 'Rock regions' to which these joints are "
+                   "confined; empty: no restriction.");
     }
 
     void enter_sizes(ParameterEntries &entries, RockParameters &rock)
     {
-      entries.nonnegative("Shortest edge", rock.shortest_edge,
-                          "Distance below which ends of joints are moved "
-                          "together or to another joint; 0: a tenth of the "
-                          "element size [m]");
-      entries.nonnegative("Smallest block", rock.smallest_block,
-                          "Area of blocks below which they are joined to the "
-                          "neighbour with which they share the longest joint; "
-                          "0: the square of twice the shortest edge [m^2]");
-      entries.nonnegative("Narrowest block", rock.narrowest_block,
-                          "Width of blocks, twice their area by their "
-                          "perimeter, below which they are joined to the "
-                          "neighbour with which they share the longest joint; "
-                          "0: the shortest edge [m]");
+      entries.nonnegative(
+          "Shortest edge", rock.shortest_edge,
+          "Distance below which joint ends are merged with each other or moved "
+          "onto another joint; 0: a tenth of the element size [m]");
+      entries.nonnegative(
+          "Smallest block", rock.smallest_block,
+          "Area below which a block is merged with the neighbour that shares "
+          "its longest joint; 0: the square of twice the shortest edge [m^2]");
+      entries.nonnegative(
+          "Narrowest block", rock.narrowest_block,
+          "Width, twice the area divided by the perimeter, below which a block "
+          "is merged with the neighbour that shares its longest joint; 0: the "
+          "shortest edge [m]");
       entries.positive("Element size", rock.element_size,
-                       "Longest edge of elements [m]");
-      entries.nonnegative("Finest element size", rock.finest_size,
-                          "Longest edge of elements along outlines of regions "
-                          "that refine the mesh; 0: the element size [m]");
+                       "Longest edge of the elements of the rock mass [m]");
+      entries.nonnegative(
+          "Finest element size", rock.finest_size,
+          "Longest edge of the elements along outlines of regions with 'Refine "
+          "mesh = yes'; 0: the element size [m]");
       rock.size_growth = 0.2;
       entries.positive("Size growth", rock.size_growth,
-                       "Growth of the element size with the distance from "
-                       "outlines that refine the mesh [m/m]");
+                       "Growth of the element size per distance from outlines "
+                       "that refine the mesh [m/m]");
     }
 
     void enter_rock(ParameterEntries &entries, RockParameters &rock)
     {
       entries.other("Outline", "",
-                    "x, y; x, y; ... of the corners of rock that the program "
-                    "cuts into blocks itself, instead of reading 'Mesh/File'; "
-                    "empty: no such rock [m]",
+                    "Corners x, y; x, y; ... of a rock mass that the program "
+                    "cuts into blocks, instead of reading 'Mesh/File'; empty: "
+                    "no rock mass is generated [m]",
                     [&](const ParameterSection &section)
                     {
                       if (section.text("Outline").empty())
@@ -348,24 +355,25 @@ namespace quoin
                     });
       if (!entries.reads_if(!rock.outline.empty()))
         return;
-      entries.list("Sides", rock.sides,
-                   "Names of the sides, the first one from the first to the "
-                   "second corner: physical curves. Sides may share one; "
-                   "empty: all are 'outline'.");
+      entries.list(
+          "Sides", rock.sides,
+          "Names of the sides of the outline, each a physical curve, in order "
+          "from the side between the first and the second corner. Sides may "
+          "share a name; empty: all have the name 'outline'.");
       entries.text("Group", rock.group,
-                   "Physical surface of the blocks that are in no region.");
+                   "Physical surface of the blocks outside all regions.");
       entries.integer("Random seed", rock.seed, 0,
-                      "Seed of the random values from which joints are "
-                      "drawn: another seed gives other joints of the same "
-                      "statistics.");
-      entries.choice("Dead ends", rock.dead_ends,
-                     { { "cut", RockParameters::cut },
-                       { "extend", RockParameters::extend },
-                       { "keep", RockParameters::keep } },
-                     "What becomes of joints that end in intact rock and so "
-                     "part no blocks. cut: they end at the last joint that "
-                     "they meet; extend: they go straight on to the next joint "
-                     "or border; keep: they are cracks inside blocks.");
+                      "Seed of the random number generator of joints; another "
+                      "seed gives another realisation of the same statistics.");
+      entries.choice(
+          "Dead ends", rock.dead_ends,
+          { { "cut", RockParameters::cut },
+            { "extend", RockParameters::extend },
+            { "keep", RockParameters::keep } },
+          "Treatment of joint ends in intact rock, which separate no blocks. "
+          "cut: the joint is cut back to the last joint that it crosses; "
+          "extend: the joint is extended to the next joint or border; keep: "
+          "the end remains as a crack inside a block.");
       enter_sizes(entries, rock);
       if (const ParameterSection *section = entries.read_section())
       {

@@ -57,8 +57,8 @@ namespace quoin
     /** Joints of one kind as they are in the blocks. */
     struct MadeJoints
     {
-      std::vector<double> dip;     /**< of edges, weighted by length [deg] */
-      std::vector<double> length;  /**< of straight runs [m] */
+      std::vector<double> dip;    /**< dip of edges, weighted by length [deg] */
+      std::vector<double> length; /**< length of straight runs [m] */
       std::vector<double> spacing; /**< along lines across [m] */
       double total = 0.;           /**< [m] */
     };

@@ -135,7 +135,7 @@ namespace quoin
                 x.end());
       }
 
-      /** Of the vertical side at @p x of a unit with nothing beside it. */
+      /** Name of the outer vertical side at @p x of a unit. */
       std::string outer_name(const WallUnit &unit, const double x) const
       {
         const std::string side = x < exact                   ? "left"
@@ -182,11 +182,11 @@ namespace quoin
 
       std::vector<std::vector<Piece>> rows;
       std::vector<std::vector<double>> points; /**< x by level */
-      Numbers first_point;                     /**< by level */
+      Numbers first_point;                     /**< first point of each level */
       /** Vertical lines by row: those at x. */
       std::vector<std::map<double, unsigned int>> vertical_lines;
       std::map<std::string, Numbers> curves, surfaces;
-      std::set<std::string> joints; /**< those of the curves */
+      std::set<std::string> joints; /**< joint curves */
       /** Lines by their length, for the number of elements. */
       std::map<std::string, Numbers> lines_of_length;
       std::ostringstream text;

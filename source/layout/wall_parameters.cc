@@ -63,22 +63,22 @@ namespace quoin
     void enter_storey(ParameterEntries &entries, WallStorey &storey)
     {
       entries.integer("Courses", storey.n_courses, 0,
-                      "Number of courses [-]; of section 'Wall': 0 with "
-                      "storeys, which have courses of their own.");
+                      "Number of courses; in section 'Wall' it is 0 if there "
+                      "are storeys, which have courses of their own [-]");
       entries.other("Openings", "",
-                    "Openings: left [m], right [m], first course, last "
-                    "course; further openings after a semicolon. x is 0 at "
-                    "the left end, courses count from 1 at the bottom of the "
+                    "Openings as left [m], right [m], first course, last "
+                    "course, with semicolons between openings. x is 0 at the "
+                    "left end, and courses count from 1 at the bottom of the "
                     "wall or storey. Units are cut to fit.",
                     [&](const ParameterSection &section)
                     { storey.openings = read_openings(section, storey); });
       std::vector<std::pair<std::string, std::string>> names;
-      entries.pairs("Named courses", names, course_form,
-                    "Courses with names of their own, such as plinth:1-2, "
-                    "band:9: their units are the physical surface "
-                    "'unit_NAME', their joints 'bed_NAME', below the course, "
-                    "'head_NAME' and 'crack_NAME'. Other courses have the "
-                    "name of their storey.");
+      entries.pairs(
+          "Named courses", names, course_form,
+          "Courses with names of their own, such as plinth:1-2, band:9: their "
+          "units are the physical surface 'unit_NAME', the joints below the "
+          "course 'bed_NAME', its head joints 'head_NAME' and its potential "
+          "cracks 'crack_NAME'. Other courses have the name of their storey.");
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;
@@ -91,10 +91,11 @@ namespace quoin
     void enter_upper_storey(ParameterEntries &entries, WallStorey &storey)
     {
       enter_storey(entries, storey);
-      entries.nonnegative("Slab thickness", storey.slab,
-                          "Thickness of the slab on this storey, a block over "
-                          "the whole wall: the physical surface 'slab_NAME', "
-                          "its joints 'slab_joint'; 0: none [m]");
+      entries.nonnegative(
+          "Slab thickness", storey.slab,
+          "Thickness of the slab on this storey, a block over the whole wall "
+          "that is the physical surface 'slab_NAME' with joints 'slab_joint'; "
+          "0: no slab [m]");
       const ParameterSection *section = entries.read_section();
       if (section && storey.n_courses == 0)
         section->fail("Courses", "must be at least 1.");
@@ -104,23 +105,23 @@ namespace quoin
     {
       std::array<double, 2> lengths{};
       entries.numbers("Random lengths", lengths,
-                      "Shortest and longest unit of a random bond, between "
-                      "which lengths are uniformly distributed [m]");
+                      "Shortest and longest unit of a random bond, whose "
+                      "lengths are uniformly distributed between them [m]");
       wall.random_shortest = lengths[0];
       wall.random_longest  = lengths[1];
       entries.nonnegative("Random overlap", wall.random_overlap,
-                          "Smallest distance between head joints of "
+                          "Smallest horizontal distance between head joints of "
                           "neighbouring courses of a random bond [m]");
       entries.integer("Random seed", wall.random_seed, 0,
-                      "Seed of the random bond: another seed, another wall.");
+                      "Seed of the random number generator of a random bond; "
+                      "another seed gives another wall.");
     }
 
     /** Lengths of units in the parameters are those without mortar. */
     void enter_units(ParameterEntries &entries, WallParameters &wall)
     {
       entries.positive("Length", wall.length,
-                       "Length of the wall, from its left to its right end "
-                       "[m]");
+                       "Length of the wall from its left to its right end [m]");
       wall.storeys.resize(1);
       enter_storey(entries, wall.storeys[0]);
       entries.positive("Unit length", wall.unit_length,
@@ -128,9 +129,10 @@ namespace quoin
       entries.positive("Unit height", wall.unit_height,
                        "Height of a unit, without mortar [m]");
       std::array<double, 2> joint{};
-      entries.numbers("Joint thickness", joint,
-                      "Thickness of head and of bed joints. Joints of the "
-                      "model have none: units grow by it [m]");
+      entries.numbers(
+          "Joint thickness", joint,
+          "Thickness of head joints and of bed joints in the real wall; joints "
+          "of the model have no thickness, and units are enlarged by it [m]");
       wall.unit_length += joint[0];
       wall.unit_height += joint[1];
       const ParameterSection *section = entries.read_section();
@@ -151,47 +153,51 @@ namespace quoin
             { "English", WallBond::english },
             { "Flemish", WallBond::flemish },
             { "random", WallBond::random } },
-          "How units are laid in a wall that the program makes itself, instead "
-          "of reading 'Mesh/File'; none: no such wall. A header is half a "
+          "Masonry bond of a wall that the program generates instead of "
+          "reading 'Mesh/File'; none: no wall is generated. A header is half a "
           "unit; header courses begin with a header and a quarter.");
       if (!entries.reads_if(wall.bond != WallBond::none))
         return;
       enter_units(entries, wall);
       entries.within("Offset", wall.offset, 0., 1.,
-                     "Shift of every other course of a running bond, as a "
-                     "share of a unit with its joint [-]");
+                     "Offset of every other course of a running bond, as a "
+                     "fraction of the length of a unit with its joint [-]");
       entries.choice("First course", wall.begins_shifted,
                      { { "whole", false }, { "shifted", true } },
-                     "Whether the lowest course begins with a whole unit "
-                     "(a stretcher), or as the one above would otherwise.");
-      entries.within("Shortest piece", wall.shortest, 0., 0.5,
-                     "Share of a whole unit below which units that are cut at "
-                     "ends and openings are joined to their neighbour [-]");
+                     "Start of the lowest course. whole: it begins with a "
+                     "whole unit (a stretcher); shifted: it begins as the "
+                     "second course otherwise would.");
+      entries.within(
+          "Shortest piece", wall.shortest, 0., 0.5,
+          "Fraction of the length of a whole unit below which units cut at "
+          "ends and openings are joined to their neighbour [-]");
       enter_random(entries, wall);
-      entries.nonnegative("Lintel bearing", wall.lintel_bearing,
-                          "Length by which a lintel above each opening "
-                          "reaches beyond each side of it; 0: no lintel, "
-                          "units of the bond bridge the opening [m]");
+      entries.nonnegative(
+          "Lintel bearing", wall.lintel_bearing,
+          "Bearing length of lintels on each side of an opening; 0: no "
+          "lintels, and units of the bond bridge the openings [m]");
       entries.integer("Lintel courses", wall.lintel_courses, 1,
-                      "Depth of lintels, in courses [-]");
-      entries.nonnegative("Bottom platen", wall.bottom_platen,
-                          "Height of a block below the whole wall; 0: none "
-                          "[m]");
-      entries.nonnegative("Top platen", wall.top_platen,
-                          "Height of a block above the whole wall; 0: none "
-                          "[m]");
-      entries.choice("Potential cracks", wall.cracks,
-                     { { "none", false }, { "mid-unit", true } },
-                     "Joints at mid-length of all units longer than three "
-                     "quarters of a whole one: the curve 'crack'.");
+                      "Depth of lintels in courses [-]");
+      entries.nonnegative(
+          "Bottom platen", wall.bottom_platen,
+          "Height of a block below the whole wall; 0: no such block [m]");
+      entries.nonnegative(
+          "Top platen", wall.top_platen,
+          "Height of a block above the whole wall; 0: no such block [m]");
+      entries.choice(
+          "Potential cracks", wall.cracks,
+          { { "none", false }, { "mid-unit", true } },
+          "Potential cracks through units. mid-unit: all units longer than "
+          "three quarters of a whole one have a joint at mid-length, on the "
+          "curve 'crack'; none: units have no such joint.");
       entries.nonnegative("Element size", wall.element_size,
-                          "Longest edge of elements; 0: half the height of a "
-                          "course [m]");
+                          "Longest edge of the elements of the wall; 0: half "
+                          "the height of a course [m]");
       entries.choice("Elements", wall.structured,
                      { { "structured", true }, { "free", false } },
-                     "structured: rectangles between all head joints and "
-                     "cracks of the wall, halved alternately; free: gmsh's "
-                     "unstructured mesh of each unit.");
+                     "Mesh of the wall. structured: rectangles between all "
+                     "head joints and cracks of the wall, divided alternately; "
+                     "free: gmsh's unstructured mesh of each unit.");
     }
 
     /** The storeys of section 'Wall storeys' take the place of the one that

@@ -93,12 +93,13 @@ namespace quoin
       const double near = same_share * a.distance(b);
       if (std::abs(b[0] - a[0]) > near || std::abs(a[0] - x) > near
           || n != outward)
-        fail("Boundary",
-             "must be one upright side of the model, but has an edge from "
-                 + at(a[0], a[1]) + " to " + at(b[0], b[1])
-                 + " that is not upright, not in line with the first one or on "
-                   "the other side of its block. Give each side a load of its "
-                   "own.");
+        fail(
+            "Boundary",
+            "must be one vertical side of the model, but has an edge from "
+                + at(a[0], a[1]) + " to " + at(b[0], b[1])
+                + " that is not vertical, not in line with the first one or on "
+                  "the other side of its block. Give each side a load of its "
+                  "own.");
       const unsigned int group = face.group;
       if (ground.is_rigid[group])
         fail("Boundary", "meets a rigid block at " + at(a[0], a[1])
@@ -192,9 +193,9 @@ namespace quoin
         if (std::abs(p[0] - x) > near || std::abs(p[1] - foot) > near)
           continue;
         if (std::abs(a[1] - b[1]) > near)
-          fail("Base", "is '" + base.name + "', which is not level at "
+          fail("Base", "is '" + base.name + "', which is not horizontal at "
                            + at(x, foot)
-                           + ": waves would not run upright from it.");
+                           + ": waves would not propagate vertically from it.");
         const Impedance &z = given.impedance[face.group];
         const double width = layers.front().thickness;
         base.impedance     = { { width * z.shear, width * z.normal } };
@@ -286,13 +287,13 @@ namespace quoin
             = (u[high] - u[low] + step.stiffness_damping * (v[high] - v[low]))
               / layer.height;
       }
-      const double shear   = layer.stiffness.c33 * strain[0];
-      const double upright = layer.stiffness.c11 * strain[1];
-      traction[e]          = { { layer.stiffness.c12 * strain[1], shear } };
+      const double shear  = layer.stiffness.c33 * strain[0];
+      const double normal = layer.stiffness.c11 * strain[1];
+      traction[e]         = { { layer.stiffness.c12 * strain[1], shear } };
       force[2 * e] += layer.thickness * shear;
-      force[2 * e + 1] += layer.thickness * upright;
+      force[2 * e + 1] += layer.thickness * normal;
       force[2 * e + 2] -= layer.thickness * shear;
-      force[2 * e + 3] -= layer.thickness * upright;
+      force[2 * e + 3] -= layer.thickness * normal;
     }
 
     mean_velocity  = v;

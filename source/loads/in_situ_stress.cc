@@ -59,9 +59,9 @@ namespace quoin
     std::vector<std::array<double, 2>>
     read_surface(const ParameterSection &section)
     {
-      const std::string must_be = "must be the height of a level surface, "
-                                  "points x, y; x, y with x ascending, or an "
-                                  "expression of x [m].";
+      const std::string must_be
+          = "must be the height of a horizontal surface, points x, y; x, y "
+            "with x ascending, or an expression of x [m].";
       const bool is_level
           = section.text("Surface").find_first_of(",;") == std::string::npos;
       const auto rows = section.rows("Surface", is_level ? 1 : 2, must_be);
@@ -155,21 +155,22 @@ namespace quoin
 
   void InSituStress::enter(ParameterEntries &entries)
   {
-    entries.other("Surface", "0",
-                  "In-situ stress: height y of the ground, the points "
-                  "x, y; x, y of its line, level beyond the first and the "
-                  "last, or an expression of x; stress is zero above it [m]",
-                  [&](const ParameterSection &section)
-                  {
-                    if (SpaceTimeFunction::names_place(section.text("Surface")))
-                      surface_function = height_function(section);
-                    else
-                      surface = read_surface(section);
-                  });
+    entries.other(
+        "Surface", "0",
+        "Ground surface of an in-situ stress: its height y, points x, y; x, y "
+        "of its line, which is horizontal beyond the first and the last point, "
+        "or an expression of x; the stress is zero above it [m]",
+        [&](const ParameterSection &section)
+        {
+          if (SpaceTimeFunction::names_place(section.text("Surface")))
+            surface_function = height_function(section);
+          else
+            surface = read_surface(section);
+        });
     entries.other("Unit weight", "",
-                  "In-situ stress: unit weight of the ground, or of its layers "
-                  "downwards, each but the last with the height of its "
-                  "foot [m]: 18e3:-5, 21e3:-12, 26e3 [N/m^3]",
+                  "Unit weight of the ground for an in-situ stress; or of its "
+                  "layers from top to bottom, each but the last with the "
+                  "height of its base [m]: 18e3:-5, 21e3:-12, 26e3 [N/m^3]",
                   [&](const ParameterSection &section)
                   { layers = read_layers(section); });
     const auto enter_field
@@ -180,24 +181,25 @@ namespace quoin
                     [&](const ParameterSection &section)
                     { value = read(section, name); });
     };
-    enter_field("Surface pressure", pressure, "0", field,
-                "In-situ stress: pressure on the surface, beside the weight of "
-                "the ground, a number or an expression of x [Pa]");
+    enter_field(
+        "Surface pressure", pressure, "0", field,
+        "Pressure on the ground surface of an in-situ stress, in addition to "
+        "the weight of the ground: a number or an expression of x [Pa]");
     enter_field("Horizontal ratio", horizontal_ratio, "1", ratio,
-                "In-situ stress: K0, horizontal by vertical stress, a number "
-                "or an expression of x and y [-]");
+                "Ratio K0 of horizontal to vertical stress of an in-situ "
+                "stress: a number or an expression of x and y [-]");
     enter_field("Horizontal surface stress", horizontal_stress, "0", field,
-                "In-situ stress: horizontal stress that is locked in at every "
-                "depth, beside K0 times the vertical one, tension positive, a "
-                "number or an expression of x and y [Pa]");
+                "Horizontal stress of an in-situ stress that is locked in at "
+                "every depth, in addition to K0 times the vertical stress, "
+                "tension positive: a number or an expression of x and y [Pa]");
     out_of_plane_ratio  = horizontal_ratio;
     out_of_plane_stress = horizontal_stress;
-    entries.other("Out-of-plane ratio", "same",
-                  "In-situ stress, in plane strain: stress out of the "
-                  "plane by vertical stress, a number or an expression of x "
-                  "and y; 'same': as the horizontal one, with what is locked "
-                  "in [-]",
-                  [&](const ParameterSection &section)
-                  { read_out_of_plane_ratio(section, *this); });
+    entries.other(
+        "Out-of-plane ratio", "same",
+        "Ratio of out-of-plane to vertical stress of an in-situ stress in "
+        "plane strain: a number or an expression of x and y; 'same': as the "
+        "horizontal stress, including what is locked in [-]",
+        [&](const ParameterSection &section)
+        { read_out_of_plane_ratio(section, *this); });
   }
 } // namespace quoin

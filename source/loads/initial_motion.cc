@@ -44,18 +44,19 @@ namespace quoin
       const auto add = [&](const std::string &name, const std::string &unit,
                            InitialMotion::Components &value)
       {
-        entries.other(name, "",
-                      name
-                          + " of all nodes at t = 0, horizontal and vertical: "
-                            "two expressions of x and y [m] with a semicolon "
-                            "between; in three dimensions along x, y and z: "
-                            "three expressions of x, y and z; empty: none "
-                          + unit,
-                      [&](const ParameterSection &section)
-                      {
-                        if (!section.text(name).empty())
-                          value = read_components(section, name);
-                      });
+        entries.other(
+            name, "",
+            name
+                + " of all nodes at t = 0, horizontal and vertical, as two "
+                  "expressions of x and y [m] with a semicolon between them; "
+                  "in three dimensions along x, y and z, as three expressions "
+                  "of x, y and z; empty: zero "
+                + unit,
+            [&](const ParameterSection &section)
+            {
+              if (!section.text(name).empty())
+                value = read_components(section, name);
+            });
       };
       add("Displacement", "[m]", motion.displacement);
       add("Velocity", "[m/s]", motion.velocity);

@@ -378,21 +378,21 @@ namespace quoin
     void enter_place(ParameterEntries &entries, LoadParameters &load)
     {
       entries.choice("Type", load.type, type_words,
-                     "What the load is. Boundary elements: as section "
-                     "'Boundary elements' says.");
+                     "Type of the load; 'boundary elements' are described in "
+                     "section 'Boundary elements'.");
       entries.list("Boundary", load.boundaries,
                    "Physical curves on which the load acts.");
       if (const ParameterSection *section = entries.read_section())
         refuse_unread_parameters(*section);
       if (entries.reads_if(load.type == LoadType::platen))
         entries.list("Group", load.groups,
-                     "Platen: physical surfaces whose blocks are the rigid "
-                     "body, instead of a boundary.");
+                     "Physical surfaces whose blocks form the rigid body of a "
+                     "platen, instead of a boundary.");
       if (entries.reads_if(load.type == LoadType::initial_stress
                            || load.type == LoadType::gravity))
         entries.list("Groups", load.groups,
-                     "Initial or in-situ stress, gravity: physical surfaces "
-                     "in which it acts; empty: all.");
+                     "Physical surfaces in which gravity, initial or in-situ "
+                     "stress acts; empty: all surfaces.");
     }
 
     /** A factor by place; none if the text is 1. */
@@ -447,21 +447,19 @@ namespace quoin
                        { "uniform", Kind::uniform },
                        { "triangular", Kind::triangular },
                        { "cosine", Kind::cosine } },
-                     "Traction that travels along its boundary: its shape, a "
-                     "factor with the mean 1 over its width and 0 beyond, so "
-                     "that the force is traction times width times thickness "
-                     "whatever the shape.");
+                     "Shape of a moving traction: a factor with the mean 1 "
+                     "over its width and 0 outside, so that the force is "
+                     "traction times width times thickness for every shape.");
       std::string centres;
       entries.text("Moving centre", centres,
-                   "Traction that travels: coordinate of its centre, a "
-                   "function of time as 'Horizontal'; of several axles "
-                   "functions with semicolons between them [m]");
+                   "Coordinate of the centre of a moving traction, a function "
+                   "of time as 'Horizontal'; for several axles, functions with "
+                   "semicolons between them [m]");
       entries.nonnegative("Moving width", shape.width,
-                          "Traction that travels: length along the axis over "
-                          "which it is spread [m]");
+                          "Width of a moving traction along its axis [m]");
       entries.choice("Moving axis", shape.axis,
                      { { "x", 0U }, { "y", 1U }, { "z", 2U } },
-                     "Traction that travels: axis of its coordinate.");
+                     "Axis along which a traction moves.");
       if (const ParameterSection *section = entries.read_section())
         read_shape(*section, shape, load);
     }
@@ -537,12 +535,12 @@ namespace quoin
           = load.type == LoadType::traction || load.type == LoadType::gravity;
       LoadQuantity quantity = LoadQuantity::velocity;
       if (entries.reads_if(is_motion))
-        entries.choice("Quantity", quantity,
-                       { { "velocity", LoadQuantity::velocity },
-                         { "displacement", LoadQuantity::displacement } },
-                       "Prescribed motion: whether a velocity [m/s] is given "
-                       "or a displacement from the start of the stage on "
-                       "[m].");
+        entries.choice(
+            "Quantity", quantity,
+            { { "velocity", LoadQuantity::velocity },
+              { "displacement", LoadQuantity::displacement } },
+            "Quantity of a prescribed motion. velocity: velocity [m/s]; "
+            "displacement: displacement from the start of the stage on [m].");
       if (is_force)
         quantity = LoadQuantity::force;
       const auto plain
@@ -557,37 +555,37 @@ namespace quoin
           enter_component(
               entries, names[d], "free", load.components[d],
               names[d]
-                  + " component: function of t (time in the stage) and T "
-                    "(total time) [s], 'table FILE', a signal or 'free'; of "
-                    "tractions and prescribed motions also of x, y and, in "
-                    "three dimensions, z in the mesh [m]. "
-                    "Traction [Pa], gravity [m/s^2], motion [m/s] or [m]; for "
-                    "a platen preceded by 'velocity' [m/s], 'displacement' [m] "
-                    "or 'force' [N].",
+                  + " component of the load: a function of t (time in the "
+                    "stage) and T (total time) [s], 'table FILE', a signal or "
+                    "'free'; tractions and prescribed motions may also depend "
+                    "on x, y and, in three dimensions, z in the mesh [m]. Its "
+                    "unit is [Pa] for a traction, [m/s^2] for gravity, [m/s] "
+                    "or [m] for a prescribed motion; for a platen the function "
+                    "is preceded by 'velocity' [m/s], 'displacement' [m] or "
+                    "'force' [N].",
               plain);
       if (entries.reads_if(is_motion || is_force))
         enter_component(entries, "Lateral", "free", load.lateral,
                         "Component along y of a model in three dimensions, in "
                         "which 'Horizontal' is along x and 'Vertical' along z; "
-                        "as those.",
+                        "it is given as these are.",
                         plain);
       if (entries.reads_if(is_platen))
         enter_component(
             entries, "Rotation", "free", load.components[2],
-            "Rotation of a platen, anticlockwise: 'velocity' "
-            "[deg/s], 'displacement' [deg] or 'moment' [N m] and a "
-            "function of time, or 'free'.",
+            "Rotation of a platen, anticlockwise: 'velocity' [deg/s], "
+            "'displacement' [deg] or 'moment' [N m] and a function of time, or "
+            "'free'.",
             [](const ParameterSection &section, const std::string &name)
             { return platen_component(section, name, rotation_words); });
       if (entries.reads_if(is_force))
         enter_component(
             entries, "Pressure", "free", load.pressure,
-            "Traction: pressure that pushes on the block, against "
-            "its outward normal in the mesh, and adds to "
-            "'Horizontal' and 'Vertical'; a function of place and "
-            "time as those, or 'water LEVEL', that of water up to "
-            "a height which is a function of time [m]: 9810 N/m^3 "
-            "times the depth below it [Pa]",
+            "Pressure of a traction, which pushes on the block against its "
+            "outward normal in the mesh and is added to 'Horizontal' and "
+            "'Vertical': a function of place and time as for these; or 'water "
+            "LEVEL', the pressure of water whose level is a function of time "
+            "[m], 9810 N/m^3 times the depth below it [Pa]",
             [&](const ParameterSection &section, const std::string &name)
             {
               return section.text(name).rfind(water_word, 0) == 0
@@ -597,20 +595,20 @@ namespace quoin
       if (entries.reads_if(load.type == LoadType::gravity))
         entries.number_or(
             "automatic", -1., "Ramp duration", load.ramp_duration,
-            "Gravity: time over which it grows by half a cosine from nothing "
-            "where it begins, in load time; 0: it is there at once; "
-            "automatic: 0 but in explicit stages with 'End = static ratio' of "
-            "models without initial stress, where it is twice the time of a "
-            "shear wave along the model's diagonal, at least two thousand "
-            "critical time steps [s]");
+            "Load time over which gravity grows by half a cosine from zero "
+            "where it begins; 0: it acts fully at once; automatic: 0 except in "
+            "explicit stages with 'End = static ratio' of models without "
+            "initial stress, where it is twice the travel time of a shear wave "
+            "along the model's diagonal and at least two thousand critical "
+            "time steps [s]");
       if (entries.reads_if(is_force))
-        entries.other("Distribution", "1",
-                      "Traction, gravity: factor by which the load differs "
-                      "from place to place, an expression of x, y and, in "
-                      "three dimensions, z in the mesh [m], such as y/12 for "
-                      "one that grows with the height [-]",
-                      [&](const ParameterSection &from)
-                      { load.distribution = distribution(from); });
+        entries.other(
+            "Distribution", "1",
+            "Spatial distribution of a traction or of gravity: a factor on the "
+            "load as an expression of x, y and, in three dimensions, z in the "
+            "mesh [m], such as y/12 for a load that grows with the height [-]",
+            [&](const ParameterSection &from)
+            { load.distribution = distribution(from); });
       if (entries.reads_if(load.type == LoadType::traction))
         enter_shape(entries, load);
       const ParameterSection *section = entries.read_section();
@@ -633,8 +631,8 @@ namespace quoin
           enter_component(
               entries, "Incident " + names[d] + " velocity", "0",
               load.components[d],
-              std::string("Viscous boundary: velocity of the wave that comes "
-                          "in, ")
+              std::string(
+                  "Velocity of the wave incident on a viscous boundary, ")
                   + (d == 0 ? "along the inward normal"
                             : "along the boundary with the block on its left")
                   + ", as a function of time [m/s]",
@@ -644,17 +642,17 @@ namespace quoin
                            ? LoadComponent()
                            : component(section, name, LoadQuantity::velocity);
               });
-        entries.text("Far field material", load.far_material,
-                     "Viscous boundary: material of what is beyond, which "
-                     "gives the impedances; empty: that of the cells along "
-                     "the boundary.");
+        entries.text(
+            "Far field material", load.far_material,
+            "Material of the medium beyond a viscous boundary, which gives the "
+            "impedances; empty: the material of the cells along the boundary.");
       }
       if (!entries.reads_if(load.type == LoadType::free_field))
         return;
       entries.text("Base", load.base,
-                   "Free-field boundary: the load on the model's base, of "
-                   "type 'viscous boundary' or 'prescribed motion', which "
-                   "drives the foot of the column too.");
+                   "Load on the model's base for a free-field boundary, of "
+                   "type 'viscous boundary' or 'prescribed motion', which also "
+                   "drives the base of the free-field column.");
       if (entries.read_section() && load.base.empty())
         entries.read_section()->fail("Base", "must name the load on the base "
                                              "of the model.");
@@ -667,23 +665,21 @@ namespace quoin
           = section && section->text("Type") == "in-situ stress";
       if (entries.reads_if(!is_in_situ))
       {
-        entries.other("Stress", "0, 0, 0",
-                      "Initial stress xx, yy, xy at y = 0, tension positive; "
-                      "or three expressions of x and y [m] with semicolons "
-                      "between them [Pa]",
-                      [&](const ParameterSection &from)
-                      { read_stress(from, load); });
-        entries.numbers("Stress gradient", load.stress_gradient,
-                        "Change of the initial stress xx, yy, xy with y "
-                        "[Pa/m]");
-        entries.other("Stress zz", "elastic",
-                      "Initial stress out of the plane, in plane strain: its "
-                      "value at y = 0 [Pa] and its change with y [Pa/m]; "
-                      "if 'Stress' has expressions, another one; "
-                      "'elastic': Poisson's ratio times (xx + yy). Laws that "
-                      "yield depend on it.",
-                      [&](const ParameterSection &from)
-                      { read_stress_zz(from, load); });
+        entries.other(
+            "Stress", "0, 0, 0",
+            "Initial stress xx, yy, xy at y = 0, tension positive; or three "
+            "expressions of x and y [m] with semicolons between them [Pa]",
+            [&](const ParameterSection &from) { read_stress(from, load); });
+        entries.numbers(
+            "Stress gradient", load.stress_gradient,
+            "Gradient of the initial stress xx, yy, xy with y [Pa/m]");
+        entries.other(
+            "Stress zz", "elastic",
+            "Initial out-of-plane stress in plane strain: its value at y = 0 "
+            "[Pa] and its gradient with y [Pa/m]; one expression if 'Stress' "
+            "has expressions; or 'elastic' for Poisson's ratio times (xx + "
+            "yy). Laws that yield depend on it.",
+            [&](const ParameterSection &from) { read_stress_zz(from, load); });
       }
       if (entries.reads_if(is_in_situ))
         load.in_situ.emplace().enter(entries);

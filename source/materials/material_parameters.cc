@@ -30,11 +30,11 @@ namespace quoin
                      "Dilation angle psi, not above the friction angle; read "
                      "if 'Law = Mohr-Coulomb' [deg]",
                      degree);
-      entries.number_or("none", std::numeric_limits<double>::infinity(),
-                        "Tensile strength", strength.tension,
-                        "Tensile strength sigma_t, or 'none'; c / tan(phi) "
-                        "counts if that is less; read if 'Law = Mohr-Coulomb' "
-                        "[Pa]");
+      entries.number_or(
+          "none", std::numeric_limits<double>::infinity(), "Tensile strength",
+          strength.tension,
+          "Tensile strength sigma_t, or 'none'; c / tan(phi) is used if it is "
+          "less; read if 'Law = Mohr-Coulomb' [Pa]");
       if (!section)
         return;
       if (!(strength.tension >= 0.))
@@ -55,24 +55,25 @@ namespace quoin
         rigid
       } law
           = elastic;
-      entries.list("Groups", material.groups,
-                   "Physical surfaces of the mesh that are made of this "
-                   "material; empty: the one that bears its name; "
-                   "'none': no block, only what is beyond the blocks.");
-      entries.choice("Law", law,
-                     { { "linear elastic", elastic },
-                       { "Mohr-Coulomb", mohr_coulomb },
-                       { "rigid", rigid } },
-                     "linear elastic; Mohr-Coulomb: elastic up to a shear "
-                     "and a tensile strength, then perfectly plastic; rigid: "
-                     "needs only the density.");
+      entries.list(
+          "Groups", material.groups,
+          "Physical surfaces of the mesh that are made of this material; "
+          "empty: the surface that bears the material's name; 'none': no "
+          "block, only the medium beyond the blocks.");
+      entries.choice(
+          "Law", law,
+          { { "linear elastic", elastic },
+            { "Mohr-Coulomb", mohr_coulomb },
+            { "rigid", rigid } },
+          "Constitutive law. linear elastic; Mohr-Coulomb: linear elastic up "
+          "to a shear and a tensile strength, then perfectly plastic; rigid: "
+          "rigid blocks, which need only the density.");
       entries.positive("Density", material.elastic.density,
                        "Density rho [kg/m^3]");
       entries.other("Thickness", "",
-                    "Thickness of blocks of this material, out of the plane; "
-                    "empty: that of the model, 'Thickness' at the top of the "
-                    "file. Where two materials touch, the smaller one bears "
-                    "[m]",
+                    "Out-of-plane thickness of blocks of this material; empty: "
+                    "the 'Thickness' at the top of the file. Joints between "
+                    "materials of different thickness have the smaller one [m]",
                     [&](const ParameterSection &section)
                     {
                       if (!section.text("Thickness").empty())

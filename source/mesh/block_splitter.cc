@@ -180,10 +180,11 @@ namespace quoin
       /** Sides by the lowest of their vertices. */
       std::vector<unsigned int> bucket_begin, bucket;
 
-      std::vector<unsigned int> neighbour; /**< the same side, other cell */
-      std::vector<unsigned int> name;      /**< of the named face on a side */
-      std::vector<bool> is_joint;          /**< if it has a neighbour */
-      std::vector<unsigned int> partner;   /**< across a joint of any kind */
+      /** Neighbour across the side in the other cell. */
+      std::vector<unsigned int> neighbour;
+      std::vector<unsigned int> name; /**< index of the named face on a side */
+      std::vector<bool> is_joint;     /**< whether the side has a neighbour */
+      std::vector<unsigned int> partner; /**< across a joint of any kind */
       std::vector<unsigned int> vertex_of_corner, block_of_cell;
       unsigned int n_blocks = 0;
     };

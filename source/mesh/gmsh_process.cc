@@ -150,9 +150,9 @@ namespace quoin
                        + "), perhaps because memory is short. Coarsen the "
                          "mesh or use a larger machine.");
     if (!channel.is_complete())
-      fail(source, "gmsh came to its end while it read the file, which is "
-                   "damaged or has a command such as Exit. Open it in gmsh "
-                   "and repair it there.");
+      fail(source,
+           "gmsh ended while it read the file, which is damaged or has a "
+           "command such as Exit. Open it in gmsh and repair it there.");
     return mesh;
   }
 } // namespace quoin

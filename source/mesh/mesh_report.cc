@@ -123,7 +123,7 @@ namespace quoin
       report.n_joint_ends = ends.size();
     }
 
-    /** Two components of a place: those in which lines are looked at. */
+    /** The two components of a position in which lines are examined. */
     struct PlanePoint
     {
       double x, y;

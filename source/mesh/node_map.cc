@@ -15,7 +15,7 @@ namespace quoin
   {
     using Dof = dealii::types::global_dof_index;
 
-    /** The linear cells that stand for one with the nodes @p nodes. */
+    /** The linear cells that represent one with the nodes @p nodes. */
     template <int dim>
     std::vector<std::array<unsigned int, dim + 1>>
     linear_cells(const std::vector<Dof> &nodes)

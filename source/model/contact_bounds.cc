@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-// What contacts that may come up and the dashpots of joints mean for the time
+// What possible contacts and the dashpots of joints mean for the time
 // step of a Model<2>.
 
 #include <quoin/contact/contact_sets.h>

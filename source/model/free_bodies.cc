@@ -74,7 +74,7 @@ namespace quoin
              const std::vector<MotionConstraint<dim> *> &constraints,
              const State<dim> &state, bool with_drag);
 
-      /** The block that stands for the body of @p block. */
+      /** The block that represents the body of @p block. */
       unsigned int body(const unsigned int block)
       {
         return sets.find_set(block);
@@ -319,7 +319,7 @@ namespace quoin
           "section 'Stages/", stage, "': block ", b, " at ",
           point_text(point_of_block(model.nodes(), b)),
           " m and what is joined to it can move freely, so a stage with 'End = "
-          "static ratio' would not come to rest. Hold it by a prescribed "
+          "static ratio' would not reach equilibrium. Hold it by a prescribed "
           "motion or a driven platen, or end the stage by 'time'."));
     }
   }

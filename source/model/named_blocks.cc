@@ -21,8 +21,8 @@ namespace quoin
     void enter(ParameterEntries &entries, NamedBlock &block)
     {
       entries.other("Point", "",
-                    "A point inside the block, x and y, before anything moves; "
-                    "empty: see 'Group' [m]",
+                    "Point x, y inside the block in its initial position; "
+                    "empty: 'Group' is given [m]",
                     [&](const ParameterSection &section)
                     {
                       block.has_point = !section.text("Point").empty();
@@ -32,17 +32,17 @@ namespace quoin
                       block.point       = dealii::Point<2>(x, y);
                     });
       entries.text("Group", block.group,
-                   "Instead of 'Point': a physical surface of which no other "
-                   "block has a part.");
+                   "Physical surface of the block, instead of 'Point'; no "
+                   "other block may have a part of it.");
       std::array<double, 2> velocity{};
       entries.numbers("Velocity", velocity,
-                      "Velocity of the block's centroid at t = 0, x and y, "
+                      "Initial velocity x, y of the block's centroid at t = 0, "
                       "added to that of section 'Initial motion' [m/s]");
       block.velocity[0] = velocity[0];
       block.velocity[1] = velocity[1];
       entries.number("Spin", block.spin,
-                     "Angular velocity of the block about its centroid at t = "
-                     "0, anticlockwise [deg/s]",
+                     "Initial angular velocity of the block about its centroid "
+                     "at t = 0, anticlockwise [deg/s]",
                      constants::degree);
       const ParameterSection *section = entries.read_section();
       if (section && block.has_point == !block.group.empty())

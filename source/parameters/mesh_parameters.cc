@@ -107,47 +107,46 @@ namespace quoin
     void enter_mesh(ParameterEntries &entries, Parameters &parameters)
     {
       entries.text("File", parameters.mesh_file,
-                   "gmsh geometry (.geo) or mesh (.msh), relative to "
-                   "the folder of this file; coordinates in [m]. Empty "
-                   "with a wall of section 'Wall', an arch of section 'Arch' "
-                   "or rock of section 'Rock'.");
+                   "gmsh geometry (.geo) or mesh (.msh) with coordinates in "
+                   "[m], given relative to the folder of this file; empty if "
+                   "section 'Wall', 'Arch' or 'Rock' generates the geometry.");
       entries.choice("Dimension", parameters.dimension,
                      { { "from mesh", MeshDimension::from_mesh },
                        { "2", MeshDimension::two },
                        { "3", MeshDimension::three } },
-                     "from mesh: three dimensions if the file has tetrahedra, "
-                     "or a geometry volumes, two if not; 2: the triangles in "
-                     "the plane z = 0; 3: tetrahedra.");
-      entries.choice("Triangles", parameters.cells.kind,
-                     { { "plain", TriangleKind::plain },
-                       { "crossed", TriangleKind::crossed },
-                       { "quadratic", TriangleKind::quadratic } },
-                     "plain: the file's or gmsh's triangles; crossed: "
-                     "quadrangles, each cut into four triangles by its "
-                     "diagonals, which do not lock in plastic flow; "
-                     "quadratic: those of 'plain' with nodes in the middle "
-                     "of their edges, for the implicit solver.");
-      entries.integer("Refinements", parameters.cells.refinements, 0,
-                      "Number of times that all edges of the mesh are halved: "
-                      "each time triangles and quadrangles become four, "
-                      "tetrahedra eight [-]",
-                      most_refinements);
+                     "Dimension of the model. from mesh: three if the file has "
+                     "tetrahedra or a geometry has volumes, otherwise two; 2: "
+                     "the triangles in the plane z = 0; 3: the tetrahedra.");
+      entries.choice(
+          "Triangles", parameters.cells.kind,
+          { { "plain", TriangleKind::plain },
+            { "crossed", TriangleKind::crossed },
+            { "quadratic", TriangleKind::quadratic } },
+          "Type of the triangles. plain: linear triangles of the file or of "
+          "gmsh; crossed: quadrangles, each cut into four triangles by its "
+          "diagonals, which do not lock in plastic flow; quadratic: triangles "
+          "of 'plain' with nodes at the midpoints of their edges, for the "
+          "implicit solver.");
+      entries.integer(
+          "Refinements", parameters.cells.refinements, 0,
+          "Number of uniform refinements of the mesh, each of which divides "
+          "triangles and quadrangles into four and tetrahedra into eight [-]",
+          most_refinements);
       SplitOptions &split = parameters.split;
       entries.list("Joints along", split.joints_along,
-                   "Physical curves along which the mesh is split into "
-                   "blocks; empty with a wall of section 'Wall', an arch of "
-                   "section 'Arch' or rock of section 'Rock': all of its "
-                   "joints.");
+                   "Physical curves along which the mesh is split into blocks; "
+                   "if empty and section 'Wall', 'Arch' or 'Rock' generates "
+                   "the geometry, the mesh is split along all of its joints.");
       entries.pairs("Joints between", split.joints_between,
                     "must be 'all' or pairs such as rock:concrete.",
                     "Pairs a:b of physical surfaces between which the mesh is "
-                    "split into blocks, or 'all'.",
+                    "split into blocks; 'all' stands for all pairs.",
                     &split.between_all);
       entries.choice("Joint ends inside blocks", split.joint_ends,
                      { { "keep", SplitOptions::keep },
                        { "refuse", SplitOptions::refuse } },
-                     "Joints that end inside a block: keep them as "
-                     "cracks, or stop.");
+                     "Treatment of joints that end inside a block. keep: they "
+                     "become cracks; refuse: the run stops with an error.");
     }
   } // namespace
 

@@ -115,12 +115,12 @@ namespace quoin
         if (parameters.is_implicit
             || std::none_of(parameters.loads.begin(), parameters.loads.end(),
                             acts))
-          subsection.fail("Quantity",
-                          "is one of boundary elements in motion, but here "
-                          "they are at rest: 'Solver' is implicit, or no "
-                          "stage with 'End = time' names their load. Take "
-                          "'displacement x', 'displacement y' or 'reaction' "
-                          "of that load.");
+          subsection.fail(
+              "Quantity",
+              "is a quantity of dynamic boundary elements, but here they are "
+              "static: 'Solver' is implicit, or no stage with 'End = time' "
+              "names their load. Take 'displacement x', 'displacement y' or "
+              "'reaction' of that load.");
       }
     }
 

@@ -40,20 +40,21 @@ namespace quoin
                    "Title of the run, for figures and logs.");
       entries.choice("Model", parameters.is_boundary_model,
                      { { "blocks", false }, { "boundary elements", true } },
-                     "Blocks on joints; or a domain with boundary elements "
-                     "alone, which needs no mesh, joints, loads or stages.");
+                     "Problem type. blocks: an assembly of blocks and joints; "
+                     "boundary elements: a domain of boundary elements alone, "
+                     "which needs no mesh, joints, loads or stages.");
       entries.choice("Solver", parameters.is_implicit,
                      { { "explicit", false }, { "implicit", true } },
-                     "Motion by central differences; or equilibrium by "
-                     "Newton's method, without inertia and damping: for "
-                     "blocks at small displacements, as section 'Implicit' "
-                     "says.");
+                     "Solver of block models. explicit: time marching by "
+                     "central differences; implicit: static equilibrium at "
+                     "small displacements by Newton's method, without inertia "
+                     "and damping, as section 'Implicit' says.");
       entries.choice("Plane assumption", parameters.model.plane,
                      { { "plane strain", PlaneAssumption::plane_strain },
                        { "plane stress", PlaneAssumption::plane_stress } },
-                     "What all blocks are in: plane strain or plane stress.");
+                     "Plane strain or plane stress in all blocks.");
       entries.positive("Thickness", parameters.model.thickness,
-                       "Thickness of the model, out of the plane [m]");
+                       "Out-of-plane thickness of the model [m]");
       parameters.output_directory = "output";
       entries.text("Output directory", parameters.output_directory,
                    "Folder of all results, relative to the folder of this "
@@ -64,14 +65,14 @@ namespace quoin
     {
       entries.within("Share of critical time step",
                      parameters.share_of_critical_step, 1e-6, 1.,
-                     "Safety factor on the time step: share of the critical "
-                     "time step that is computed from blocks, joints and "
-                     "damping; with local damping, joints that can fail or "
-                     "large displacements no more than 0.5 is used [-]");
-      entries.nonnegative("Time step", parameters.time_step,
-                          "Time step, which must be below the critical one; "
-                          "0: as the share of the critical time step says "
-                          "[s]");
+                     "Safety factor on the time step: the time step divided by "
+                     "the critical one, which is computed from blocks, joints "
+                     "and damping; at most 0.5 is used with local damping, "
+                     "joints that can fail or large displacements [-]");
+      entries.nonnegative(
+          "Time step", parameters.time_step,
+          "Time step, which must be below the critical one; 0: the critical "
+          "time step multiplied by the safety factor [s]");
     }
 
     void enter_histories(ParameterEntries &entries, Parameters &parameters)
@@ -84,19 +85,20 @@ namespace quoin
     void enter_output(ParameterEntries &entries, Parameters &parameters)
     {
       entries.nonnegative("Field interval", parameters.field_interval,
-                          "Time between fields; 0: at the end of stages only "
-                          "[s]");
+                          "Time between field outputs; 0: fields are written "
+                          "at the end of stages only [s]");
       entries.choice(
           "Field format", parameters.field_format,
           { { "vtu", FieldFormat::vtu }, { "xdmf", FieldFormat::xdmf } },
-          "Files of fields: many VTU files in fields/ with a list such as "
-          "blocks.pvd, or blocks.xdmf and blocks.bin for all times together.");
+          "Format of field files. vtu: VTU files in fields/ with a list such "
+          "as blocks.pvd; xdmf: blocks.xdmf and blocks.bin for all output "
+          "times together.");
       entries.nonnegative("Checkpoint interval", parameters.checkpoint_interval,
-                          "Wall-clock time between checkpoints; 0: at the end "
-                          "of stages only [s]");
+                          "Wall-clock time between checkpoints; 0: checkpoints "
+                          "are written at the end of stages only [s]");
       entries.flag("Measure bandwidth", parameters.measure_bandwidth,
                    "Whether the memory bandwidth is measured after the run, "
-                   "and the share of it that the run used is written.");
+                   "and the fraction of it that the run used is written.");
     }
 
     /** Declares the entries of @p enter, a function of this file. */

@@ -162,8 +162,8 @@ namespace quoin
     if (system.construction)
       system.construction->restart();
     if (system.implicit_solver)
-      run.log.message("equilibria are sought: inertia, damping and mass "
-                      "scaling have no effect");
+      run.log.message("static equilibria: inertia, damping and mass scaling "
+                      "have no effect");
   }
 
   template <int dim>
@@ -448,11 +448,9 @@ namespace quoin
     constexpr double useless = 0.05;
     const std::string judged
         = std::abs(context.energy_residual()) > useless
-              ? "Do not use the result: forces have done work that nothing "
-                "accounts for. "
-              : "Equilibria and what has come to rest can be used; motion, "
-                "peaks and what is left of energy only if they stay the same "
-                "with smaller steps. ";
+              ? "Do not use the result: the energy balance error is too large. "
+              : "Equilibria can be used; motion, peaks and energies only if "
+                "they do not change with smaller steps. ";
     if (system.implicit_solver)
       return judged
              + "Halve 'Largest step' in section 'Implicit', which follows "

@@ -89,10 +89,9 @@ namespace quoin
       log.warning(
           "stage ", stage.name, ": the displacement '",
           stage.pattern->controlled, "' is ", moved, " m at the end, ", lag,
-          " m away from the 'Control function'. The load factor is that "
-          "of the motion that came about; to follow the function "
-          "closely take a longer 'Duration', more damping, or "
-          "'Controlled displacement = mean'.");
+          " m away from the 'Control function'. The load factor belongs to the "
+          "actual motion; to follow the function closely take a longer "
+          "'Duration', more damping, or 'Controlled displacement = mean'.");
   }
 
   template <int dim>
@@ -207,10 +206,10 @@ namespace quoin
                   " % of the applied forces on average, and more than ",
                   100. * LocalDampingShare::large, " % during ",
                   100. * double(share.n_large) / double(share.n),
-                  " % of the stage. It holds up what moves steadily: reactions "
-                  "may be wrong by several times that share, and a collapse "
-                  "may come too early or too late. Take 'Damping = adaptive', "
-                  "or 'Rayleigh' with a stiffness coefficient.");
+                  " % of the stage. It resists steady motion: reactions may be "
+                  "wrong by several times that fraction, and a collapse may "
+                  "come too early or too late. Take 'Damping = adaptive', or "
+                  "'Rayleigh' with a stiffness coefficient.");
   }
 
   template <int dim>

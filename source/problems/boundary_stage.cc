@@ -140,10 +140,9 @@ namespace quoin
           system.scattered_values(begin, end, u_incident, p_incident));
       if (!marching.u().allFinite() || !marching.p().allFinite())
         throw RunError(text_of(
-            "boundary elements: the solution is not finite any more at time ",
-            end,
-            " s. If it has grown before, the formulation is not stable with "
-            "this time step: take 'Formulation = Galerkin' and a larger 'Step "
+            "boundary elements: the solution is no longer finite at time ", end,
+            " s. If it grew before, the formulation is not stable with this "
+            "time step: take 'Formulation = Galerkin' and a larger 'Step "
             "ratio'."));
       if (system.needs_record())
         for (Eigen::Index k = 0; k < marching.u().size(); ++k)

@@ -135,8 +135,8 @@ namespace quoin
       else if (stage.end != StageEnd::time)
         log.message("stage ", stage.name, ": ",
                     seconds_text(many_steps * seconds),
-                    " for each 10 000 steps, of which it takes as many as it "
-                    "needs to settle");
+                    " for each 10 000 steps, of which it takes as many as "
+                    "equilibrium needs");
       else
         log.message("stage ", stage.name, ": about ",
                     seconds_text(double(context.steps.n_steps()) * seconds),

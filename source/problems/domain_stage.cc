@@ -70,8 +70,9 @@ namespace quoin
       std::vector<double> rows;
       /** Steps of the fields and the steps before them. */
       std::vector<unsigned int> steps;
-      std::size_t n_done = 0;       /**< points of the field */
-      Eigen::MatrixXd displacement; /**< of these in all steps [m] */
+      std::size_t n_done = 0; /**< points of the field */
+      /** Displacement of the points in all steps [m]. */
+      Eigen::MatrixXd displacement;
     };
 
     void DomainStage::begin()

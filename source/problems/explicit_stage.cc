@@ -183,7 +183,7 @@ namespace quoin
         return false;
       if (by_time)
         throw RunError(text_of(
-            "stage '", stage.name, "' has not come to its end within ",
+            "stage '", stage.name, "' has not ended within ",
             stage.maximum_steps, " steps: its loads are at ", state.load_time,
             " of ", stage.duration, " s and go on at the rate ",
             state.load_rate,
@@ -214,7 +214,7 @@ namespace quoin
           "model, ",
           diagonal, " m, and moves on at ", lost.speed, " m/s, found at time ",
           state.time, " s, step ", state.step,
-          ": the stage will not come to rest. Check the supports, and the "
+          ": the stage will not reach equilibrium. Check the supports, and the "
           "units and signs of the loads; a model that may collapse needs 'End "
           "conditions', and blocks that may fall a 'Box' in section 'Contact' "
           "and 'Outside the box = delete'."));

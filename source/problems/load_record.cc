@@ -65,14 +65,13 @@ namespace quoin
     std::string text;
     for (unsigned int d = 0; d < 3; ++d)
       if (const Axis &axis = axes[d]; axis.parts())
-        text += text_of(
-            text.empty() ? "" : " ", "along ", axis_names[d],
-            " the loads came to ", axis.applied, " N at time ", axis.time,
-            " s, but the supports took ", axis.taken(),
-            " N at the most: the difference, ",
-            100. * std::abs(1. - axis.taken() / axis.applied),
-            " %, moved the model or was damped, so what was applied is not "
-            "what the model bears.");
+        text += text_of(text.empty() ? "" : " ", "along ", axis_names[d],
+                        " the loads came to ", axis.applied, " N at time ",
+                        axis.time, " s, but the supports took ", axis.taken(),
+                        " N at the most: the difference, ",
+                        100. * std::abs(1. - axis.taken() / axis.applied),
+                        " %, accelerated the model or was damped, so that the "
+                        "applied load is not the resistance of the model.");
     if (!text.empty())
       text += " Load more slowly; beyond a limit load control a displacement, "
               "by 'Load pattern'.";

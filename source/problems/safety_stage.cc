@@ -81,9 +81,11 @@ namespace quoin
       const SafetyParameters &safety;
       FactorSearch &search;
       const State<2> base;
-      const Energies energies = system.solver->energies(); /**< at its start */
+      /** Energies at the start of the search. */
+      const Energies energies = system.solver->energies();
       ModelProperties strong;
-      double raised    = 1.;    /**< their strength by that of the parameters */
+      /** Ratio of trial strength to that of the parameters. */
+      double raised    = 1.;
       bool interrupted = false; /**< the present trial */
     };
 
@@ -219,10 +221,12 @@ namespace quoin
             if (!watch.has_moved_on())
               trial.verdict = Verdict::stable;
             else
-              log.message("stage ", stage.name, ": factor ", trial.factor,
-                          ": the model came to rest after it had moved on "
-                          "beyond the failure displacement of ",
-                          limit, " m, which proves nothing of this factor");
+              log.message(
+                  "stage ", stage.name, ": factor ", trial.factor,
+                  ": the model reached equilibrium after it had moved beyond "
+                  "the failure displacement of ",
+                  limit,
+                  " m, so that this factor is neither stable nor unstable");
             return;
           }
           if (trial.verdict != Verdict::undecided
@@ -287,7 +291,7 @@ namespace quoin
           }
           // Loads that are released slowly may lead ground that flows from one
           // equilibrium to the next, until it lies as a heap. Whether it keeps
-          // moving shows when it is let go.
+          // moving shows when it is released.
           if (!now.jumps && now.released < 1. && displacement > limit)
             solver.move_against_drag(state);
           if (context.run.progress.due())
@@ -346,17 +350,17 @@ namespace quoin
       if (open)
         log.warning(
             begin, "factors from ", (*open)[0], " to ", (*open)[1],
-            " are undecided: the model neither came to rest nor kept "
-            "moving, or it was caught after a long way. Raise 'Maximum "
-            "steps', lower 'Failure displacement' if blocks keep "
-            "moving and do not get that far, or raise it if blocks "
-            "may settle farther than that. Until then the factor of safety is ",
+            ": their trials are undecided, because the model neither reached "
+            "equilibrium nor kept moving, or reached it beyond the failure "
+            "displacement. Raise 'Maximum steps', lower 'Failure displacement' "
+            "if blocks keep moving without reaching it, or raise it if blocks "
+            "may settle beyond it. Until then the factor of safety is ",
             stable == 0. ? "not known to be above any" : "at least ",
             stable == 0. ? std::string() : text_of(stable));
       if (stable == 0. && !open)
         log.warning(begin, "even the lowest factor, ", failing,
-                    ", fails: the model has no equilibrium under these loads, "
-                    "or 'Lowest factor' is too high");
+                    ", is unstable: the model has no equilibrium under these "
+                    "loads, or 'Lowest factor' is too high");
       else if (std::isinf(failing) && !open)
         log.warning(begin, "even the highest factor, ", stable,
                     ", is stable: the model may have no mechanism");
@@ -371,10 +375,10 @@ namespace quoin
           && std::any_of(materials.begin(), materials.end(),
                          [](const MaterialParameters &material)
                          { return material.strength.has_value(); }))
-        log.message(begin, "elements that yield carry more than the ground "
-                           "itself, so factors are above those of finer "
-                           "meshes: scripts/mesh_convergence estimates by how "
-                           "much");
+        log.message(begin,
+                    "elements that yield are stronger than the ground itself, "
+                    "so factors are above those of finer meshes: "
+                    "scripts/mesh_convergence estimates by how much");
       log.message(begin, search.trials().size(), " trials of ",
                   search.n_steps(), " steps in all");
       if (system.explicit_solver)

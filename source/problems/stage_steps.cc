@@ -57,8 +57,8 @@ namespace quoin
     if (dt == 0. && !std::isfinite(critical))
       throw InputError(
           parameters.file
-          + ", section 'Time stepping': 'Time step = 0' asks for a share of "
-            "the critical step, but in stage '"
+          + ", section 'Time stepping': 'Time step = 0' asks for the critical "
+            "time step times the safety factor, but in stage '"
           + stage.name
           + "' rigid blocks move freely, without joints, and any step is "
             "stable. Give one.");

@@ -33,7 +33,7 @@ namespace quoin
     {
       CheckpointInfo info;
       std::string directory;
-      std::vector<ArchiveRecord> archives; /**< one for each rank */
+      std::vector<ArchiveRecord> archives; /**< archive of each rank */
     };
 
     const std::string first_words = "quoin checkpoint, format ";
@@ -219,7 +219,7 @@ namespace quoin
       if (has_other_format(root / "latest"))
         throw InputError(where
                          + "was written by another version of the program, "
-                           "which kept other things: use that one or "
+                           "whose checkpoints differ: use that one or "
                          + fresh);
       Manifest manifest;
       if (!read_manifest(root / "latest", manifest))

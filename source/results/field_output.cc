@@ -130,7 +130,7 @@ namespace quoin
         fields.shear_traction.push_back(history.shear_traction[p]);
         for (auto &[name, values] : fields.of_laws)
           values.push_back(law_field(model.joints(), name, p, history));
-        // Its contact bears from then on; the law knows it as open.
+        // Its contact carries forces from then on; the law has it as open.
         fields.state.push_back(history.handed_over[i] && gaps[k][0] <= 0.
                                    ? JointState::slipped
                                    : state_since_origin(state, p));

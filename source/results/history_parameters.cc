@@ -109,44 +109,44 @@ namespace quoin
       std::string quantity = "displacement x";
       entries.choice(
           "Quantity", quantity, words,
-          "What the column holds, in SI units; 'stress 1' and 'stress 2' are "
+          "Quantity of the column, in SI units. 'stress 1' and 'stress 2' are "
           "the larger and the smaller principal stress in the plane, in three "
-          "dimensions the largest and the middle one; 'yielding' is 0 in a "
-          "cell that never yielded, else a sum of 1 for shear and 2 for "
-          "tension in the last step, 4 and 8 for either before it; 'plastic "
-          "shear strain' is accumulated; 'kinetic energy share' is kinetic "
-          "energy by the energy throughput; 'joint damage' the share of "
-          "tensile strength and cohesion that a composite law has lost, 'joint "
-          "crushing' the plastic displacement on its cap; 'contacts' the "
-          "number of points that press on each other, matched joints apart; "
-          "'load factor' that of a stage's 'Load pattern' and 'controlled "
-          "displacement' what it controls, from the start of the stage on: "
-          "'nan' in stages without; "
-          "'blocks outside' that of blocks that have left the 'Box' of section "
-          "'Contact', deleted ones among them; 'open joints' the length of "
-          "the joints that have failed in tension or are open, matched ones; "
-          "'relative displacement x' that of 'Second point' less that of "
-          "'Point', 'distance change' how much farther from each other they "
-          "are than at the start, 'tilt' the angle by which the line from "
-          "'Point' to 'Second point' has turned, from -180 to 180, "
-          "anticlockwise; "
-          "'block displacement x', 'block velocity x' and the like are of the "
+          "dimensions the largest and the intermediate one. 'yielding' is 0 in "
+          "a cell that has never yielded, otherwise a sum of 1 for shear and 2 "
+          "for tension in the last step, 4 and 8 for shear and tension in "
+          "earlier steps; 'plastic shear strain' is accumulated. 'kinetic "
+          "energy share' is the kinetic energy divided by the energy "
+          "throughput. 'joint damage' is the fraction of tensile strength and "
+          "cohesion that a composite law has lost, 'joint crushing' the "
+          "plastic displacement on its cap. 'contacts' is the number of "
+          "contact points in compression, without matched joints; 'open "
+          "joints' is the length of matched joints that have failed in tension "
+          "or are open. 'load factor' is the factor of a stage's 'Load "
+          "pattern', and 'controlled displacement' its controlled displacement "
+          "from the start of the stage on; both are 'nan' in stages without a "
+          "pattern. 'blocks outside' is the number of blocks that have left "
+          "the 'Box' of section 'Contact', including deleted ones. 'relative "
+          "displacement x' is the displacement of 'Second point' minus that of "
+          "'Point', 'distance change' the change of their distance since the "
+          "start, 'tilt' the angle by which the line from 'Point' to 'Second "
+          "point' has turned, from -180 to 180, anticlockwise. 'block "
+          "displacement x', 'block velocity x' and the like belong to the "
           "centroid of 'Block', 'block rotation' (full turns counted, "
-          "anticlockwise) and 'block spin' of the block as a whole; 'block "
-          "force x', 'block force y' are the force on 'Block' by 'Second "
+          "anticlockwise) and 'block spin' to the block as a whole; 'block "
+          "force x' and 'block force y' are the force on 'Block' by 'Second "
           "block', or by all others, over joints and contacts, 'block force "
-          "moment' its moment about the present centroid of 'Block'; "
+          "moment' its moment about the current centroid of 'Block'. "
           "'rotation' is that of the nearest rigid block, full turns counted, "
-          "or of the nearest cell, from -180 to 180, anticlockwise. Rigid "
-          "blocks have no stress: it is written as 0. In a block that has been "
-          "deleted all is 'nan', in one that is excavated or not placed yet 0. "
-          "Quantities of a 'boundary' are for boundary elements: velocities "
-          "and tractions are "
-          "the means of their last step that is over; 0 before the first stage "
-          "with 'End = time' that they act in. With 'Model = boundary "
-          "elements' displacements and velocities are those in the domain. "
-          "'boundary hoop stress' is the normal stress along the boundary, "
-          "'boundary force' the force on the domain.");
+          "or of the nearest cell, from -180 to 180, anticlockwise. The stress "
+          "of rigid blocks is written as 0. In a block that has been deleted "
+          "all quantities are 'nan', in one that is excavated or not placed "
+          "yet 0. Quantities of a 'boundary' belong to boundary elements: "
+          "velocities and tractions are the means over their last completed "
+          "step, and 0 before the first stage with 'End = time' in which they "
+          "act. With 'Model = boundary elements', displacements and velocities "
+          "are those in the domain. 'boundary hoop stress' is the normal "
+          "stress along the boundary, 'boundary force' the force on the "
+          "domain.");
       const Kind &kind  = kinds().at(quantity);
       history.quantity  = kind.quantity;
       history.component = kind.component;
@@ -164,22 +164,20 @@ namespace quoin
           std::copy_n(from.numbers<2>(name).begin(), 2, point.begin());
         return has_z;
       };
-      entries.other("Point", "0, 0",
-                    "x, y and, in three dimensions, z of the point whose "
-                    "nearest node, cell or joint "
-                    "point, or boundary element, is recorded; of boundary "
-                    "elements: the point in the domain, and the point about "
-                    "which the moment is taken. Of nodes at one place: that "
-                    "of the block in which the point is, else of the lower "
-                    "or left block [m]",
-                    [&](const ParameterSection &from) {
-                      history.point_has_z
-                          = read_point(from, "Point", history.point);
-                    });
+      entries.other(
+          "Point", "0, 0",
+          "Point x, y and, in three dimensions, z whose nearest node, cell, "
+          "joint point or boundary element is recorded; with boundary elements "
+          "alone it is the point in the domain, or the reference point of "
+          "moments. Of several nodes at one place, the node of the block that "
+          "contains the point is taken, or else that of the lower or left "
+          "block [m]",
+          [&](const ParameterSection &from)
+          { history.point_has_z = read_point(from, "Point", history.point); });
       if (entries.reads_if(history.is_of_two_points()))
         entries.other(
             "Second point", "",
-            "The other point of quantities of two points, with as many "
+            "Second point of quantities between two points, with as many "
             "coordinates as 'Point' [m]",
             [&](const ParameterSection &from)
             {
@@ -196,19 +194,19 @@ namespace quoin
             });
       entries.text("Load", history.load,
                    "Load whose reaction or platen is recorded.");
-      entries.text("Curve", history.curve,
-                   "Joint quantities: physical curve on which to look for "
-                   "the nearest joint point; empty: all. Boundary force, "
-                   "moment: the boundary, by its name in 'Boundary "
-                   "elements'.");
+      entries.text(
+          "Curve", history.curve,
+          "Physical curve on which the nearest joint point of joint quantities "
+          "is searched, with empty for all curves; or the name of the boundary "
+          "in 'Boundary elements' of boundary forces and moments.");
       if (entries.reads_if(history.is_of_block()))
         entries.text("Block", history.block,
-                     "Quantities of a block: one of the 'Names' of section "
-                     "'Blocks'.");
+                     "Block whose quantities are recorded, one of the 'Names' "
+                     "of section 'Blocks'.");
       if (entries.reads_if(history.quantity == HistoryQuantity::block_force))
         entries.text("Second block", history.other_block,
-                     "The named block whose force on 'Block' is recorded; "
-                     "empty: all others together.");
+                     "Named block whose force on 'Block' is recorded; empty: "
+                     "the force of all other blocks together.");
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;

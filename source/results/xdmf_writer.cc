@@ -33,7 +33,7 @@ namespace quoin
     /** An element of a grid that has an array. */
     struct Element
     {
-      std::string tag;  /**< with its attributes */
+      std::string tag;  /**< XML tag with attributes */
       std::string type; /**< attributes of the array */
       std::string_view bytes;
       bool is_mesh       = false;
@@ -84,7 +84,7 @@ namespace quoin
       }
     }
 
-    /** Of a complete grid; they refer to its arrays. */
+    /** XML elements of a complete grid, which refer to its arrays. */
     std::vector<Element> elements_of(const VtuGrid &grid)
     {
       std::vector<Element> elements;
@@ -175,7 +175,7 @@ namespace quoin
           });
     }
 
-    /** Cuts a file back to the length that a checkpoint knows. */
+    /** Truncates a file to the length recorded in a checkpoint. */
     void cut(const std::string &file, const std::uint64_t size)
     {
       std::error_code error;

@@ -252,7 +252,8 @@ namespace quoin
         }
       }
 
-      /** For functions of t^4 with a logarithm, over the length @p h. */
+      /** Gauss rule for functions of t^4 with a logarithm, over the length @p
+       * h. */
       const GaussRule &graded_rule(const double h) const
       {
         return gauss_legendre(

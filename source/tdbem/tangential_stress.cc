@@ -52,7 +52,8 @@ namespace quoin
                < std::cos(30.001 * constants::degree);
       }
 
-      std::vector<unsigned> before, after; /**< or none */
+      /** Neighbouring elements, or none. */
+      std::vector<unsigned> before, after;
 
     private:
       const std::vector<BoundaryElement> &elements;

@@ -339,7 +339,8 @@ def block_sliding(case, folder, output, histories):
 
 
 def incline_stands(case, folder, output, histories):
-    """At rest, leaning as statics of its two corner springs have it."""
+    """Checks that the block is at rest, leaning as statics of its two corner
+    springs have it."""
     slope, gravity, stiffness = np.radians(40.0), 10.0, case["stiffness"]
     width, height = 10.0, 10.0
     weight = 2000 * gravity * width * height
@@ -611,8 +612,8 @@ def block_outlines(grid, position):
 
 
 def depths_in(points, edges):
-    """How deep points lie in a polygon: the distance to its nearest edge;
-    0 outside."""
+    """Depths of points in a polygon: the distance to its nearest edge; 0
+    outside."""
     a, b = edges[:, 0], edges[:, 1]
     x, y = points[:, None, 0], points[:, None, 1]
     crosses = (a[:, 1] > y) != (b[:, 1] > y)
@@ -708,9 +709,8 @@ def pile(case, folder, output, histories):
 
 
 def amplitude(t, values, omega, periods=1):
-    """Of a harmonic part, fitted over the last periods beside a straight line.
-
-    The line takes what is left of the beginning, which fades slowly in a plane.
+    """Amplitude of a harmonic part, fitted over the last periods together with
+    a straight line, which represents the slowly decaying initial transient.
     """
     keep = t > t[-1] - periods * 2 * np.pi / omega
     t = t[keep] - t[-1]
@@ -1168,7 +1168,7 @@ def middle_factor(output):
 
 
 def limit_of_factor_of_safety(case, folder, output, histories):
-    """What the factor tends to as edges are halved, from this run and one with
+    """Limit of the factor as edges are halved, from this run and one with
     Mesh/Refinements = 1, against a column of a table."""
     fine = os.path.join(output, "fine")
     run(case["quoin"], os.path.join(folder, case["prm"]), fine,
@@ -1196,8 +1196,8 @@ def same_factor_of_safety(case, folder, output, histories):
 
 
 def creep(case, folder, output, histories):
-    """What moves in the stage after the one that came to rest, by how far it
-    settled."""
+    """Displacement in the stage after the one that reached equilibrium,
+    divided by its settlement."""
     histories = strictly_increasing(histories)
     rest = histories["time"] > histories["time"][-1] - 1.0
     settled = max(np.max(np.abs(histories[name]))
@@ -1223,7 +1223,8 @@ def tunnel_closure(histories, until):
 
 
 def kirsch_closure(young):
-    """Of the tutorial's tunnel in rock without joints, Kirsch 1898 [m]."""
+    """Closure of the tutorial's tunnel in rock without joints, Kirsch 1898
+    [m]."""
     radius, nu, vertical, horizontal = 2.5, 0.25, 5.2e6, 3.64e6
     mean, half = (vertical + horizontal) / 2, (vertical - horizontal) / 2
     factor = 2 * radius * (1 + nu) / young

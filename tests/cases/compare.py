@@ -70,15 +70,16 @@ def compare_columns(case, histories, units, reference, reference_units):
 
 
 def iterations_a_step(output):
-    """Of the implicit solver: few if its derivatives are those of its forces."""
+    """Iterations per step of the implicit solver: few if its derivatives are
+    those of its forces."""
     with open(os.path.join(output, "summary.json")) as stream:
         summary = json.load(stream)
     return summary["iterations"] / summary["steps"]
 
 
 def unexpected_warnings(case, output):
-    """Of the log, those that have none of the case's texts 'warnings', and the
-    texts that none has."""
+    """Warnings of the log that have none of the case's texts 'warnings', and
+    the texts that none has."""
     with open(os.path.join(output, "log.txt")) as log:
         warnings = [line for line in log if line.startswith("Warning: ")]
     texts = case.get("warnings", [])

@@ -190,7 +190,7 @@ def joints_at_a_vertex(options):
     try:
         solve(options, *slices(10000, "large"))
     except Failure as failure:
-        if "too many to be watched" not in str(failure):
+        if "too many for the contact search" not in str(failure):
             raise
     else:
         raise Failure("10 000 joints at a vertex, large displacements: there "
@@ -245,7 +245,7 @@ def contrast(options):
 
 
 def sizes(options):
-    """From a micrometre to a thousand kilometres, and at the coordinates of
+    """Sizes from a micrometre to a thousand kilometres, and the coordinates of
     a map."""
     for solver in "implicit", "explicit":
         for size, x, y in ((1e-6, 0, 0), (1e6, 0, 0), (1, 456789., 5412345.),

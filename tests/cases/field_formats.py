@@ -91,7 +91,7 @@ def read_xdmf(path):
 
 
 def pieces_of(files):
-    """The same of VTU files, of ranks that have cells."""
+    """Pieces of VTU files, of ranks that have cells."""
     for file in files:
         grid = vtu.read_vtu(file)
         if len(grid.cells) == 0:
@@ -130,7 +130,7 @@ def compare_series(what, one, other):
 
 
 def compare_results(what, one, other):
-    """What the package reads of both runs."""
+    """Compares what the package reads of both runs."""
     mine, right = results.read(other), results.read(one)
     if mine.series() != right.series():
         raise Failure("%s: series are %s" % (what, mine.series()))

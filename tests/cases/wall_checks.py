@@ -37,7 +37,7 @@ def joint_faces(output):
 
 
 def quasi_static(output, histories):
-    """What every slow run must show."""
+    """Checks what every quasi-static run must show."""
     return {
         "kinetic energy share": float(
             np.max(histories["kinetic"][histories["displacement"] != 0])),
@@ -201,7 +201,7 @@ def solvers_agree(case, prm, explicit, implicit):
 
 
 def note_solvers(case, numbers):
-    """What scripts/table shows of a wall by both solvers."""
+    """Notes what scripts/table shows of a wall by both solvers."""
     wanted = ("peak [kN]", "at [mm]", "wall time [s]")
     for name in wanted:
         if numbers["implicit"].get(name) is None:
@@ -217,7 +217,7 @@ def note_solvers(case, numbers):
 
 
 def slab_force(histories):
-    """What the foundation holds against [N], and whether it is on the move."""
+    """Reaction of the foundation [N], and whether it moves."""
     return -histories["force"], histories["displacement"] > 0
 
 

@@ -376,7 +376,7 @@ def no_number(quoin, folder):
 
 
 def no_number_at_the_end(quoin, folder):
-    """The same a few steps before the end of a stage."""
+    """Fails a few steps before the end of a stage, and resumes."""
     fail_and_resume(quoin, folder, 1e-3)
 
 
@@ -405,7 +405,7 @@ def other_ranks(quoin, folder):
 
 
 def failure_of_one_rank(quoin, folder):
-    """What one rank alone finds wrong ends the other one, too."""
+    """Checks that an error found by one rank alone ends the other one, too."""
     if not shutil.which("mpirun"):
         raise Skip("no mpirun")
     prm = prepare(folder)
@@ -469,7 +469,7 @@ def leaving(outside):
 
 
 def tables(output):
-    """What histories.csv and energies.csv hold, and the summary."""
+    """Contents of histories.csv, energies.csv and the summary."""
     rows = {}
     for name in ("histories.csv", "energies.csv"):
         with open(os.path.join(output, name)) as stream:
@@ -651,7 +651,7 @@ def implicit_checkpoints(quoin, folder):
 
 
 def implicit_limit_load(quoin, folder):
-    """A load that no equilibrium can bear: where it stopped is kept, and from
+    """A load above the limit load: the last equilibrium is kept, and from
     the checkpoint it gets no farther."""
     prm = prepare(folder)
     output = os.path.join(folder, "output")
@@ -659,7 +659,7 @@ def implicit_limit_load(quoin, folder):
         "Solver=implicit", "Implicit/Jumps=no",
         "Loads/push/Horizontal=if(T > 1e-3, 1e8*(T - 1e-3), 0)"]})
     says = ["stage 'second'", "no equilibrium", "load time 0.0005773 of",
-            "steps were cut", "in block", "at (", "limit load",
+            "steps were reduced", "in block", "at (", "limit load",
             "Path following", "last equilibrium is kept"]
     status, printed = run(words)
     expect(status, printed, 2, says)
@@ -1025,7 +1025,7 @@ def main():
         return
 
     def outcome(named):
-        """What became of a test, and what to print about it."""
+        """Outcome of a test, and what to print about it."""
         name, test = named
         with tempfile.TemporaryDirectory(prefix="quoin_") as folder:
             try:

@@ -369,7 +369,7 @@ class Package(unittest.TestCase):
             self.assertIn("usage: quoin-plot", said)
 
     def test_version(self):
-        """That of the program."""
+        """The version is that of the program."""
         with open(os.path.join(ROOT, "CMakeLists.txt")) as file:
             version = file.read().split("project(quoin VERSION ")[1].split()[0]
         with open(os.path.join(ROOT, "python", "pyproject.toml")) as file:

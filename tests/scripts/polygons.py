@@ -144,7 +144,8 @@ class Geometries(unittest.TestCase):
         self.path = os.path.join(self.folder, "blocks.geo")
 
     def mesh(self, polygons, has_base=False, **words):
-        """What was written, and blocks and joints of a run of one step."""
+        """Result of writing polygons, and blocks and joints of a run of one
+        step."""
         written = geometry.write_geo(self.path, polygons, **words)
         case = os.path.join(self.folder, "case.prm")
         with open(case, "w") as file:
@@ -158,7 +159,7 @@ class Geometries(unittest.TestCase):
                            for name in ("blocks", "joints")))
 
     def areas(self, blocks):
-        """Of the blocks of a mesh [m^2], sorted."""
+        """Areas of the blocks of a mesh [m^2], sorted."""
         a, b, c = blocks.points[blocks.cells].transpose(1, 0, 2)
         return np.sort(np.bincount(blocks.cell_data["block"], 0.5 * np.abs(
             geometry.cross(b - a, c - a))))

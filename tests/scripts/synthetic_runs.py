@@ -49,7 +49,7 @@ sys.exit({"explicit": 0, "implicit": %d}[solver])
 
 
 def write_vtu(path, time, points, cells, point_data, cell_data):
-    """As quoin writes them: XML with appended raw data."""
+    """Writes a VTU file as quoin does: XML with appended raw data."""
     blocks, offset = [], 0
 
     def array(name, values):

@@ -134,7 +134,7 @@ class Read(Files):
                                                     1}))
 
     def test_mean_dip(self):
-        """Of steep traces that lean to both sides of the vertical."""
+        """Mean dip of steep traces that lean to both sides of the vertical."""
         def trace(angle, length, turned=1.):
             way = length * turned * np.array([np.cos(np.radians(angle)),
                                               np.sin(np.radians(angle))])

@@ -49,7 +49,7 @@ def files(root):
 
 
 def blank(match):
-    """What stands for code: no words, but the lines as they were."""
+    """Replacement of code: dots instead of words, in the same lines."""
     return re.sub(r"[^\n]", ".", match.group(0))
 
 
@@ -72,7 +72,8 @@ def anchors(text):
 
 
 def titles(text):
-    """What may be quoted: headings without their number, words in bold."""
+    """Titles that may be quoted: headings without their number, words in
+    bold."""
     found = {re.sub(r"^\d+\.? ", "", title).replace("`", "")
              for _, title in HEADING.findall(text)}
     return found | {" ".join(words.split()) for words in BOLD.findall(text)}

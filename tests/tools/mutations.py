@@ -139,7 +139,7 @@ def suites():
 
 
 def names_in(path):
-    """Of the entries of a list of tests."""
+    """Names of the entries of a list of tests."""
     return {entry["name"] for entry in
             json.loads(read(os.path.join(ROOT, "tests", path)))}
 

@@ -18,12 +18,12 @@ namespace quoin
   struct TypicalImpact
   {
     bool exists        = false; /**< whether the set acts on a block */
-    double mass        = 0.;    /**< of a block [kg] */
-    double size        = 0.;    /**< of its side [m] */
+    double mass        = 0.;    /**< mass of a block [kg] */
+    double size        = 0.;    /**< length of the side in contact [m] */
     double density     = 0.;    /**< [kg/m^3] */
     double stiffness   = 0.;    /**< normal one of the set [Pa/m] */
     double frequency   = 0.;    /**< undamped [Hz] */
-    double duration    = 0.;    /**< of the contact [s] */
+    double duration    = 0.;    /**< duration of the contact [s] */
     double restitution = 1.;    /**< [-] */
     /** kn L/E with the side L; 0: blocks are rigid. */
     double by_block = 0.;
@@ -39,7 +39,7 @@ namespace quoin
   std::vector<std::string> contact_lines(const Model<2> &model,
                                          const State<2> &state);
 
-  /** Warns of restitution that the waves in blocks will not let be, and of sets
+  /** Warns of restitution that waves in blocks will change, and of sets
       for new contacts alone beside which blocks do not deform. */
   void check_contacts(const Model<2> &model, Advice &advice);
 
@@ -48,7 +48,7 @@ namespace quoin
   void check_rigid_blocks(const Model<2> &model, double gravity,
                           Advice &advice);
 
-  /** What the loads of a stage do to blocks; 0: not known. */
+  /** Motion of blocks under the loads of a stage; 0: not known. */
   struct Agitation
   {
     Shaking shaking;          /**< the fastest of them */

@@ -33,7 +33,7 @@ namespace quoin
     {
       return output + "/used_parameters.prm";
     }
-    /** How the parameters differ from those that the folder's run used. */
+    /** Differences from the parameters of the run in the output directory. */
     std::string changed_parameters() const;
     void run_stage();
     void take_step();
@@ -61,11 +61,12 @@ namespace quoin
     std::unique_ptr<Problem> problem;
     std::unique_ptr<Stage> stage; /**< current stage, or the last one */
 
-    unsigned int stage_index = 0; /**< of the current or next stage */
+    unsigned int stage_index = 0; /**< index of the current or next stage */
     bool stage_begun         = false;
-    int signal               = 0;  /**< that ends the run; 0: none */
-    double wall_time         = 0.; /**< of all steps [s] */
-    double seconds           = 0.; /**< of the steps of this process [s] */
+    int signal               = 0;  /**< signal that ends the run; 0: none */
+    double wall_time         = 0.; /**< wall-clock time of all steps [s] */
+    /** Wall-clock time of the steps of this process [s]. */
+    double seconds = 0.;
   };
 } // namespace quoin
 

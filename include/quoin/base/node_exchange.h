@@ -28,7 +28,7 @@ namespace quoin
                  const std::vector<unsigned int> &partners,
                  MPI_Comm communicator);
 
-    /** Also mirrors @p shared nodes, ascending. Collective. */
+    /** Exchange that also mirrors @p shared nodes, ascending. Collective. */
     NodeExchange(unsigned int first, unsigned int last, unsigned int n_global,
                  const std::vector<unsigned int> &shared,
                  const std::vector<unsigned int> &partners,

@@ -15,7 +15,7 @@ namespace quoin
   class NotedParameters : public dealii::ParameterHandler
   {
   public:
-    /** Their names, with the sections around as in "Section/Name". */
+    /** Names of the entries read, with their sections as in "Section/Name". */
     std::set<std::string> read;
   };
 } // namespace quoin

@@ -15,7 +15,7 @@ namespace quoin
   struct SelectiveParameter
   {
     std::string name;
-    std::string unset;              /**< its value where it is not given */
+    std::string unset; /**< value of a parameter that is not given */
     std::vector<std::string> kinds; /**< kinds that use it */
   };
 

@@ -52,7 +52,7 @@ namespace quoin
      */
     AlignedArray<std::array<double, 4>> initial_stress;
 
-    Thickness thickness; /**< of cells of each stiffness */
+    Thickness thickness; /**< out-of-plane thickness for each stiffness */
 
     /**
      * Whether each four cells are one six-node triangle, cut as by NodeMap.
@@ -123,7 +123,8 @@ namespace quoin
     std::array<unsigned int, 6> nodes;
     std::array<double, 12> force;                     /**< [N] */
     std::array<std::array<double, 12>, 12> stiffness; /**< [N/m] */
-    double dissipated; /**< by the update of the internal variables [J] */
+    /** Energy dissipated by the update of internal variables [J]. */
+    double dissipated;
   };
 
   struct NodeRange
@@ -188,7 +189,7 @@ namespace quoin
         const State<2> &state, const NodeRatio &ratio,
         std::vector<NodeStiffness<2>> &stiffness) const override;
 
-    /** What prepare() was given; cell_states.h has what follows from it. */
+    /** Argument of prepare(); see cell_states.h for the states of cells. */
     const BlockForcesData<2> &cell_data() const
     {
       return data;
@@ -226,7 +227,8 @@ namespace quoin
                    PlasticHistory &history, CellLinearisation &result,
                    bool with_stiffness = true) const;
 
-    /** Updates @p history as add_forces(); returns the dissipation [J]. */
+    /** Updates @p history as add_forces() does and returns the dissipation [J].
+     */
     double update(const NodeRecord<2> *nodes, PlasticHistory &history) const;
 
     /**
@@ -243,12 +245,12 @@ namespace quoin
     /** Strips of equal stiffness that go through the lanes together. */
     struct Run
     {
-      std::size_t first_step; /**< into offsets, masks, lane_stress */
+      std::size_t first_step; /**< index into offsets, masks, lane_stress */
       std::size_t n_steps;
       double bulk;             /**< plane bulk modulus times thickness [N/m] */
       double shear;            /**< shear modulus times thickness [N/m] */
-      unsigned int stiffness;  /**< of which of the different ones */
-      std::size_t first_group; /**< into node_groups */
+      unsigned int stiffness;  /**< index of the stiffness */
+      std::size_t first_group; /**< index into node_groups */
       std::size_t n_groups;
     };
 

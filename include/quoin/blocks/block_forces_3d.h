@@ -123,7 +123,7 @@ namespace quoin
                    PlasticHistory &history, CellLinearisation &result,
                    bool with_stiffness = true) const;
 
-    /** No history to update; returns 0 [J]. */
+    /** Returns 0 [J], because there are no internal variables. */
     double update(const NodeRecord<3> *, PlasticHistory &) const
     {
       return 0.;
@@ -133,12 +133,12 @@ namespace quoin
     /** Cells of equal stiffness whose nodes are copied together. */
     struct Chunk
     {
-      std::size_t first_node; /**< into chunk_nodes */
+      std::size_t first_node; /**< index into chunk_nodes */
       std::size_t n_nodes;
-      std::size_t first_group; /**< into offsets and lane_stress */
+      std::size_t first_group; /**< index into offsets and lane_stress */
       std::size_t n_groups;
       unsigned int last_mask; /**< lanes that have a cell in the last group */
-      unsigned int stiffness; /**< which of the different ones */
+      unsigned int stiffness; /**< index of the stiffness */
     };
 
     struct Tile

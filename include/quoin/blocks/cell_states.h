@@ -68,8 +68,8 @@ namespace quoin
                                        const PlasticHistory &history,
                                        std::size_t cell);
 
-  /** Gives a cell that has yielded the plastic stretch with which another
-      @p law has its stress. */
+  /** Sets the plastic stretch of a cell that has yielded so that @p law
+      gives the same stress. */
   void take_over_stress(const BlockForces<2> &blocks,
                         const NodeRecord<2> *nodes, std::size_t cell,
                         const MohrCoulomb &law, PlasticHistory &history);

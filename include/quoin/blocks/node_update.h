@@ -56,7 +56,7 @@ namespace quoin
     double local;       /**< Cundall's: share of the unbalanced force [-] */
     double mass;        /**< alpha [1/s] */
     double dt_before;   /**< previous step [s] */
-    double dt_velocity; /**< from t - dt/2 to t + dt/2 [s] */
+    double dt_velocity; /**< time step from t - dt/2 to t + dt/2 [s] */
   };
 
   /** Energies of damping in one step. */

@@ -28,9 +28,11 @@ namespace quoin
   /** Motion of a rigid block: x [m], y [m], rotation [rad, anticlockwise]. */
   struct RigidBlockState
   {
-    double displacement[2]{}; /**< of the centroid, from the reference */
-    double rotation = 0.;     /**< counts full turns */
-    double velocity[3]{};     /**< of the centroid, and spin, at time - dt/2 */
+    /** Displacement of the centroid from the reference [m]. */
+    double displacement[2]{};
+    double rotation = 0.; /**< counts full turns */
+    /** Velocity of the centroid and spin at time - dt/2. */
+    double velocity[3]{};
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
@@ -57,7 +59,7 @@ namespace quoin
     }
   };
 
-  /** How the rigid blocks of a rank move in a stage. */
+  /** Motion of the rigid blocks of a rank in a stage. */
   struct RigidBlockStage
   {
     std::vector<double> mass_factor; /**< mass scaling factor of each block */
@@ -91,8 +93,8 @@ namespace quoin
       unsigned int begin, end; /**< local nodes */
       double mass;             /**< [kg] */
       double inertia;          /**< moment about the centroid [kg m^2] */
-      double lumped_inertia;   /**< the same of its nodes' lumped masses */
-      double centre[2];        /**< centroid in the reference [m] */
+      double lumped_inertia; /**< moment of the nodes' lumped masses [kg m^2] */
+      double centre[2];      /**< centroid in the reference [m] */
     };
 
     /**
@@ -172,8 +174,9 @@ namespace quoin
   private:
     struct Arm
     {
-      double x, y;  /**< from the centroid, in the reference [m] */
-      double share; /**< of the block's mass that is lumped to the node */
+      double x, y; /**< position from the centroid in the reference [m] */
+      /** Fraction of the block's mass that is lumped to the node. */
+      double share;
     };
 
     /** Cosine and sine of a block's rotation. */
@@ -213,7 +216,7 @@ namespace quoin
 
     unsigned int node_begin = 0;
     std::vector<Block> blocks;
-    std::vector<Arm> arms; /**< of the nodes from node_begin on */
+    std::vector<Arm> arms; /**< arms of the nodes from node_begin on */
   };
 } // namespace quoin
 

@@ -70,7 +70,7 @@ namespace quoin
     static double critical(double largest_eigenvalue, double beta);
 
   private:
-    std::vector<double> eigenvalue;       /**< of S_i [N/m] */
+    std::vector<double> eigenvalue; /**< largest eigenvalue of S_i [N/m] */
     std::vector<double> rigid_eigenvalue; /**< omega^2 [1/s^2] */
   };
 } // namespace quoin

@@ -166,7 +166,7 @@ namespace quoin
       std::array<std::array<double, 2>, 4> force; /**< [N] */
       double share; /**< of the contact that this rank counts */
     };
-    /** Those of pair @p pair at the positions of update(); false if it is
+    /** Forces of @p pair at the positions of update(); returns false if it is
         inactive or the edges do not overlap. */
     bool end_forces(const ContactState &contacts, unsigned int pair,
                     EndForces &result) const;
@@ -285,7 +285,7 @@ namespace quoin
     struct Losses
     {
       double friction = 0., fracture = 0., crushing = 0.;
-      double contact = 0.; /**< with areas and contacts that go */
+      double contact = 0.; /**< loss with contact areas and contacts that end */
     };
     void gather_velocities(const NodeVector<2> *velocity);
     void add_point_forces(unsigned int pair, unsigned int k, const Geometry &g,
@@ -327,9 +327,9 @@ namespace quoin
     void scatter(AlignedArray<NodeVector<2>> &from, NodeVector<2> *to) const;
     void relative_velocity(const Edge &a, const Edge &b, double lower,
                            double upper, double *rate) const;
-    /** Makes pairs active that touch by now. */
+    /** Activates pairs that have come into contact. */
     void begin_contacts(ContactState &contacts);
-    /** Gives a pair a history if it touches; whether it does. */
+    /** Activates the pair if it is in contact; returns true if so. */
     bool begin_contact(ContactState &contacts, unsigned int pair,
                        const Geometry &geometry);
     /** Whether the vertex at end @p k of a pair lies within the edges before

@@ -16,18 +16,19 @@ namespace quoin
   /** An edge on the boundary of a block, which is on its left. */
   struct ContactEdge
   {
-    std::array<unsigned int, 2> nodes;      /**< global numbers */
-    std::array<dealii::Point<2>, 2> points; /**< where they are at rest [m] */
-    unsigned int number;                    /**< of all ranks */
+    std::array<unsigned int, 2> nodes; /**< global numbers */
+    /** Positions of the nodes at rest [m]. */
+    std::array<dealii::Point<2>, 2> points;
+    unsigned int number; /**< number of the edge on all ranks */
     unsigned int block;
-    unsigned int group;     /**< of the cell behind it */
+    unsigned int group;     /**< group of the adjacent cell */
     unsigned int previous;  /**< edge that ends where this one starts */
     unsigned int next;      /**< edge that starts where this one ends */
-    unsigned int interface; /**< of BlockTable::joined, or none */
-    double length;          /**< in the reference state [m] */
-    double height;          /**< of the cell behind it, above it [m] */
-    /** At either node 1 for a corner of the block, 0 where it goes straight
-        on, in between for turns of some degrees. */
+    unsigned int interface; /**< index into BlockTable::joined, or none */
+    double length;          /**< length in the reference state [m] */
+    double height; /**< height of the adjacent cell above the edge [m] */
+    /** Weight of either node as a corner: 1 for a corner of the block, 0 where
+       the boundary is straight, in between for turns of some degrees. */
     std::array<double, 2> corner;
 
     template <typename Archive>
@@ -42,7 +43,7 @@ namespace quoin
   struct JointEdges
   {
     std::array<unsigned int, 2> edges; /**< lower, upper */
-    unsigned int interface;            /**< of BlockTable::joined */
+    unsigned int interface;            /**< index into BlockTable::joined */
   };
 
   /**
@@ -77,14 +78,15 @@ namespace quoin
     {
       return own_nodes;
     }
-    /** Edges of other ranks that this one knows by now, ascending. */
+    /** Edges of other ranks that this one has received, ascending. */
     const std::vector<ContactEdge> &foreign() const
     {
       return foreign_edges;
     }
 
-    /** Where blocks are divided: edges of other ranks before or after own ones,
-        and their ranks. Those have edges of this rank beside theirs, too. */
+    /** Edges of other ranks before or after own ones, with their ranks, where
+        blocks are divided. These ranks have edges of this rank next to theirs.
+     */
     const std::map<unsigned int, unsigned int> &ranks_beside() const
     {
       return rank_of_neighbour;

@@ -12,10 +12,10 @@
 
 namespace quoin
 {
-  /** Where an edge is: its two ends [m]. */
+  /** Current positions of the two ends of an edge [m]. */
   struct EdgeEnds
   {
-    unsigned int edge; /**< of ContactEdges */
+    unsigned int edge; /**< index into ContactEdges */
     double x[2], y[2];
     bool is_own = true; /**< whether it is an edge of this rank */
   };

@@ -21,19 +21,19 @@ namespace quoin
     double plastic_slip    = 0.; /**< [m] */
     double plastic_opening = 0.; /**< [m] */
     double slip_offset     = 0.; /**< slip at the anchors [m] */
-    double anchor_lower    = 0.; /**< where on the edges, 0 to 1, slip is */
-    double anchor_upper    = 0.; /**< counted from */
-    double area            = 0.; /**< as last used [m^2] */
-    /** As last computed; infinite: not yet [m]. */
+    /** Positions on the edges, 0 to 1, from which slip is measured. */
+    double anchor_lower = 0., anchor_upper = 0.;
+    double area = 0.; /**< area of the last step [m^2] */
+    /** Opening of the last step; infinite: not computed yet [m]. */
     double opening = std::numeric_limits<double>::infinity();
     /** Internal variables of its law; there is room for most_internal. */
     static constexpr unsigned int most_internal = 4;
     double internal[most_internal]{};
-    /** How its normal leans, from -1, that of the lower edge, to 1, that of the
-        upper; as last used. */
+    /** Direction of the normal in the last step, from -1, the normal of the
+       lower edge, to 1, that of the upper one. */
     double lean = 0.;
-    /** What it takes off the overlap that it is from corner to corner, as last
-        used [m]. */
+    /** Reduction of the overlap of a contact from corner to corner in the last
+        step [m]. */
     double sideways  = 0.;
     JointState state = JointState::slipped;
   };
@@ -43,8 +43,8 @@ namespace quoin
   {
     unsigned int lower     = 0; /**< edges, see ContactEdges */
     unsigned int upper     = 0;
-    unsigned int set       = 0; /**< of joints, whose law it follows */
-    std::uint8_t active    = 0; /**< whether the points have a history */
+    unsigned int set       = 0; /**< joint set whose law the pair follows */
+    std::uint8_t active    = 0; /**< whether the points are active */
     std::uint8_t was_joint = 0; /**< whether it was a matched joint */
     std::uint8_t was_open  = 0; /**< whether the edges were seen apart */
     /** Slip of the matched joint that became this pair [m], and what of it is
@@ -67,13 +67,14 @@ namespace quoin
 
     AlignedArray<ContactPair> pairs; /**< ascending in their edges */
 
-    AlignedArray<std::uint8_t> handed_over; /**< of interfaces of joints */
+    /** Flag of each interface of joints. */
+    AlignedArray<std::uint8_t> handed_over;
 
     /** Positions of the boundary nodes when pairs were last searched [m]. */
     AlignedArray<NodeVector<2>> search_positions;
-    std::uint64_t next_check = 0; /**< step of the next look at motions */
+    std::uint64_t next_check = 0; /**< step of the next check of motions */
     std::uint64_t n_searches = 0;
-    double skin              = 0.; /**< of the last search [m] */
+    double skin              = 0.; /**< skin of the last search [m] */
     std::uint64_t searched   = 0;  /**< step of the last search */
     /** Step from which on there are more searches to gain than to lose. */
     std::uint64_t renewal = 0;

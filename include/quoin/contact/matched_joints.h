@@ -61,10 +61,10 @@ namespace quoin
   struct JointSegment
   {
     std::array<unsigned int, 2> lower, upper; /**< local nodes */
-    std::array<double, 2> area;               /**< of each point [m^2] */
-    float share; /**< of the energy that this rank counts */
+    std::array<double, 2> area;               /**< area of each point [m^2] */
+    float share; /**< fraction of the energy that this rank counts */
     unsigned int set;
-    unsigned int face; /**< into LocalFaces::joints */
+    unsigned int face; /**< index into LocalFaces::joints */
   };
 
   /** Opening and slip [m] of both points of @p segment. */
@@ -146,8 +146,8 @@ namespace quoin
     bool has_dashpots() const;
 
     /**
-     * Brings the histories to the positions in @p nodes, adds the joint
-     * forces to @p force and books the dissipation.
+     * Updates the internal variables for the positions in @p nodes, adds the
+     * joint forces to @p force and the dissipation to @p energy.
      */
     void add_forces(const NodeRecord<2> *nodes, JointHistory &history,
                     EnergyAccounts &energy, NodeVector<2> *force) const;
@@ -229,9 +229,10 @@ namespace quoin
                          const NodeVector<2> *velocity, const Acts &acts,
                          const Traction &traction, NodeVector<2> *force) const;
 
-    std::vector<JointSegment> all_segments;        /**< sorted by set */
-    std::vector<PairDashpots::Item> segment_sides; /**< of each */
-    std::vector<JointDamping> dampings;            /**< of each set */
+    std::vector<JointSegment> all_segments; /**< sorted by set */
+    /** Blocks and groups of each segment. */
+    std::vector<PairDashpots::Item> segment_sides;
+    std::vector<JointDamping> dampings; /**< damping of each joint set */
     PairDashpots dashpots;
     std::vector<JointLaw> all_laws;
     std::vector<unsigned int> set_begin; /**< first segment of each set */

@@ -48,8 +48,9 @@ namespace quoin
 
     const ContactEdges &edges;
     const MPI_Comm communicator;
-    std::vector<unsigned int> ranks; /**< that share blocks with this one */
-    std::vector<unsigned int> sent;  /**< pairs, by rank */
+    /** Ranks that share blocks with this one. */
+    std::vector<unsigned int> ranks;
+    std::vector<unsigned int> sent; /**< pairs, by rank */
     Counts n_sent, n_received;
     std::vector<ContactPair> outgoing, copies;
   };

@@ -13,7 +13,7 @@
 
 namespace quoin
 {
-  /** What the dashpots of joints and contacts know of the blocks. */
+  /** Data of the blocks for the dashpots of joints and contacts. */
   struct DashpotBlocks
   {
     MPI_Comm communicator = MPI_COMM_NULL;
@@ -44,8 +44,8 @@ namespace quoin
      */
     struct Item
     {
-      std::array<unsigned int, 2> blocks; /**< of the mesh */
-      std::array<unsigned int, 2> groups; /**< of the cells behind */
+      std::array<unsigned int, 2> blocks; /**< blocks of the mesh */
+      std::array<unsigned int, 2> groups; /**< groups of the adjacent cells */
     };
 
     void set_blocks(const DashpotBlocks &new_blocks)
@@ -58,7 +58,7 @@ namespace quoin
       return !blocks.inverse_mass.empty();
     }
 
-    /** Takes the items that this rank has from now on. Collective. */
+    /** Sets the items of this rank. Collective. */
     void bind(const std::vector<Item> &items);
 
     // In each step, in this order.
@@ -87,7 +87,7 @@ namespace quoin
 
     DashpotBlocks blocks;
     std::vector<Pair> pairs;              /**< ascending */
-    std::vector<unsigned int> item_pairs; /**< of each item */
+    std::vector<unsigned int> item_pairs; /**< pair of each item */
     std::vector<std::array<double, 2>> item_impedance;
     /** Pairs of divided blocks of all ranks, ascending; local number or -1. */
     std::vector<unsigned int> divided_pairs;

@@ -171,7 +171,7 @@ namespace quoin
     /** First entry of each tile, of shared nodes, and of rigid blocks. */
     std::vector<unsigned int> captured_begin;
 
-    /** On the local nodes [N]; zero after a step. */
+    /** Forces on the local nodes [N]; zero after a step. */
     AlignedArray<NodeVector<dim>> force, viscous_force;
     OwnerSum<NodeVector<dim>> force_sum, viscous_sum;
   };

@@ -59,10 +59,11 @@ namespace quoin
     /** Changes by a stage; flags are per physical surface. */
     struct Step
     {
-      std::string where; /**< for messages */
+      std::string where; /**< location for messages */
       std::vector<bool> excavate, fill;
       bool takes = false, places = false;
-      ModelProperties properties; /**< from here on, of strength 1 */
+      /** Properties from here on, with strength factor 1. */
+      ModelProperties properties;
       double release  = 1.;
       bool changes    = false; /**< whether the properties change */
       double strength = 1.;    /**< factor on strengths */
@@ -80,7 +81,8 @@ namespace quoin
                        Step &step) const;
     bool is_in(unsigned int block, const std::vector<bool> &groups) const;
     std::vector<unsigned int> blocks_in(const std::vector<bool> &groups) const;
-    double stored_energy(const State<2> &state) const; /**< of this rank [J] */
+    /** Stored energy of this rank [J]. */
+    double stored_energy(const State<2> &state) const;
     void take_away(const Step &step, Solver<2> &solver, State<2> &state) const;
     void place(const Step &step, State<2> &state) const;
     /** Properties of the model after @p n stages. */
@@ -90,7 +92,7 @@ namespace quoin
 
     Model<2> &model;
     const ModelProperties at_start;
-    const std::vector<bool> absent_at_start; /**< of physical surfaces */
+    const std::vector<bool> absent_at_start; /**< flags of physical surfaces */
     std::vector<Step> steps;
     unsigned int n_begun = 0; /**< stages whose properties the model has */
   };

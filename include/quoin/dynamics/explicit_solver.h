@@ -55,7 +55,7 @@ namespace quoin
       scale_masses(previous, state);
     }
 
-    /** What to compute in a step; see step(). */
+    /** Quantities to be computed in a step; see step(). */
     struct Requests
     {
       bool energies = false;
@@ -72,7 +72,8 @@ namespace quoin
     void begin_stage(const StageParameters &stage,
                      const StageParameters *previous, State<dim> &state);
 
-    /** As begin_stage(), for a state read from a checkpoint in mid-stage. */
+    /** Does what begin_stage() does for a state from a checkpoint within a
+     * stage. */
     void resume_stage(const StageParameters &stage,
                       const StageParameters *previous, State<dim> &state);
 

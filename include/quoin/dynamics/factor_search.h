@@ -21,7 +21,7 @@ namespace quoin
     double first     = 1.;   /**< factor to try first [-] */
     double lowest    = 0.1;  /**< [-] */
     double highest   = 10.;  /**< [-] */
-    double tolerance = 0.01; /**< of the bracket [-] */
+    double tolerance = 0.01; /**< width of the bracket [-] */
     /** Displacement beyond which a trial may fail [m]; 0: automatic. */
     double failure_displacement = 0.;
     bool reduces_blocks         = true;
@@ -35,7 +35,7 @@ namespace quoin
     void enter(ParameterEntries &entries);
   };
 
-  /** What a trial has shown of its factor. */
+  /** Outcome of a trial of a factor. */
   enum class Verdict : std::uint8_t
   {
     undecided, /**< neither of the others within the steps allowed */
@@ -49,10 +49,11 @@ namespace quoin
   /** Outcome of a trial, with the strength divided by a factor. */
   struct SafetyTrial
   {
-    double factor           = 0.; /**< [-] */
-    Verdict verdict         = Verdict::undecided;
-    std::uint64_t n_steps   = 0;
-    double unbalanced_ratio = 0.; /**< at its end [-] */
+    double factor         = 0.; /**< [-] */
+    Verdict verdict       = Verdict::undecided;
+    std::uint64_t n_steps = 0;
+    /** Unbalanced ratio at the end of the trial [-]. */
+    double unbalanced_ratio = 0.;
     double displacement     = 0.; /**< largest since its start [m] */
 
     template <typename Archive>
@@ -111,7 +112,8 @@ namespace quoin
    * Whether a trial fails: its largest displacement exceeds a limit, and it
    * keeps moving, by 1.8 times in each of the last two doublings of the time.
    * At constant velocity this ratio is two, at constant acceleration four; it
-   * tends to one as the model comes to rest. The time may be a pseudo-time.
+   * tends to one as the model approaches equilibrium. The time may be a
+   * pseudo-time.
    */
   class FailureWatch
   {

@@ -19,16 +19,16 @@ namespace quoin
   {
     static constexpr const char *slice_name = "load pattern";
 
-    double factor = 0.; /**< of the loads in the last step [-] */
+    double factor = 0.; /**< load factor of the last step [-] */
     /** The controlled displacement where the stage began [m]. */
     double start = 0.;
 
     // By the explicit solver, where a history is controlled:
     double mean_start = 0.; /**< mean displacement where the stage began [m] */
-    double mean       = 0.; /**< what it is prescribed to be [m] */
-    double rate       = 0.; /**< of that [m/s] */
-    double wanted     = 0.; /**< control function of the last step [m] */
-    double ratio      = 1.; /**< mean by controlled displacement so far [-] */
+    double mean       = 0.; /**< prescribed mean displacement [m] */
+    double rate   = 0.; /**< rate of the prescribed mean displacement [m/s] */
+    double wanted = 0.; /**< control function of the last step [m] */
+    double ratio  = 1.; /**< mean by controlled displacement so far [-] */
 
     template <typename Visitor>
     void visit(Visitor &visitor)
@@ -112,8 +112,8 @@ namespace quoin
 
     /** The controlled displacement, from the reference on [m]; collective. */
     double displacement(const AlignedArray<NodeRecord<dim>> &nodes) const;
-    /** What it has to be at @p load_time [s], from the start of the stage on
-        [m]. */
+    /** Prescribed value at @p load_time [s], from the start of the stage on
+     * [m]. */
     double target(const double load_time) const
     {
       return control({ load_time, load_time });
@@ -169,9 +169,10 @@ namespace quoin
     std::vector<LoadedNode> loaded; /**< owned */
     std::vector<DisplacementTerm> mean, named;
     const bool is_named;
-    const double duration;   /**< of the stage [s] */
-    double response    = 0.; /**< time t_r [s] */
-    double least_moved = 0.; /**< of q for a ratio of both [m] */
+    const double duration; /**< duration of the stage [s] */
+    double response = 0.;  /**< time t_r [s] */
+    /** Smallest increment of q for a ratio of both [m]. */
+    double least_moved = 0.;
     double scale       = 0.; /**< S [N] */
     double node_gain   = 0.; /**< p M^-1 p of this rank's free nodes [N^2/kg] */
     double factor      = 0.; /**< the state's, in a step [-] */

@@ -56,7 +56,7 @@ namespace quoin
       unsigned int node;
       double start[dim], change[dim]; /**< H_0, H_1 - H_0 [N] */
     };
-    std::vector<NodalForce> forces; /**< of this rank */
+    std::vector<NodalForce> forces; /**< nodal forces of this rank */
     bool is_changing     = false;
     bool is_linear       = false;
     double ramp_duration = 0.;

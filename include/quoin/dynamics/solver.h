@@ -26,12 +26,13 @@ namespace quoin
   /** Energies of the whole model at one time [J]. */
   struct Energies
   {
-    double kinetic   = 0.;
-    double strain    = 0.; /**< of the blocks, since the start */
-    double joint     = 0.; /**< recoverable, since the start */
-    double far_field = 0.; /**< of static boundary elements, since the start */
-    /** What blocks and joints stored at the start, which their energies since
-        then have the rounding of. */
+    double kinetic = 0.;
+    double strain  = 0.; /**< strain energy of the blocks since the start */
+    double joint   = 0.; /**< recoverable, since the start */
+    /** Energy of static boundary elements since the start. */
+    double far_field = 0.;
+    /** Stored energy of blocks and joints at the start, which determines the
+        rounding error of their energies since then. */
     double at_start = 0.;
     EnergyAccounts accounts;
 
@@ -56,8 +57,9 @@ namespace quoin
       is none. */
   struct FarFields
   {
-    FarField *elastodynamic      = nullptr; /**< for stages that end by time */
-    StaticFarField *elastostatic = nullptr; /**< for static stages */
+    /** Far field of stages that end by time. */
+    FarField *elastodynamic      = nullptr;
+    StaticFarField *elastostatic = nullptr; /**< far field of static stages */
     // In the stage that has begun:
     bool elastodynamic_acts = false;
     bool elastostatic_acts  = false;
@@ -206,12 +208,12 @@ namespace quoin
     std::vector<std::string> known_loads;
 
     StageParameters stage;
-    StageLoads<dim> acting; /**< in this stage */
+    StageLoads<dim> acting; /**< loads that act in this stage */
     PhaseClock time_shares;
 
   private:
     std::map<std::string, std::vector<DisplacementTerm>>
-        controls; /**< by the names of stages */
+        controls; /**< load controls by the names of stages */
     void make_free_fields(const std::vector<LoadParameters> &loads);
     void add_far_fields(std::unique_ptr<FarField> far_field,
                         std::unique_ptr<StaticFarField> static_field);

@@ -22,9 +22,10 @@ namespace quoin
   template <int dim>
   struct StageLoads
   {
-    std::vector<MotionConstraint<dim> *> constraints; /**< in order of action */
+    /** Constraints in order of action. */
+    std::vector<MotionConstraint<dim> *> constraints;
     std::vector<const NodalLoad<dim> *> nodal;
-    Release<dim> release; /**< of the forces of excavated blocks */
+    Release<dim> release; /**< release of the forces of excavated blocks */
     /** Loads that one factor scales, beside 'nodal'; null: none. */
     std::shared_ptr<LoadPattern<dim>> pattern;
 

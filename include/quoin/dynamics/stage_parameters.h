@@ -36,7 +36,7 @@ namespace quoin
   /** A condition on histories by which a stage ends: see HistoryConditions. */
   struct EndCondition
   {
-    std::string outcome; /**< how the stage has ended if it is met */
+    std::string outcome; /**< outcome of the stage if the condition is met */
     std::string expression;
   };
 
@@ -45,15 +45,16 @@ namespace quoin
   struct PatternParameters
   {
     std::vector<std::string> loads;
-    std::string controlled = "mean"; /**< or the name of a history */
-    TimeFunction control; /**< of the time in the stage, from 0 on [m] */
+    std::string controlled = "mean"; /**< "mean" or the name of a history */
+    /** Function of the time in the stage, from 0 on [m]. */
+    TimeFunction control;
   };
 
-  /** What results count from the start of a stage: see ResultOrigin. */
+  /** Results that are reset at the start of a stage: see ResultOrigin. */
   struct ResultReset
   {
     bool displacements = false;
-    bool slips         = false; /**< of joints */
+    bool slips         = false; /**< slip of joints */
     bool joint_states  = false;
 
     bool any() const
@@ -67,20 +68,21 @@ namespace quoin
   {
     std::string name;
     std::vector<std::string> loads;
-    StageEnd end                = StageEnd::time;
-    double duration             = 0.; /**< [s] */
-    double static_ratio         = 1e-6;
-    double minimum_duration     = 0.; /**< of a static stage [s] */
+    StageEnd end            = StageEnd::time;
+    double duration         = 0.; /**< [s] */
+    double static_ratio     = 1e-6;
+    double minimum_duration = 0.; /**< minimum duration of a static stage [s] */
     std::uint64_t maximum_steps = 0;
-    double start_time           = -1.;        /**< [s]; -1: previous end */
-    std::vector<EndCondition> end_conditions; /**< besides 'End' */
+    double start_time           = -1.; /**< [s]; -1: previous end */
+    /** Conditions in addition to 'End'. */
+    std::vector<EndCondition> end_conditions;
 
     DampingType damping          = DampingType::none;
     double local_coefficient     = 0.;
     double mass_coefficient      = 0.; /**< alpha [1/s] */
     double stiffness_coefficient = 0.; /**< beta [s] */
 
-    double scaled_time_step = 0.; /**< of mass scaling [s]; 0: none */
+    double scaled_time_step = 0.; /**< time step of mass scaling [s]; 0: none */
 
     /** Ratio of kinetic energy to energy throughput above which the loading
         rate is reduced [-]; 0: loads follow the time. */
@@ -89,8 +91,9 @@ namespace quoin
     std::vector<std::string> excavate; /**< physical surfaces */
     std::vector<std::string> fill;     /**< physical surfaces */
     /** Released share of the forces of excavated blocks at the end [-]. */
-    double release          = 1.;
-    double release_duration = -1.; /**< of load time [s]; -1: automatic */
+    double release = 1.;
+    /** Duration in load time [s]; -1: automatic. */
+    double release_duration = -1.;
     bool releases_linearly  = false;
     /** Physical surfaces and their new materials. */
     std::vector<std::pair<std::string, std::string>> materials;
@@ -104,7 +107,7 @@ namespace quoin
     /** Loads beside 'loads' that are scaled; see PatternParameters. */
     std::optional<PatternParameters> pattern;
 
-    ResultReset reset; /**< where the stage begins */
+    ResultReset reset; /**< reset at the start of the stage */
 
     /** Strength reduction by trials, which leave the state unchanged. */
     std::optional<SafetyParameters> safety;

@@ -27,7 +27,7 @@ namespace quoin
     double distance = 0.; /**< [m] */
     /** Velocity along the displacement, positive: it moves on [m/s]. */
     double speed       = 0.;
-    unsigned int block = 0;         /**< of the whole mesh */
+    unsigned int block = 0; /**< number of the block in the whole mesh */
     dealii::Point<dim> before, now; /**< [m] */
   };
 
@@ -37,7 +37,7 @@ namespace quoin
                                   const State<dim> &state);
 
   /**
-   * The largest slip of a matched joint that bears pressure, by the length of
+   * The largest slip of a matched joint under pressure, by the length of
    * its face [-]: beyond about one half its blocks no longer face each other,
    * and small displacements are no longer valid. Collective.
    */

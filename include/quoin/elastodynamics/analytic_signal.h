@@ -57,15 +57,16 @@ namespace quoin
   private:
     using Complex = std::complex<double>;
 
-    /** At the complex time z in samples. */
+    /** Sum at the complex time z in samples. */
     Complex sum(const Complex &z) const;
     const std::vector<Complex> &level(std::size_t m) const;
 
     std::function<double(double)> f;
     SignalRange range;
-    long n_steps; /**< of the range */
+    long n_steps; /**< number of steps of the range */
     std::vector<double> samples;
-    std::vector<Complex> spectrum; /**< of the samples, padded with zeros */
+    /** Spectrum of the samples, padded with zeros. */
+    std::vector<Complex> spectrum;
     mutable std::vector<std::vector<Complex>> levels;
   };
 } // namespace quoin

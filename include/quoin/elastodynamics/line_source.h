@@ -54,16 +54,16 @@ namespace quoin
                                   double t1) const override;
 
   private:
-    /** Where the slope of the moment changes. */
+    /** Change of the slope of the moment. */
     struct Knot
     {
       double time;   /**< [s] */
-      double change; /**< of the slope [N/s] */
+      double change; /**< change of the slope [N/s] */
     };
 
     ElasticMedium medium;
     Eigen::Vector2d position;
-    std::vector<Knot> knots; /**< in the order of time */
+    std::vector<Knot> knots; /**< knots in ascending order of time */
   };
 } // namespace quoin
 

@@ -6,11 +6,11 @@
 
 namespace quoin
 {
-  /** How the boundary integral equation is required on an element. */
+  /** Projection of the boundary integral equation on an element. */
   enum class Projection
   {
-    collocation, /**< at its middle */
-    galerkin     /**< in the mean over it */
+    collocation, /**< equation at the midpoint of the element */
+    galerkin     /**< equation weighted over the element */
   };
 } // namespace quoin
 

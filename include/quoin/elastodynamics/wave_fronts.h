@@ -10,7 +10,7 @@
 
 namespace quoin
 {
-  /** What the kernels need at distance r and time T; see time_kernels.h. */
+  /** Quantities of the kernels at distance r and time T; see time_kernels.h. */
   struct WaveFronts
   {
     double R1, R2; /**< [s], zero before arrival */

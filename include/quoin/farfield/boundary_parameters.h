@@ -26,10 +26,10 @@ namespace quoin
     line,
     arc,
     mesh,     /**< physical curves of the mesh file */
-    interface /**< the same, with blocks on the other side */
+    interface /**< curves of the mesh with blocks on the other side */
   };
 
-  /** Which polygon stands for a circle. */
+  /** Polygon that approximates a circle. */
   enum class CirclePolygon
   {
     inscribed, /**< vertices on the circle */
@@ -37,12 +37,12 @@ namespace quoin
     equal_perimeter
   };
 
-  /** On which side of a boundary the domain is. */
+  /** Side of a boundary on which the domain lies. */
   enum class DomainSide
   {
     inside,
     outside,
-    left, /**< of the direction of an open boundary */
+    left, /**< left of the direction of an open boundary */
     right
   };
 
@@ -53,9 +53,9 @@ namespace quoin
     BoundaryShape shape = BoundaryShape::circle;
     DomainSide domain   = DomainSide::outside;
 
-    std::array<double, 2> centre{};            /**< [m] */
-    double radius = 0.;                        /**< [m] */
-    std::array<double, 2> angles{};            /**< from, to [rad] */
+    std::array<double, 2> centre{}; /**< [m] */
+    double radius = 0.;             /**< [m] */
+    std::array<double, 2> angles{}; /**< first and last angle [rad] */
     std::vector<std::array<double, 2>> points; /**< [m] */
     std::vector<std::string> curves;
 
@@ -89,9 +89,10 @@ namespace quoin
     std::string name;
     IncidentWaveType type = IncidentWaveType::plane_p;
     bool half_plane       = false; /**< reflected at the free surface y = 0 */
-    double angle = 0.; /**< from the upward vertical towards +x [rad] */
-    std::array<double, 2> position{}; /**< of a line source [m] */
-    unsigned int n_integrations = 0;  /**< from the signal to displacement */
+    double angle = 0.; /**< angle from the upward vertical towards +x [rad] */
+    std::array<double, 2> position{}; /**< position of a line source [m] */
+    /** Number of integrations from the signal to displacement. */
+    unsigned int n_integrations = 0;
     double amplitude            = 1.; /**< factor of the signal */
     Signal signal;
     std::string signal_entry; /**< 'Signal' or 'Displacement' */
@@ -125,7 +126,7 @@ namespace quoin
   /** A run of boundary elements: section 'Boundary elements' and the like. */
   struct BoundaryElementParameters
   {
-    std::string material; /**< of the domain */
+    std::string material; /**< material of the domain */
     ElasticMedium medium{};
     Formulation formulation  = Formulation::galerkin;
     bool is_static           = false;
@@ -136,10 +137,11 @@ namespace quoin
     double duration          = 0.; /**< [s] */
     double decay             = 0.; /**< [1/s] */
     RayleighDamping damping;
-    CouplingScheme coupling    = CouplingScheme::implicit;
-    bool direct_history        = false;
-    double tolerance           = 1e-6;
-    unsigned int n_frequencies = 64; /**< of the passivity scan */
+    CouplingScheme coupling = CouplingScheme::implicit;
+    bool direct_history     = false;
+    double tolerance        = 1e-6;
+    /** Number of frequencies of the passivity check. */
+    unsigned int n_frequencies = 64;
 
     std::vector<BoundaryCurveParameters> boundaries;
     std::vector<IncidentWaveParameters> waves;

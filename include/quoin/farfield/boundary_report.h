@@ -22,7 +22,7 @@ namespace quoin
   boundary_lengths(const BoundaryElementParameters &settings,
                    const BoundaryGeometry &geometry);
 
-  /** What is given on each boundary in @p duration [s], and the incident
+  /** Boundary values of each boundary in @p duration [s], and the incident
       waves, a line each. */
   std::vector<std::string>
   boundary_lines(const BoundaryElementParameters &settings,

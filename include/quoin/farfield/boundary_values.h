@@ -60,8 +60,9 @@ namespace quoin
     const BoundaryElementParameters &parameters;
     bool mean_of_tractions;
     std::vector<bool> is_traction;
-    std::vector<std::vector<unsigned int>> elements; /**< of a boundary */
-    std::vector<std::array<Means, 3>> means;         /**< x, y and pressure */
+    /** Elements of each boundary. */
+    std::vector<std::vector<unsigned int>> elements;
+    std::vector<std::array<Means, 3>> means; /**< x, y and pressure */
   };
 
   /** The domain beyond blocks with all that @p settings, which must outlive it

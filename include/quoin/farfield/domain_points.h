@@ -16,8 +16,9 @@ namespace quoin
   /** Points of a grid in the domain of boundary elements. */
   struct DomainPoints
   {
-    std::vector<Eigen::Vector2d> points;                /**< [m] */
-    std::vector<std::array<std::int32_t, 3>> triangles; /**< between them */
+    std::vector<Eigen::Vector2d> points; /**< [m] */
+    /** Triangles between the points. */
+    std::vector<std::array<std::int32_t, 3>> triangles;
   };
 
   /**

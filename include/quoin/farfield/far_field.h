@@ -23,7 +23,7 @@
 
 namespace quoin
 {
-  /** How the forces of the boundary elements follow the nodes in a step. */
+  /** Coupling of the boundary elements' forces to the nodes in a step. */
   enum class CouplingScheme
   {
     /**
@@ -42,7 +42,7 @@ namespace quoin
     staggered
   };
 
-  /** What is beyond the interface. */
+  /** Domain beyond the interface. */
   struct FarFieldDomain
   {
     Boundary boundary;
@@ -84,22 +84,24 @@ namespace quoin
   {
     static constexpr const char *slice_name = "far field";
 
-    bool active           = false;    /**< whether it has begun */
-    std::uint64_t n_steps = 0;        /**< of the boundary elements, done */
-    unsigned int substep  = 0;        /**< block steps done in the next */
-    std::vector<double> held;         /**< forces on its nodes [N] */
-    std::vector<double> last_motion;  /**< of elements, interface [m] */
-    std::vector<double> origin;       /**< the same when it began [m] */
+    bool active           = false; /**< whether it has begun */
+    std::uint64_t n_steps = 0; /**< completed steps of the boundary elements */
+    unsigned int substep  = 0; /**< block steps done in the next */
+    std::vector<double> held;  /**< forces on its nodes [N] */
+    /** Motion of elements on the interface, last step [m]. */
+    std::vector<double> last_motion;
+    /** Motion of elements when the far field began [m]. */
+    std::vector<double> origin;
     std::vector<double> frozen;       /**< p_h of the step under way [Pa] */
     std::vector<double> velocity_sum; /**< over block steps [m] */
     std::vector<double> traction_sum; /**< over block steps [Pa] */
-    double duration   = 0.;           /**< of those block steps [s] */
-    double square_sum = 0.;           /**< of v Z0 v over block steps [J] */
+    double duration   = 0.;           /**< duration of those block steps [s] */
+    double square_sum = 0.;           /**< sum of v Z0 v over block steps [J] */
     FarFieldLedger ledger;
     /** Scattered field of all boundary elements in the last step: [m], [m/s],
         [Pa]. */
     std::vector<double> displacement, velocity, traction;
-    SavedHistory history; /**< in checkpoints */
+    SavedHistory history; /**< convolution history, saved in checkpoints */
 
     template <typename Visitor>
     void visit(Visitor &visitor)
@@ -197,7 +199,7 @@ namespace quoin
       Eigen::VectorXd velocity;     /**< mean over the step [m/s] */
       Eigen::VectorXd traction;     /**< [Pa] */
     };
-    /** Those after the last step. */
+    /** Total fields after the last step. */
     TotalFields total_fields(const State<2> &state) const;
 
     void prepare(State<2> &state) const override;
@@ -227,14 +229,15 @@ namespace quoin
     FarFieldDomain problem;
     InterfaceTransfer transfer;
     std::function<Eigen::VectorXd(double)>
-        incident_displacement; /**< or null */
+        incident_displacement; /**< null: no incident wave */
     std::function<Eigen::VectorXd(double, double)> incident_traction;
     double thickness;
     MPI_Comm communicator;
     bool is_first_rank;
-    std::vector<unsigned int> unknowns; /**< of the interface */
-    Eigen::VectorXd area;               /**< of these [m^2] */
-    Eigen::VectorXd outer_area; /**< of the others, 0 on the interface [m^2] */
+    /** Degrees of freedom of the interface. */
+    std::vector<unsigned int> unknowns;
+    Eigen::VectorXd area;       /**< areas of these degrees of freedom [m^2] */
+    Eigen::VectorXd outer_area; /**< areas off the interface, 0 on it [m^2] */
 
     double dt             = 0.;
     unsigned int substeps = 0;
@@ -258,7 +261,8 @@ namespace quoin
 
     /** Tractions [Pa] and velocities [m/s] of the elements in this step. */
     Eigen::VectorXd p, v_before, v_free, v_after, v_mean;
-    Eigen::VectorXd last_u; /**< of the elements since the start [m] */
+    /** Displacement of the elements since the start [m]. */
+    Eigen::VectorXd last_u;
     /** Values of the boundary elements' present step. */
     Eigen::VectorXd frozen, incident_u, incident_velocity, incident_p;
   };

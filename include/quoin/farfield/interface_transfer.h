@@ -116,7 +116,7 @@ namespace quoin
     MPI_Comm communicator;
     std::vector<double> length;
     std::vector<unsigned int> node_list;
-    std::vector<unsigned int> row_begin; /**< of each node, in entries */
+    std::vector<unsigned int> row_begin; /**< first entry of each node */
     std::vector<Entry> entries;
   };
 } // namespace quoin

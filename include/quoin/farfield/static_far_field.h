@@ -22,8 +22,9 @@ namespace quoin
     bool active = false;        /**< whether it has begun */
     std::vector<double> held;   /**< forces on its nodes [N] */
     std::vector<double> origin; /**< motion of elements at its start [m] */
-    double stored        = 0.;  /**< elastic energy of the domain [J] */
-    double stored_before = 0.;  /**< when it began [J] */
+    double stored = 0.;         /**< elastic energy of the domain [J] */
+    /** Elastic energy when the far field began [J]. */
+    double stored_before = 0.;
 
     template <typename Visitor>
     void visit(Visitor &visitor)
@@ -49,7 +50,7 @@ namespace quoin
    * the motion at that time. It acts implicitly, as K times the mean
    * (u_{n-1} + 2 u_n + u_{n+1}) / 4: the same as adding dt^2 K / 4 to the
    * masses of the interface's nodes, which cannot lower the critical step and
-   * does not change where the blocks come to rest.
+   * does not change the equilibrium of the blocks.
    */
   class StaticFarField : public MotionConstraint<2>
   {
@@ -87,7 +88,8 @@ namespace quoin
     /** Minus the derivative of these forces. */
     struct NodalStiffness
     {
-      std::vector<unsigned int> nodes; /**< of all ranks, global, ascending */
+      /** Global nodes of all ranks, ascending. */
+      std::vector<unsigned int> nodes;
       /** [N/m]; row 2 k + d is the k-th of nodes(), of this rank, column
           2 j + e the j-th of nodes. */
       Eigen::MatrixXd rows;
@@ -116,7 +118,8 @@ namespace quoin
     InterfaceTransfer transfer;
     double thickness;
     bool is_first_rank;
-    Eigen::VectorXd areas;     /**< of the interface's unknowns [m^2] */
+    /** Areas of the degrees of freedom of the interface [m^2]. */
+    Eigen::VectorXd areas;
     Eigen::MatrixXd stiffness; /**< traction by displacement [Pa/m] */
     double relative_asymmetry = 0.;
 
@@ -127,7 +130,7 @@ namespace quoin
 
     /** Tractions [Pa] and motion of the elements since u_0 [m] in this step. */
     Eigen::VectorXd p, u, mean;
-    Eigen::VectorXd v_before, v_after, change; /**< of velocity [m/s] */
+    Eigen::VectorXd v_before, v_after, change; /**< velocity [m/s] */
     Eigen::VectorXd before, after;             /**< u half a step off [m] */
     Eigen::VectorXd elastic, elastic_before;   /**< K times those [Pa] */
   };

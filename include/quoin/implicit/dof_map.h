@@ -47,7 +47,7 @@ namespace quoin
     {
       unsigned int node; /**< owned */
       unsigned int component;
-      const LoadComponent *part; /**< of the PrescribedMotion<2> */
+      const LoadComponent *part; /**< component of the PrescribedMotion<2> */
     };
 
     /**
@@ -166,9 +166,10 @@ namespace quoin
     unsigned int n_platens = 0;
     Index factor_dof       = dealii::numbers::invalid_dof_index;
     std::vector<Prescribed> prescribed_list;
-    std::vector<bool> absent; /**< of local nodes */
-    std::vector<Tie> ties;    /**< of local nodes */
-    bool has_bodies = false;  /**< here or on the other side of a joint */
+    std::vector<bool> absent; /**< flag of each local node */
+    std::vector<Tie> ties;    /**< ties of local nodes */
+    /** Whether this rank or the other side of a joint has bodies. */
+    bool has_bodies = false;
     std::vector<Index> node_dofs;
     dealii::IndexSet owned_dofs, relevant_dofs;
     Constraints affine;

@@ -21,8 +21,8 @@ namespace quoin
   enum class PathFollowing
   {
     never,
-    automatic, /**< if load steps do not converge */
-    always     /**< as soon as joints of the sets yield */
+    automatic, /**< path following if load steps do not converge */
+    always     /**< path following once joints of the sets yield */
   };
 
   /** Section 'Implicit': the equilibrium iterations. */

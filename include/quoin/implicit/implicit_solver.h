@@ -42,7 +42,7 @@ namespace quoin
   /** Iterations and jumps of an ImplicitSolver. */
   struct ImplicitRecord
   {
-    std::vector<IterationReport> iterations; /**< not yet reported */
+    std::vector<IterationReport> iterations; /**< iterations not yet reported */
     std::vector<JumpReport> jumps;           /**< ended, not yet reported */
     std::uint64_t n_iterations = 0, n_cuts = 0;
   };
@@ -109,7 +109,7 @@ namespace quoin
      */
     void step(State<2> &state);
 
-    /** Lets the next steps of a search for the factor of safety be those of a
+    /** Makes the next steps of a search for the factor of safety those of a
         jump, from @p state on and with all forces released. */
     void move_against_drag(State<2> &state);
 
@@ -133,7 +133,8 @@ namespace quoin
 
     std::array<double, 3> resultant(const std::string &load) const override;
 
-    /** What it has done; whoever reports it empties the lists. */
+    /** Record of steps and iterations; the caller that reports them empties the
+     * lists. */
     ImplicitRecord &record()
     {
       return done;
@@ -217,17 +218,17 @@ namespace quoin
     std::unique_ptr<Equilibrium> equilibrium;
     std::unique_ptr<LinearSolver> linear_solver;
 
-    State<2> last_equilibrium; /**< before the current step or jump */
-    Balance start;             /**< at the last equilibrium */
-    Balance balance;           /**< at the configuration */
-    Balance trial;             /**< in a line search */
+    State<2> last_equilibrium; /**< state before the current step or jump */
+    Balance start;             /**< balance at the last equilibrium */
+    Balance balance;           /**< balance at the current configuration */
+    Balance trial;             /**< balance of a trial of the line search */
     Advance advance;
     std::vector<std::uint8_t> broken; /**< joint points, in this step */
     Slopes slopes;
     DofMap::Vector residual, correction, advanced;
 
     unsigned int attempt = 0, iteration = 0;
-    double last_share = 1.; /**< of the line search */
+    double last_share = 1.; /**< last fraction of the line search */
     ImplicitRecord done;
     std::uint64_t current_step        = 0;
     const unsigned int assembly_phase = time_shares.phase("assembly"),

@@ -27,19 +27,20 @@ namespace quoin
 
     bool follows_path  = false; /**< the load time is an unknown */
     double path_step   = 0.;    /**< next step of the path's length [m] */
-    double path_length = 0.;    /**< in the stage so far [m] */
+    double path_length = 0.;    /**< path length in the stage so far [m] */
     double farthest    = 0.;    /**< load time reached in the stage [s] */
     unsigned int ahead = 0;     /**< path steps with a new farthest load time */
 
-    bool jumps          = false; /**< in a jump to another equilibrium */
-    double jump_time    = 0.;    /**< load time of the jump [s] */
-    double drag_step    = 0.;    /**< next step of pseudo-time [-] */
-    double drag_time    = 0.;    /**< pseudo-time of the jump so far [-] */
-    double drag_path    = 0.;    /**< path's length in the jump so far [m] */
-    unsigned int n_drag = 0;     /**< steps of the jump so far */
+    /** Whether the state is in a jump to another equilibrium. */
+    bool jumps          = false;
+    double jump_time    = 0.; /**< load time of the jump [s] */
+    double drag_step    = 0.; /**< next step of pseudo-time [-] */
+    double drag_time    = 0.; /**< pseudo-time of the jump so far [-] */
+    double drag_path    = 0.; /**< path's length in the jump so far [m] */
+    unsigned int n_drag = 0;  /**< steps of the jump so far */
     double jump_loss = 0.; /**< dissipated by drag since the jump began [J] */
-    /** In checkpoints within a jump: the archived State of the equilibrium
-        before it. */
+    /** Archived State of the equilibrium before a jump, in checkpoints within
+     * it. */
     std::string before_jump;
 
     template <typename Visitor>

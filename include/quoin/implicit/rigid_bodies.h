@@ -22,9 +22,10 @@ namespace quoin
     unsigned int rigid_block;
     double centre[2];          /**< centre at zero displacement [m] */
     std::array<bool, 3> given; /**< prescribed by functions of time */
-    dealii::types::global_dof_index first;   /**< of its degrees of freedom */
-    std::vector<unsigned int> nodes;         /**< owned ones */
-    std::vector<std::array<double, 2>> arms; /**< unrotated [m] */
+    /** First of its degrees of freedom. */
+    dealii::types::global_dof_index first;
+    std::vector<unsigned int> nodes;                 /**< owned ones */
+    std::vector<std::array<double, 2>> arms;         /**< unrotated [m] */
     std::vector<std::array<double, 2>> present_arms; /**< rotated [m] */
     bool counts; /**< whether this rank books its work and equations */
   };
@@ -40,9 +41,9 @@ namespace quoin
   {
     AlignedArray<NodeRecord<2>> nodes;
     BodyValues bodies;     /**< x, y [m] and rotation [rad] */
-    double load_time = 0.; /**< in the stage [s] */
+    double load_time = 0.; /**< load time in the stage [s] */
     double released  = 1.; /**< released share of the held forces [-] */
-    double factor    = 0.; /**< of the load pattern [-] */
+    double factor    = 0.; /**< load factor of the load pattern [-] */
   };
 
   Configuration configuration_of(const RigidBodies &bodies,

@@ -18,7 +18,7 @@ namespace quoin
    *     s = kni V / (1 - V/Vm),
    *
    * the same curve loading and unloading. Beyond the closure where its slope
-   * has come to a largest stiffness it goes on straight with that, so that
+   * has reached a largest stiffness it continues linearly with that, so that
    * there is a stable time step.
    */
   class HyperbolicClosure
@@ -54,11 +54,11 @@ namespace quoin
 
   private:
     double first, limit, largest; /**< kni [Pa/m], Vm [m], [Pa/m] */
-    /** Where the straight part begins [m], [Pa]. */
+    /** Closure and traction where the linear part begins [m], [Pa]. */
     double end_closure, end_traction;
   };
 
-  /** Where @cite BartonBandisBakhtar1985 have the roughness by slip. */
+  /** Mobilised roughness by slip of @cite BartonBandisBakhtar1985. */
   struct RoughnessTable
   {
     static constexpr unsigned int size = 8;
@@ -91,7 +91,7 @@ namespace quoin
   {
     static constexpr std::array<LawName, 1> names
         = { { { "Barton-Bandis",
-                "rock joint that closes along a hyperbola, whose roughness is "
+                "rock joint with hyperbolic closure and a roughness that is "
                 "mobilised and worn by slip" } } };
 
     HyperbolicClosure closure;
@@ -100,7 +100,7 @@ namespace quoin
     double roughness      = 0.; /**< JRC, as an angle [rad] */
     double wall_strength  = 0.; /**< JCS [Pa] */
     double peak_slip      = 0.; /**< [m] */
-    double divisor        = 1.; /**< of the shear strength [-] */
+    double divisor        = 1.; /**< divisor of the shear strength [-] */
 
     /** phi_r + i of the peak is not above this [rad]. */
     static constexpr double largest_angle = 70. * constants::degree;
@@ -108,10 +108,10 @@ namespace quoin
     /** The law of a set of joints, or its entries of the parameter file. */
     static BartonBandisLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
-    /** With the shear strength divided by @p factor. */
+    /** The law with the shear strength divided by @p factor. */
     BartonBandisLaw reduced(double factor) const;
 
     /** ks [Pa/m]. */
@@ -149,7 +149,7 @@ namespace quoin
      */
     void initialise(RockPoint &point, double normal, double shear) const;
 
-    /** Whether @p point, at zero opening and slip, bears its tractions; at
+    /** Whether @p point, at zero opening and slip, has admissible tractions; at
         rest they would come down to what it does bear if not. */
     bool holds(RockPoint point) const
     {

@@ -19,7 +19,7 @@ namespace quoin
   {
     double bond     = 1.; /**< ft/ft0 = c/c0 = exp(-k) [-] */
     double crushing = 0.; /**< k3 [m] */
-    /** Share of w that tension opened and closing takes back [m]. */
+    /** Part of w that tension opened and closing recovers [m]. */
     double crack_opening = 0.;
 
     static constexpr std::array<double CompositePoint::*, 3> internal
@@ -33,7 +33,7 @@ namespace quoin
     double tension  = 0.; /**< fracture, mode I */
     double shear    = 0.; /**< loss of cohesion, mode II */
     double friction = 0.; /**< slip beyond that, and its dilation */
-    double crushing = 0.; /**< on the cap */
+    double crushing = 0.; /**< work of crushing on the cap */
 
     double total() const
     {
@@ -64,7 +64,7 @@ namespace quoin
       return limit(crushing, slope);
     }
 
-    /** k3 where the cap has come down to fm/2, km [m]. */
+    /** k3 at which the cap has softened to fm/2, km [m]. */
     double middle_crushing() const
     {
       return 75. / 67. * compression_energy / compression + peak_crushing;
@@ -76,7 +76,7 @@ namespace quoin
       return compression * compression / 49.;
     }
 
-    /** What the square of the cap is held against [Pa^2]. */
+    /** Value that is compared with the square of the cap [Pa^2]. */
     double load(const double sigma, const double tau) const
     {
       return (normal * sigma + offset) * sigma + shear * tau * tau;
@@ -121,7 +121,7 @@ namespace quoin
     static constexpr std::array<LawName, 1> names
         = { { { "composite",
                 "cohesion, friction and tension that soften with fracture "
-                "energies, and a cap that crushes, for masonry" } } };
+                "energies, and a compressive cap, for masonry" } } };
     static constexpr bool bridges = true;
 
     static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -136,9 +136,10 @@ namespace quoin
     double friction          = 0.;       /**< tan(phi0) */
     double residual_friction = 0.;       /**< tan(phi_r) */
 
-    double dilation          = 0.;       /**< tan(psi0) */
-    double dilation_pressure = infinity; /**< where it ends, sigma_u [Pa] */
-    double dilation_decay    = 0.;       /**< with k2, delta [1/m] */
+    double dilation = 0.; /**< tan(psi0) */
+    /** Pressure where dilation ends, sigma_u [Pa]. */
+    double dilation_pressure = infinity;
+    double dilation_decay = 0.; /**< decay of dilation with k2, delta [1/m] */
 
     CompositeCap cap;
 
@@ -147,10 +148,11 @@ namespace quoin
     /** The law of a set of joints, or its entries of the parameter file. */
     static CompositeLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
-    /** What to say of a law that drops by itself; empty: it softens gently. */
+    /** Warning about a strength that drops abruptly; empty: it softens
+     * gradually. */
     std::string warning() const;
 
     /** Strengths divided by @p factor, peak and residual, without the cap;
@@ -178,7 +180,7 @@ namespace quoin
       point.plastic_slip    = -shear / shear_stiffness;
     }
 
-    /** Contacts that come up have no bond, but a cap that nothing crushed. */
+    /** New contacts have no bond, but an intact cap. */
     template <int dim>
     void wear_out(CompositePoint<dim> &point) const
     {
@@ -194,7 +196,7 @@ namespace quoin
                  { "crushing", [](const Here &p) { return p.crushing; } } } };
     }
 
-    /** Brings @p point to @p opening and @p slip [m], overwriting it. */
+    /** Updates @p point for @p opening and @p slip [m]. */
     template <int dim>
     CompositeDissipation update(CompositePoint<dim> &point, double opening,
                                 const Slip<dim> &slip) const;
@@ -240,7 +242,8 @@ namespace quoin
                       / shear_stiffness);
     }
 
-    /** Whether @p point bears its tractions, if it is intact; the cap apart. */
+    /** Whether the tractions of @p point, if it is intact, are admissible,
+       without regard to the cap. */
     template <int dim>
     bool holds(const CompositePoint<dim> &point) const
     {

@@ -8,14 +8,14 @@
 
 namespace quoin
 {
-  /** Where an increment ends, and the multipliers that take it there. */
+  /** End of an increment and its plastic multipliers. */
   struct CompositeFlow
   {
     double sigma    = 0.; /**< [Pa] */
     double tau      = 0.; /**< |tau| [Pa] */
-    double opening  = 0.; /**< of f1, dl1 [m] */
-    double slip     = 0.; /**< of f2, dl2 [m] */
-    double cap      = 0.; /**< of f3, dl3 [m/Pa] */
+    double opening  = 0.; /**< plastic multiplier dl1 of f1 [m] */
+    double slip     = 0.; /**< plastic multiplier dl2 of f2 [m] */
+    double cap      = 0.; /**< plastic multiplier dl3 of f3 [m/Pa] */
     double bond     = 1.;
     double crushing = 0.; /**< k3 [m] */
   };

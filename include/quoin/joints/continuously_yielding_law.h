@@ -84,7 +84,7 @@ namespace quoin
   private:
     PowerStiffness law;
     double low_stiffness, high_stiffness; /**< [Pa/m] */
-    double low_closure, high_closure;     /**< where the power holds [m] */
+    double low_closure, high_closure;     /**< range of the power law [m] */
   };
 
   /**
@@ -107,9 +107,10 @@ namespace quoin
    */
   struct ContinuouslyYieldingLaw : RockLaw<ContinuouslyYieldingLaw>
   {
-    static constexpr std::array<LawName, 1> names
-        = { { { "continuously yielding",
-                "rock joint that yields from the first slip on" } } };
+    static constexpr std::array<LawName, 1> names = {
+      { { "continuously yielding",
+          "rock joint with inelastic slip from the start of shearing" } }
+    };
 
     PowerClosure closure;
     PowerStiffness stiffness;   /**< ks */
@@ -123,10 +124,10 @@ namespace quoin
     /** The law of a set of joints, or its entries of the parameter file. */
     static ContinuouslyYieldingLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
-    /** With the tangents of both angles divided by @p factor. */
+    /** The law with the tangents of both angles divided by @p factor. */
     ContinuouslyYieldingLaw reduced(double factor) const;
 
     /** ks [Pa/m] at the traction s [Pa]. */
@@ -164,7 +165,8 @@ namespace quoin
              + (initial_angle - residual_angle) * exp(-(worn / roughness));
     }
 
-    /** Whether @p point bears its tractions; slip would lower them if not. */
+    /** Whether the tractions of @p point are admissible; otherwise slip would
+       lower them. */
     bool holds(const RockPoint &point) const
     {
       constexpr double margin = 1e-9;

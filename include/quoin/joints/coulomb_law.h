@@ -26,7 +26,7 @@ namespace quoin
     double friction = 0.;
     double tension  = std::numeric_limits<double>::infinity();
 
-    /** Whether it bears these tractions [Pa]; at the limit it does. */
+    /** Whether these tractions [Pa] are admissible; at the limit they are. */
     bool bears(const double normal, const double shear) const
     {
       const double margin = 1e-9 * (std::abs(normal) + std::abs(shear));
@@ -64,7 +64,7 @@ namespace quoin
       { { "Coulomb",
           "cohesion, friction and tension that drop to their residual values "
           "at failure" },
-        { "elastic", "never fails" },
+        { "elastic", "linear springs that never fail" },
         { "no tension",
           "Coulomb without tension whose cohesion is never lost" } }
     };
@@ -77,12 +77,12 @@ namespace quoin
     double dilation = 0.; /**< tan(psi) */
     double critical_shear_displacement
         = std::numeric_limits<double>::infinity(); /**< u_cs [m] */
-    bool is_no_tension = false; /**< by its word in the parameter file */
+    bool is_no_tension = false; /**< whether the law was named 'no tension' */
 
     /** The law of a set of joints, or its entries of the parameter file. */
     static CoulombLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
     /** Strengths divided by @p factor, peak and residual; dilation is not
@@ -124,7 +124,7 @@ namespace quoin
     }
 
     /**
-     * Brings @p point to the given @p opening and @p slip [m] and returns
+     * Updates @p point for @p opening and @p slip [m] and returns
      * what that dissipated, by the trapezoidal rule of the explicit scheme.
      */
     template <int dim>
@@ -152,8 +152,8 @@ namespace quoin
                                     const bool breaks,
                                     JointTangent<dim> &tangent) const;
 
-    /** By how much an intact @p point exceeds its strength, as a share of its
-        stress; zero or less: it holds. */
+    /** Excess of the stress of an intact @p point over its strength, as a
+       fraction of its stress; zero or less: it holds. */
     template <int dim>
     double excess(const JointPoint<dim> &point) const;
 
@@ -197,7 +197,7 @@ namespace quoin
                       / shear_stiffness);
     }
 
-    /** Whether @p point bears its tractions, if it is intact. */
+    /** Whether the tractions of @p point, if it is intact, are admissible. */
     template <int dim>
     bool holds(const JointPoint<dim> &point) const
     {
@@ -205,16 +205,17 @@ namespace quoin
     }
 
   private:
-    /** What drives a failed joint to slip beyond its trial tractions. */
+    /** Driving quantities of the slip of a failed joint at its trial tractions.
+     */
     template <int dim>
     struct Drive
     {
-      Slip<dim> direction; /**< of tau */
+      Slip<dim> direction; /**< direction of tau */
       double psi;          /**< dw by |dp|, negative on the way back */
-      double excess;       /**< of |tau| above the strength [Pa] */
-      double stiffness;    /**< by which |dp| lowers it [Pa/m] */
+      double excess;       /**< excess of |tau| over the strength [Pa] */
+      double stiffness;    /**< decrease of the excess per |dp| [Pa/m] */
     };
-    /** At trial tractions [Pa] and the @p slip [m]. */
+    /** Drive at trial tractions [Pa] and the @p slip [m]. */
     template <int dim>
     Drive<dim> drive(double sigma, const Slip<dim> &tau,
                      const Slip<dim> &slip) const;

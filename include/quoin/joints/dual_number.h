@@ -107,7 +107,7 @@ namespace quoin
     return chain(std::atan(a.value), 1. / (1. + a.value * a.value), a);
   }
 
-  /** What decides which branch is taken. */
+  /** Value that decides which branch is taken. */
   inline double value_of(const double a)
   {
     return a;

@@ -23,14 +23,15 @@ namespace quoin
 
   /**
    * Coefficient of restitution [-] of two masses that meet on a spring and a
-   * dashpot of the share @p xi of critical damping, which push but do not pull
+   * dashpot with the damping ratio @p xi, which push but do not pull
    * (@cite SchwagerPoeschel2007, Eq. 21): with xi = cos(phi),
    * @f[ \ln e = -2 \xi \arccos \xi / \sqrt{1 - \xi^2} , @f]
    * and the hyperbolic functions above 1.
    */
   double restitution_of_damping(double xi);
 
-  /** Its inverse, for @p restitution in (0, 1]. */
+  /** Damping ratio [-] for @p restitution in (0, 1], the inverse of
+      restitution_of_damping(). */
   double damping_of_restitution(double restitution);
 } // namespace quoin
 

@@ -13,11 +13,11 @@
 
 namespace quoin
 {
-  /** What a joint point has been through; the order is written to output. */
+  /** State of a joint point; the order is written to output. */
   enum class JointState : std::uint8_t
   {
     intact   = 0, /**< never failed */
-    slipping = 1, /**< at the shear limit now */
+    slipping = 1, /**< slip at the shear limit in this step */
     slipped  = 2, /**< failed earlier, closed and sticking now */
     open     = 3  /**< failed in tension or open now */
   };
@@ -40,7 +40,7 @@ namespace quoin
     /** Internal variables of the laws; those that none has are empty. */
     std::array<AlignedArray<double>, most_internal> internal;
     AlignedArray<JointState> state;
-    /** Whether each segment, two points, is a general contact by now. */
+    /** Whether each segment, two points, has become a general contact. */
     AlignedArray<std::uint8_t> handed_over;
 
     /** For @p n points with @p n_internal internal variables. */

@@ -30,7 +30,7 @@ namespace quoin
    *   reduced(factor), the law with its strength divided by a factor;
    * - Point<dim>, what it reads and overwrites: JointPoint or derived from it;
    *   initialise(point, normal, shear), tractions at rest, and holds(point),
-   *   whether it bears them; wear_out(point), fields() for results;
+   *   whether these are admissible; wear_out(point), fields() for results;
    * - update_elastic(point, opening, slip), false where the joint fails, slips
    *   or is open, and update_failing() for the rest, which returns what it
    *   dissipated; update(point, opening, slip, tangent), both with the
@@ -56,7 +56,7 @@ namespace quoin
     for_each_law(use, static_cast<const JointLaw *>(nullptr));
   }
 
-  /** The largest kn and ks [Pa/m] that a joint can come to. */
+  /** The largest kn and ks [Pa/m] that a joint can reach. */
   std::array<double, 2> stiffness_bound(const JointLaw &law);
 
   /** Whether kn and ks grow with the pressure, from less than the bound. */
@@ -71,10 +71,10 @@ namespace quoin
   /** Laws of one kind remember the same of a joint. */
   std::string kind_of_law(const JointLaw &law);
 
-  /** What --check says of the law. */
+  /** Description of the law for --check. */
   std::string law_text(const JointLaw &law);
 
-  /** What a user should know of its parameters; or empty. */
+  /** Warning about the parameters of the law; may be empty. */
   std::string law_warning(const JointLaw &law);
 
   /** Numbers that a joint point remembers beside those of JointPoint. */

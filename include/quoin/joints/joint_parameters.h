@@ -21,7 +21,8 @@ namespace quoin
     std::vector<std::string> curves; /**< physical curves of the mesh */
     /** Pairs of materials whose new contacts follow this set. */
     std::vector<std::pair<std::string, std::string>> new_contacts;
-    bool all_new_contacts = false; /**< of pairs that no other set names */
+    /** Whether pairs that no other set names belong here. */
+    bool all_new_contacts = false;
     JointLaw law;
     JointDamping damping;
 

@@ -128,8 +128,8 @@ namespace quoin
   /** Energy per area that an update dissipated [J/m^2]. */
   struct JointDissipation
   {
-    double friction = 0.; /**< in slip and dilation */
-    double fracture = 0.; /**< as the joint breaks */
+    double friction = 0.; /**< energy dissipated in slip and dilation */
+    double fracture = 0.; /**< energy dissipated in failure */
     double crushing = 0.;
   };
 
@@ -141,13 +141,13 @@ namespace quoin
     double (*value)(const Point &point);
   };
 
-  /** A word for 'Law' in the parameter file and what to say of it there. */
+  /** A word for 'Law' in the parameter file and its description there. */
   struct LawName
   {
     const char *word, *sentence;
   };
 
-  /** What most joint laws do alike; a law hides what it does otherwise. See
+  /** Common defaults of joint laws, which a law hides where it differs. See
       joint_law.h. */
   struct JointLawDefaults
   {
@@ -159,12 +159,13 @@ namespace quoin
     /** Whether a joint that is open may bear tension. */
     static constexpr bool bridges = false;
 
-    /** Why it is not for contacts that come up, "which ..."; empty: it is. */
+    /** Reason why the law does not apply to new contacts, "which ..."; empty:
+     * it does. */
     std::string no_new_contacts() const
     {
       return "";
     }
-    /** What a user should know of its parameters, a sentence; or empty. */
+    /** Warning about the parameters, a sentence; may be empty. */
     std::string warning() const
     {
       return "";
@@ -179,8 +180,8 @@ namespace quoin
     {
       return true;
     }
-    /** Gives @p point the internal variables of a contact that comes up: that
-        of a joint with no more than its residual strength. */
+    /** Sets the internal variables of @p point to those of a new contact: a
+       joint at its residual strength. */
     template <typename Point>
     void wear_out(Point &) const
     {
@@ -191,8 +192,8 @@ namespace quoin
     {
       return {};
     }
-    /** What the elastic slip of @p point changes by with its normal traction
-        at the same shear traction [m/Pa]. */
+    /** Derivative of the elastic slip of @p point by its normal traction at
+        constant shear traction [m/Pa]. */
     template <typename Point>
     double slip_by_pressure(const Point &) const
     {

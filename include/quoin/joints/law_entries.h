@@ -48,7 +48,7 @@ namespace quoin
                   const std::string &sentence, const std::string &unit);
     void nonnegative(const std::string &name, double &value,
                      const std::string &sentence, const std::string &unit);
-    /** In [@p low, @p high]. */
+    /** A number in [@p low, @p high]. */
     void within(const std::string &name, double &value, double low, double high,
                 const std::string &sentence, const std::string &unit);
     /** A positive number; infinity for the word 'none'. */
@@ -91,7 +91,7 @@ namespace quoin
   private:
     LawEntries() = default;
 
-    /** What laws say of an entry. */
+    /** Description of an entry by laws that share it. */
     struct Note
     {
       std::vector<std::string> laws;

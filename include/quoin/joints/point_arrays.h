@@ -17,7 +17,7 @@ namespace quoin
   template <typename Law>
   using PointOf = typename std::decay_t<Law>::template Point<2>;
 
-  /** Where the arrays of a JointHistory, or of a part of it, begin. */
+  /** Pointers to the arrays of a JointHistory, or of a part of it. */
   struct PointArrays
   {
     static constexpr unsigned int most_internal = JointHistory::most_internal;
@@ -29,7 +29,7 @@ namespace quoin
     std::array<double *, most_internal> internal; /**< null: none has it */
     JointState *state;
 
-    /** From point @p p on. */
+    /** Arrays from point @p p on. */
     PointArrays from(const unsigned int p) const
     {
       PointArrays part{

@@ -25,26 +25,26 @@ namespace quoin
   struct RockPoint : JointPoint<2>
   {
     double worn_slip = 0.; /**< sum of |dp| while closed [m] */
-    double dilated   = 0.; /**< of w, what slip back takes back [m] */
+    double dilated   = 0.; /**< part of w that reverse slip recovers [m] */
     double reload    = 0.; /**< |tau|/strength where loading began anew [-] */
 
     static constexpr std::array<double RockPoint::*, 3> internal
         = { &RockPoint::worn_slip, &RockPoint::dilated, &RockPoint::reload };
   };
 
-  /** What slip does to a point whose closure is known. */
+  /** Shear response of a point with known closure. */
   template <typename Number>
   struct RockFlow
   {
     Number shear_traction = 0.; /**< [Pa] */
     Number plastic_slip   = 0.; /**< p at the end [m] */
-    Number opening        = 0.; /**< what w grows by, dilation [m] */
-    Number wear           = 0.; /**< what worn_slip grows by [m] */
-    Number reload         = 0.; /**< as RockPoint's, at the end */
+    Number opening        = 0.; /**< increment of w, dilation [m] */
+    Number wear           = 0.; /**< increment of worn_slip [m] */
+    Number reload         = 0.; /**< RockPoint::reload at the end */
     bool slips            = false;
   };
 
-  /** What a point comes to. */
+  /** Updated variables of a point. */
   template <typename Number>
   struct RockStep
   {
@@ -131,7 +131,7 @@ namespace quoin
   }
 
   /**
-   * Brings @p point to @p step and returns what that dissipated: its work by
+   * Updates @p point by @p step and returns the dissipation: its work by
    * the trapezoidal rule less the change of stored energy. What the rule
    * makes of the curve of the closure is left to the energy residual.
    */
@@ -194,7 +194,7 @@ namespace quoin
     static constexpr const char *kind = "a law of rock joints";
     static constexpr bool stiffens    = true;
 
-    /** Brings @p point to @p opening and @p slip [m], overwriting it. */
+    /** Updates @p point for @p opening and @p slip [m]. */
     JointDissipation update(RockPoint &point, const double opening,
                             const double slip) const
     {
@@ -254,7 +254,7 @@ namespace quoin
                own().largest_shear_stiffness() };
     }
 
-    /** Contacts that come up are as smooth as any slip makes them. */
+    /** New contacts have the smallest roughness that slip can lead to. */
     void wear_out(RockPoint &point) const
     {
       point.worn_slip = std::numeric_limits<double>::infinity();

@@ -50,7 +50,7 @@ namespace quoin
     static constexpr const char *kind = "a slip-weakening law";
     static constexpr std::array<LawName, 1> names
         = { { { "slip weakening",
-                "cohesion and friction that fall in proportion to slip, "
+                "cohesion and friction that decrease linearly with slip, "
                 "without tension, for faults" } } };
 
     double normal_stiffness  = 0.; /**< kn [Pa/m] */
@@ -64,13 +64,14 @@ namespace quoin
     /** The law of a set of joints, or its entries of the parameter file. */
     static SlipWeakeningLaw read(LawEntries &entries);
 
-    /** What --check says of it. */
+    /** Description of the law for --check. */
     std::string text() const;
 
-    /** With cohesions and frictions divided by @p factor. */
+    /** The law with cohesions and friction coefficients divided by @p factor.
+     */
     SlipWeakeningLaw reduced(double factor) const;
 
-    /** What to say of a law that drops by itself without any pressure. */
+    /** Warning about a strength that drops abruptly without pressure. */
     std::string warning() const;
 
     bool can_dilate() const
@@ -106,7 +107,7 @@ namespace quoin
       point.plastic_slip    = -point.shear_traction / shear_stiffness;
     }
 
-    /** Whether @p point bears its tractions. */
+    /** Whether the tractions of @p point are admissible. */
     template <int dim>
     bool holds(const SlipWeakeningPoint<dim> &point) const
     {
@@ -116,15 +117,15 @@ namespace quoin
       return tau <= strength(sigma, point.slipped) + margin;
     }
 
-    /** Contacts that come up have slipped enough. */
+    /** New contacts have slipped by more than D_c. */
     template <int dim>
     void wear_out(SlipWeakeningPoint<dim> &point) const
     {
       point.slipped = std::numeric_limits<double>::infinity();
     }
 
-    /** Brings @p point to @p opening and @p slip [m], if it neither slips nor
-        is open there; else false. */
+    /** Updates @p point for @p opening and @p slip [m] if it neither slips nor
+       is open there; otherwise returns false. */
     template <int dim>
     bool update_elastic(SlipWeakeningPoint<dim> &point, const double opening,
                         const Slip<dim> &slip) const
@@ -183,12 +184,12 @@ namespace quoin
     }
 
   private:
-    /** At the normal traction @p sigma [Pa]. */
+    /** Residual strength at the normal traction @p sigma [Pa]. */
     double residual_strength(const double sigma) const
     {
       return residual_cohesion - sigma * residual_friction;
     }
-    /** What the strength loses over D_c [Pa]. */
+    /** Loss of strength over D_c [Pa]. */
     double loss(const double sigma) const
     {
       return cohesion - residual_cohesion
@@ -245,7 +246,7 @@ namespace quoin
     point.plastic_slip += dp * direction;
     point.slipped += dp;
     point.state = JointState::slipping;
-    // What the joint bears beyond its residual strength is fracture.
+    // The work beyond the residual strength is fracture.
     const double work = 0.5 * (tau_old + point.shear_traction) * direction * dp;
     const double residual
         = 0.5 * (residual_strength(sigma_old) + residual_strength(sigma)) * dp;

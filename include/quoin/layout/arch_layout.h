@@ -24,7 +24,7 @@ namespace quoin
       fill
     };
     Kind kind;
-    std::string name; /**< of a voussoir; may be empty */
+    std::string name; /**< name of a voussoir; may be empty */
     /** Into ArchLayout::points, counter-clockwise. */
     std::vector<unsigned int> corners;
   };
@@ -48,7 +48,7 @@ namespace quoin
    */
   ArchLayout lay_arch(const ArchParameters &arch);
 
-  /** What there is and the area of each kind, in a line. */
+  /** Line with the number and the area of the parts of each kind. */
   std::string arch_report(const ArchLayout &layout);
 
   /**

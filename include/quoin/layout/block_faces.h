@@ -101,10 +101,11 @@ namespace quoin
 
     const JointNetwork &network;
     std::vector<Loop> loops;
-    std::vector<unsigned int> loop_of, face_of; /**< by half-edge */
+    /** Loop and face of each half-edge. */
+    std::vector<unsigned int> loop_of, face_of;
     std::vector<unsigned int> dead, all_bridges;
     std::vector<Face> all_faces;
-    std::vector<Polygon> outer_polygons; /**< of the faces */
+    std::vector<Polygon> outer_polygons; /**< outer polygons of the faces */
     using TreePoint = boost::geometry::model::d2::point_xy<double>;
     using Box       = boost::geometry::model::box<TreePoint>;
     boost::geometry::index::rtree<std::pair<Box, unsigned int>,

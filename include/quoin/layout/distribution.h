@@ -10,7 +10,7 @@
 
 namespace quoin
 {
-  /** How a property of joints scatters about its mean. */
+  /** Statistical distribution of a property of joints. */
   enum class DistributionKind
   {
     constant,
@@ -18,7 +18,7 @@ namespace quoin
     normal,
     log_normal,
     exponential, /**< the deviation is the mean */
-    von_mises    /**< of angles: Fisher's distribution in two dimensions */
+    von_mises    /**< distribution of angles: Fisher's in two dimensions */
   };
 
   /**

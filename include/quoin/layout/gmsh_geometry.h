@@ -13,7 +13,7 @@ namespace quoin
   /** A gmsh geometry of blocks and which of its physical curves are joints. */
   struct GmshGeometry
   {
-    std::string text; /**< of a .geo file */
+    std::string text; /**< text of a .geo file */
     std::vector<std::string> joint_curves;
   };
 

@@ -32,7 +32,7 @@ namespace quoin
     struct Edge
     {
       unsigned int from, to; /**< vertices */
-      unsigned int line;     /**< as given to add() */
+      unsigned int line;     /**< line number given to add() */
       /** Number of the straight border it is part of. */
       unsigned int border = none;
     };
@@ -99,8 +99,8 @@ namespace quoin
     struct Vertex
     {
       dealii::Point<2> position;
-      bool is_corner      = false; /**< of a border */
-      unsigned int border = none;  /**< that it lies on */
+      bool is_corner = false; /**< whether the vertex is a corner of a border */
+      unsigned int border = none; /**< border on which the vertex lies */
 
       bool is_free() const
       {
@@ -108,7 +108,7 @@ namespace quoin
       }
     };
 
-    /** Where two edges cross that share no end. */
+    /** Crossing of two edges that share no end. */
     struct Crossing
     {
       unsigned int first, second;

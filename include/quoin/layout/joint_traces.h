@@ -8,7 +8,7 @@
 
 namespace quoin
 {
-  /** What was drawn for a joint set, before anything is cut. */
+  /** Random values of a joint set before joints are cut. */
   struct DrawnValues
   {
     std::vector<double> dip;     /**< [deg] */
@@ -24,7 +24,7 @@ namespace quoin
     std::vector<Piece> pieces;
     std::vector<unsigned int> trace; /**< number of the trace of each piece */
     unsigned int n_traces = 0;
-    DrawnValues drawn;          /**< of a set */
+    DrawnValues drawn;          /**< drawn values of a set */
     unsigned int n_clipped = 0; /**< traces that end at the outline */
   };
 

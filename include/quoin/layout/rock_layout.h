@@ -27,11 +27,12 @@ namespace quoin
     unsigned int n_bridges   = 0;  /**< edges with one block on both sides */
     double bridge_length     = 0.; /**< [m] */
     /** Pieces of joints below 'Shortest edge', left out. */
-    unsigned int n_short        = 0;
-    double short_length         = 0.; /**< [m] */
-    unsigned int n_slivers      = 0;  /**< blocks joined to a neighbour */
-    double sliver_area          = 0.; /**< [m^2] */
-    unsigned int n_kept_slivers = 0;  /**< that have no neighbour to join */
+    unsigned int n_short   = 0;
+    double short_length    = 0.; /**< [m] */
+    unsigned int n_slivers = 0;  /**< blocks joined to a neighbour */
+    double sliver_area     = 0.; /**< [m^2] */
+    /** Number of slivers without a neighbour to merge with. */
+    unsigned int n_kept_slivers = 0;
   };
 
   /** Blocks of rock, before they are meshed. */
@@ -51,11 +52,12 @@ namespace quoin
     std::vector<unsigned int> region;
     std::vector<JointNetwork::Edge> cracks; /**< inside of blocks */
 
-    std::vector<JointTraces> traces; /**< of each kind of joints, as made */
+    /** Traces of each kind of joints, as generated. */
+    std::vector<JointTraces> traces;
     RockChanges changes;
 
     unsigned int n_blocks() const;
-    double block_area() const; /**< of all blocks [m^2] */
+    double block_area() const; /**< area of all blocks [m^2] */
   };
 
   /**
@@ -74,7 +76,7 @@ namespace quoin
    */
   RockLayout lay_rock(const RockParameters &rock);
 
-  /** What was made and what was changed, in lines. */
+  /** Lines on the generated joints and blocks and on what was changed. */
   std::string rock_report(const RockParameters &rock, const RockLayout &layout);
 
   /**

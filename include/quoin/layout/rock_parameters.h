@@ -26,7 +26,7 @@ namespace quoin
     std::string name;
     Polygon polygon; /**< counter-clockwise */
     Use use           = body;
-    bool is_outlined  = true; /**< its outline is a joint */
+    bool is_outlined  = true; /**< whether the outline is a joint */
     bool has_joints   = true; /**< joints go through it */
     bool refines_mesh = false;
 
@@ -42,7 +42,7 @@ namespace quoin
     {
       set,      /**< parallel lines of traces and gaps */
       polyline, /**< through given points */
-      traces,   /**< from a file */
+      traces,   /**< traces of a file */
       voronoi   /**< borders of Voronoi polygons */
     };
     std::string name;
@@ -51,14 +51,14 @@ namespace quoin
     /** Statistics of a set; dips are anticlockwise from the x axis [deg]. */
     Distribution dip, spacing, length, gap;
     bool is_persistent = false; /**< traces without end */
-    dealii::Point<2> origin;    /**< on the first line of the set [m] */
+    dealii::Point<2> origin;    /**< point on the first line of the set [m] */
 
-    std::vector<dealii::Point<2>> points; /**< of a polyline [m] */
-    std::string file;                     /**< of traces */
-    double block_size       = 0.;         /**< of Voronoi polygons [m] */
+    std::vector<dealii::Point<2>> points; /**< points of a polyline [m] */
+    std::string file;                     /**< file of traces */
+    double block_size       = 0.;         /**< size of Voronoi polygons [m] */
     unsigned int relaxation = 0;          /**< steps towards regular ones */
 
-    std::string region; /**< in which they are; empty: everywhere */
+    std::string region; /**< region of the joints; empty: everywhere */
 
     static void declare(dealii::ParameterHandler &prm);
     static RockJoints read(const ParameterSection &section,
@@ -68,7 +68,7 @@ namespace quoin
   /** The sections 'Rock', 'Rock regions' and 'Rock joints'. */
   struct RockParameters
   {
-    /** What becomes of joints that end inside a block. */
+    /** Treatment of joints that end inside a block. */
     enum DeadEnds
     {
       cut,    /**< back to the last joint that they met */
@@ -89,8 +89,10 @@ namespace quoin
     double narrowest_block = 0.; /**< twice area by perimeter [m] */
 
     double element_size = 0.; /**< [m] */
-    double finest_size  = 0.; /**< at regions that refine the mesh [m] */
-    double size_growth  = 0.; /**< per distance from them [-] */
+    /** Element size at regions that refine the mesh [m]. */
+    double finest_size = 0.;
+    /** Growth of the element size per distance from them [-]. */
+    double size_growth = 0.;
 
     /** The section 'Rock' alone. */
     static void declare(dealii::ParameterHandler &prm);

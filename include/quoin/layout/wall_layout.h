@@ -28,9 +28,9 @@ namespace quoin
     unsigned int row;
     double left;  /**< [m] */
     double right; /**< [m] */
-    bool cracks;  /**< has a potential crack at mid-length */
-    /** Of a unit the name of its course, of a lintel or slab that of the
-        storey; may be empty. */
+    bool cracks;  /**< whether the unit has a potential crack at mid-length */
+    /** Name of the course of a unit, or of the storey of a lintel or slab; may
+     * be empty. */
     std::string part;
 
     double middle() const
@@ -39,7 +39,7 @@ namespace quoin
     }
   };
 
-  /** Where every unit of a wall is. */
+  /** Positions of all units of a wall. */
   struct WallLayout
   {
     /** y of the bed planes [m]; row i lies between i and i + 1. The lowest
@@ -65,8 +65,8 @@ namespace quoin
    */
   WallLayout lay_wall(const WallParameters &wall);
 
-  /** How many units, lintels, slabs and cracks there are, in a line, and a
-      line on each storey with a name. */
+  /** Line with the numbers of units, lintels, slabs and cracks, and a line for
+      each storey with a name. */
   std::string wall_report(const WallLayout &layout);
 
   /**

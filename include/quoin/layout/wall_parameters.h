@@ -13,7 +13,7 @@
 
 namespace quoin
 {
-  /** How the units of a wall are laid. */
+  /** Masonry bond of a wall. */
   enum class WallBond
   {
     none,    /**< no wall is generated */
@@ -28,9 +28,10 @@ namespace quoin
   /** An opening of whole courses; the units around it are cut to fit. */
   struct WallOpening
   {
-    double left;               /**< [m] */
-    double right;              /**< [m] */
-    unsigned int first_course; /**< of the storey, from 1 at its bottom */
+    double left;  /**< [m] */
+    double right; /**< [m] */
+    /** First course in the storey, from 1 at its bottom. */
+    unsigned int first_course;
     unsigned int last_course;
   };
 
@@ -44,9 +45,10 @@ namespace quoin
     unsigned int n_courses = 0;
     std::vector<WallOpening> openings;
     double slab = 0.; /**< thickness of the slab above; 0: none [m] */
-    std::map<unsigned int, std::string> named_courses; /**< from 1 */
+    /** Names of courses, counted from 1. */
+    std::map<unsigned int, std::string> named_courses;
 
-    /** Of course @p number: its own, or that of the storey. */
+    /** Name of course @p number, which is that of the storey if it has none. */
     const std::string &course_name(const unsigned int number) const
     {
       const auto found = named_courses.find(number);
@@ -60,8 +62,9 @@ namespace quoin
   struct WallParameters
   {
     WallBond bond = WallBond::none;
-    double length = 0.;              /**< [m] */
-    std::vector<WallStorey> storeys; /**< from below, at least one */
+    double length = 0.; /**< [m] */
+    /** Storeys from bottom to top, at least one. */
+    std::vector<WallStorey> storeys;
 
     /** A unit with half a joint on each side: the joints have no thickness. */
     double unit_length = 0.; /**< [m] */
@@ -79,7 +82,8 @@ namespace quoin
     double random_overlap     = 0.; /**< least, of joints of two courses [m] */
     std::uint64_t random_seed = 1;
 
-    double lintel_bearing = 0.; /**< on each side of an opening; 0: none [m] */
+    /** Bearing on each side of an opening; 0: none [m]. */
+    double lintel_bearing       = 0.;
     unsigned int lintel_courses = 1; /**< depth of a lintel */
 
     double bottom_platen = 0.; /**< height [m]; 0: none */
@@ -91,10 +95,10 @@ namespace quoin
     bool structured     = true;
 
     static void declare(dealii::ParameterHandler &prm);
-    /** Of the whole file; storeys are read only if there is a wall. */
+    /** Wall of the parameter file; storeys are read only if there is a wall. */
     static WallParameters read(const ParameterSection &top);
 
-    double height() const; /**< with slabs and platens [m] */
+    double height() const; /**< height with slabs and platens [m] */
   };
 } // namespace quoin
 

@@ -20,18 +20,18 @@ namespace quoin
   /** Materials of the columns of a FreeFieldBoundary. */
   struct FreeFieldGround
   {
-    std::vector<LinearElastic> materials; /**< of each cell group */
-    std::vector<bool> is_rigid;           /**< of each cell group */
-    std::vector<bool> yields;             /**< of each cell group */
+    std::vector<LinearElastic> materials; /**< material of each cell group */
+    std::vector<bool> is_rigid;           /**< flag of each cell group */
+    std::vector<bool> yields;             /**< flag of each cell group */
     PlaneAssumption plane = PlaneAssumption::plane_strain;
-    Thickness thickness; /**< of each cell group */
+    Thickness thickness; /**< out-of-plane thickness of each cell group */
   };
 
   /** The load that drives the foot of the columns. */
   struct FreeFieldBase
   {
     LoadParameters load; /**< viscous boundary or prescribed motion */
-    std::vector<Impedance> impedance; /**< beyond it, of each cell group */
+    std::vector<Impedance> impedance; /**< impedance beyond each cell group */
   };
 
   /** A column beside the blocks; see FreeFieldBoundary. */
@@ -114,7 +114,7 @@ namespace quoin
     /** Share of half an edge of the side in a node. */
     struct Share
     {
-      unsigned int node; /**< into nodes() */
+      unsigned int node; /**< index into nodes() */
       unsigned int layer;
       double area; /**< negative where n points left [m^2] */
     };
@@ -136,7 +136,7 @@ namespace quoin
     /** Advances the column from t to t + dt and finds the pull at t. */
     void advance(const StepContext &step, FreeFieldState &column);
 
-    double x       = 0.; /**< of the side [m] */
+    double x       = 0.; /**< coordinate x of the side [m] */
     double outward = 0.; /**< n_x: 1 or -1 */
     std::vector<double> node_height;
     std::vector<double> node_mass; /**< mass by width of the column [kg/m] */
@@ -145,22 +145,28 @@ namespace quoin
     /** Load at the foot of the column. */
     struct Foot
     {
-      std::string name; /**< of the load */
+      std::string name; /**< name of the load */
       bool is_prescribed = false;
       std::array<LoadComponent, 3> components;
-      std::array<double, 2> impedance{}; /**< for x, y, by width [Pa s] */
+      /** Impedance for x, y per thickness [Pa s]. */
+      std::array<double, 2> impedance{};
     } base;
 
-    std::vector<unsigned int> column_node; /**< of each of nodes() */
+    /** Column node of each of nodes(). */
+    std::vector<unsigned int> column_node;
     std::vector<Share> shares;
-    std::vector<Dashpot<2>> side_dashpots; /**< of each of nodes() */
-    std::vector<Dashpot<2>> base_dashpots; /**< the same, of the base's edges */
+    std::vector<Dashpot<2>> side_dashpots; /**< dashpot of each of nodes() */
+    /** Dashpots of the edges of the base. */
+    std::vector<Dashpot<2>> base_dashpots;
 
     std::vector<std::array<double, 2>> traction; /**< xx, xy of layers [Pa] */
-    std::vector<double> force;         /**< on the column, by width [N/m] */
-    std::vector<double> mean_velocity; /**< of the column at t [m/s] */
-    std::vector<std::array<double, 2>> pull;    /**< of each of nodes() [N] */
-    std::vector<std::array<double, 3>> damping; /**< of each of nodes() */
+    std::vector<double> force; /**< force on the column per thickness [N/m] */
+    /** Mean velocity of the column at t [m/s]. */
+    std::vector<double> mean_velocity;
+    /** Force on each of nodes(), as a pull [N]. */
+    std::vector<std::array<double, 2>> pull;
+    /** Damping coefficients of each of nodes(). */
+    std::vector<std::array<double, 3>> damping;
   };
 } // namespace quoin
 

@@ -77,7 +77,7 @@ namespace quoin
       cosine
     };
     Kind kind         = Kind::none;
-    unsigned int axis = 0;  /**< of s: 0 is x */
+    unsigned int axis = 0;  /**< axis of s: 0 is x */
     double width      = 0.; /**< b [m] */
     std::vector<TimeFunction> centres;
 

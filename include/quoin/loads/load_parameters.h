@@ -25,17 +25,17 @@ namespace quoin
     free_field,
     platen,
     gravity,
-    initial_stress,   /**< also by depth: LoadParameters::in_situ */
-    boundary_elements /**< with section 'Boundary elements' */
+    initial_stress,   /**< initial stress, including LoadParameters::in_situ */
+    boundary_elements /**< boundary elements of section 'Boundary elements' */
   };
 
-  /** What a time function of a load stands for. */
+  /** Quantity of a time function of a load. */
   enum class LoadQuantity
   {
     free,
     force, /**< traction [Pa], acceleration [m/s^2], force [N], moment */
     velocity,
-    displacement /**< since the stage began */
+    displacement /**< displacement since the start of the stage */
   };
 
   class LoadField;
@@ -83,7 +83,7 @@ namespace quoin
     std::array<LoadComponent, 3> components;
     LoadComponent lateral;  /**< component y in three dimensions, where the
                                vertical one is z */
-    LoadComponent pressure; /**< of tractions */
+    LoadComponent pressure; /**< pressure of tractions */
     /** Time over which gravity grows where it begins [s]; -1: automatic. */
     double ramp_duration = -1.;
 
@@ -113,8 +113,9 @@ namespace quoin
     std::string
         base; /**< free field: load that drives the foot of the column */
 
-    std::array<double, 3> stress{};          /**< xx, yy, xy at y = 0 [Pa] */
-    std::array<double, 3> stress_gradient{}; /**< per metre of y [Pa/m] */
+    std::array<double, 3> stress{}; /**< xx, yy, xy at y = 0 [Pa] */
+    /** Stress gradient with y [Pa/m]. */
+    std::array<double, 3> stress_gradient{};
     /** zz at y = 0 [Pa] and its gradient [Pa/m]; none: nu (xx + yy). */
     std::optional<std::array<double, 2>> stress_zz;
     /** xx, yy, xy [Pa] as functions of the place and, if it is one, zz; empty:

@@ -58,14 +58,15 @@ namespace quoin
   {
     absorbing,  /**< viscous and free-field boundaries, boundary elements */
     prescribed, /**< some components of each node, as functions of time */
-    rigid_body  /**< all nodes together; its results are those of all ranks */
+    rigid_body  /**< all nodes together; results are those of all ranks */
   };
 
-  /** What a constraint is, in all stages. */
+  /** Properties of a constraint in all stages. */
   struct ConstraintTraits
   {
     MotionKind kind = MotionKind::absorbing;
-    /** Which of x, y and, for platens, rotation it prescribes. */
+    /** Flags of the components x, y and, for platens, rotation that it
+     * prescribes. */
     std::array<bool, 3> holds{};
     /** Whether a stiffness resists motion of its nodes, prescribed or not. */
     bool supports = false;

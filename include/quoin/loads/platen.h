@@ -14,10 +14,12 @@ namespace quoin
   struct PlatenState
   {
     bool active = false;
-    double centre[2]{};       /**< position when it first acted [m] */
-    double displacement[3]{}; /**< since then [m, m, rad] */
-    double stage_start[3]{};  /**< at the start of the stage */
-    double velocity[3]{};     /**< at time - dt/2 [m/s, m/s, rad/s] */
+    double centre[2]{}; /**< position when it first acted [m] */
+    /** Displacement since it first acted [m, m, rad]. */
+    double displacement[3]{};
+    /** Displacement at the start of the stage [m, m, rad]. */
+    double stage_start[3]{};
+    double velocity[3]{};     /**< velocity at time - dt/2 [m/s, m/s, rad/s] */
     std::vector<double> arms; /**< x, y of nodes from centre, then [m] */
 
     template <typename Visitor>
@@ -76,10 +78,10 @@ namespace quoin
     }
 
   private:
-    bool driven(const unsigned int freedom) const
+    bool driven(const unsigned int d) const
     {
-      return components[freedom].quantity == LoadQuantity::velocity
-             || components[freedom].quantity == LoadQuantity::displacement;
+      return components[d].quantity == LoadQuantity::velocity
+             || components[d].quantity == LoadQuantity::displacement;
     }
 
     /** Force and moment [N, N m] of the nodes, summed over all ranks. */

@@ -44,15 +44,15 @@ namespace quoin
   struct Jump
   {
     double time   = 0.; /**< [s] */
-    double height = 0.; /**< not negative */
+    double height = 0.; /**< height, not negative */
   };
   Jump largest_jump(const FunctionOfTime &function, double duration);
 
   /** Meaning of a function of time for particle motion. */
   enum class SignalKind
   {
-    velocity,     /**< or a stress, proportional to it in a wave */
-    displacement, /**< or the moment of a source */
+    velocity,     /**< velocity, or a stress proportional to it in a wave */
+    displacement, /**< displacement, or the moment of a source */
     acceleration
   };
 

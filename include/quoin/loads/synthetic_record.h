@@ -23,16 +23,17 @@ namespace quoin
 
   struct SyntheticRecordParameters
   {
-    double frequency     = 2.5; /**< of the ground [Hz] */
-    double damping       = 0.6; /**< of the ground, damping ratio [-] */
-    double low_frequency = 0.;  /**< of the high-pass; 0: frequency / 10 [Hz] */
-    double low_damping   = 0.6; /**< of the high-pass, damping ratio [-] */
-    double duration      = 20.; /**< [s] */
-    double step          = 0.01; /**< between samples [s] */
-    double peak          = 1.;   /**< acceleration; 0: see arias [m/s^2] */
-    double arias         = 0.;   /**< Arias intensity [m/s] */
-    Envelope envelope    = Envelope::saragoni_hart;
-    std::uint64_t seed   = 1;
+    double frequency = 2.5; /**< frequency of the ground [Hz] */
+    double damping   = 0.6; /**< damping ratio of the ground [-] */
+    /** Frequency of the high-pass filter; 0: frequency / 10 [Hz]. */
+    double low_frequency = 0.;
+    double low_damping = 0.6;  /**< damping ratio of the high-pass filter [-] */
+    double duration    = 20.;  /**< [s] */
+    double step        = 0.01; /**< time between samples [s] */
+    double peak        = 1.;   /**< acceleration; 0: see arias [m/s^2] */
+    double arias       = 0.;   /**< Arias intensity [m/s] */
+    Envelope envelope  = Envelope::saragoni_hart;
+    std::uint64_t seed = 1;
   };
 
   /**

@@ -49,7 +49,7 @@ namespace quoin
     struct Face
     {
       std::array<dealii::Point<3>, dim> points;
-      std::array<unsigned int, dim> slots; /**< into nodes(), or none */
+      std::array<unsigned int, dim> slots; /**< indices into nodes(), or none */
       std::array<double, dim> shares;
       dealii::Tensor<1, dim> outward; /**< normal times area [m^2] */
     };

@@ -29,7 +29,7 @@ namespace quoin
     double n;      /**< tr U */
     double c;      /**< cosine of the rotation */
     double s;      /**< sine of the rotation */
-    PlaneTensor e; /**< in the frame that rotates with the triangle */
+    PlaneTensor e; /**< strain in the frame that rotates with the triangle */
 
     explicit CorotatedStrain(const std::array<double, 4> &H)
     {

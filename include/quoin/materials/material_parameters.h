@@ -19,10 +19,12 @@ namespace quoin
   {
     std::string name;
     std::vector<std::string> groups; /**< physical surfaces of the mesh */
-    bool rigid       = false;        /**< then only the density counts */
-    double thickness = 0.;           /**< 0: that of the model [m] */
+    /** Whether blocks are rigid: only the density counts. */
+    bool rigid       = false;
+    double thickness = 0.; /**< 0: that of the model [m] */
     LinearElastic elastic{};
-    std::optional<MohrCoulombStrength> strength; /**< none: elastic */
+    /** Strength; none: linear elastic. */
+    std::optional<MohrCoulombStrength> strength;
 
     static void declare(dealii::ParameterHandler &prm);
     static MaterialParameters read(const ParameterSection &section,

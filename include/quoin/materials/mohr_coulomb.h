@@ -65,7 +65,7 @@ namespace quoin
     std::uint8_t state   = 0; /**< bits of yielding; 0: has never yielded */
   };
 
-  /** What MohrCoulomb::update() gives to its caller. */
+  /** Result of MohrCoulomb::update(). */
   struct PlasticStep
   {
     /**
@@ -136,9 +136,9 @@ namespace quoin
                 PlaneAssumption assumption);
 
     /**
-     * Brings @p point to the elastic Biot strain @p e (U_e - I with the point's
-     * present Q) under the @p initial stress [Pa] (xx, yy, xy, zz; in plane
-     * stress zz is 0), which belongs to a cell that has never yielded:
+     * Updates @p point for the elastic Biot strain @p e (U_e - I with the
+     * point's present Q) under the @p initial stress [Pa] (xx, yy, xy, zz; in
+     * plane stress zz is 0), which belongs to a cell that has never yielded:
      * when it does, its elastic stretch becomes the one that has the present
      * stress alone. A cell that is inverted is elastic.
      *
@@ -260,10 +260,10 @@ namespace quoin
       shear_minor, /**< edge s2 = s3 */
       tension,
       tension_two,   /**< two principal stresses at the limit */
-      tension_three, /**< all three */
-      shear_tension, /**< where both planes meet */
-      vertex_major,  /**< there, with s1 = s2 */
-      vertex_minor,  /**< there, with s2 = s3 */
+      tension_three, /**< three principal stresses at the limit */
+      shear_tension, /**< edge of the shear and tension planes */
+      vertex_major,  /**< vertex of shear and tension planes with s1 = s2 */
+      vertex_minor,  /**< vertex of shear and tension planes with s2 = s3 */
       squeeze,
       squeeze_two,  /**< both in-plane stresses */
       shear_squeeze /**< uniaxial compression */
@@ -274,7 +274,7 @@ namespace quoin
     {
       double strength; /**< 2 c sqrt(N_phi): of a free cube in compression */
       double tension;  /**< largest principal stress */
-      double in_plane; /**< the same in plane stress */
+      double in_plane; /**< largest principal stress in plane stress */
       double minor;    /**< s3 where shear and tension planes meet */
     };
 
@@ -285,9 +285,11 @@ namespace quoin
     struct PrincipalAxes
     {
       Principal s;
-      unsigned int major, minor, out; /**< which is which in s */
-      double radius;                  /**< half the in-plane difference */
-      double cos2, sin2; /**< of twice the angle of the major direction */
+      /** Indices of the principal stresses in s. */
+      unsigned int major, minor, out;
+      double radius; /**< half the in-plane difference */
+      /** Functions of twice the angle of the major direction. */
+      double cos2, sin2;
 
       std::array<double, 4> tensor(const Principal &values) const
       {
@@ -302,7 +304,7 @@ namespace quoin
     struct Trial
     {
       std::array<double, 4> biot, kirchhoff; /**< [Pa] */
-      double jacobian; /**< of F: present volume by that at the start */
+      double jacobian; /**< det F: current volume by initial volume */
     };
 
     /** A step of flow in principal axes. */
@@ -312,7 +314,7 @@ namespace quoin
       Principal strain;    /**< elastic, Biot's, at the end */
       Principal kirchhoff; /**< [Pa] */
       Principal flowed;    /**< logarithmic plastic strain */
-      double jacobian;     /**< at the end */
+      double jacobian;     /**< det F at the end */
     };
 
     double shear_function(const double major, const double minor) const
@@ -353,7 +355,8 @@ namespace quoin
     struct FlowRates
     {
       std::array<Principal, 3> by_trial; /**< [i][j]: of i, by trial stress j */
-      Principal by_volume; /**< by the logarithm of the trial's jacobian [Pa] */
+      /** Derivative by the logarithm of the trial's det F [Pa]. */
+      Principal by_volume;
     };
     FlowRates flow_rates(const Principal &trial_strain, const Flow &step) const;
 
@@ -399,9 +402,11 @@ namespace quoin
 
     /** Stiffness times the direction of shear flow (N_psi, 0, -1) [Pa]. */
     Principal flow;
-    double plane_modulus; /**< F_s that a unit of this flow takes away [Pa] */
-    double major_modulus; /**< the same for the two planes at s1 = s2, summed */
-    double minor_modulus; /**< and at s2 = s3 */
+    double plane_modulus; /**< decrease of F_s per unit of this flow [Pa] */
+    /** Sum of plane_modulus of the two planes at s1 = s2. */
+    double major_modulus;
+    /** Sum of plane_modulus of the two planes at s2 = s3. */
+    double minor_modulus;
   };
 } // namespace quoin
 

@@ -6,11 +6,11 @@
 
 namespace quoin
 {
-  /** What is taken to vanish out of the plane. */
+  /** Assumption on the out-of-plane direction. */
   enum class PlaneAssumption
   {
-    plane_strain, /**< no strain out of the plane: long bodies */
-    plane_stress  /**< no stress out of the plane: thin bodies */
+    plane_strain, /**< zero strain out of the plane: long bodies */
+    plane_stress  /**< zero stress out of the plane: thin bodies */
   };
 } // namespace quoin
 

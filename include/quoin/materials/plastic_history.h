@@ -19,7 +19,7 @@ namespace quoin
   struct alignas(64) PlasticCell
   {
     double inverse_stretch[4]{}; /**< inverse plastic stretch less 1 [-] */
-    double stress[4]{};          /**< as last computed, tension positive [Pa] */
+    double stress[4]{}; /**< last computed stress, tension positive [Pa] */
   };
 
   /**

@@ -25,7 +25,7 @@ namespace quoin
   {
     std::array<unsigned int, dim> vertices;
     unsigned int cell;
-    unsigned int name; /**< into BlockMesh::face_names */
+    unsigned int name; /**< index into BlockMesh::face_names */
   };
 
   /**
@@ -52,8 +52,9 @@ namespace quoin
   {
     std::array<unsigned int, dim> lower;
     std::array<unsigned int, dim> upper;
-    std::array<unsigned int, 2> cells;  /**< of lower, of upper */
-    unsigned int name;                  /**< into face_names; may be unnamed */
+    /** Cells of the lower and the upper side. */
+    std::array<unsigned int, 2> cells;
+    unsigned int name; /**< index into face_names; may be unnamed */
     std::array<unsigned int, 2> groups; /**< cell groups of lower, upper */
   };
 
@@ -69,14 +70,14 @@ namespace quoin
   {
     std::vector<dealii::Point<dim>> vertices;
     std::vector<std::array<unsigned int, dim + 1>>
-        cells;                                    /**< positive volume */
-    std::vector<unsigned int> cell_group;         /**< into group_names */
-    std::vector<unsigned int> block_first_cell;   /**< n_blocks() + 1 entries */
+        cells;                                  /**< positive volume */
+    std::vector<unsigned int> cell_group;       /**< indices into group_names */
+    std::vector<unsigned int> block_first_cell; /**< n_blocks() + 1 entries */
     std::vector<unsigned int> block_first_vertex; /**< n_blocks() + 1 entries */
 
-    std::vector<std::string> group_names; /**< of surfaces or volumes */
+    std::vector<std::string> group_names; /**< names of surfaces or volumes */
     std::vector<std::string>
-        face_names; /**< of curves or surfaces; [0] is "" */
+        face_names; /**< names of curves or surfaces; [0] is "" */
 
     /** Cells are to have nodes in the middle of their edges; see NodeMap. */
     bool quadratic = false;

@@ -13,7 +13,7 @@
 
 namespace quoin
 {
-  /** Where the joints are. */
+  /** Curves or surfaces of the joints, and options of the splitting. */
   struct SplitOptions
   {
     /** Physical curves (surfaces) whose edges (faces) are joints. */
@@ -26,7 +26,7 @@ namespace quoin
     /** Common edges (faces) of any two different groups are joints. */
     bool between_all = false;
 
-    /** What to do with a joint that ends inside a block. */
+    /** Treatment of joints that end inside a block. */
     enum JointEnds
     {
       keep,  /**< a crack whose two lips belong to the same block */

@@ -18,21 +18,22 @@
 namespace quoin
 {
   /**
-   * What every rank knows of the whole mesh: names, sizes and an entry for each
+   * Data of the whole mesh on every rank: names, sizes and an entry for each
    * block, but nothing for each cell or node.
    */
   template <int dim>
   struct BlockTable
   {
-    std::vector<std::string> group_names; /**< of material ids */
+    std::vector<std::string> group_names; /**< names of material ids */
     /** Names of boundary ids: curves in two dimensions; [0] is "", unnamed. */
     std::vector<std::string> face_names;
 
     /** Cells [first_cell[b], first_cell[b + 1]) of the whole mesh are those of
         block b. */
     std::vector<unsigned int> first_cell;
-    std::vector<unsigned int> group; /**< of the first cell of each block */
-    std::vector<bool> is_rigid;      /**< of each block */
+    /** Group of the first cell of each block. */
+    std::vector<unsigned int> group;
+    std::vector<bool> is_rigid; /**< flag of each block */
     /** Pairs of blocks with a joint between them, ascending, each once; a
         crack inside a block is a pair of that block with itself. */
     std::vector<std::array<unsigned int, 2>> joined;

@@ -26,7 +26,8 @@ namespace quoin
   public:
     using dealii::parallel::fullydistributed::Triangulation<dim>::Triangulation;
 
-    /** As that of the base, whose coarse cells have ascending ids. */
+    /** Creates the triangulation as the base class does, with coarse cells in
+        ascending order of their ids. */
     void create_triangulation(
         const dealii::TriangulationDescription::Description<dim, dim>
             &description) override;

@@ -14,8 +14,9 @@ namespace quoin
   /** Quadrangles of a mesh, before they are triangles. */
   struct Quadrangles
   {
-    std::vector<std::array<unsigned int, 4>> nodes; /**< around, vertices */
-    std::vector<unsigned int> group;                /**< into group_names */
+    /** Vertices around each quadrangle. */
+    std::vector<std::array<unsigned int, 4>> nodes;
+    std::vector<unsigned int> group; /**< indices into group_names */
   };
 
   /**

@@ -11,7 +11,7 @@
 
 namespace quoin
 {
-  // Geometry of the whole mesh that no rank knows alone. All of these functions
+  // Geometry of the whole mesh that no rank has alone. All of these functions
   // are collective: all ranks call them and get the same result.
 
   /** An OuterFace of any rank. */
@@ -21,9 +21,9 @@ namespace quoin
     std::array<unsigned int, dim> nodes; /**< global */
     std::array<dealii::Point<dim>, dim> points;
     std::array<double, dim> shares; /**< face_share() of the nodes */
-    unsigned int group;             /**< of the cell behind it */
-    unsigned int block;             /**< of that cell */
-    unsigned int name;              /**< into BlockTable::face_names */
+    unsigned int group;             /**< group of the adjacent cell */
+    unsigned int block;             /**< block of the adjacent cell */
+    unsigned int name;              /**< index into BlockTable::face_names */
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)

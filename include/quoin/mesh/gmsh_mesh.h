@@ -20,8 +20,8 @@ namespace quoin
    */
   struct GmshMesh
   {
-    std::string gmsh_errors; /**< in gmsh's words; empty: none */
-    std::string refusal;     /**< what is wrong with the mesh; empty: nothing */
+    std::string gmsh_errors; /**< messages of gmsh; empty: none */
+    std::string refusal;     /**< error of the mesh; empty: none */
 
     /**
      * In two dimensions cells are triangles and quadrangles, faces lines; in
@@ -36,9 +36,9 @@ namespace quoin
     std::vector<std::array<unsigned int, 4>> quadrangles;
     std::vector<std::array<unsigned int, 2>> lines;
 
-    std::vector<unsigned int> cell_group;       /**< into group_names */
-    std::vector<unsigned int> quadrangle_group; /**< into group_names */
-    std::vector<unsigned int> face_name;        /**< into face_names */
+    std::vector<unsigned int> cell_group;       /**< indices into group_names */
+    std::vector<unsigned int> quadrangle_group; /**< indices into group_names */
+    std::vector<unsigned int> face_name;        /**< indices into face_names */
 
     std::vector<std::string> group_names;
     std::vector<std::string> face_names{ "" }; /**< [0] is "", unnamed */

@@ -21,10 +21,10 @@ namespace quoin
     quadratic /**< triangles with nodes in the middle of their edges */
   };
 
-  /** What becomes of the cells of a mesh file. */
+  /** Treatment of the cells of a mesh file. */
   struct CellOptions
   {
-    /** Also from a kind alone. */
+    /** Implicit conversion from a kind of triangles is intended. */
     CellOptions(const TriangleKind kind        = TriangleKind::plain,
                 const unsigned int refinements = 0)
       : kind(kind), refinements(refinements)

@@ -21,13 +21,13 @@ namespace quoin
   struct JointPair
   {
     std::array<unsigned int, 2> cells; /**< lower, upper */
-    std::array<unsigned int, 2> faces; /**< of the cells */
+    std::array<unsigned int, 2> faces; /**< local face numbers in the cells */
     /** Vertex of the upper face on which vertex k of the lower one lies. */
     std::array<unsigned int, dim> match;
-    unsigned int number;                /**< in the whole mesh */
-    unsigned int name;                  /**< as boundary ids */
+    unsigned int number;                /**< number in the whole mesh */
+    unsigned int name;                  /**< boundary id of the name */
     std::array<unsigned int, 2> groups; /**< material ids of the cells */
-    std::array<unsigned int, 2> ranks;  /**< that own the cells */
+    std::array<unsigned int, 2> ranks;  /**< ranks that own the cells */
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
@@ -37,9 +37,9 @@ namespace quoin
   };
 
   /**
-   * The joints of a BlockTriangulation, of which deal.II knows nothing: blocks
-   * share no vertices. Each rank has the pairs of which it owns a side, by
-   * ascending number.
+   * The joints of a BlockTriangulation, which are not part of deal.II's mesh:
+   * blocks share no vertices. Each rank has the pairs of which it owns a side,
+   * by ascending number.
    */
   template <int dim>
   using JointMap = std::vector<JointPair<dim>>;

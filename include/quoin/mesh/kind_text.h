@@ -6,12 +6,12 @@
 
 namespace quoin
 {
-  /** What gmsh calls a group of cells, for messages. */
+  /** Name in gmsh of a group of cells, for messages. */
   template <int dim>
   inline constexpr const char *group_kind
       = dim == 2 ? "physical surface" : "physical volume";
 
-  /** What gmsh calls a named part of the boundary, for messages. */
+  /** Name in gmsh of a named part of the boundary, for messages. */
   template <int dim>
   inline constexpr const char *boundary_kind
       = dim == 2 ? "physical curve" : "physical surface";

@@ -14,7 +14,7 @@ namespace quoin
   /** Cells and nodes [begin, end) that this rank owns of one block. */
   struct BlockPart
   {
-    unsigned int number; /**< of the block in the whole mesh */
+    unsigned int number; /**< number of the block in the whole mesh */
     std::array<unsigned int, 2> cells;
     /** Cells from this one on have no nodes that other ranks share. */
     unsigned int first_inner_cell;
@@ -25,7 +25,8 @@ namespace quoin
   /** The blocks of which a rank owns cells. */
   struct LocalBlocks
   {
-    std::vector<BlockPart> parts;  /**< by ascending number; rigid ones last */
+    /** Blocks by ascending number; rigid ones last. */
+    std::vector<BlockPart> parts;
     unsigned int n_deformable = 0; /**< parts from this one on are rigid */
 
     /** Index of the part of block @p number; parts.size() if there is none. */
@@ -57,10 +58,11 @@ namespace quoin
   {
     using Nodes = std::array<unsigned int, dim + 1>;
 
-    std::vector<Nodes> nodes;          /**< local, of each; positive volume */
-    std::vector<unsigned int> group;   /**< material id of each */
-    std::vector<std::uint64_t> number; /**< of each in the whole mesh */
-    unsigned int n_deformable = 0;     /**< cells from this one on are rigid */
+    std::vector<Nodes> nodes;        /**< local, of each; positive volume */
+    std::vector<unsigned int> group; /**< material id of each */
+    /** Number of each cell in the whole mesh. */
+    std::vector<std::uint64_t> number;
+    unsigned int n_deformable = 0; /**< cells from this one on are rigid */
     bool is_quadratic = false; /**< four each are one triangle of degree 2 */
 
     unsigned int size() const
@@ -90,7 +92,7 @@ namespace quoin
   {
     std::array<unsigned int, dim> nodes; /**< local */
     unsigned int cell;                   /**< local */
-    unsigned int name;                   /**< into BlockTable::face_names */
+    unsigned int name; /**< index into BlockTable::face_names */
   };
 
   /** A JointPair by local nodes, or one half of it; see JointFace. */
@@ -103,8 +105,8 @@ namespace quoin
         nodes of another rank's side are partners of its NodeExchange. */
     std::array<bool, 2> is_own;
     std::array<unsigned int, 2> cells; /**< local, of own sides */
-    unsigned int number;               /**< of all ranks */
-    unsigned int name;                 /**< into BlockTable::face_names */
+    unsigned int number;               /**< number on all ranks */
+    unsigned int name;                 /**< index into BlockTable::face_names */
     std::array<unsigned int, 2> groups;
   };
 
@@ -112,8 +114,8 @@ namespace quoin
   template <int dim>
   struct LocalFaces
   {
-    std::vector<OuterFace<dim>> outer;   /**< by ascending nodes */
-    std::vector<JointNodes<dim>> joints; /**< by ascending number */
+    std::vector<OuterFace<dim>> outer;   /**< outer faces by ascending nodes */
+    std::vector<JointNodes<dim>> joints; /**< joints by ascending number */
     unsigned int n_global_joints = 0;    /**< JointNodes of all ranks */
   };
 } // namespace quoin

@@ -29,10 +29,10 @@ namespace quoin
 
     std::vector<std::array<unsigned int, dim + 1>> cells; /**< positive volume,
                                                 see orient_cells() */
-    std::vector<unsigned int> cell_group; /**< into group_names */
+    std::vector<unsigned int> cell_group; /**< indices into group_names */
 
-    std::vector<std::array<unsigned int, dim>> faces; /**< with a name */
-    std::vector<unsigned int> face_name;              /**< into face_names */
+    std::vector<std::array<unsigned int, dim>> faces; /**< faces with a name */
+    std::vector<unsigned int> face_name; /**< indices into face_names */
 
     std::vector<std::string> group_names;
     std::vector<std::string> face_names = { "" }; /**< [0] is "", unnamed */

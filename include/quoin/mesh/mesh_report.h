@@ -35,7 +35,8 @@ namespace quoin
     std::map<std::string, double> joint_size;
     double total_joint_size = 0.;
 
-    double shortest_edge = 0.; /**< of a cell, linear or quadratic [m] */
+    /** Shortest edge of a cell, linear or quadratic [m]. */
+    double shortest_edge = 0.;
     double longest_edge  = 0.; /**< [m] */
     /** Between edges of a triangle or faces of a tetrahedron [degree]. */
     double smallest_angle = 0.;
@@ -43,21 +44,23 @@ namespace quoin
     unsigned int n_joint_ends = 0; /**< unsplit vertices inside a block */
     /** Joint faces with all vertices unsplit: they can never open or slip. */
     unsigned int n_tied_joint_faces = 0;
-    unsigned int n_reoriented_cells = 0; /**< the other way in the file */
+    /** Number of cells with the opposite orientation in the file. */
+    unsigned int n_reoriented_cells = 0;
 
     /**
      * Where outer faces lie on each other without coinciding: non-matching
      * meshes on the two sides of a contact, which no joint face joins.
      */
     double unmatched_size = 0.;
-    dealii::Point<3> unmatched_position; /**< where the first of them is [m] */
+    /** Position of the first unmatched node [m]. */
+    dealii::Point<3> unmatched_position;
 
     /**
      * Whether blocks overlap: outer faces cross, by more than those of two
      * meshes along one curve or surface do, or a block lies within another.
      */
     bool overlaps = false;
-    dealii::Point<3> overlap_position; /**< where, first [m] */
+    dealii::Point<3> overlap_position; /**< position of the first overlap [m] */
 
     std::array<dealii::Point<3>, 2> box{}; /**< lower and upper corner [m] */
 
@@ -73,7 +76,7 @@ namespace quoin
 
     /** Lines of text without a final newline. */
     std::string to_text() const;
-    /** What is most likely a mistake in the mesh, a sentence each. */
+    /** Sentences on likely mistakes in the mesh. */
     std::vector<std::string> warnings() const;
   };
 

@@ -17,7 +17,7 @@ namespace quoin
     /** x, y at each owned node at the time of excavation [N]. */
     std::vector<double> force;
     double left        = 1.; /**< share left at the start of the stage [-] */
-    double left_at_end = 1.; /**< and at the end of the release [-] */
+    double left_at_end = 1.; /**< fraction left at the end of the release [-] */
 
     template <typename Visitor>
     void visit(Visitor &visitor)
@@ -38,7 +38,8 @@ namespace quoin
   {
     static constexpr const char *slice_name = "construction";
 
-    std::vector<HeldForces> held; /**< of each excavation not fully released */
+    /** Forces of each excavation not fully released. */
+    std::vector<HeldForces> held;
     /** Stress xx, yy, xy, zz of each deformable cell at zero strain [Pa], after
         changes of materials and fill; empty: as at the start. */
     AlignedArray<double> initial_stress;

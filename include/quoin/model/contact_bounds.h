@@ -20,8 +20,8 @@ namespace quoin
   std::vector<std::array<double, 2>>
   group_impedances(const ModelProperties &properties, PlaneAssumption plane);
 
-  /** What dashpots know of the blocks, of which a load holds or moves those
-      that @p is_held marks on any rank. Collective. */
+  /** Data of the blocks for dashpots; @p is_held marks blocks that a load holds
+      or moves, on any rank. Collective. */
   DashpotBlocks dashpot_blocks(const Model<2> &model,
                                std::vector<std::uint8_t> is_held);
 

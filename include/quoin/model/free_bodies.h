@@ -16,8 +16,9 @@ namespace quoin
   /**
    * Throws an InputError naming the first body (blocks that joints tie
    * together) with a rigid body mode that the prescribed degrees of freedom of
-   * @p constraints leave free: it could never come to rest. Blocks that are
-   * absent in @p state do not count. @p stage is for the message. Collective.
+   * @p constraints leave free: it could never reach equilibrium. Blocks that
+   * are absent in @p state do not count. @p stage is for the message.
+   * Collective.
    */
   template <int dim>
   void
@@ -29,10 +30,11 @@ namespace quoin
   template <int dim>
   struct UnsupportedBody
   {
-    unsigned int block;        /**< its first block */
-    unsigned int n_blocks;     /**< number of its blocks */
-    dealii::Point<dim> centre; /**< of that block, of the first body [m] */
-    bool is_loose;             /**< all of its rigid body modes are free */
+    unsigned int block;    /**< first block of the body */
+    unsigned int n_blocks; /**< number of its blocks */
+    /** Centroid of this block of the first body [m]. */
+    dealii::Point<dim> centre;
+    bool is_loose; /**< whether all of its rigid body modes are free */
   };
 
   /**

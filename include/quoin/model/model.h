@@ -27,7 +27,7 @@ namespace quoin
   struct ModelParameters
   {
     PlaneAssumption plane = PlaneAssumption::plane_strain;
-    double thickness      = 1.; /**< of materials that give none [m] */
+    double thickness = 1.; /**< thickness of materials that give none [m] */
     std::vector<MaterialParameters> materials;
     std::vector<JointSetParameters> joints;
     std::vector<LoadParameters> initial_stresses;
@@ -46,7 +46,8 @@ namespace quoin
   struct ModelProperties
   {
     std::vector<MaterialParameters> materials;
-    std::vector<unsigned int> material_of_group; /**< of physical surfaces */
+    /** Material of each physical surface. */
+    std::vector<unsigned int> material_of_group;
     std::vector<JointSetParameters> joints;
   };
 
@@ -94,7 +95,8 @@ namespace quoin
      */
     void set_properties(const ModelProperties &properties,
                         const ConstructionState &construction);
-    /** As set_properties(), with stresses and tractions of @p state kept. */
+    /** Does what set_properties() does and keeps stresses and tractions of @p
+     * state. */
     void change_properties(const ModelProperties &properties,
                            State<dim> &state);
     /** Sets the stress at zero strain of the cells of @p groups to zero. */
@@ -105,7 +107,7 @@ namespace quoin
     {
       return node_map;
     }
-    /** That of each physical surface. */
+    /** Out-of-plane thickness of each physical surface [m]. */
     const Thickness &thickness() const
     {
       return group_thickness;
@@ -127,15 +129,17 @@ namespace quoin
     {
       return matched_joints;
     }
-    /** Bound of the step; none for quadratic meshes (corners without mass). */
+    /** Bound of the critical step; none for quadratic meshes, whose corners
+     * have no mass. */
     const StableTimeStep<dim> &stability() const
     {
       return *stable_step;
     }
-    /** The same for the cells as plastic flow has left them; collective. */
+    /** Bound of the critical step with the plastic strains of @p state;
+     * collective. */
     StableTimeStep<dim> stability_at(const State<dim> &state) const;
-    /** Adds springs wherever blocks may touch to the bound of local nodes
-        [N/m]. Collective. */
+    /** Adds springs wherever blocks may come into contact to the bound of local
+       nodes [N/m]. Collective. */
     void add_contact_bound(std::vector<NodeStiffness<dim>> &bound) const;
     /**
      * Lumped masses of owned nodes and ghosts [kg]; zero at the corners of
@@ -173,10 +177,13 @@ namespace quoin
 
     ModelProperties now;
     Thickness group_thickness;
-    std::vector<bool> absent_group; /**< of physical surfaces, at the start */
+    /** Flag of each physical surface at the start. */
+    std::vector<bool> absent_group;
     std::vector<double> node_mass;
-    std::vector<std::array<double, 4>> cell_stress; /**< or empty */
-    std::vector<JointFaceStress> face_stress;       /**< or empty */
+    /** Stress of each cell; may be empty. */
+    std::vector<std::array<double, 4>> cell_stress;
+    /** Stress of joint faces; may be empty. */
+    std::vector<JointFaceStress> face_stress;
     BlockForces<dim> block_forces;
     RigidBlocks rigid;
     MatchedJoints matched_joints;

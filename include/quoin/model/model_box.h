@@ -22,11 +22,11 @@ namespace quoin
   /** A block that was found outside the box. */
   struct BlockOutside
   {
-    unsigned int block;             /**< of the whole mesh */
+    unsigned int block; /**< number of the block in the whole mesh */
     std::array<double, 2> position; /**< mean of its nodes now [m] */
     std::array<double, 2> velocity; /**< mean of its nodes [m/s] */
-    double time;                    /**< when it was found [s] */
-    bool removed;                   /**< or only reported */
+    double time;                    /**< time of detection [s] */
+    bool removed; /**< whether the block was removed or only reported */
   };
 
   /**

@@ -22,11 +22,14 @@ namespace quoin
   {
     std::string name;
     bool has_point = false;
-    dealii::Point<2> point;        /**< in the block at rest [m] */
-    std::string group;             /**< physical surface of this block alone */
-    dealii::Tensor<1, 2> velocity; /**< of the centroid at t = 0 [m/s] */
-    double spin         = 0.; /**< about it at t = 0, anticlockwise [rad/s] */
-    unsigned int number = -1; /**< in the whole mesh; find_named_blocks() */
+    dealii::Point<2> point; /**< point in the block at rest [m] */
+    std::string group;      /**< physical surface of this block alone */
+    /** Velocity of the centroid at t = 0 [m/s]. */
+    dealii::Tensor<1, 2> velocity;
+    /** Spin about the centroid at t = 0, anticlockwise [rad/s]. */
+    double spin = 0.;
+    /** Number in the whole mesh; find_named_blocks(). */
+    unsigned int number = -1;
 
     /** Whether it moves at the start of the run. */
     bool moves() const
@@ -49,14 +52,14 @@ namespace quoin
                          std::vector<NamedBlock> &blocks);
 
   /** Mass [kg], centroid [m] and moment of inertia about it [kg m^2] of a block
-      at rest; of a deformable one those of its lumped masses. */
+      at rest; those of the lumped masses if the block is deformable. */
   struct BlockInertia
   {
     double mass = 0.;
     dealii::Point<2> centroid;
     double moment = 0.;
   };
-  /** That of @p block of the whole mesh; collective. */
+  /** Inertia of @p block of the whole mesh; collective. */
   BlockInertia inertia_of_block(const Model<2> &model, unsigned int block);
 
   /** A line on each of @p blocks for the log; collective. */

@@ -124,7 +124,7 @@ namespace quoin
 
     double most_residual      = 0.;
     double largest_throughput = 0.;  /**< boundary elements' too [J] */
-    double fields_time        = -1.; /**< of the last VTU files [s] */
+    double fields_time        = -1.; /**< time of the last VTU files [s] */
   };
 
   // Members that exist in two dimensions only.

@@ -15,13 +15,13 @@
 
 namespace quoin
 {
-  /** How and when a stage ended. */
+  /** Outcome and end time of a stage. */
   struct StageOutcome
   {
     std::string outcome;     /**< empty: it has not ended */
-    std::string condition;   /**< that was met, or empty */
+    std::string condition;   /**< condition that was met, or empty */
     double time        = 0.; /**< [s] */
-    std::uint64_t step = 0;  /**< of the run */
+    std::uint64_t step = 0;  /**< step number of the run */
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
@@ -77,16 +77,20 @@ namespace quoin
     StageSteps<dim> steps;
     BlockOutputs<dim> outputs;
     State<dim> state;
-    std::vector<FactorSearch> searches; /**< of each stage, most unused */
-    std::vector<StageOutcome> outcomes; /**< of each stage */
-    std::vector<LoadRecord> loads;      /**< of each stage */
-    std::vector<LocalDampingShare> damping_shares; /**< of each stage */
-    std::vector<double> peaks; /**< of histories: see HistoryConditions */
+    /** Search of each stage, most unused. */
+    std::vector<FactorSearch> searches;
+    std::vector<StageOutcome> outcomes; /**< outcome of each stage */
+    std::vector<LoadRecord> loads;      /**< load record of each stage */
+    /** Local damping of each stage. */
+    std::vector<LocalDampingShare> damping_shares;
+    std::vector<double> peaks; /**< peaks of histories: see HistoryConditions */
     double displaced = 0.;     /**< largest one where the stage began [m] */
     std::string failure; /**< why the last stage failed; empty: it did not */
-    std::uint64_t n_done     = 0; /**< steps of this process */
-    std::uint64_t iterations = 0; /**< of the implicit solver */
-    std::uint64_t cuts       = 0; /**< of steps of the implicit solver */
+    std::uint64_t n_done = 0; /**< steps of this process */
+    /** Number of iterations of the implicit solver. */
+    std::uint64_t iterations = 0;
+    /** Number of step reductions of the implicit solver. */
+    std::uint64_t cuts = 0;
 
     /** Residual of the energy balance, by the energy throughput [-]. */
     double energy_residual() const;
@@ -142,7 +146,7 @@ namespace quoin
     void warn_of_slip() const;
     /** Records the loads of the row for @p time [s]. */
     void record_loads(double time);
-    /** Warns of local damping that has borne a part of the loads. */
+    /** Warns of local damping that has carried a part of the loads. */
     void warn_of_damping() const;
     /** Warns if the stage ends far from its control function. Collective. */
     void warn_of_control() const;
@@ -152,7 +156,7 @@ namespace quoin
         condition ends it stay. */
     void keep_unreleased_forces();
 
-    const HistoryConditions conditions; /**< by which the stage ends */
+    const HistoryConditions conditions; /**< conditions that end the stage */
     // Before the step whose row is due.
     double load_time  = 0.;    /**< [s] */
     double controlled = 0.;    /**< displacement by a load pattern [m] */

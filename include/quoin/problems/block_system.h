@@ -61,10 +61,12 @@ namespace quoin
     MeshReport mesh_report;
     std::unique_ptr<BlockTriangulation<dim>> blocks;
     std::unique_ptr<NodeMap<dim>> nodes;
-    std::vector<NamedBlock> named_blocks; /**< with their numbers */
+    /** Named blocks with their numbers. */
+    std::vector<NamedBlock> named_blocks;
     BoundaryGeometry boundary_geometry;
     std::unique_ptr<Model<dim>> model;
-    std::unique_ptr<Construction> construction; /**< in two dimensions */
+    /** Construction in two dimensions. */
+    std::unique_ptr<Construction> construction;
     std::unique_ptr<Solver<dim>> solver;
     ExplicitSolver<dim> *explicit_solver = nullptr; /**< the solver, or null */
     ImplicitSolver *implicit_solver      = nullptr; /**< the solver, or null */

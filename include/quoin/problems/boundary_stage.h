@@ -16,7 +16,7 @@
 
 namespace quoin
 {
-  /** Which steps have rows of histories.csv and fields. */
+  /** Steps with rows of histories.csv and fields. */
   struct StepControl
   {
     std::function<bool(std::uint64_t)> row_is_due, fields_are_due;
@@ -40,14 +40,14 @@ namespace quoin
     /** State in a checkpoint. */
     struct State
     {
-      std::uint64_t step = 0;    /**< steps taken */
-      SavedHistory history;      /**< result of BoundaryHistory::save() */
-      std::vector<double> u, p;  /**< scattered, of the last step */
-      std::vector<double> all_u; /**< of all steps, one unknown after the */
-      std::vector<double>
-          all_p; /**< other, if results in the domain are needed */
-      std::vector<double> rows; /**< of histories.csv that still lack */
-                                /**< what happens in the domain */
+      std::uint64_t step = 0;   /**< steps taken */
+      SavedHistory history;     /**< result of BoundaryHistory::save() */
+      std::vector<double> u, p; /**< scattered, of the last step */
+      /** Displacements and tractions of all steps, one degree of freedom after
+          the other, if results in the domain are needed. */
+      std::vector<double> all_u, all_p;
+      /** Rows of histories.csv that lack the results in the domain. */
+      std::vector<double> rows;
 
       template <typename Archive>
       void serialize(Archive &archive, const unsigned int)
@@ -57,9 +57,10 @@ namespace quoin
     } state;
 
     std::unique_ptr<TimeMarching> marching; /**< during the time marching */
-    std::optional<StaticSolution> solution; /**< of statics */
-    std::uint64_t n_done = 0;               /**< steps of this process */
-    double march_seconds = 0.;              /**< of these steps */
+    /** Solution of a static analysis. */
+    std::optional<StaticSolution> solution;
+    std::uint64_t n_done = 0;  /**< steps of this process */
+    double march_seconds = 0.; /**< wall-clock time of these steps [s] */
   };
 
   // Members of the stages are collective.

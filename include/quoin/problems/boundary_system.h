@@ -70,11 +70,11 @@ namespace quoin
     std::unique_ptr<BoundaryHistories> histories;
     std::unique_ptr<TangentialStress> hoop_stress;
     std::unique_ptr<BoundaryValues> given;
-    DomainPoints sampled; /**< of the sampled field */
+    DomainPoints sampled; /**< points of the sampled field */
     std::unique_ptr<IncidentWaves> waves;
     std::unique_ptr<InfluenceKernel> kernel;
     std::unique_ptr<BoundaryHistory> history;
-    std::unique_ptr<PassivityReport> passivity; /**< or null */
+    std::unique_ptr<PassivityReport> passivity; /**< null: no check */
 
   private:
     void choose_time_step();

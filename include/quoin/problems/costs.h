@@ -20,7 +20,8 @@ namespace quoin
   template <int dim>
   void report_block_costs(BlockContext<dim> &context);
 
-  /** Reports those of boundary elements alone; spoils the history of @p system.
+  /** Reports costs of boundary elements alone; invalidates the history of @p
+   * system.
    */
   void report_boundary_costs(BoundarySystem &system, const StepControl &control,
                              const RunContext &run);
@@ -29,7 +30,7 @@ namespace quoin
   struct PlannedOutput
   {
     std::uint64_t fields = 0;     /**< output times of fields */
-    std::uint64_t rows   = 0;     /**< of histories.csv and energies.csv */
+    std::uint64_t rows   = 0;     /**< rows of histories.csv and energies.csv */
     bool is_least        = false; /**< a stage may write more */
   };
 

@@ -27,7 +27,7 @@ namespace quoin
 
   /**
    * What the rows of a stage have shown of its loads: the largest factor of a
-   * load pattern, and whether the supports took what was applied.
+   * load pattern, and whether the supports carried the applied loads.
    */
   class LoadRecord
   {
@@ -40,18 +40,19 @@ namespace quoin
       double time = -1.; /**< -1: there is none */
     };
 
-    /** Takes a row with the @p factor of a load pattern. */
+    /** Adds a row with the @p factor of a load pattern. */
     void add_factor(double factor, double displacement, double time);
 
-    /** Takes a row at @p time [s]. */
+    /** Adds a row at @p time [s]. */
     void add_forces(const ForceBalance &forces, double time);
 
     /**
      * What is to be warned of: that along an axis along which the applied force
-     * varies, the largest force that supports took at any time is less than the
-     * largest applied one, by more than 5 % of the size of the loads. A model
-     * that vibrates about a balance passes, as its supports take more than is
-     * applied, too; so do loads that balance each other. Empty: nothing.
+     * varies, the largest force that supports carried at any time is less than
+     * the largest applied one, by more than 5 % of the size of the loads. A
+     * model that vibrates about a balance passes, as its supports take more
+     * than is applied, too; so do loads that balance each other. Empty:
+     * nothing.
      */
     std::string warning() const;
 
@@ -79,7 +80,7 @@ namespace quoin
       double applied = 0., time = 0.;
       double size = 0.; /**< largest sum of magnitudes of the loads [N] */
 
-      /** Largest applied force that supports took, in its direction [N]. */
+      /** Largest applied force that supports carried, in its direction [N]. */
       double taken() const;
       /** Whether it is to be warned of. */
       bool parts() const;

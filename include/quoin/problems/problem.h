@@ -81,7 +81,7 @@ namespace quoin
       no,
       kept,     /**< the last one is where a resumed run begins: the run may
                      end here */
-      possible, /**< if it is due */
+      possible, /**< written if due */
       wanted
     };
     /** Takes the next step and writes the rows and fields that are due. */

@@ -58,22 +58,22 @@ namespace quoin
         spin are velocities. */
     struct Sums
     {
-      double displacement[2]{}; /**< of m u [kg m] */
-      double sine   = 0.;       /**< of m r x u [kg m^2] */
-      double cosine = 0.;       /**< of m r . u [kg m^2] */
-      double momentum[2]{};     /**< of m v [kg m/s] */
-      double spin   = 0.;       /**< of m (r + u) x v [kg m^2/s] */
-      double square = 0.;       /**< of m |r + u|^2 [kg m^2] */
+      double displacement[2]{}; /**< sum of m u [kg m] */
+      double sine   = 0.;       /**< sum of m r x u [kg m^2] */
+      double cosine = 0.;       /**< sum of m r . u [kg m^2] */
+      double momentum[2]{};     /**< sum of m v [kg m/s] */
+      double spin   = 0.;       /**< sum of m (r + u) x v [kg m^2/s] */
+      double square = 0.;       /**< sum of m |r + u|^2 [kg m^2] */
     };
     /** Forces x, y [N] and moment about the centroid at rest [N m]. */
     using Force = std::array<double, 3>;
 
     struct Block
     {
-      unsigned int number; /**< in the whole mesh */
+      unsigned int number; /**< number in the whole mesh */
       bool is_rigid;
       BlockInertia rest;
-      std::vector<unsigned int> nodes; /**< that this rank owns */
+      std::vector<unsigned int> nodes; /**< nodes that this rank owns */
     };
     /** A side of a joint's segment that belongs to a block. */
     struct Side
@@ -83,16 +83,16 @@ namespace quoin
     };
     struct Pair
     {
-      unsigned int block;         /**< into blocks */
+      unsigned int block;         /**< index into blocks */
       unsigned int first, second; /**< numbers in the mesh; or any_block */
-      std::vector<Side> sides;    /**< on this rank */
+      std::vector<Side> sides;    /**< sides on this rank */
     };
     struct Column
     {
       HistoryQuantity quantity;
       unsigned int component;
-      unsigned int block; /**< into blocks */
-      unsigned int pair;  /**< into pairs, of a force */
+      unsigned int block; /**< index into blocks */
+      unsigned int pair;  /**< index into pairs, for a force */
     };
 
     unsigned int add_block(unsigned int number);
@@ -122,7 +122,7 @@ namespace quoin
     std::vector<Pair> pairs;
     std::vector<Column> columns;
     std::vector<double> counted; /**< rotation of each block [rad] */
-    std::vector<Sums> sums;      /**< of each block */
+    std::vector<Sums> sums;      /**< sums of each block */
     State<2> before; /**< positions and joints at the time of the row */
     AlignedArray<NodeVector<2>> node_force; /**< zero but while it is used */
   };

@@ -24,7 +24,7 @@ namespace quoin
 
     std::vector<Vector> position;     /**< reference [m] */
     std::vector<Vector> displacement; /**< [m] */
-    /** From the mesh to the reference, if this was moved; or empty [m]. */
+    /** Displacement before the last reset; may be empty [m]. */
     std::vector<Vector> earlier_displacement;
     std::vector<Vector> velocity;                         /**< [m/s] */
     std::vector<std::array<std::int32_t, dim + 1>> cells; /**< vertices */
@@ -44,8 +44,8 @@ namespace quoin
   struct PrincipalStress
   {
     std::array<double, dim> value; /**< descending: tension first [Pa] */
-    /** In the plane the second is the first rotated by 90 degrees,
-        anticlockwise. */
+    /** Principal directions; in the plane the second is the first rotated by 90
+        degrees, anticlockwise. */
     std::array<std::array<double, dim>, dim> direction;
   };
 

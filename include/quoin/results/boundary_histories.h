@@ -19,7 +19,7 @@ namespace quoin
     Eigen::VectorXd displacement; /**< [m] */
     Eigen::VectorXd velocity;     /**< mean over the step [m/s] */
     Eigen::VectorXd traction;     /**< [Pa] */
-    Eigen::VectorXd hoop_stress;  /**< one entry per element [Pa] */
+    Eigen::VectorXd hoop_stress;  /**< hoop stress of each element [Pa] */
   };
 
   /** The columns of histories.csv of a run of boundary elements. */
@@ -67,7 +67,7 @@ namespace quoin
     std::vector<Probe> probes;
     std::vector<Eigen::Vector2d> points;
     const BoundaryGeometry &geometry;
-    std::vector<std::string> names; /**< of the boundaries */
+    std::vector<std::string> names; /**< names of the boundaries */
     double thickness;
   };
 } // namespace quoin

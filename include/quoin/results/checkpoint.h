@@ -23,7 +23,7 @@ namespace quoin
   {
     std::uint64_t step = 0;
     double time        = 0.; /**< [s] */
-    std::string version;     /**< of the program */
+    std::string version;     /**< version of the program */
     std::string parameters;  /**< fingerprint() of the effective ones */
   };
 

@@ -34,11 +34,11 @@ namespace quoin
       last = WallClock::now();
     }
 
-    /** What all ranks have to know. */
+    /** Decision that all ranks share. */
     struct Look
     {
       bool is_due = false; /**< a checkpoint */
-      int signal  = 0;     /**< that a rank has received; 0: none */
+      int signal  = 0;     /**< signal that a rank has received; 0: none */
     };
     /** Collective: the first rank's clock counts for all, and a signal to any
         of them. */

@@ -52,7 +52,8 @@ namespace quoin
     /** Hands the rows to the system, so that other programs see them. */
     void flush();
 
-    /** As flush(), and waits for the disk; called before a checkpoint. */
+    /** Does what flush() does and waits for the disk; called before a
+     * checkpoint. */
     void sync();
 
     /** Bytes of the table so far, buffered ones included. */

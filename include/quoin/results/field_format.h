@@ -9,7 +9,7 @@ namespace quoin
   /** The files of fields. */
   enum class FieldFormat
   {
-    vtu, /**< one for each rank and time, and their list */
+    vtu, /**< VTU files for each rank and time, and their list */
     xdmf /**< two for all ranks and times: XdmfWriter */
   };
 } // namespace quoin

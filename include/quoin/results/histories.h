@@ -73,7 +73,7 @@ namespace quoin
     /** The row for the time before the step; collective. */
     std::vector<double> after_step(const State<dim> &state);
 
-    /** What a checkpoint needs of them. */
+    /** Writes or reads the part of a checkpoint. */
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
@@ -88,8 +88,9 @@ namespace quoin
       HistoryParameters parameters;
       unsigned int entity = 0; /**< node, cell or joint point */
       bool here           = false;
-      double coordinate   = 0.; /**< of an end's node in the mesh [m] */
-      unsigned int ends   = 0;  /**< of two points: the first one's probe */
+      /** Coordinate of an end's node in the mesh [m]. */
+      double coordinate = 0.;
+      unsigned int ends = 0; /**< first probe of the ends, for two points */
       const MotionConstraint<dim> *platen = nullptr;
     };
 
@@ -122,19 +123,24 @@ namespace quoin
     /** Rotation of a local cell [rad]. */
     double rotation(unsigned int cell, const State<dim> &state) const;
 
-    std::vector<Probe> probes; /**< of the columns, and ends behind them */
+    /** Probes of the columns, followed by those of ends. */
+    std::vector<Probe> probes;
     unsigned int n_columns;
     const Model<dim> &model;
     const Solver<dim> &solver;
-    std::unique_ptr<BoundaryHistories> of_boundary; /**< or null */
-    std::unique_ptr<BlockHistories> of_blocks;      /**< or null */
+    /** Null: no boundary elements. */
+    std::unique_ptr<BoundaryHistories> of_boundary;
+    /** Null: no quantities of blocks. */
+    std::unique_ptr<BlockHistories> of_blocks;
     MPI_Comm communicator;
-    const std::vector<bool> absent_in_the_end; /**< of physical surfaces */
-    std::array<double, 2> load_clock{};        /**< time [s] and rate [-] */
-    double n_outside  = 0.; /**< blocks that have left the box */
-    double controlled = 0.; /**< by a load pattern, NaN without [m] */
+    /** Flags of physical surfaces. */
+    const std::vector<bool> absent_in_the_end;
+    std::array<double, 2> load_clock{}; /**< time [s] and rate [-] */
+    double n_outside = 0.;              /**< blocks that have left the box */
+    /** Displacement controlled by a load pattern, NaN without [m]. */
+    double controlled = 0.;
     std::vector<double> row;
-    /** What each column counts from, by whole_row(). */
+    /** Reference value of each column, by whole_row(). */
     std::vector<double> origin;
   };
 

@@ -50,7 +50,8 @@ namespace quoin
     struct Condition
     {
       std::string expression;
-      /** Its names, and their places among time, histories and peaks. */
+      /** Names in the expression, and their indices among time, histories and
+       * peaks. */
       std::vector<std::pair<std::string, std::size_t>> names;
     };
 
@@ -64,7 +65,7 @@ namespace quoin
     std::vector<Condition> conditions;
   };
 
-  /** Those of @p stage; throws the InputError of HistoryConditions. */
+  /** End conditions of @p stage; throws the InputError of HistoryConditions. */
   HistoryConditions
   end_conditions(const StageParameters &stage,
                  const std::vector<HistoryParameters> &histories);

@@ -15,7 +15,7 @@ namespace quoin
   {
     displacement,
     velocity,
-    relative_displacement, /**< of two points */
+    relative_displacement, /**< relative displacement of two points */
     tilt,
     distance_change,
     stress,
@@ -35,9 +35,9 @@ namespace quoin
     contacts,
     blocks_outside,
     open_joints,
-    block_displacement, /**< of a named block: x, y, rotation */
+    block_displacement, /**< motion of a named block: x, y, rotation */
     block_velocity,
-    block_force, /**< between it and others: x, y, moment */
+    block_force, /**< force between a block and others: x, y, moment */
     boundary_displacement,
     boundary_traction,
     boundary_velocity,
@@ -50,13 +50,13 @@ namespace quoin
   {
     std::string name;
     HistoryQuantity quantity = HistoryQuantity::displacement;
-    unsigned int component   = 0; /**< of x, y, z; or by table */
+    unsigned int component   = 0; /**< index of x, y, z, or as kinds() says */
     std::string word;           /**< name of the quantity in parameter files */
-    unsigned int dimension = 0; /**< of models that have it; 0: any */
+    unsigned int dimension = 0; /**< dimension of models that have it; 0: any */
     std::string unit;
     std::array<double, 3> point{}; /**< [m]; z in three dimensions */
     bool point_has_z = false;      /**< z was given */
-    /** Of quantities of two points, the second one [m]. */
+    /** Second point of quantities of two points [m]. */
     std::array<double, 3> other_point{};
     std::string load;
     std::string curve;

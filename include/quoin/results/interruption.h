@@ -25,7 +25,8 @@ namespace quoin
     Interruption(const Interruption &)            = delete;
     Interruption &operator=(const Interruption &) = delete;
 
-    /** From here on the run ends itself when it has received() a signal. */
+    /** Begins the part of the run that ends itself when it has received() a
+     * signal. */
     static void begin_steps();
 
     /** The number of the signal that this process has received since the steps

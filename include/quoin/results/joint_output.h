@@ -25,19 +25,20 @@ namespace quoin
     std::vector<std::array<double, 2>> position; /**< reference [m] */
     /** mean displacement of both sides [m] */
     std::vector<std::array<double, 2>> displacement;
-    /** From the mesh to the reference, if this was moved; or empty [m]. */
+    /** Displacement before the last reset; may be empty [m]. */
     std::vector<std::array<double, 2>> earlier_displacement;
-    std::vector<double> opening;         /**< [m] */
-    std::vector<double> slip;            /**< [m] */
-    std::vector<double> earlier_slip;    /**< before; empty: none [m] */
+    std::vector<double> opening; /**< [m] */
+    std::vector<double> slip;    /**< [m] */
+    /** Slip before the last reset; empty: none [m]. */
+    std::vector<double> earlier_slip;
     std::vector<double> normal_traction; /**< [Pa] */
     std::vector<double> shear_traction;  /**< [Pa] */
     /** Fields of the joint laws, by name: JointField. */
     std::vector<std::pair<std::string, std::vector<double>>> of_laws;
     std::vector<JointState> state;
-    std::vector<std::int32_t> joint_set; /**< of each face */
-    /** Of each face: whether it is a general contact by now, or one that was a
-        face of a joint. */
+    std::vector<std::int32_t> joint_set; /**< joint set of each face */
+    /** Flag of each face that is a general contact now, or was a face of a
+     * joint before. */
     std::vector<std::uint8_t> handed_over;
   };
 

@@ -25,8 +25,9 @@ namespace quoin
   {
     static constexpr const char *slice_name = "origin of results";
 
-    AlignedArray<NodeVector<dim>> displacement; /**< of local nodes [m] */
-    AlignedArray<double> slip;                  /**< of joint points [m] */
+    /** Displacement of local nodes [m]. */
+    AlignedArray<NodeVector<dim>> displacement;
+    AlignedArray<double> slip; /**< slip of joint points [m] */
     /** Whether each joint point was intact where a stage began, or has slipped
         or been open since the origin: all that it has been through counts. */
     AlignedArray<std::uint8_t> has_failed;

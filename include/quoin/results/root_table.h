@@ -21,7 +21,7 @@ namespace quoin
   class RootTable
   {
   public:
-    /** To be called on the first rank; see CsvTable. */
+    /** Creates the table on the first rank; see CsvTable. */
     void make(const std::string &path,
               const std::vector<std::string> &column_names)
     {

@@ -25,7 +25,8 @@ namespace quoin
    *
    * An array that has not changed since the last time is not written again: the
    * mesh, numbers of blocks. Both files are readable after each write(). Their
-   * lengths are part of a checkpoint: a resumed run cuts them back and goes on.
+   * lengths are part of a checkpoint: a resumed run truncates the files to them
+   * and continues.
    */
   class XdmfWriter
   {
@@ -51,7 +52,7 @@ namespace quoin
     }
 
   private:
-    /** Where an array lies, and what is in it. */
+    /** Hash, size and offset of an array in the data file. */
     struct Place
     {
       std::uint64_t hash = 0, size = 0, offset = 0;
@@ -73,8 +74,9 @@ namespace quoin
 
     std::uint64_t text_size = 0; /**< without closing tags; on first rank [B] */
     unsigned int file_number = 0;
-    std::uint64_t data_size  = 0;        /**< of the last data file [B] */
-    std::map<std::string, Place> places; /**< of this rank's last arrays */
+    std::uint64_t data_size  = 0; /**< size of the last data file [B] */
+    /** Places of this rank's last arrays. */
+    std::map<std::string, Place> places;
   };
 } // namespace quoin
 

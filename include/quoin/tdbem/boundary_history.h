@@ -11,10 +11,10 @@
 
 namespace quoin
 {
-  /** What BoundaryHistory::save() gives. */
+  /** Result of BoundaryHistory::save(). */
   struct SavedHistory
   {
-    std::vector<double> common; /**< the same on all ranks */
+    std::vector<double> common; /**< common part of all ranks */
     /** Histories of the equations that ranks share, group by group: from
         @p first_group on those of one rank, or all of them. */
     std::vector<std::vector<double>> groups;
@@ -71,7 +71,7 @@ namespace quoin
 
     /**
      * All that push() has changed, for a checkpoint. After restore(), which
-     * takes it, this object goes on bitwise as the saved one.
+     * takes it, this object continues bitwise as the saved one.
      */
     virtual SavedHistory save() const               = 0;
     virtual void restore(const SavedHistory &saved) = 0;

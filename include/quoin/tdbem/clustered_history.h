@@ -47,9 +47,10 @@ namespace quoin
     {
       /** Relative, of each block's matrices and of the sum. */
       double tolerance = 1e-6;
-      /** For which the sum of exponentials must last. */
+      /** Number of steps for which the sum of exponentials must be accurate. */
       unsigned long n_steps = 1000000;
-      /** Number of elements of a cluster at most; 0: by their number. */
+      /** Largest number of elements of a cluster; 0: from the number of
+       * elements. */
       unsigned cluster_size = 0;
       /** Steps for which known history is applied at once; 0: by number. */
       unsigned block_size = 0;
@@ -118,8 +119,8 @@ namespace quoin
     struct Cluster
     {
       ElementRange elements;
-      Eigen::MatrixXd row_basis;    /**< of the equations */
-      Eigen::MatrixXd column_basis; /**< of tractions and displacements */
+      Eigen::MatrixXd row_basis;    /**< basis of the equations */
+      Eigen::MatrixXd column_basis; /**< basis of tractions and displacements */
       /** Tractions over traction_scale, then displacements, step by step. */
       std::vector<double> past;
       /** column_basis^T times these. */
@@ -155,7 +156,7 @@ namespace quoin
     struct Rate
     {
       double lambda; /**< [1/s] */
-      double weight; /**< of Gauss's rule [1/s] */
+      double weight; /**< weight of Gauss's rule [1/s] */
       DecayFactors factors;
     };
 
@@ -183,15 +184,18 @@ namespace quoin
 
     std::vector<Rate> rates; /**< ascending */
     std::vector<Cluster> clusters;
-    unsigned first_cluster = 0, end_cluster = 0; /**< of this rank's rows */
-    std::vector<int> row_counts, row_offsets;    /**< of the ranks */
-    std::vector<Pair> pairs;                     /**< of this rank's rows */
+    /** Clusters of this rank's rows. */
+    unsigned first_cluster = 0, end_cluster = 0;
+    /** Row counts and offsets of the ranks. */
+    std::vector<int> row_counts, row_offsets;
+    std::vector<Pair> pairs; /**< pairs of this rank's rows */
 
     unsigned long step = 0;
     long first_kept    = 0; /**< step of the first values in past */
     bool block_begun   = false;
     unsigned in_block  = 0; /**< steps taken in it */
-    Eigen::MatrixXd block;  /**< of this rank's rows, a column each step */
+    /** Values of this rank's rows, one column per step. */
+    Eigen::MatrixXd block;
     Eigen::VectorXd local, sum;
   };
 } // namespace quoin

@@ -32,7 +32,7 @@ namespace quoin
 
   private:
     const InfluenceKernel &kernel;
-    std::vector<Eigen::MatrixXd> G, H; /**< of lag n in entry n - 1 */
+    std::vector<Eigen::MatrixXd> G, H; /**< matrices of lag n in entry n - 1 */
     std::vector<Eigen::VectorXd> us, ps;
     Eigen::VectorXd sum;
   };

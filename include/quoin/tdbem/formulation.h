@@ -25,7 +25,7 @@ namespace quoin
     convolution_quadrature /**< ConvolutionQuadrature, in the mean */
   };
 
-  /** What a formulation needs to know beside boundary and medium. */
+  /** Options of a formulation. */
   struct FormulationOptions
   {
     Formulation formulation = Formulation::galerkin;
@@ -33,7 +33,7 @@ namespace quoin
 
     /** Decay of InfluenceMatrices [1/s]; not for convolution quadrature. */
     double decay = 0.;
-    /** For convolution quadrature only. */
+    /** Rayleigh damping, for convolution quadrature only. */
     RayleighDamping damping = {};
 
     /** Whether the history is summed directly, at growing cost. */

@@ -19,7 +19,8 @@ namespace quoin
   struct BoundaryRecord
   {
     double time_step = 0.; /**< [s] */
-    double decay     = 0.; /**< as InfluenceMatrices::Options::decay [1/s] */
+    /** Decay rate, InfluenceMatrices::Options::decay [1/s]. */
+    double decay = 0.;
 
     /**
      * Displacements [m] at the ends of the steps and tractions [Pa], constant

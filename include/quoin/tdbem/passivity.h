@@ -31,32 +31,33 @@ namespace quoin
    */
   ZTransform z_transform(const InfluenceKernel &kernel, unsigned n_lags);
 
-  /** Where the discrete impedance of a boundary creates most energy. */
+  /** Frequency at which the boundary may add most energy. */
   struct PassivityReport
   {
     /**
-     * Smallest eigenvalue of the Hermitian part of Z(w) among the w looked
-     * at, in units of rho c_2: negative if energy can be created.
+     * Smallest eigenvalue of the Hermitian part of Z(w) among the examined w,
+     * in units of rho c_2: negative if the boundary can add energy.
      */
     double smallest_eigenvalue;
-    double frequency;                /**< arg w / (2 pi dt) of it [Hz] */
-    double nyquist;                  /**< 1 / (2 dt) [Hz] */
-    unsigned n_scanned;              /**< number of frequencies looked at */
-    std::vector<double> frequencies; /**< looked at, ascending [Hz] */
+    double frequency;   /**< arg w / (2 pi dt) of it [Hz] */
+    double nyquist;     /**< 1 / (2 dt) [Hz] */
+    unsigned n_scanned; /**< number of frequencies examined */
+    std::vector<double>
+        frequencies; /**< examined frequencies, ascending [Hz] */
     std::vector<double> eigenvalues; /**< the smallest at each [rho c_2] */
 
-    /** Up to a tolerance, 1e-6. */
+    /** Whether the boundary is passive, up to a tolerance of 1e-6. */
     bool passive() const
     {
       return smallest_eigenvalue > -1e-6;
     }
 
-    /** In words: the result and, unless passive, what to do about it. */
+    /** Result in words and, unless the boundary is passive, the remedy. */
     std::string advice() const;
   };
 
   /**
-   * Looks for energy that a discrete boundary element domain may create.
+   * Searches for energy that a discrete boundary element domain may add.
    *
    * With velocities constant in each step, their transform is
    * v(w) = (1 - w) u(w) / dt, and p = Z v with the discrete impedance

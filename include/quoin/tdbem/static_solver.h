@@ -13,7 +13,7 @@
 
 namespace quoin
 {
-  /** What is known on the boundary, component by component. */
+  /** Boundary values, component by component. */
   struct StaticConditions
   {
     /** Displacement [m] where it is known, traction [Pa] elsewhere. */

@@ -43,7 +43,8 @@ namespace quoin
      */
     void step(const Eigen::VectorXd &given);
 
-    /** As step(), without adding the step to the history: see finish_step(). */
+    /** Does what step() does without adding the step to the history: see
+     * finish_step(). */
     void begin_step(const Eigen::VectorXd &given);
 
     /**
@@ -90,7 +91,7 @@ namespace quoin
     BoundaryHistory &history;
     std::vector<bool> traction_is_given;
     Eigen::MatrixXd G0, H0;
-    double traction_scale; /**< brings the columns to a similar size [Pa/m] */
+    double traction_scale; /**< scale of columns to a similar size [Pa/m] */
     Eigen::PartialPivLU<Eigen::MatrixXd> solver;
     Eigen::VectorXd displacement, traction;
     Eigen::VectorXd past; /**< the history's prediction for the next step */

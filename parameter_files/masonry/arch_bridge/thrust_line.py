@@ -27,7 +27,8 @@ def joints(span, rise, ring, voussoirs):
 
 
 def weights(lower, upper, unit_weight):
-    """Of the voussoirs, as (force downwards [N/m], its place x [m])."""
+    """Weights of the voussoirs, as (force downwards [N/m], its place x
+    [m])."""
     found = []
     for k in range(len(lower) - 1):
         x, y = np.array([lower[k], lower[k + 1], upper[k + 1], upper[k]]).T

@@ -21,7 +21,7 @@ def turned(v):
 
 
 def crossing(a, b, c, d):
-    """Where the line a-b meets c-d."""
+    """Point where the line a-b meets c-d."""
     u, v = b - a, d - c
     return a + u * np.dot(turned(v), c - a) / np.dot(turned(v), u)
 

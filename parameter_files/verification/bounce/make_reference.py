@@ -21,7 +21,7 @@ PERIOD = 2 * FALL + CONTACT
 
 
 def height(t):
-    """Of the foot above the base."""
+    """Height of the foot above the base [m]."""
     # time since the last apex or, below, since touch-down
     t = np.mod(t, PERIOD)
     flight = np.minimum(t, PERIOD - t)

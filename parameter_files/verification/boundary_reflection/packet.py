@@ -53,7 +53,7 @@ def reflected_share(kind, angle):
 
 
 def packet_share(kind, degrees, along, across):
-    """The same of a packet: the mean over its plane waves by their energy.
+    """Share of a packet: the mean over its plane waves by their energy.
     The potential is exp(-xi^2/2 along^2 - eta^2/2 across^2) cos(k xi), so a
     plane wave of wave numbers (a, b) in xi and eta has an energy as the square
     of exp(-(a - k)^2 along^2/2 - b^2 across^2/2) times the wave number^4."""
@@ -133,8 +133,8 @@ Physical Surface("rock") = {1};
 
 
 def extent(degrees, along, across, turned=0.0, reach=3.0):
-    """How far the packet reaches from its centre along a direction that is
-    @p turned [degrees] from the normal of the wall."""
+    """Distance that the packet reaches from its centre along a direction that
+    is @p turned [degrees] from the normal of the wall."""
     angle = np.radians(degrees - turned)
     return reach * np.hypot(along * np.cos(angle), across * np.sin(angle))
 

@@ -18,8 +18,8 @@ specification.loader.exec_module(cavity)
 
 
 def centre():
-    """Of the two triangles at the wall beside the x axis, in the mean: 96
-    edges around, 24 to twice the radius."""
+    """Mean centre of the two triangles at the wall beside the x axis: 96 edges
+    around, 24 to twice the radius."""
     outer = 1 + 1 / 24
     step = 2 * np.pi / 96
     c, s = np.cos(step), np.sin(step)

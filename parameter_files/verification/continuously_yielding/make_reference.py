@@ -18,7 +18,7 @@ PRESSURE, REACH, DURATION, SUBSTEPS = 2e6, 4e-3, 0.8, 200
 
 
 def closure(s):
-    """Of the straight beginning, then the integral of ds/kn."""
+    """Closure of the linear beginning, followed by the integral of ds/kn."""
     first = np.minimum(s, LOWEST) / (KN * (LOWEST / REFERENCE)**KN_POWER)
     above = np.maximum(s, LOWEST)
     power = 1 - KN_POWER

@@ -21,8 +21,8 @@ MU = np.tan(np.radians(30))
 
 
 def forces(travel, held, edges):
-    """On the left and on the right block; the slider, with so many edges at
-    its foot, is on the table."""
+    """Forces on the left and on the right block; the slider, with so many
+    edges at its foot, is on the table."""
     a = START + travel
     b = min(a + L, END)
     centre = a + L / 2

@@ -40,7 +40,7 @@ CLOSED = cap(KAPPA) / KN + KAPPA
 
 
 def pressure(v, most):
-    """Of fibres closed by v that were closed by most so far."""
+    """Pressure of fibres closed by v whose largest closure so far was most."""
     kappa = np.interp(np.maximum(v, most), CLOSED, KAPPA)
     return np.maximum(KN * (v - kappa), 0)
 

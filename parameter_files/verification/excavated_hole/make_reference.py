@@ -75,8 +75,9 @@ def yielding(share, r):
 
 
 def lining(share=0.5, pressure=10e6):
-    """Of the rock's wall, the lining's inner side [m], the joint [Pa], at the end
-    of both stages, outward and tension positive."""
+    """Displacements of the rock's wall and the lining's inner side [m] and
+    traction of the joint [Pa] at the end of both stages, outward and tension
+    positive."""
     inner, young, nu, stiffness = 0.9, 30e9, 0.2, 2e11
     a2, b2 = RADIUS**2, inner**2
     rock = RADIUS * (1 + NU) / YOUNG

@@ -17,7 +17,7 @@ PERIODS = 20
 
 
 def displacement(x, t):
-    """At x and the times t, within the first PERIODS periods."""
+    """Displacement at x and the times t, within the first PERIODS periods."""
     u = np.zeros_like(t)
     for n in range(2 * PERIODS + 2):
         sign = (-1) ** n

@@ -25,7 +25,7 @@ def turned(polygon):
 
 
 def columns():
-    """From the toe up; x along the dip, y normal to it."""
+    """Columns from the toe up; x along the dip, y normal to it."""
     for i, height in enumerate(HEIGHTS):
         x, y = i * WIDTH, i * STEP
         yield [(x, y), (x + WIDTH, y), (x + WIDTH, y + height),

@@ -26,7 +26,7 @@ def wave(kind, p, up):
 
 
 def traction(d, s):
-    """On the surface, by -mu f'."""
+    """Traction on the surface, by -mu f'."""
     lam = (C1**2 - 2 * C2**2) / C2**2
     n = np.array([0.0, 1.0])
     return lam * d.dot(s) * n + s.dot(n) * d + d.dot(n) * s

@@ -27,14 +27,15 @@ def stresses(y):
 
 
 def normal_tractions(y):
-    """Of a horizontal joint, the fault and a vertical joint [Pa]."""
+    """Normal tractions of a horizontal joint, the fault and a vertical joint
+    [Pa]."""
     horizontal, vertical = stresses(y)[:, 0], stresses(y)[:, 1]
     return np.stack([vertical, vertical * np.cos(FAULT)**2
                      + horizontal * np.sin(FAULT)**2, horizontal], axis=-1)
 
 
 def settlement():
-    """Of the soil by its own weight, if it were loaded now [m]."""
+    """Settlement of the soil by its own weight, if it were loaded now [m]."""
     young, nu = 1e8, 0.3
     modulus = young * (1 - nu) / ((1 + nu) * (1 - 2 * nu))
     return SOIL * BORDER**2 / (2 * modulus)

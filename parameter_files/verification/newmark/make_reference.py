@@ -44,7 +44,7 @@ def displacement(t):
 
 
 def bisect(function, a, b):
-    """Where function turns from false to true between a and b."""
+    """Point between a and b where the function turns from false to true."""
     while b - a > 1e-14:
         middle = (a + b) / 2
         a, b = (a, middle) if function(middle) else (middle, b)
@@ -59,7 +59,7 @@ class Phase:
         self.c, self.q = np.cos(beta), np.sin(beta)
 
     def drive(self, t):
-        """What friction would have to hold, and what it can, per mass."""
+        """Required and available friction per mass."""
         a = acceleration(t)
         return (G * self.q - a * self.c, MU * (G * self.c + a * self.q))
 

@@ -18,7 +18,7 @@ WALLS = {"wall_1": 6, "wall_2": 10}
 
 
 def courses(number):
-    """For each course the (left, right, bottom, top) of its bricks."""
+    """Bricks of each course, as (left, right, bottom, top)."""
     for i in range(number):
         x = [k * LENGTH for k in range(BRICKS + 1)]
         if i % 2 == 0:

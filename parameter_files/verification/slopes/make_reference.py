@@ -71,7 +71,7 @@ def stability_number(slope, friction):
 
 
 def factor(slope, friction, cohesion, number=stability_number):
-    """By which cohesion and tan(friction) are divided at the limit."""
+    """Factor of safety on cohesion and tan(friction)."""
     degrees = np.radians
     return brentq(
         lambda f: WEIGHT * HEIGHT * f / cohesion - number(

@@ -19,7 +19,7 @@ PEAK = FT * COMPLIANCE               # U at which it fails
 
 
 def traction(displacement):
-    """Of the solution that is reached as U grows [Pa]."""
+    """Traction of the solution that is reached as U grows [Pa]."""
     # beyond, U = sigma COMPLIANCE + w falls with w up to the snap-back's end
     turn = GI / FT * np.log(COMPLIANCE * FT**2 / GI)
     low, high = np.full_like(displacement, turn), displacement.copy()

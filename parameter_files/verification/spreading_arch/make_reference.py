@@ -14,7 +14,7 @@ COLLAPSE = 2 * (DIAGONAL - LENGTH)
 
 
 def rise(spread):
-    """Of the hinge at the crown above those at the supports [m]."""
+    """Rise of the hinge at the crown above those at the supports [m]."""
     return np.sqrt(DIAGONAL**2 - (LENGTH + spread / 2)**2)
 
 

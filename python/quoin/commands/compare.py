@@ -119,7 +119,8 @@ def report(numbers):
 
 
 def folders_of(options, others):
-    """Where explicit, implicit and results are, once both have run."""
+    """Folders of the explicit, the implicit and the compared results after
+    both runs."""
     given = [options.explicit, options.implicit]
     if any(given) != all(given):
         raise ValueError("give both --explicit DIR and --implicit DIR, or "

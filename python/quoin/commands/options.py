@@ -46,7 +46,7 @@ def add_since(parser, verb, what):
 
 
 def add_picture_options(parser, joints="state"):
-    """What a picture shows; @p joints: the default of --joints."""
+    """Adds the options of pictures; @p joints: the default of --joints."""
     parser.add_argument("--scale", type=float,
                         help="of displacements, default automatic")
     parser.add_argument("--view", type=view, metavar="XMIN,YMIN,XMAX,YMAX",

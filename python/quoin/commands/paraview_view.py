@@ -159,7 +159,7 @@ class Views:
         self.look()
 
     def series(self, name):
-        """Its fields as one grid; None if there are none."""
+        """Fields of the series as one grid; None if there are none."""
         path = os.path.join(os.path.abspath(self.output), name + ".pvd")
         if not vtu.exists(path) or not any(
                 pieces for _, pieces in vtu.read_pvd(path)):
@@ -225,7 +225,7 @@ class Views:
             ScaleFactor=scale, registrationName=name)
 
     def leave_out(self, motion):
-        """From now on this Motion."""
+        """Removes this Motion from all pictures from now on."""
         motion = motion or Motion(0.0, [0.0, 0.0])
         c, s = math.cos(motion.turn), math.sin(motion.turn)
         x, y, z = (*motion.shift, 0.0)[:3]
@@ -251,7 +251,7 @@ class Views:
         return scaled
 
     def colour(self, shown, place, array, title, unit, scale, component=None):
-        """By an array, in colours from the least to the largest value."""
+        """Colours by an array, from the least to the largest value."""
         self.pv.ColorBy(shown, (place, array) if component is None
                         else (place, array, component))
         table = self.pv.GetColorTransferFunction(array)
@@ -439,8 +439,8 @@ class Views:
                    bounds[5] - bounds[4], 1e-30)
 
     def look(self):
-        """At the whole of the blocks or the field: from in front, in three
-        dimensions with z up from the corner of the least x and y."""
+        """Directs the camera at the blocks or the field: from in front, in
+        three dimensions with z up from the corner of the least x and y."""
         b = self.main.GetDataInformation().GetBounds()
         if self.bar is not None:
             self.bar.WindowLocation = "Any Location"
@@ -471,7 +471,7 @@ class Views:
             0.65 * (b[1] - b[0]) * height / max(width, 1))
 
     def height(self, width):
-        """Of a picture of this width that the blocks fill."""
+        """Height of a picture of this width that the blocks fill."""
         b = self.main.GetDataInformation().GetBounds()
         ratio = ((b[3] - b[2] + 0.2 * self.size())
                  / max(1.3 * (b[1] - b[0]), 1e-30))

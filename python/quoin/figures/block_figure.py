@@ -80,7 +80,7 @@ class Frame:
         return self.blocks.time
 
     def position(self, scale):
-        """Of the blocks' points."""
+        """Drawn positions of the blocks' points."""
         X = self.blocks.points
         return enlarged(X, X + self.blocks.point_data["displacement"][:, :2],
                         scale, self.shared)
@@ -153,7 +153,7 @@ PER = {"velocity": "/s", "displacement": ""}
 
 
 def cell_size(blocks, name):
-    """Of a vector, in the mean over the corners of each cell."""
+    """Magnitude of a vector, averaged over the corners of each cell."""
     size = np.linalg.norm(blocks.point_data[name][:, :2], axis=1)
     return size[blocks.cells].mean(axis=1)
 
@@ -263,7 +263,7 @@ class Picture:
             LineCollection(contour, colors="0.35", linewidths=0.4))
 
     def colours(self, blocks):
-        """Of the cells."""
+        """Colours of the cells."""
         if self.sizes:
             return MAGNITUDES(self.sizes(
                 self.factor * cell_size(blocks, self.options.colour)))
@@ -277,7 +277,7 @@ class Picture:
         return frame.label or f"t = {frame.time:.{digits}} s"
 
     def remark(self):
-        """What holds of all moments."""
+        """Remark that applies to all output times."""
         words = [] if self.scale == 1.0 else [
             f"displacements × {self.scale:g}"
             + (" without the motion of the whole" if self.is_shared else "")]

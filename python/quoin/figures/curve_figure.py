@@ -249,7 +249,7 @@ class CurveFigure:
         return curve.get("factor", self.y.get("factor", 1.0))
 
     def name_of(self, curve):
-        """Of the column, with the unit in which it is shown."""
+        """Name of the column, with the unit in which it is shown."""
         return scaled_name(self.table(self.runs[0][0], curve).full_name(
             curve["column"]), self.factor(curve))
 
@@ -266,14 +266,14 @@ class CurveFigure:
         return list(panels.values())
 
     def label_of(self, panel):
-        """Of the y axis."""
+        """Label of the y axis."""
         name = self.name_of(panel[0][1])
         if self.y.get("label") or len(panel) == 1:
             return labelled(self.y.get("label"), name)
         return f"[{unit_of(name)}]" if unit_of(name) else ""
 
     def place_at(self, time):
-        """Where the first curve of the first run is at a time [s]."""
+        """Point of the first curve of the first run at a time [s]."""
         folder, curve = self.runs[0][0], self.spec["curves"][0]
         when = self.table(folder, curve).column(0)
         return [np.interp(time, when, value)
@@ -298,7 +298,8 @@ class CurveFigure:
         line.set_label(label)
 
     def draw_references(self, axes, panel):
-        """Those of the panel's columns; others are in the first one."""
+        """Draws the references of the panel's columns; others are in the first
+        one."""
         markers = iter("os^Dv<>p*" * 4)
         here = [curve["column"] for _, curve in panel]
         known = [curve["column"] for curve in self.spec["curves"]]

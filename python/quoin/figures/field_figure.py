@@ -41,7 +41,8 @@ class FieldFrame:
             self.field = None
 
     def magnitude(self, name):
-        """Of the field at its points, or of the boundary on its elements."""
+        """Magnitude of the field at its points, or of the boundary on its
+        elements."""
         data = (self.boundary.cell_data if self.field is None
                 else self.field.point_data)
         return np.linalg.norm(data[name][:, :2], axis=1)

@@ -37,9 +37,9 @@ WIDEST_CONTACT = 5.0                 # [pt]
 
 
 def drawn_position(grid, scale, motion=None):
-    """Of joints and contacts, whose points are at their current places, beyond
-    the @p motion that all blocks share; None where those cannot be
-    enlarged."""
+    """Drawn positions of joints and contacts, whose points are at their
+    current places, without the @p motion that all blocks share; None where
+    those cannot be enlarged."""
     if scale == 1.0:
         return grid.points
     if "displacement" not in grid.point_data:
@@ -121,9 +121,9 @@ def crack_modes(joints, shear_stiffness, peak_crushing):
 
 
 def usual_width(widths, block_size):
-    """Of wide cracks [m], from those of faces: neither a unit that has come
-    away, whose joints are gaps, nor a bed joint on which all slides shall make
-    all others thin. @p block_size [m]."""
+    """Width of wide cracks [m], from the widths of faces, without joints of
+    units that have come away and without bed joints on which all blocks slide,
+    which would make all others thin. @p block_size [m]."""
     failed = widths[widths > 0.0]
     cracks = failed[failed < GAP * block_size]
     if len(cracks) == 0:
@@ -220,7 +220,7 @@ class SlipJoints:
 
     @staticmethod
     def slip(joints):
-        """Of each face, the mean of its ends [m]."""
+        """Slip of each face, the mean of its ends [m]."""
         return np.abs(joints.point_data["slip"])[joints.cells].mean(axis=1)
 
     def draw(self, axes, joints, position, with_count):
@@ -243,7 +243,8 @@ def contact_forces(contacts):
 
 
 def draw_contacts(axes, contacts, position, largest_force):
-    """At these places, None: nowhere; returns the handles of the legend."""
+    """Draws contacts at the given positions, None: nowhere; returns the
+    handles of the legend."""
     force = contact_forces(contacts)
     state = contacts.cell_data["state"]
     shown = (force > 1e-3 * largest_force) & (state != OPEN)

@@ -66,7 +66,7 @@ def draw_moment(picture, frame):
 
 
 def columns_for(n, ratio):
-    """How many pictures stand in a row, all rows being about as long."""
+    """Number of pictures in a row, for rows of similar length."""
     most = min(n, 1 if ratio > 4 else 2 if ratio > 1.2 else 3
                if ratio > 0.6 else 4)
     return -(-n // -(-n // most))
@@ -115,7 +115,7 @@ def letter(k):
 
 
 def in_rows(handles):
-    """How many columns a legend has, and the handles so that it reads row by
+    """Number of columns of a legend, and the handles so that it reads row by
     row, though it is filled by columns."""
     n = len(handles)
     columns = n if n <= 5 else -(-n // 2)
@@ -124,7 +124,7 @@ def in_rows(handles):
 
 
 def legend_in(axes, handles, remark):
-    """In axes of its own."""
+    """Draws the legend in axes of its own."""
     axes.axis("off")
     axes.legend(handles=handles, title=remark, title_fontsize=8, fontsize=8,
                 loc="center")

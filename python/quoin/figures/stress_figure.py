@@ -62,8 +62,8 @@ def principal(stress):
 
 
 def grid_points(blocks, spacing):
-    """Where points of a regular grid lie in the cells before deformation:
-    (cell of each, weights of its three nodes)."""
+    """Points of a regular grid in the cells before deformation: (cell of each,
+    weights of its three nodes)."""
     corners = blocks.points[blocks.cells]
     # Half a spacing off the edge, so that no row lies on the contour.
     corners = corners - blocks.points.min(axis=0) - 0.5 * spacing
@@ -167,7 +167,7 @@ class Contours:
 
     @staticmethod
     def values(blocks):
-        """At the nodes [Pa]."""
+        """Principal stress at the nodes [Pa]."""
         return principal(nodal_stress(blocks))[1]
 
     def draw(self, axes, blocks, position):

@@ -181,7 +181,7 @@ TEST(InputAdvice, JointsAndMaterials)
   EXPECT_EQ(advice(parameters), "");
   law.peak.tension = law.residual.tension = 0.;
   law.peak.friction = law.residual.friction = 0.6;
-  expect(parameters, "the run may not come to its end");
+  expect(parameters, "the run may not finish");
   law.normal_stiffness = 29. * 1e10 / std::sqrt(13.);
   EXPECT_EQ(advice(parameters), "");
   // One block of two that is soft is what is named.

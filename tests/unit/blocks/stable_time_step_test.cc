@@ -89,7 +89,7 @@ TEST(StableTimeStep, CriticalStep)
 
 TEST(StableTimeStep, CriticalStepOfTheDampedScheme)
 {
-  // One freedom: v += -(omega^2 u + beta omega^2 v) dt, u += v dt.
+  // One degree of freedom: v += -(omega^2 u + beta omega^2 v) dt, u += v dt.
   const double omega = 2., beta = 0.4;
   const double critical = StableTimeStep<2>::critical(omega * omega, beta);
   const auto amplitude  = [&](const double dt)

@@ -176,7 +176,7 @@ TEST(FreeField, TheColumnIsLayered)
 TEST(FreeField, RefusesWhatIsNoSide)
 {
   expect_refused({ incident("0", "0"), free_field("side", "bottom") },
-                 { "'Loads/side'", "'Boundary'", "upright" });
+                 { "'Loads/side'", "'Boundary'", "vertical" });
   LoadParameters both = free_field("side", "left");
   both.boundaries.push_back("right");
   expect_refused({ incident("0", "0"), both }, { "'Boundary'", "side" });

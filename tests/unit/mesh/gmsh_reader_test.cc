@@ -253,7 +253,7 @@ TEST(GmshReader, SurvivesTheEndOfGmsh)
       = "a = " + std::string(200000, '(') + "1" + std::string(200000, ')');
   expect_refused(write("deep.geo", deep + ";\n"), { "gmsh" });
   expect_refused(write("end.geo", two_squares + names + "Exit;\n"),
-                 { "gmsh came to its end", "Exit", "repair it" });
+                 { "gmsh ended", "Exit", "repair it" });
   expect_two_squares(read_gmsh(fine));
 
   EXPECT_EQ(n_open(), n_open_before);
