@@ -247,7 +247,7 @@ def error_in_an_included_file(quoin, folder):
     with open(prm, "w") as stream:
         stream.write("include open.inc\n" + text)
     status, printed = run([quoin, prm, "--check"])
-    expect(status, printed, 1, ["open.inc", "'Joints' open"])
+    expect(status, printed, 1, ["open.inc", "'Joints' of line 1 open"])
     return printed
 
 

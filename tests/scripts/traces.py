@@ -251,7 +251,8 @@ class Cuts(Files):
         done = subprocess.run([quoin, "--check", self.write("case.prm", CASE)],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                               text=True, check=True)
-        self.assertIn("joints 'J1': 2 traces of 15 m, of which 10 m are in",
+        self.assertIn("joints 'J1': 2 traces, 15 m in the rock, of which "
+                      "10 m are joints",
                       done.stdout + done.stderr)
         self.assertIn("2 blocks", done.stdout)
 
