@@ -9,7 +9,6 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/wall_clock.h>
-#include <quoin/contact/block_contacts.h>
 #include <quoin/contact/contact_search.h>
 #include <quoin/contact/contact_sets.h>
 #include <quoin/mesh/global_geometry.h>
@@ -19,6 +18,8 @@
 #include <cstring>
 #include <limits>
 #include <sstream>
+
+#include "contact_pairs.h"
 
 namespace quoin
 {
@@ -510,6 +511,7 @@ namespace quoin
           { { node.X[0] + node.u[0], node.X[1] + node.u[1] } });
     }
     ++contacts.n_searches;
+    contacts.marks.clear();
     bind(contacts);
     gather(state);
     inherit_shifts(contacts);
@@ -525,10 +527,8 @@ namespace quoin
       const ContactPair &pair = pair_or_copy(contacts, i);
       if (!pair.active || pair.shift == 0.)
         return false;
-      const Edge &a = local_edges[pair_edges[i][0]];
-      const Edge &b = local_edges[pair_edges[i][1]];
       Geometry g;
-      return geometry(pair, a, b, g) && shift_left(pair, a, b, g.tangent) != 0.;
+      return geometry(pair, i, g) && shift_left(pair, i, g) != 0.;
     };
     std::vector<unsigned int> parents, begin{ 0 };
     for (unsigned int e = 0; e + 1 < edge_pairs_begin.size(); ++e)
@@ -551,7 +551,7 @@ namespace quoin
       for (unsigned int side = 0; side < 2 && pair.shift == 0.; ++side)
       {
         const unsigned int shared = pair_edges[i][side];
-        const auto &beside = local_edges[pair_edges[i][1 - side]].neighbours;
+        const auto &beside = edge_links[pair_edges[i][1 - side]].neighbours;
         for (unsigned int j = begin[shared]; j < begin[shared + 1]; ++j)
         {
           const unsigned int q      = parents[j];
@@ -573,18 +573,16 @@ namespace quoin
     for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
     {
       ContactPair &pair = contacts.pairs[i];
-      const Edge &a     = local_edges[pair_edges[i][0]];
-      const Edge &b     = local_edges[pair_edges[i][1]];
       Geometry g;
-      if (!pair.active || pair.shift != 0. || !geometry(pair, a, b, g))
+      if (!pair.active || pair.shift != 0. || !geometry(pair, i, g))
         continue;
       for (unsigned int k = 0; k < 2; ++k)
       {
         ContactPoint &point = pair.points[k];
-        const double now    = slip(point, a, b, g.normal[k]);
+        const double now    = slip(point, i, g.normal[k]);
         point.anchor_lower  = g.lower[k];
         point.anchor_upper  = g.upper[k];
-        point.slip_offset += now - slip(point, a, b, g.normal[k]);
+        point.slip_offset += now - slip(point, i, g.normal[k]);
       }
     }
   }
@@ -635,25 +633,30 @@ namespace quoin
     find(edge_numbers);
     edges.keep(edge_numbers);
 
-    local_edges.assign(edge_numbers.size(), Edge());
-    reference_lengths.clear();
+    // Lanes beyond the last edge have some that no pair has.
+    const unsigned int n_places
+        = (edge_numbers.size() + most_lanes) / most_lanes * most_lanes;
+    local_edges.assign(n_places, Edge());
+    edge_links.assign(n_places, EdgeLinks());
+    edge_thickness.assign(n_places, 1.);
+    reference_lengths.assign(n_places, 1.);
     for (unsigned int e = 0; e < edge_numbers.size(); ++e)
     {
-      const ContactEdge &edge  = edges[edge_numbers[e]];
-      local_edges[e].thickness = thickness[edge.group];
+      const ContactEdge &edge = edges[edge_numbers[e]];
+      edge_thickness[e]       = thickness[edge.group];
+      reference_lengths[e]    = edge.length;
       for (unsigned int k = 0; k < 2; ++k)
       {
-        local_edges[e].corner[k] = edge.corner[k];
+        edge_links[e].corner[k] = edge.corner[k];
         // The neighbours of mere neighbours are not needed.
         const unsigned int next = k == 0 ? edge.previous : edge.next;
-        local_edges[e].neighbours[k]
+        edge_links[e].neighbours[k]
             = next != none
                       && std::binary_search(edge_numbers.begin(),
                                             edge_numbers.end(), next)
                   ? local_edge(next)
                   : e;
       }
-      reference_lengths.push_back(edge.length);
     }
   }
 
@@ -687,7 +690,7 @@ namespace quoin
       for (unsigned int k = 0; k < 2; ++k)
       {
         const unsigned int number = edge_numbers[e];
-        local_edges[e].nodes[k]
+        edge_links[e].nodes[k]
             = edges.is_own(number)
                   ? place(compact_own,
                           edges.local_nodes()[edges.own_place(number)][k])
@@ -708,8 +711,7 @@ namespace quoin
   {
     const unsigned int n_pairs = contacts.pairs.size();
     pair_edges.clear();
-    pair_share.clear();
-    pair_depth.clear();
+    pair_weights.clear();
     edge_pairs_begin.assign(edge_numbers.size() + 1, 0);
     const auto add_edges = [this](const ContactPair &pair)
     {
@@ -721,10 +723,10 @@ namespace quoin
     for (const ContactPair &pair : contacts.pairs)
     {
       add_edges(pair);
-      pair_share.push_back(share(pair));
-      pair_depth.push_back(
-          parameters.deepest
-          * std::min(edges[pair.lower].height, edges[pair.upper].height));
+      pair_weights.push_back(
+          { share(pair), parameters.deepest
+                             * std::min(edges[pair.lower].height,
+                                        edges[pair.upper].height) });
     }
     for (const ContactPair &pair : copies.pairs())
       add_edges(pair);
@@ -746,15 +748,17 @@ namespace quoin
                     return pair_or_copy(contacts, p).edges()
                            < pair_or_copy(contacts, q).edges();
                   });
+    pair_edges.resize(pair_edges.size() + most_lanes, { { 0, 0 } });
     if (has_dashpots())
       bind_dashpots(contacts);
   }
 
   void BlockContacts::note_depth(const unsigned int pair, const double depth)
   {
-    if (depth / pair_depth[pair] > deepest_ratio)
+    const double ratio = depth / pair_weights[pair].depth;
+    if (ratio > deepest_ratio)
     {
-      deepest_ratio = depth / pair_depth[pair];
+      deepest_ratio = ratio;
       deepest_pair  = pair;
     }
   }
@@ -778,7 +782,7 @@ namespace quoin
       told[1]                 = edges[pair.upper].block;
       told[2]                 = edge.x;
       told[3]                 = edge.y;
-      told[4]                 = ratio * pair_depth[deepest_pair];
+      told[4]                 = ratio * pair_weights[deepest_pair].depth;
     }
     MPI_Bcast(told, 5, MPI_DOUBLE, teller, exchange.communicator());
     std::ostringstream message;

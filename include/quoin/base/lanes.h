@@ -6,6 +6,7 @@
 
 #include <quoin/base/intrinsics.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -30,6 +31,43 @@ namespace quoin
 
   template <int lanes>
   struct Lanes;
+
+  /** One double, so that code for lanes is that for single points, too. */
+  template <>
+  struct Lanes<1>
+  {
+    using Value = double;
+    using Bits  = bool;
+    using Bytes = std::int8_t;
+
+    static void square_root(const Value a, Value &root)
+    {
+      root = std::sqrt(a);
+    }
+    static void absolute(const Value a, Value &result)
+    {
+      result = std::abs(a);
+    }
+
+    template <typename Of>
+    static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
+    {
+      std::copy_n(of(0), 4, v);
+    }
+    template <typename To>
+    static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
+    {
+      std::copy_n(v, 4, to(0));
+    }
+    static QUOIN_INLINE void load(const char *base, const std::size_t scale,
+                                  const std::uint32_t *offset, Value &x,
+                                  Value &y)
+    {
+      const Pair &p = *reinterpret_cast<const Pair *>(base + scale * *offset);
+      x             = p[0];
+      y             = p[1];
+    }
+  };
 
   template <>
   struct Lanes<4>

@@ -13,29 +13,34 @@
 
 namespace quoin
 {
-  /** One end of the overlap of two edges in contact; as JointHistory. */
-  struct ContactPoint
+  /** One end of the overlap of two edges in contact; as JointHistory. Its rows
+      of four numbers go to and from vectors: what changes in each step, what
+      changes often, what flow changes, and what a law adds. */
+  struct alignas(32) ContactPoint
   {
     double normal_traction = 0.; /**< [Pa] */
     double shear_traction  = 0.; /**< [Pa] */
-    double plastic_slip    = 0.; /**< [m] */
-    double plastic_opening = 0.; /**< [m] */
-    double slip_offset     = 0.; /**< slip at the anchors [m] */
-    double anchor_lower    = 0.; /**< where on the edges, 0 to 1, slip is */
-    double anchor_upper    = 0.; /**< counted from */
     double area            = 0.; /**< as last used [m^2] */
     /** As last computed; infinite: not yet [m]. */
     double opening = std::numeric_limits<double>::infinity();
-    /** Internal variables of its law; there is room for most_internal. */
-    static constexpr unsigned int most_internal = 4;
-    double internal[most_internal]{};
+
+    double plastic_slip    = 0.; /**< [m] */
+    double plastic_opening = 0.; /**< [m] */
     /** How its normal leans, from -1, that of the lower edge, to 1, that of the
         upper; as last used. */
     double lean = 0.;
     /** What it takes off the overlap that it is from corner to corner, as last
         used [m]. */
-    double sideways  = 0.;
-    JointState state = JointState::slipped;
+    double sideways = 0.;
+
+    double slip_offset  = 0.; /**< slip at the anchors [m] */
+    double anchor_lower = 0.; /**< where on the edges, 0 to 1, slip is */
+    double anchor_upper = 0.; /**< counted from */
+    JointState state    = JointState::slipped;
+
+    /** Internal variables of its law; there is room for most_internal. */
+    static constexpr unsigned int most_internal = 4;
+    double internal[most_internal]{};
   };
 
   /** Two edges of blocks that touch or may soon do so. */
@@ -60,12 +65,23 @@ namespace quoin
     }
   };
 
+  /** What a step has to know of a pair before it takes any notice. */
+  enum class PairMark : std::uint8_t
+  {
+    unseen = 0, /**< not active, and not seen apart */
+    open   = 1, /**< not active, and seen apart */
+    active = 2
+  };
+
   /** Contacts that come and go; empty if displacements are small. */
   struct ContactState
   {
     static constexpr const char *slice_name = "contacts";
 
     AlignedArray<ContactPair> pairs; /**< ascending in their edges */
+    /** Of each pair what it says of being active and open, because a step has
+        to know of all. Not archived; empty: to be made again. */
+    AlignedArray<PairMark> marks;
 
     AlignedArray<std::uint8_t> handed_over; /**< of interfaces of joints */
 
