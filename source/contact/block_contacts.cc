@@ -281,14 +281,15 @@ namespace quoin
     EdgeLanes<1> a, b;
     load_edges(&pair_edges[i][0], a);
     load_edges(&pair_edges[i][1], b);
-    EndForceLanes<1> force;
+    TractionLanes<1> sum;
     for (unsigned int k = 0; k < 2; ++k)
     {
       const ContactPoint &point = pair.points[k];
       PairFunctions<1>::add_tractions(a, b, g, k, anchor_of(point),
                                       point.area * point.normal_traction,
-                                      point.area * point.shear_traction, force);
+                                      point.area * point.shear_traction, sum);
     }
+    const EndForceLanes<1> force = PairFunctions<1>::end_forces(a, b, sum);
     for (unsigned int n = 0; n < 4; ++n)
     {
       const EdgeLanes<1> &edge = n < 2 ? a : b;

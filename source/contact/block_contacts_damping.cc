@@ -64,9 +64,13 @@ namespace quoin
                });
       const double sigma = at.area * traction[0], tau = at.area * traction[1];
       const double f[2] = { sigma * nx + tau * ny, sigma * ny - tau * nx };
-      EndForceLanes<1> forces;
+      EdgeLanes<1> edge_a, edge_b;
+      load_edges(&a, edge_a);
+      load_edges(&b, edge_b);
+      TractionLanes<1> forces;
       PairFunctions<1>::spread(at.lower, at.upper, f, forces);
-      add_to_ends(forces, &a, &b, 1, compact_viscous.data());
+      add_to_ends(PairFunctions<1>::end_forces(edge_a, edge_b, forces), &a, &b,
+                  1, compact_viscous.data());
     }
   }
 } // namespace quoin

@@ -217,6 +217,7 @@ namespace quoin
     using Bits  = typename F::Bits;
 
     const typename ContactPack<Law, lanes>::Laws laws_in_lanes(law);
+    ContactPack<Law, lanes> pack;
     const Value none{};
     DissipationLanes<lanes> lost;
     Value lost_by_contact{};
@@ -249,8 +250,7 @@ namespace quoin
       L::load(reinterpret_cast<const char *>(pair_weights.data()),
               sizeof(PairWeight), pair, share, depth_limit);
 
-      ContactPack<Law, lanes> pack;
-      pack.load(pairs, pair, 0, all);
+      pack.load(pairs, pair, 0);
       at.anchor = pack.anchor;
       PairGeometry<lanes> g;
       const unsigned int found
@@ -258,10 +258,13 @@ namespace quoin
       const Bits present
           = F::each([&](const int l) { return found >> l & 1 ? 1. : 0.; })
             != 0.;
-      EndForceLanes<lanes> forces, viscous;
+      TractionLanes<lanes> forces, viscous;
       for (unsigned int k = 0; k < 2 && found != 0; ++k)
       {
-        pack.load(pairs, pair, k, found);
+        if (k == 1)
+          pack.load(pairs, pair, 1);
+        if (found != (1U << lanes) - 1)
+          pack.keep(found);
         const Value(&normal)[2] = g.normal[k];
         // What crushed has closed for good and is not overlap.
         const Value deep = F::minimum(none, pack.plastic_before) - g.opening[k];
@@ -366,9 +369,11 @@ namespace quoin
                   { F::at(opening, l), F::at(slip_now, l) },
                   { F::at(stiffness[0], l), F::at(stiffness[1], l) } });
       }
-      add_to_ends(forces, ea, eb, found, compact_force.data());
+      add_to_ends(P::end_forces(a, b, forces), ea, eb, found,
+                  compact_force.data());
       if (viscous_beta > 0.)
-        add_to_ends(viscous, ea, eb, found, compact_viscous.data());
+        add_to_ends(P::end_forces(a, b, viscous), ea, eb, found,
+                    compact_viscous.data());
       for (unsigned int l = 0; l < n && found != all; ++l)
         if (~found >> l & 1)
         {

@@ -43,13 +43,13 @@ namespace quoin
     AnchorLanes<lanes> anchor;
     Value sigma, tau; /**< tractions after advance() [Pa] */
 
-    /** Points @p k of the pairs of the mask @p present. */
+    /** Points @p k of pairs. */
     QUOIN_INLINE void load(ContactPair *pairs, const std::uint32_t *pair,
-                           const unsigned int k, const unsigned int present)
+                           const unsigned int k)
     {
       Value row[4];
       for (int l = 0; l < lanes; ++l)
-        points[l] = present >> l & 1 ? &pairs[pair[l]].points[k] : &left_out;
+        points[l] = &pairs[pair[l]].points[k];
       L::load_four([&](const int l) { return &points[l]->normal_traction; },
                    row);
       sigma_before   = row[0];
@@ -73,10 +73,21 @@ namespace quoin
         for (unsigned int i = 0; i < n_internal; ++i)
           F::store(now.values[4 + i], row[i]);
       }
-      std::uint64_t states = 0;
+      if constexpr (lanes == 1)
+        now.state[0] = points[0]->state;
+      else
+      {
+        const auto bytes = __builtin_convertvector((Bits)rest & last_byte,
+                                                   typename F::Bytes);
+        std::memcpy(now.state, &bytes, sizeof(bytes));
+      }
+    }
+
+    /** Does not write the lanes beside those @p present. */
+    QUOIN_INLINE void keep(const unsigned int present)
+    {
       for (int l = 0; l < lanes; ++l)
-        states |= std::uint64_t(points[l]->state) << 8 * l;
-      std::memcpy(now.state, &states, sizeof(states));
+        points[l] = present >> l & 1 ? points[l] : &left_out;
     }
 
     /** Brings the points of @p present to @p opening and @p slip [m]; @p
@@ -127,15 +138,7 @@ namespace quoin
     /** Those that slip or are open after advance(). */
     QUOIN_INLINE Bits flows() const
     {
-      return F::each(
-                 [&](const int l)
-                 {
-                   return now.state[l] == JointState::slipping
-                                  || now.state[l] == JointState::open
-                              ? 1.
-                              : 0.;
-                 })
-             != 0.;
+      return is(JointState::slipping) | is(JointState::open);
     }
 
     /** Energy per area [J/m^2] that a change of area takes along in advance().
@@ -181,14 +184,19 @@ namespace quoin
     {
       L::store_four([&](const int l) { return &points[l]->normal_traction; },
                     { sigma, tau, area, opening });
-      L::store_four(
-          [&](const int l) { return &points[l]->plastic_slip; },
-          { F::load(now.values[2]), F::load(now.values[3]), lean, sideways });
-      if (has_new_anchor)
-        L::store_four([&](const int l) { return &points[l]->slip_offset; },
-                      { anchor.slip_offset, anchor.lower, anchor.upper, rest });
-      if (!has_flowed)
+      if (has_flowed
+          || F::any((lean != lean_before) | (sideways != sideways_before)))
+        L::store_four(
+            [&](const int l) { return &points[l]->plastic_slip; },
+            { F::load(now.values[2]), F::load(now.values[3]), lean, sideways });
+      if (!has_flowed && !has_new_anchor)
         return;
+      if constexpr (lanes > 1)
+        rest = (Value)(((Bits)rest & ~last_byte) | states());
+      L::store_four([&](const int l) { return &points[l]->slip_offset; },
+                    { anchor.slip_offset, anchor.lower, anchor.upper, rest });
+      if constexpr (lanes == 1)
+        points[0]->state = now.state[0];
       if constexpr (n_internal > 0)
       {
         Value row[4]{};
@@ -196,8 +204,6 @@ namespace quoin
           row[i] = F::load(now.values[4 + i]);
         L::store_four([&](const int l) { return points[l]->internal; }, row);
       }
-      for (int l = 0; l < lanes; ++l)
-        points[l]->state = now.state[l];
     }
 
   private:
@@ -218,6 +224,19 @@ namespace quoin
       for (unsigned int i = 0; i < ContactPoint::most_internal; ++i)
         result.internal[i].values = of.values[4 + i];
       return result;
+    }
+
+    static constexpr std::int64_t last_byte = 0xff;
+    QUOIN_INLINE Bits states() const
+    {
+      return F::load_bytes(reinterpret_cast<const std::uint8_t *>(now.state));
+    }
+    QUOIN_INLINE Bits is(const JointState state) const
+    {
+      if constexpr (lanes == 1)
+        return now.state[0] == state;
+      else
+        return states() == static_cast<int>(state);
     }
 
     ContactPoint *points[lanes];

@@ -41,13 +41,13 @@ namespace quoin
       const EdgeLanes<lanes> &b, PairGeometry<lanes> &result) const
   {
     const auto tangent_beside
-        = [&](const unsigned int side, const unsigned int k,
+        = [&](const unsigned int is_a, const unsigned int k,
               typename Lanes<lanes>::Value(&tangent)[2])
     {
-      const std::uint32_t *e = side == 0 ? ea : eb;
       std::uint32_t beside[lanes];
       for (int l = 0; l < lanes; ++l)
-        beside[l] = edge_links[e[l]].neighbours[k];
+        beside[l] = is_a >> l & 1 ? edge_links[ea[l]].neighbours[k]
+                                  : edge_links[eb[l]].neighbours[1 - k];
       Lanes<lanes>::load(
           reinterpret_cast<const char *>(local_edges.data()->tangent),
           sizeof(Edge), beside, tangent[0], tangent[1]);

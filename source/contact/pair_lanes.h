@@ -66,6 +66,17 @@ namespace quoin
     Value turn[2]; /**< its derivative, by how far a's vertex is inside */
   };
 
+  /** Forces of contacts on both edges as sums over points [N], [Nm]; what they
+      are for the ends is found at last. */
+  template <int lanes>
+  struct TractionLanes
+  {
+    using Value = typename Lanes<lanes>::Value;
+
+    Value force[2]{}, at_lower[2]{}, at_upper[2]{}; /**< at places of a and b */
+    Value move[2]{}, turn{}, bend{}, stretch_a{}, stretch_b{};
+  };
+
   /** Forces on the ends of both edges [N]. */
   template <int lanes>
   struct EndForceLanes
@@ -209,20 +220,35 @@ namespace quoin
      */
     static QUOIN_INLINE Value recession(const Value &cosine,
                                         const Value (&neighbour)[2],
-                                        const Edge &touched)
+                                        const Value (&touched)[2])
     {
-      const Value of_neighbour = -(neighbour[0] * touched.tangent[0]
-                                   + neighbour[1] * touched.tangent[1]);
-      const Bits is_steeper    = of_neighbour <= cosine;
-      const Value ratio = cosine / (is_steeper ? fill(1.) : of_neighbour);
-      const Value cube  = ratio * ratio * ratio;
+      const Value of_neighbour
+          = -(neighbour[0] * touched[0] + neighbour[1] * touched[1]);
+      const Bits is_steeper = of_neighbour <= cosine;
+      const Value ratio     = cosine / (is_steeper ? fill(1.) : of_neighbour);
+      const Value cube      = ratio * ratio * ratio;
       return is_steeper ? fill(1.) : cube * cube;
+    }
+
+    /** Recession at end @p k, of the edge a if @p is_a, else of b. */
+    template <typename Neighbour>
+    static QUOIN_INLINE Value recession_beside(const Value &cosine,
+                                               const Edge &a, const Edge &b,
+                                               const Bits &is_a,
+                                               const unsigned int k,
+                                               const Neighbour &neighbour)
+    {
+      Value beside[2];
+      neighbour(F::set_lanes(is_a), k, beside);
+      const Value touched[2] = { is_a ? b.tangent[0] : a.tangent[0],
+                                 is_a ? b.tangent[1] : a.tangent[1] };
+      return recession(cosine, beside, touched);
     }
 
     /**
      * Sets @p g for the pairs whose edges overlap, which it returns.
-     * @p neighbour: gives the direction of the edge before (0) or after (1)
-     * the edge a (0) or b (1).
+     * @p neighbour: gives the direction of the edge beside a at end k, in the
+     * lanes of a number's bits, or else of that beside b there.
      */
     template <typename Neighbour>
     static QUOIN_INLINE Bits find(const ContactSizes &sizes,
@@ -320,11 +346,13 @@ namespace quoin
         if (F::any(is_inclined))
         {
           const Value by_a = clamp(0.5 + 0.5 * inside[k] * by_rounding);
-          Value before[2], after[2];
-          neighbour(0, k, before);
-          neighbour(1, 1 - k, after);
-          const Value factor = by_a * recession(c, before, b)
-                               + (1. - by_a) * recession(c, after, a);
+          const Bits is_a = inside[k] > 0., is_b = inside[k] <= 0.;
+          Value factor      = recession_beside(c, a, b, is_a, k, neighbour);
+          const Value share = is_a ? by_a : 1. - by_a;
+          if (F::any(is_inclined & (share < 1.)))
+            factor = share * factor
+                     + (1. - share)
+                           * recession_beside(c, a, b, is_b, k, neighbour);
           g.area[k] = is_inclined ? area * factor : area;
         }
       }
@@ -334,14 +362,13 @@ namespace quoin
     /** Adds @p f [N] at places of a, and its opposite on b. */
     static QUOIN_INLINE void spread(const Value &lower, const Value &upper,
                                     const Value (&f)[2],
-                                    EndForceLanes<lanes> &forces)
+                                    TractionLanes<lanes> &sum)
     {
       for (unsigned int d = 0; d < 2; ++d)
       {
-        forces.a[0][d] += (1. - lower) * f[d];
-        forces.a[1][d] += lower * f[d];
-        forces.b[0][d] -= (1. - upper) * f[d];
-        forces.b[1][d] -= upper * f[d];
+        sum.force[d] += f[d];
+        sum.at_lower[d] += lower * f[d];
+        sum.at_upper[d] += upper * f[d];
       }
     }
 
@@ -356,12 +383,12 @@ namespace quoin
                                            const unsigned int k,
                                            const AnchorLanes<lanes> &anchor,
                                            const Value &sigma, const Value &tau,
-                                           EndForceLanes<lanes> &forces)
+                                           TractionLanes<lanes> &sum)
     {
       const Value(&normal)[2] = g.normal[k];
       const Value(&t)[2]      = g.tangent;
       const Value f[2]        = { tau * normal[1], -tau * normal[0] };
-      spread(anchor.lower, anchor.upper, f, forces);
+      spread(anchor.lower, anchor.upper, f, sum);
 
       // theory.md, "General contacts": the differential of sigma u_n + tau u_s
       // by the place of b, the rotations and the lengths of both edges.
@@ -383,39 +410,45 @@ namespace quoin
       const Value by_inside
           = by_turn * g.slope * g.turn[k] - side * pull * g.share[k];
 
-      const Value along   = 0.5 * pull + side * by_inside;
-      const Value move[2] = { sigma * cosine * t[1] + along * t[0],
-                              along * t[1] - sigma * cosine * t[0] };
-      const Value turn
-          = tau * across + move[0] * (b.y - a.y) - move[1] * (b.x - a.x);
-      Value bend = -by_slope * (g.inverse_half * g.inverse_half);
-      Value stretch_a{}, stretch_b{};
+      const Value along = 0.5 * pull + side * by_inside;
+      sum.move[0] += sigma * cosine * t[1] + along * t[0];
+      sum.move[1] += along * t[1] - sigma * cosine * t[0];
+      sum.turn += tau * across;
+      sum.bend -= by_slope * (g.inverse_half * g.inverse_half);
       if (k == 0)
       {
-        bend += by_inside * b.length * rise;
-        stretch_b = by_inside * g.half;
+        sum.bend += by_inside * b.length * rise;
+        sum.stretch_b += by_inside * g.half;
       }
       else
       {
-        bend -= (by_inside + pull) * a.length * rise;
-        stretch_a = -(by_inside + pull) * g.half;
+        sum.bend -= (by_inside + pull) * a.length * rise;
+        sum.stretch_a -= (by_inside + pull) * g.half;
       }
+    }
 
-      const Value turn_a = 0.5 * (turn + bend) * a.inverse_length;
-      const Value turn_b = 0.5 * (turn - bend) * b.inverse_length;
+    static QUOIN_INLINE EndForceLanes<lanes>
+    end_forces(const Edge &a, const Edge &b, const TractionLanes<lanes> &sum)
+    {
+      const Value turn
+          = sum.turn + sum.move[0] * (b.y - a.y) - sum.move[1] * (b.x - a.x);
+      const Value turn_a = 0.5 * (turn + sum.bend) * a.inverse_length;
+      const Value turn_b = 0.5 * (turn - sum.bend) * b.inverse_length;
       const Value end_a[2]
-          = { stretch_a * a.tangent[0] - turn_a * a.tangent[1],
-              stretch_a * a.tangent[1] + turn_a * a.tangent[0] };
+          = { sum.stretch_a * a.tangent[0] - turn_a * a.tangent[1],
+              sum.stretch_a * a.tangent[1] + turn_a * a.tangent[0] };
       const Value end_b[2]
-          = { stretch_b * b.tangent[0] - turn_b * b.tangent[1],
-              stretch_b * b.tangent[1] + turn_b * b.tangent[0] };
-      for (unsigned int i = 0; i < 2; ++i)
+          = { sum.stretch_b * b.tangent[0] - turn_b * b.tangent[1],
+              sum.stretch_b * b.tangent[1] + turn_b * b.tangent[0] };
+      EndForceLanes<lanes> forces;
+      for (unsigned int d = 0; d < 2; ++d)
       {
-        forces.a[0][i] += end_a[i] + move[i];
-        forces.a[1][i] -= end_a[i];
-        forces.b[0][i] += end_b[i] - move[i];
-        forces.b[1][i] -= end_b[i];
+        forces.a[1][d] = sum.at_lower[d] - end_a[d];
+        forces.a[0][d] = sum.force[d] + sum.move[d] - forces.a[1][d];
+        forces.b[1][d] = -sum.at_upper[d] - end_b[d];
+        forces.b[0][d] = -sum.force[d] - sum.move[d] - forces.b[1][d];
       }
+      return forces;
     }
   };
 } // namespace quoin
