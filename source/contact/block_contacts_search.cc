@@ -316,9 +316,14 @@ namespace quoin
         continue;
       found.push_back({ { i, j } });
       needed.push_back(motion_to_touch(ends[i], ends[j], apart));
-      for (unsigned int k = 0; k < n_skins && needed.back() <= skins[k]; ++k)
-        sides[k] += ends[i].is_own + ends[j].is_own;
+      unsigned int n = 0;
+      while (n < n_skins && needed.back() <= skins[n])
+        ++n;
+      if (n > 0)
+        sides[n - 1] += ends[i].is_own + ends[j].is_own;
     }
+    for (unsigned int k = n_skins - 1; k > 0; --k)
+      sides[k - 1] += sides[k];
     if (parameters.skin > 0. || contacts.n_searches == 0)
       contacts.skin = search_distance(contacts);
     else
@@ -423,7 +428,7 @@ namespace quoin
     const auto normal = [](const EdgeEnds &e, double *n)
     {
       const double dx = e.x[1] - e.x[0], dy = e.y[1] - e.y[0];
-      const double length = std::hypot(dx, dy);
+      const double length = std::sqrt(dx * dx + dy * dy);
       n[0]                = dy / length;
       n[1]                = -dx / length;
     };
@@ -431,9 +436,8 @@ namespace quoin
     normal(a, na);
     normal(b, nb);
     const double x = na[0] - nb[0], y = na[1] - nb[1];
-    const bool a_is_lower
-        = std::abs(y) > 1e-6 * std::hypot(x, y) ? y > 0. : x > 0.;
-    const unsigned int n = materials.size();
+    const bool a_is_lower = std::abs(y) > 1e-6 * std::abs(x) ? y > 0. : x > 0.;
+    const unsigned int n  = materials.size();
     ContactPair pair;
     pair.lower = a_is_lower ? a.edge : b.edge;
     pair.upper = a_is_lower ? b.edge : a.edge;
@@ -462,11 +466,14 @@ namespace quoin
                              search_distance(contacts) + apart);
     const auto near = find_pairs(ends, apart, rate, contacts);
 
-    std::sort(contacts.pairs.begin(), contacts.pairs.end(),
-              [](const ContactPair &a, const ContactPair &b)
-              { return a.edges() < b.edges(); });
+    const auto comes_first = [](const ContactPair &a, const ContactPair &b)
+    { return a.edges() < b.edges(); };
+    if (!std::is_sorted(contacts.pairs.begin(), contacts.pairs.end(),
+                        comes_first)) // joints that have become contacts
+      std::sort(contacts.pairs.begin(), contacts.pairs.end(), comes_first);
     AlignedArray<ContactPair> old;
     old.swap(contacts.pairs);
+    contacts.pairs.reserve(near.size());
     auto next = old.begin();
     // Edges within the other block may be far from its edges.
     const auto keep_or_drop = [&](ContactPair &pair)

@@ -5,6 +5,7 @@
 #define quoin_source_contact_pair_lanes_h
 
 #include <quoin/base/lane_functions.h>
+#include <quoin/contact/contact_search.h>
 
 // Geometry of pairs of edges in contact and the forces that go with it, for
 // one pair or for one in each lane. theory.md, "General contacts".
@@ -99,8 +100,7 @@ namespace quoin
     using Bits  = typename F::Bits;
     using Edge  = EdgeLanes<lanes>;
 
-    /** Cosine of the angle between edges at which a contact has no area. */
-    static constexpr double least_cosine = 0.02;
+    static constexpr double least_cosine = least_contact_cosine;
 
     static QUOIN_INLINE Value fill(const double value)
     {
