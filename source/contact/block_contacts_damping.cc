@@ -3,10 +3,9 @@
 
 // Dashpots of the contact operator.
 
-#include <quoin/contact/block_contacts.h>
-
 #include <algorithm>
 
+#include "contact_pairs.h"
 #include "contact_points.h"
 #include "dashpot_tractions.h"
 
@@ -31,14 +30,12 @@ namespace quoin
     dashpots.bind(items);
   }
 
-  void BlockContacts::note_dashpot(const unsigned int i, const unsigned int k,
-                                   const Geometry &g,
-                                   const std::array<double, 2> &gap,
-                                   const std::array<double, 2> &stiffness)
+  void BlockContacts::note_dashpot(const DashpotPoint &point)
   {
-    dashpots.add_springs(i, pair_share[i], g.area[k] * stiffness[0],
-                         g.area[k] * stiffness[1]);
-    dashpot_points.push_back({ i, k, g, gap, stiffness });
+    dashpots.add_springs(point.pair, pair_weights[point.pair].share,
+                         point.area * point.stiffness[0],
+                         point.area * point.stiffness[1]);
+    dashpot_points.push_back(point);
   }
 
   void BlockContacts::add_dashpot_forces(const ContactState &contacts)
@@ -48,19 +45,14 @@ namespace quoin
     {
       const ContactPair &pair     = contacts.pairs[at.pair];
       const JointDamping &damping = dampings[pair.set];
-      const double area           = at.geometry.area[at.k];
-      if (!damping.acts() || area == 0.)
+      if (!damping.acts() || at.area == 0.)
         continue;
-      const Edge &a        = local_edges[pair_edges[at.pair][0]];
-      const Edge &b        = local_edges[pair_edges[at.pair][1]];
-      const double lower   = at.geometry.lower[at.k];
-      const double upper   = at.geometry.upper[at.k];
-      const double *normal = at.geometry.normal[at.k];
+      const auto &[a, b]   = pair_edges[at.pair];
+      const auto &[nx, ny] = at.normal;
       double v[2];
-      relative_velocity(a, b, lower, upper, v);
+      relative_velocity<1>(&a, &b, at.lower, at.upper, v);
       const std::array<double, 2> rate
-          = { { v[0] * normal[0] + v[1] * normal[1],
-                v[0] * normal[1] - v[1] * normal[0] } };
+          = { { v[0] * nx + v[1] * ny, v[0] * ny - v[1] * nx } };
       const auto times = dashpots.times(at.pair, damping, at.stiffness);
       std::array<double, 2> traction{};
       with_law(pair.set,
@@ -70,10 +62,15 @@ namespace quoin
                      law, read_point(law, pair.points[at.k]), at.gap, rate,
                      times);
                });
-      const double sigma = area * traction[0], tau = area * traction[1];
-      const double f[2] = { sigma * normal[0] + tau * normal[1],
-                            sigma * normal[1] - tau * normal[0] };
-      spread(a, b, lower, upper, f, compact_viscous.data());
+      const double sigma = at.area * traction[0], tau = at.area * traction[1];
+      const double f[2] = { sigma * nx + tau * ny, sigma * ny - tau * nx };
+      EdgeLanes<1> edge_a, edge_b;
+      load_edges(&a, edge_a);
+      load_edges(&b, edge_b);
+      TractionLanes<1> forces;
+      PairFunctions<1>::spread(at.lower, at.upper, f, forces);
+      add_to_ends(PairFunctions<1>::end_forces(edge_a, edge_b, forces), &a, &b,
+                  1, compact_viscous.data());
     }
   }
 } // namespace quoin

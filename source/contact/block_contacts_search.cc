@@ -9,7 +9,6 @@
 #include <quoin/base/exceptions.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/wall_clock.h>
-#include <quoin/contact/block_contacts.h>
 #include <quoin/contact/contact_search.h>
 #include <quoin/contact/contact_sets.h>
 #include <quoin/mesh/global_geometry.h>
@@ -19,6 +18,8 @@
 #include <cstring>
 #include <limits>
 #include <sstream>
+
+#include "contact_pairs.h"
 
 namespace quoin
 {
@@ -315,9 +316,14 @@ namespace quoin
         continue;
       found.push_back({ { i, j } });
       needed.push_back(motion_to_touch(ends[i], ends[j], apart));
-      for (unsigned int k = 0; k < n_skins && needed.back() <= skins[k]; ++k)
-        sides[k] += ends[i].is_own + ends[j].is_own;
+      unsigned int n = 0;
+      while (n < n_skins && needed.back() <= skins[n])
+        ++n;
+      if (n > 0)
+        sides[n - 1] += ends[i].is_own + ends[j].is_own;
     }
+    for (unsigned int k = n_skins - 1; k > 0; --k)
+      sides[k - 1] += sides[k];
     if (parameters.skin > 0. || contacts.n_searches == 0)
       contacts.skin = search_distance(contacts);
     else
@@ -423,7 +429,7 @@ namespace quoin
     const auto normal = [](const EdgeEnds &e, double *n)
     {
       const double dx = e.x[1] - e.x[0], dy = e.y[1] - e.y[0];
-      const double length = std::hypot(dx, dy);
+      const double length = std::sqrt(dx * dx + dy * dy);
       n[0]                = dy / length;
       n[1]                = -dx / length;
     };
@@ -431,9 +437,8 @@ namespace quoin
     normal(a, na);
     normal(b, nb);
     const double x = na[0] - nb[0], y = na[1] - nb[1];
-    const bool a_is_lower
-        = std::abs(y) > 1e-6 * std::hypot(x, y) ? y > 0. : x > 0.;
-    const unsigned int n = materials.size();
+    const bool a_is_lower = std::abs(y) > 1e-6 * std::abs(x) ? y > 0. : x > 0.;
+    const unsigned int n  = materials.size();
     ContactPair pair;
     pair.lower = a_is_lower ? a.edge : b.edge;
     pair.upper = a_is_lower ? b.edge : a.edge;
@@ -462,11 +467,14 @@ namespace quoin
                              search_distance(contacts) + apart);
     const auto near = find_pairs(ends, apart, rate, contacts);
 
-    std::sort(contacts.pairs.begin(), contacts.pairs.end(),
-              [](const ContactPair &a, const ContactPair &b)
-              { return a.edges() < b.edges(); });
+    const auto comes_first = [](const ContactPair &a, const ContactPair &b)
+    { return a.edges() < b.edges(); };
+    if (!std::is_sorted(contacts.pairs.begin(), contacts.pairs.end(),
+                        comes_first)) // joints that have become contacts
+      std::sort(contacts.pairs.begin(), contacts.pairs.end(), comes_first);
     AlignedArray<ContactPair> old;
     old.swap(contacts.pairs);
+    contacts.pairs.reserve(near.size());
     auto next = old.begin();
     // Edges within the other block may be far from its edges.
     const auto keep_or_drop = [&](ContactPair &pair)
@@ -511,6 +519,7 @@ namespace quoin
           { { node.X[0] + node.u[0], node.X[1] + node.u[1] } });
     }
     ++contacts.n_searches;
+    contacts.marks.clear();
     bind(contacts);
     gather(state);
     inherit_shifts(contacts);
@@ -526,10 +535,8 @@ namespace quoin
       const ContactPair &pair = pair_or_copy(contacts, i);
       if (!pair.active || pair.shift == 0.)
         return false;
-      const Edge &a = local_edges[pair_edges[i][0]];
-      const Edge &b = local_edges[pair_edges[i][1]];
       Geometry g;
-      return geometry(pair, a, b, g) && shift_left(pair, a, b, g.tangent) != 0.;
+      return geometry(pair, i, g) && shift_left(pair, i, g) != 0.;
     };
     std::vector<unsigned int> parents, begin{ 0 };
     for (unsigned int e = 0; e + 1 < edge_pairs_begin.size(); ++e)
@@ -552,7 +559,7 @@ namespace quoin
       for (unsigned int side = 0; side < 2 && pair.shift == 0.; ++side)
       {
         const unsigned int shared = pair_edges[i][side];
-        const auto &beside = local_edges[pair_edges[i][1 - side]].neighbours;
+        const auto &beside = edge_links[pair_edges[i][1 - side]].neighbours;
         for (unsigned int j = begin[shared]; j < begin[shared + 1]; ++j)
         {
           const unsigned int q      = parents[j];
@@ -574,18 +581,16 @@ namespace quoin
     for (unsigned int i = 0; i < contacts.pairs.size(); ++i)
     {
       ContactPair &pair = contacts.pairs[i];
-      const Edge &a     = local_edges[pair_edges[i][0]];
-      const Edge &b     = local_edges[pair_edges[i][1]];
       Geometry g;
-      if (!pair.active || pair.shift != 0. || !geometry(pair, a, b, g))
+      if (!pair.active || pair.shift != 0. || !geometry(pair, i, g))
         continue;
       for (unsigned int k = 0; k < 2; ++k)
       {
         ContactPoint &point = pair.points[k];
-        const double now    = slip(point, a, b, g.normal[k]);
+        const double now    = slip(point, i, g.normal[k]);
         point.anchor_lower  = g.lower[k];
         point.anchor_upper  = g.upper[k];
-        point.slip_offset += now - slip(point, a, b, g.normal[k]);
+        point.slip_offset += now - slip(point, i, g.normal[k]);
       }
     }
   }
@@ -636,25 +641,30 @@ namespace quoin
     find(edge_numbers);
     edges.keep(edge_numbers);
 
-    local_edges.assign(edge_numbers.size(), Edge());
-    reference_lengths.clear();
+    // Lanes beyond the last edge have some that no pair has.
+    const unsigned int n_places
+        = (edge_numbers.size() + most_lanes) / most_lanes * most_lanes;
+    local_edges.assign(n_places, Edge());
+    edge_links.assign(n_places, EdgeLinks());
+    edge_thickness.assign(n_places, 1.);
+    reference_lengths.assign(n_places, 1.);
     for (unsigned int e = 0; e < edge_numbers.size(); ++e)
     {
-      const ContactEdge &edge  = edges[edge_numbers[e]];
-      local_edges[e].thickness = thickness[edge.group];
+      const ContactEdge &edge = edges[edge_numbers[e]];
+      edge_thickness[e]       = thickness[edge.group];
+      reference_lengths[e]    = edge.length;
       for (unsigned int k = 0; k < 2; ++k)
       {
-        local_edges[e].corner[k] = edge.corner[k];
+        edge_links[e].corner[k] = edge.corner[k];
         // The neighbours of mere neighbours are not needed.
         const unsigned int next = k == 0 ? edge.previous : edge.next;
-        local_edges[e].neighbours[k]
+        edge_links[e].neighbours[k]
             = next != none
                       && std::binary_search(edge_numbers.begin(),
                                             edge_numbers.end(), next)
                   ? local_edge(next)
                   : e;
       }
-      reference_lengths.push_back(edge.length);
     }
   }
 
@@ -688,7 +698,7 @@ namespace quoin
       for (unsigned int k = 0; k < 2; ++k)
       {
         const unsigned int number = edge_numbers[e];
-        local_edges[e].nodes[k]
+        edge_links[e].nodes[k]
             = edges.is_own(number)
                   ? place(compact_own,
                           edges.local_nodes()[edges.own_place(number)][k])
@@ -709,8 +719,7 @@ namespace quoin
   {
     const unsigned int n_pairs = contacts.pairs.size();
     pair_edges.clear();
-    pair_share.clear();
-    pair_depth.clear();
+    pair_weights.clear();
     edge_pairs_begin.assign(edge_numbers.size() + 1, 0);
     const auto add_edges = [this](const ContactPair &pair)
     {
@@ -722,10 +731,10 @@ namespace quoin
     for (const ContactPair &pair : contacts.pairs)
     {
       add_edges(pair);
-      pair_share.push_back(share(pair));
-      pair_depth.push_back(
-          parameters.deepest
-          * std::min(edges[pair.lower].height, edges[pair.upper].height));
+      pair_weights.push_back(
+          { share(pair), parameters.deepest
+                             * std::min(edges[pair.lower].height,
+                                        edges[pair.upper].height) });
     }
     for (const ContactPair &pair : copies.pairs())
       add_edges(pair);
@@ -747,15 +756,17 @@ namespace quoin
                     return pair_or_copy(contacts, p).edges()
                            < pair_or_copy(contacts, q).edges();
                   });
+    pair_edges.resize(pair_edges.size() + most_lanes, { { 0, 0 } });
     if (has_dashpots())
       bind_dashpots(contacts);
   }
 
   void BlockContacts::note_depth(const unsigned int pair, const double depth)
   {
-    if (depth / pair_depth[pair] > deepest_ratio)
+    const double ratio = depth / pair_weights[pair].depth;
+    if (ratio > deepest_ratio)
     {
-      deepest_ratio = depth / pair_depth[pair];
+      deepest_ratio = ratio;
       deepest_pair  = pair;
     }
   }
@@ -779,7 +790,7 @@ namespace quoin
       told[1]                 = edges[pair.upper].block;
       told[2]                 = edge.x;
       told[3]                 = edge.y;
-      told[4]                 = ratio * pair_depth[deepest_pair];
+      told[4]                 = ratio * pair_weights[deepest_pair].depth;
     }
     MPI_Bcast(told, 5, MPI_DOUBLE, teller, exchange.communicator());
     std::ostringstream message;

@@ -38,34 +38,6 @@ namespace quoin
       contact.internal[i] = point.*Point::internal[i];
   }
 
-  /** What an update of a contact leaves to its geometry and to the books. */
-  struct ContactStep
-  {
-    JointDissipation lost;
-    bool flows = false; /**< it fails, slips or is open */
-    /** Energy per area [J/m^2] that a change of area takes along. */
-    double carried = 0.;
-  };
-
-  /** Brings @p contact to @p opening and @p slip [m]. */
-  template <typename Law>
-  ContactStep advance_contact(const Law &law, ContactPoint &contact,
-                              const double opening, const double slip)
-  {
-    const auto before = read_point(law, contact);
-    auto point        = before;
-    ContactStep step;
-    if (!law.update_elastic(point, opening, slip))
-      step.lost = law.update_failing(point, opening, slip);
-    step.flows = point.state == JointState::slipping
-                 || point.state == JointState::open;
-    // What comes with no area has had no energy before.
-    step.carried
-        = law.carried_energy(contact.area > 0. ? before : point, point);
-    write_point(point, contact);
-    return step;
-  }
-
   /** Energy per area [J/m^2] that goes when the contact goes. */
   template <typename Law>
   double released_energy(const Law &law, const ContactPoint &contact)

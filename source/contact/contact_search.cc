@@ -2,7 +2,6 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
-#include <quoin/base/plane_geometry.h>
 #include <quoin/contact/contact_search.h>
 
 #include <boost/geometry/geometries/box.hpp>
@@ -11,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <sstream>
@@ -26,19 +26,6 @@ namespace quoin
     using Entry   = std::pair<Box, unsigned int>;
     using Tree    = bgi::rtree<Entry, bgi::linear<16>>;
 
-    Box box_of(const EdgeEnds &ends, const double margin)
-    {
-      return { Point(std::min(ends.x[0], ends.x[1]) - margin,
-                     std::min(ends.y[0], ends.y[1]) - margin),
-               Point(std::max(ends.x[0], ends.x[1]) + margin,
-                     std::max(ends.y[0], ends.y[1]) + margin) };
-    }
-
-    dealii::Point<2> end(const EdgeEnds &edge, const unsigned int k)
-    {
-      return { edge.x[k], edge.y[k] };
-    }
-
     bool cross(const EdgeEnds &a, const EdgeEnds &b)
     {
       const auto side = [](const EdgeEnds &s, const double x, const double y) {
@@ -49,34 +36,46 @@ namespace quoin
              && side(b, a.x[0], a.y[0]) * side(b, a.x[1], a.y[1]) < 0.;
     }
 
+    /** Square of the distance [m^2] of end @p k of @p a from the edge @p b. */
+    double square_distance(const EdgeEnds &a, const unsigned int k,
+                           const EdgeEnds &b)
+    {
+      const double way[2] = { b.x[1] - b.x[0], b.y[1] - b.y[0] };
+      const double arm[2] = { a.x[k] - b.x[0], a.y[k] - b.y[0] };
+      const double square = way[0] * way[0] + way[1] * way[1];
+      const double t      = std::clamp((arm[0] * way[0] + arm[1] * way[1])
+                                           / std::max(square, 1e-300),
+                                       0., 1.);
+      const double x = arm[0] - t * way[0], y = arm[1] - t * way[1];
+      return x * x + y * y;
+    }
+
     /** Distance between two edges [m]; 0 if they cross. */
     double distance(const EdgeEnds &a, const EdgeEnds &b)
     {
       if (cross(a, b))
         return 0.;
-      double nearest = std::numeric_limits<double>::max();
-      for (unsigned int k = 0; k < 2; ++k)
-        nearest = std::min(
-            { nearest, distance_to_segment(end(b, k), end(a, 0), end(a, 1)),
-              distance_to_segment(end(a, k), end(b, 0), end(b, 1)) });
-      return nearest;
+      return std::sqrt(
+          std::min({ square_distance(b, 0, a), square_distance(b, 1, a),
+                     square_distance(a, 0, b), square_distance(a, 1, b) }));
     }
 
     /** By how much nodes have to move against each other before two edges turn
-        until their outward normals enclose a right angle [m]. */
+        until a contact between them has an area [m]. */
     double motion_to_face(const EdgeEnds &a, const EdgeEnds &b)
     {
+      static const double least_angle = std::asin(least_contact_cosine);
       const double ax = a.x[1] - a.x[0], ay = a.y[1] - a.y[0];
       const double bx = b.x[1] - b.x[0], by = b.y[1] - b.y[0];
       const double product = ax * bx + ay * by;
-      if (product <= 0.)
+      const double la      = std::sqrt(ax * ax + ay * ay);
+      const double lb      = std::sqrt(bx * bx + by * by);
+      if (product <= -least_contact_cosine * la * lb)
         return 0.;
       // Ends that move by d against each other turn an edge of length l by
       // asin(d/l), which is at most pi/2 d/l.
-      const double la = std::sqrt(ax * ax + ay * ay);
-      const double lb = std::sqrt(bx * bx + by * by);
-      return std::asin(std::min(1., product / (la * lb))) * M_2_PI * la * lb
-             / (la + lb);
+      return (std::asin(std::min(1., product / (la * lb))) + least_angle)
+             * M_2_PI * la * lb / (la + lb);
     }
 
     /** xmin, ymin, xmax, ymax [m]; far inside out: empty. */
@@ -109,28 +108,34 @@ namespace quoin
                Point(bounds[2] + margin, bounds[3] + margin) };
     }
 
-    /** Number of consecutive edges whose common box other ranks see. */
+    /** Number of consecutive edges that have a common box. */
     constexpr unsigned int edges_of_box = 16;
 
-    /** Boxes of edges of one block each. */
-    std::vector<Bounds> boxes_of(const ContactEdges &edges,
+    /** Edges that follow each other and the box around them. */
+    struct Chain
+    {
+      unsigned int begin, end; /**< places in a list of edges */
+      Bounds bounds;
+    };
+
+    /** Those of one block each. */
+    std::vector<Chain> chains_of(const ContactEdges &edges,
                                  const std::vector<EdgeEnds> &ends)
     {
-      std::vector<Bounds> boxes;
-      unsigned int block = ContactEdges::none, n = 0;
-      for (const EdgeEnds &edge : ends)
+      std::vector<Chain> chains;
+      unsigned int block = ContactEdges::none;
+      for (unsigned int i = 0; i < ends.size(); ++i)
       {
-        const unsigned int new_block = edges[edge.edge].block;
-        if (new_block != block || n == edges_of_box)
+        const unsigned int new_block = edges[ends[i].edge].block;
+        if (new_block != block || i == chains.back().begin + edges_of_box)
         {
-          boxes.push_back(nothing);
+          chains.push_back({ i, i, nothing });
           block = new_block;
-          n     = 0;
         }
-        enclose(edge, boxes.back());
-        ++n;
+        enclose(ends[i], chains.back().bounds);
+        ++chains.back().end;
       }
-      return boxes;
+      return chains;
     }
 
     /** An edge and where it is, as one rank tells another. */
@@ -175,7 +180,7 @@ namespace quoin
         Bounds bounds = nothing;
         enclose(edge, bounds);
         if (!are_near(bounds, all, skin)
-            || tree.qbegin(bgi::intersects(box_of(edge, 0.))) == tree.qend())
+            || tree.qbegin(bgi::intersects(box_of(bounds, 0.))) == tree.qend())
           continue;
         add(edge.edge);
         add(edges[edge.edge].previous);
@@ -251,12 +256,12 @@ namespace quoin
     MPI_Allgather(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, rank_bounds.data(), 4,
                   MPI_DOUBLE, communicator);
     std::map<unsigned int, std::vector<Bounds>> boxes_for;
-    const std::vector<Bounds> boxes = boxes_of(edges, result);
+    const std::vector<Chain> chains = chains_of(edges, result);
     for (unsigned int r = 0; r < n_ranks; ++r)
       if (r != rank)
-        for (const Bounds &box : boxes)
-          if (are_near(box, rank_bounds[r], margin))
-            boxes_for[r].push_back(box);
+        for (const Chain &chain : chains)
+          if (are_near(chain.bounds, rank_bounds[r], margin))
+            boxes_for[r].push_back(chain.bounds);
 
     std::map<unsigned int, std::vector<EdgeThere>> edges_for;
     for (const auto &[r, their_boxes] :
@@ -303,38 +308,52 @@ namespace quoin
   near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
              const double skin)
   {
-    std::vector<Entry> entries;
+    std::vector<Bounds> bounds(ends.size(), nothing);
     std::vector<std::array<unsigned int, 2>> nodes;
-    entries.reserve(ends.size());
     nodes.reserve(ends.size());
     for (unsigned int i = 0; i < ends.size(); ++i)
     {
-      entries.emplace_back(box_of(ends[i], 0.), i);
+      enclose(ends[i], bounds[i]);
       nodes.push_back(edges[ends[i].edge].nodes);
     }
+    const std::vector<Chain> chains = chains_of(edges, ends);
+    std::vector<Entry> entries;
+    for (unsigned int c = 0; c < chains.size(); ++c)
+      entries.emplace_back(box_of(chains[c].bounds, 0.), c);
     const Tree tree(entries);
 
     std::vector<std::array<unsigned int, 2>> pairs;
-    for (unsigned int i = 0; i < ends.size(); ++i)
+    std::vector<Entry> found;
+    for (const Chain &chain : chains)
     {
-      const auto &[a, b]      = nodes[i];
-      const std::size_t first = pairs.size();
-      for (auto found = tree.qbegin(bgi::intersects(box_of(ends[i], skin)));
-           found != tree.qend(); ++found)
+      found.clear();
+      tree.query(bgi::intersects(box_of(chain.bounds, skin)),
+                 std::back_inserter(found));
+      for (unsigned int i = chain.begin; i < chain.end; ++i)
       {
-        const unsigned int j = found->second;
-        if (j <= i || !(ends[i].is_own || ends[j].is_own))
-          continue;
-        const auto &[c, d] = nodes[j];
-        if (a != c && a != d && b != c && b != d
-            && motion_to_face(ends[i], ends[j]) <= skin
-            && distance(ends[i], ends[j]) <= skin)
-          pairs.push_back({ { i, j } });
+        const auto &[a, b]      = nodes[i];
+        const std::size_t first = pairs.size();
+        for (const Entry &entry : found)
+        {
+          const Chain &other = chains[entry.second];
+          if (other.end <= i + 1 || !are_near(bounds[i], other.bounds, skin))
+            continue;
+          for (unsigned int j = std::max(i + 1, other.begin); j < other.end;
+               ++j)
+          {
+            const auto &[c, d] = nodes[j];
+            if (are_near(bounds[i], bounds[j], skin)
+                && (ends[i].is_own || ends[j].is_own) && a != c && a != d
+                && b != c && b != d && distance(ends[i], ends[j]) <= skin
+                && motion_to_face(ends[i], ends[j]) <= skin)
+              pairs.push_back({ { i, j } });
+          }
+        }
+        std::sort(pairs.begin() + first, pairs.end());
+        if (pairs.size() > most_pairs)
+          refuse_pairs(ends[i], pairs.size() - first, skin);
       }
-      if (pairs.size() > most_pairs)
-        refuse_pairs(ends[i], pairs.size() - first, skin);
     }
-    std::sort(pairs.begin(), pairs.end());
     return pairs;
   }
 } // namespace quoin

@@ -19,8 +19,8 @@
 
 namespace quoin
 {
-  /** Functions of four or eight doubles, and of masks: all bits of a lane are
-      set, or none. */
+  /** Functions of one, four or eight doubles, and of masks: all bits of a lane
+      are set, or none. */
   template <int lanes>
   struct LaneFunctions
   {
@@ -85,7 +85,9 @@ namespace quoin
     /** Bit l: whether lane l of @p mask is set. */
     static QUOIN_INLINE unsigned int set_lanes(const Bits &mask)
     {
-      if constexpr (lanes == 4)
+      if constexpr (lanes == 1)
+        return mask ? 1 : 0;
+      else if constexpr (lanes == 4)
       {
 #ifdef __AVX__
         return _mm256_movemask_pd((__m256d)mask);
@@ -148,11 +150,31 @@ namespace quoin
         return __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15);
     }
 
+    /** Lane @p l. */
+    static QUOIN_INLINE double at(const Value &a, const int l)
+    {
+      if constexpr (lanes == 1)
+        return a;
+      else
+        return a[l];
+    }
+    /** What @p of gives for each lane. */
+    template <typename Of>
+    static QUOIN_INLINE Value each(const Of &of)
+    {
+      if constexpr (lanes == 1)
+        return of(0);
+      else if constexpr (lanes == 4)
+        return Value{ of(0), of(1), of(2), of(3) };
+      else
+        return Value{ of(0), of(1), of(2), of(3), of(4), of(5), of(6), of(7) };
+    }
+
     static QUOIN_INLINE double sum(const Value &a)
     {
       double result = 0.;
       for (int l = 0; l < lanes; ++l)
-        result += a[l];
+        result += at(a, l);
       return result;
     }
 

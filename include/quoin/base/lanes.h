@@ -7,6 +7,7 @@
 #include <quoin/base/intrinsics.h>
 #include <quoin/base/native_lanes.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,43 @@ namespace quoin
 
   template <int lanes>
   struct Lanes;
+
+  /** One double, so that code for lanes is that for single points, too. */
+  template <>
+  struct Lanes<1>
+  {
+    using Value = double;
+    using Bits  = bool;
+    using Bytes = std::int8_t;
+
+    static void square_root(const Value a, Value &root)
+    {
+      root = std::sqrt(a);
+    }
+    static void absolute(const Value a, Value &result)
+    {
+      result = std::abs(a);
+    }
+
+    template <typename Of>
+    static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
+    {
+      std::copy_n(of(0), 4, v);
+    }
+    template <typename To>
+    static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
+    {
+      std::copy_n(v, 4, to(0));
+    }
+    static QUOIN_INLINE void load(const char *base, const std::size_t scale,
+                                  const std::uint32_t *offset, Value &x,
+                                  Value &y)
+    {
+      const Pair &p = *reinterpret_cast<const Pair *>(base + scale * *offset);
+      x             = p[0];
+      y             = p[1];
+    }
+  };
 
   template <>
   struct Lanes<4>
@@ -267,19 +305,22 @@ namespace quoin
     template <typename Of>
     static QUOIN_INLINE void load_four(const Of &of, Value (&v)[4])
     {
-      Lanes<4>::Value v0[4], v1[4];
-      Lanes<4>::load_four(of, v0);
-      Lanes<4>::load_four([&](const int l) { return of(l + 4); }, v1);
-      for (int i = 0; i < 4; ++i)
-        v[i] = __builtin_shufflevector(v0[i], v1[i], 0, 1, 2, 3, 4, 5, 6, 7);
+      Value row[4];
+      for (int l = 0; l < 4; ++l)
+        row[l] = join(Lanes<4>::four(of(l)), Lanes<4>::four(of(l + 4)));
+      transpose(row, v);
     }
 
     template <typename To>
     static QUOIN_INLINE void store_four(const To &to, const Value (&v)[4])
     {
-      Lanes<4>::store_four(to, { low(v[0]), low(v[1]), low(v[2]), low(v[3]) });
-      Lanes<4>::store_four([&](const int l) { return to(l + 4); },
-                           { high(v[0]), high(v[1]), high(v[2]), high(v[3]) });
+      Value row[4];
+      transpose(v, row);
+      for (int l = 0; l < 4; ++l)
+      {
+        Lanes<4>::four(to(l))     = low(row[l]);
+        Lanes<4>::four(to(l + 4)) = high(row[l]);
+      }
     }
 
     static QUOIN_INLINE Lanes<4>::Value low(const Value &a)
@@ -319,20 +360,23 @@ namespace quoin
                                        Value (&row)[4])
     {
       for (int l = 0; l < 4; ++l)
-      {
-        const auto &first = *reinterpret_cast<const Lanes<4>::Value *>(
-            base + scale * offset[l]);
-        const auto &second = *reinterpret_cast<const Lanes<4>::Value *>(
-            base + scale * offset[l + 4]);
+        row[l] = join(*reinterpret_cast<const Lanes<4>::Value *>(
+                          base + scale * offset[l]),
+                      *reinterpret_cast<const Lanes<4>::Value *>(
+                          base + scale * offset[l + 4]));
+    }
+
+    static QUOIN_INLINE Value join(const Lanes<4>::Value &first,
+                                   const Lanes<4>::Value &second)
+    {
 #ifdef __AVX512F__
-        // With a mask of all lanes, because GCC 12 warns of the undefined
-        // value in the intrinsic without one.
-        row[l] = _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(first),
-                                          second, 1);
+      // With a mask of all lanes, because GCC 12 warns of the undefined value
+      // in the intrinsic without one.
+      return _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(first),
+                                      second, 1);
 #else
-        row[l] = __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
+      return __builtin_shufflevector(first, second, 0, 1, 2, 3, 4, 5, 6, 7);
 #endif
-      }
     }
 
     static QUOIN_INLINE void add_halves(const Lanes<4>::Value (&row)[8],

@@ -4,6 +4,7 @@
 #ifndef quoin_contact_block_contacts_h
 #define quoin_contact_block_contacts_h
 
+#include <quoin/base/lanes.h>
 #include <quoin/contact/contact_state.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/contact/contact_edges.h>
@@ -22,6 +23,14 @@
 namespace quoin
 {
   struct EdgeEnds;
+  template <int lanes>
+  struct EdgeLanes;
+  template <int lanes>
+  struct PairLanes;
+  template <int lanes>
+  struct PairGeometry;
+  template <int lanes>
+  struct EndForceLanes;
 
   /** What contacts are made of, beside the mesh. */
   struct ContactModel
@@ -61,6 +70,11 @@ namespace quoin
    * rest cannot creep; a new pair takes over slip, failure and set from the
    * pair between the same blocks that shares a vertex with it.
    *
+   * Pairs go through SIMD lanes together: of those that have no history it is
+   * seen first whether their edges overlap, the others are brought to the
+   * present in packs. What is rare, pairs that begin and end, is done one by
+   * one.
+   *
    * A pair across two ranks is computed by both from the same numbers; each
    * then counts half of its energy. Where a block is divided, the pair that a
    * new one takes over from may be a copy of another rank's.
@@ -92,6 +106,13 @@ namespace quoin
 
     /** Other laws of the same joint sets, with the same stiffness. */
     void set_laws(const std::vector<JointSetParameters> &sets);
+
+    /** Pairs that go through the lanes together, 1, 4 or 8: for tests, which
+        take pairs one by one for reference. */
+    void set_lanes(const unsigned int n)
+    {
+      n_lanes = n;
+    }
 
     /** Sets what dashpots need, without which there are none. */
     void set_blocks(const DashpotBlocks &blocks)
@@ -174,36 +195,27 @@ namespace quoin
     bool is_own(const ContactState &contacts, unsigned int pair) const;
 
   private:
-    /** An edge that takes part, where it is now. */
-    struct Edge
+    /** An edge that takes part, where it is now; see EdgeLanes. */
+    struct alignas(64) Edge
     {
-      double x, y; /**< of its first node [m] */
-      double tangent[2];
-      double length;              /**< [m] */
-      double thickness;           /**< of the cell behind it [m] */
-      double reference_ratio;     /**< reference length by length */
-      double corner[2];           /**< see ContactEdge */
-      unsigned int nodes[2];      /**< compact */
-      unsigned int neighbours[2]; /**< edges before and after, or itself */
+      double x, y, tangent[2];
+      double length, inverse_length, thickness, reference_ratio;
     };
-    struct Geometry
+    /** What it is joined to. */
+    struct alignas(32) EdgeLinks
     {
-      double overlap;      /**< [m] */
-      double tangent[2];   /**< mean direction of both edges, as of a */
-      double half;         /**< cosine of half the angle between them */
-      double slope;        /**< of a against the mean direction, outwards */
-      double begin;        /**< first node of b from that of a, along [m] */
-      double height;       /**< the same, across [m] */
-      double sideways;     /**< 1: from corner to corner, 0: along a side */
-      double area[2];      /**< of each point [m^2] */
-      double normal[2][2]; /**< from lower to upper */
-      double lower[2], upper[2]; /**< where on the edges, 0 to 1 */
-      double opening[2];         /**< [m] */
-      /** Share by which the end of the overlap goes with the vertex of b. */
-      double share[2];
-      double lean[2]; /**< slope of the normal by that of b's, from -1 to 1 */
-      double turn[2]; /**< its derivative, by how far a's vertex is inside */
+      double corner[2];            /**< see ContactEdge */
+      std::uint32_t nodes[2];      /**< compact */
+      std::uint32_t neighbours[2]; /**< edges before and after, or itself */
     };
+    /** What stays the same of a pair. */
+    struct alignas(16) PairWeight
+    {
+      double share; /**< of the energy that we count */
+      double depth; /**< that is too deep [m] */
+    };
+    using Geometry                           = PairGeometry<1>;
+    static constexpr unsigned int most_lanes = 8;
 
     /** Calls @p use with the law of a set, of its own type. */
     template <typename Use>
@@ -264,72 +276,71 @@ namespace quoin
     unsigned int local_edge(unsigned int edge) const;
     void gather(const State<2> &state);
 
-    /** False if the edges do not overlap. */
-    bool geometry(const ContactPair &pair, const Edge &a, const Edge &b,
+    /** The edges @p e, one for each lane. */
+    template <int lanes>
+    void load_edges(const std::uint32_t *e, EdgeLanes<lanes> &to) const;
+    /** See PairFunctions::find(); @p ea, @p eb: the edges @p a and @p b. */
+    template <int lanes>
+    typename Lanes<lanes>::Bits
+    find_geometry(const PairLanes<lanes> &pairs, const std::uint32_t *ea,
+                  const EdgeLanes<lanes> &a, const std::uint32_t *eb,
+                  const EdgeLanes<lanes> &b, PairGeometry<lanes> &result) const;
+    /** That of entry @p i of pair_edges, @p pair; false if its edges do not
+        overlap. */
+    bool geometry(const ContactPair &pair, unsigned int i,
                   Geometry &result) const;
-    /**
-     * Factor on the area at a corner of an edge that makes an angle of
-     * @p cosine with the edge @p touched, less than 1 if its @p neighbour
-     * there lies flatter on that: then the corner belongs to the neighbour.
-     */
-    static double recession(double cosine, const Edge &neighbour,
-                            const Edge &touched);
+    double slip(const ContactPoint &point, unsigned int i,
+                const double (&normal)[2]) const;
     /** What of the shift of a pair is left after the slip since. */
-    static double shift_left(const ContactPair &pair, const Edge &a,
-                             const Edge &b, const double *t);
-    static double slip(const ContactPoint &point, const Edge &a, const Edge &b,
-                       const double *normal);
-    static void spread(const Edge &a, const Edge &b, double lower, double upper,
-                       const double *f, NodeVector<2> *force);
+    double shift_left(const ContactPair &pair, unsigned int i,
+                      const Geometry &g) const;
+    /** Velocity of places of the edges @p eb against those of @p ea. */
+    template <int lanes>
+    void relative_velocity(const std::uint32_t *ea, const std::uint32_t *eb,
+                           const typename Lanes<lanes>::Value &lower,
+                           const typename Lanes<lanes>::Value &upper,
+                           typename Lanes<lanes>::Value (&rate)[2]) const;
+    /** Adds forces of the lanes @p present to compact nodes. */
+    template <int lanes>
+    void add_to_ends(const EndForceLanes<lanes> &forces,
+                     const std::uint32_t *ea, const std::uint32_t *eb,
+                     unsigned int present, NodeVector<2> *to) const;
     /** What a step loses [J]. */
     struct Losses
     {
       double friction = 0., fracture = 0., crushing = 0.;
       double contact = 0.; /**< loss with contact areas and contacts that end */
     };
-    void gather_velocities(const NodeVector<2> *velocity);
-    void add_point_forces(unsigned int pair, unsigned int k, const Geometry &g,
+    /** What add_forces() does with @p lanes pairs at once. */
+    template <int lanes>
+    void add_forces_in_lanes(ContactState &contacts, double viscous_beta,
+                             bool damps, Losses &losses);
+    /** The same for the pairs @p active under one law. */
+    template <int lanes, typename Law>
+    void add_forces_under(const Law &law,
+                          const std::vector<unsigned int> &active,
                           ContactState &contacts, double viscous_beta,
                           bool damps, Losses &losses);
-    /** By how much a contact without traction is open [m]; less than 0 where
-        one that begins overlaps already. */
-    static double open_gap(const ContactPoint &point);
-    /** Unit normal of a contact, from lower to upper: of @p a where @p lean is
-        -1, of @p b where it is 1. */
-    static std::array<double, 2> normal_between(const Edge &a, const Edge &b,
-                                                double lean);
-    /** What of the opening and of the slip @p slip_now [m] came since the last
-        step by the turning of the normal from one edge to the other. */
-    static std::array<double, 2>
-    motion_of_frame(const Edge &a, const Edge &b, const Geometry &g,
-                    unsigned int k, const ContactPoint &point, double slip_now);
-    /**
-     * Adds to @p force, of compact nodes, the forces of the resultants @p sigma
-     * and @p tau [N] of a point, minus the derivative of
-     * sigma u_n + tau u_s by the nodes of both edges; the normal turns from one
-     * edge to the other only where Geometry::turn says so.
-     */
-    static void add_tractions(const Edge &a, const Edge &b, const Geometry &g,
-                              unsigned int k, const ContactPoint &point,
-                              double sigma, double tau, NodeVector<2> *force);
-    void add_viscous_forces(const Edge &a, const Edge &b, const Geometry &g,
-                            unsigned int k, double beta,
-                            const std::array<double, 2> &stiffness);
+    void gather_velocities(const NodeVector<2> *velocity);
     void bind_dashpots(const ContactState &contacts);
-    /** Notes a point of pair @p pair that presses on its springs per area @p
-        stiffness [Pa/m] at @p gap, opening and slip [m]. */
-    void note_dashpot(unsigned int pair, unsigned int k, const Geometry &g,
-                      const std::array<double, 2> &gap,
-                      const std::array<double, 2> &stiffness);
+    struct DashpotPoint;
+    /** Notes a point that presses on its springs. */
+    void note_dashpot(const DashpotPoint &point);
     /** Adds the forces of the dashpots of noted points. */
     void add_dashpot_forces(const ContactState &contacts);
     /** Adds what is in @p from to nodes of own edges, and empties that. */
     void scatter(AlignedArray<NodeVector<2>> &from, NodeVector<2> *to) const;
-    void relative_velocity(const Edge &a, const Edge &b, double lower,
-                           double upper, double *rate) const;
-    /** Activates pairs that have come into contact. */
+    void make_marks(ContactState &contacts) const;
+    /** Activates pairs that have come into contact; sets active_pairs. */
+    template <int lanes>
     void begin_contacts(ContactState &contacts);
-    /** Activates the pair if it is in contact; returns true if so. */
+    /** The same for pairs without history, @p n from @p first on, that may
+        touch. */
+    template <int lanes>
+    void look_at_idle(const unsigned int *first, unsigned int n,
+                      ContactState &contacts);
+    /** Activates a pair that overlaps by @p geometry if it is in contact;
+        returns true if so. */
     bool begin_contact(ContactState &contacts, unsigned int pair,
                        const Geometry &geometry);
     /** Whether the vertex at end @p k of a pair lies within the edges before
@@ -376,26 +387,32 @@ namespace quoin
     std::vector<unsigned int> far_nodes;   /**< of foreign edges, global */
     std::vector<NodeRecord<2>> ghost_nodes;
     std::vector<NodeVector<2>> ghost_velocity;
-    /** Local edges of pairs, then of copies. */
-    std::vector<std::array<unsigned int, 2>> pair_edges;
-    std::vector<float> pair_share;          /**< of the energy that we count */
-    std::vector<double> pair_depth;         /**< that is too deep [m] */
+    /** Local edges of pairs, then of copies, then zeros for all lanes. */
+    std::vector<std::array<std::uint32_t, 2>> pair_edges;
+    AlignedArray<PairWeight> pair_weights;
+    unsigned int n_lanes = native_lanes;
     std::vector<double> reference_lengths;  /**< of the local edges [m] */
+    std::vector<double> edge_thickness;     /**< of the cells behind them [m] */
     std::vector<unsigned int> edge_numbers; /**< of the local edges */
     /** Pairs and copies of each local edge, ascending in their edges. */
     std::vector<unsigned int> edge_pairs_begin, edge_pairs;
 
     AlignedArray<NodeVector<2>> position, compact_force, compact_velocity,
         compact_viscous;
-    std::vector<Edge> local_edges;
-    std::vector<unsigned int> new_contacts; /**< pairs, of this step */
+    AlignedArray<Edge> local_edges;
+    AlignedArray<EdgeLinks> edge_links;
+    // Of this step.
+    std::vector<unsigned int> active_pairs, idle_pairs, new_contacts;
+    std::vector<std::vector<unsigned int>> pairs_of_set; /**< active ones */
 
     /** A point that presses, at the last forces. */
     struct DashpotPoint
     {
       unsigned int pair, k;
-      Geometry geometry;
-      std::array<double, 2> gap, stiffness;
+      double area, lower, upper; /**< see PairGeometry */
+      std::array<double, 2> normal;
+      std::array<double, 2> gap;       /**< opening and slip [m] */
+      std::array<double, 2> stiffness; /**< per area [Pa/m] */
     };
     PairDashpots dashpots;
     std::vector<DashpotPoint> dashpot_points;

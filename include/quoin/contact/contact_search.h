@@ -12,6 +12,10 @@
 
 namespace quoin
 {
+  /** Cosine of the angle between the outward normal of an edge and the inward
+      one of another at which a contact between them has no area. */
+  constexpr double least_contact_cosine = 0.02;
+
   /** Current positions of the two ends of an edge [m]. */
   struct EdgeEnds
   {
@@ -37,8 +41,8 @@ namespace quoin
   /**
    * All pairs of edges of @p ends with a motion_to_touch() of @p skin or less
    * [m] of which this rank has one at least, given by their positions in
-   * @p ends, ascending, the smaller first: found in an R-tree. Edges that share
-   * a node are no pair.
+   * @p ends, ascending, the smaller first: found by the boxes of edges that
+   * follow each other, in an R-tree. Edges that share a node are no pair.
    */
   std::vector<std::array<unsigned int, 2>>
   near_edges(const ContactEdges &edges, const std::vector<EdgeEnds> &ends,
@@ -47,8 +51,8 @@ namespace quoin
   /**
    * By how much nodes have to move against each other before two edges may
    * touch that are @p apart where they do [m]: what brings them there, their
-   * distance, which is 0 if they cross, and what turns them until their outward
-   * normals enclose a right angle, whichever is more.
+   * distance, which is 0 if they cross, and what turns them until they face
+   * each other by least_contact_cosine, whichever is more.
    */
   double motion_to_touch(const EdgeEnds &a, const EdgeEnds &b, double apart);
 } // namespace quoin

@@ -13,29 +13,34 @@
 
 namespace quoin
 {
-  /** One end of the overlap of two edges in contact; as JointHistory. */
-  struct ContactPoint
+  /** One end of the overlap of two edges in contact; as JointHistory. Its rows
+      of four numbers go to and from vectors: what changes in each step, what
+      changes often, what flow changes, and what a law adds. */
+  struct alignas(32) ContactPoint
   {
     double normal_traction = 0.; /**< [Pa] */
     double shear_traction  = 0.; /**< [Pa] */
-    double plastic_slip    = 0.; /**< [m] */
-    double plastic_opening = 0.; /**< [m] */
-    double slip_offset     = 0.; /**< slip at the anchors [m] */
-    /** Positions on the edges, 0 to 1, from which slip is measured. */
-    double anchor_lower = 0., anchor_upper = 0.;
-    double area = 0.; /**< area of the last step [m^2] */
+    double area            = 0.; /**< area of the last step [m^2] */
     /** Opening of the last step; infinite: not computed yet [m]. */
     double opening = std::numeric_limits<double>::infinity();
-    /** Internal variables of its law; there is room for most_internal. */
-    static constexpr unsigned int most_internal = 4;
-    double internal[most_internal]{};
+
+    double plastic_slip    = 0.; /**< [m] */
+    double plastic_opening = 0.; /**< [m] */
     /** Direction of the normal in the last step, from -1, the normal of the
        lower edge, to 1, that of the upper one. */
     double lean = 0.;
     /** Reduction of the overlap of a contact from corner to corner in the last
         step [m]. */
-    double sideways  = 0.;
+    double sideways = 0.;
+
+    double slip_offset = 0.; /**< slip at the anchors [m] */
+    /** Positions on the edges, 0 to 1, from which slip is measured. */
+    double anchor_lower = 0., anchor_upper = 0.;
     JointState state = JointState::slipped;
+
+    /** Internal variables of its law; there is room for most_internal. */
+    static constexpr unsigned int most_internal = 4;
+    double internal[most_internal]{};
   };
 
   /** Two edges of blocks that touch or may soon do so. */
@@ -60,12 +65,23 @@ namespace quoin
     }
   };
 
+  /** What a step has to know of a pair before it takes any notice. */
+  enum class PairMark : std::uint8_t
+  {
+    unseen = 0, /**< not active, and not seen apart */
+    open   = 1, /**< not active, and seen apart */
+    active = 2
+  };
+
   /** Contacts that come and go; empty if displacements are small. */
   struct ContactState
   {
     static constexpr const char *slice_name = "contacts";
 
     AlignedArray<ContactPair> pairs; /**< ascending in their edges */
+    /** Of each pair what it says of being active and open, because a step has
+        to know of all. Not archived; empty: to be made again. */
+    AlignedArray<PairMark> marks;
 
     /** Flag of each interface of joints. */
     AlignedArray<std::uint8_t> handed_over;

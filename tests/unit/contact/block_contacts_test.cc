@@ -823,9 +823,10 @@ TEST(ContactSearch, FindsWhatAllPairsAgainstAllFind)
                    by = ends[j].y[1] - ends[j].y[0];
       const double la = std::hypot(ax, ay), lb = std::hypot(bx, by);
       const double cosine = (ax * bx + ay * by) / (la * lb);
-      // What turns them until they face each other.
-      const double turn
-          = std::asin(std::max(0., cosine)) * M_2_PI / (1. / la + 1. / lb);
+      // What turns them until they face each other by the least cosine.
+      const double least = std::asin(least_contact_cosine);
+      const double turn  = std::max(0., std::asin(cosine) + least) * M_2_PI
+                          / (1. / la + 1. / lb);
       double nearest = 1e9;
       const int n    = 60;
       for (int s = 0; s <= n; ++s)
