@@ -222,7 +222,7 @@ namespace quoin
       PointArrays result{ of.values[0], of.values[1], of.values[2],
                           of.values[3], {},           of.state };
       for (unsigned int i = 0; i < ContactPoint::most_internal; ++i)
-        result.internal[i].values = of.values[4 + i];
+        result.internal[i] = of.values[4 + i];
       return result;
     }
 

@@ -198,4 +198,20 @@ namespace quoin
     return displacements[i - 1]
            + share * (displacements[i] - displacements[i - 1]);
   }
+
+  bool JumpWatch::has_failed(const bool jumps, const double pseudo_time,
+                             const double displacement)
+  {
+    if (!jumps)
+    {
+      jump.reset();
+      before = displacement;
+      return false;
+    }
+    if (!jump)
+      jump.emplace(limit, 0.);
+    const bool failed = jump->has_failed(pseudo_time, displacement - before);
+    moved_on          = moved_on || jump->has_moved_on();
+    return failed;
+  }
 } // namespace quoin

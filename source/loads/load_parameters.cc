@@ -98,14 +98,18 @@ namespace quoin
       return { quantity, {}, std::make_shared<LoadField>(function) };
     }
 
-    const std::string water_word = "water ";
+    const std::string water_word = "water";
 
     /** The pressure of "water LEVEL". */
     LoadComponent water_pressure(const ParameterSection &section,
                                  const std::string &name)
     {
-      const TimeFunction level = time_function(
-          section, name, section.text(name).substr(water_word.size()));
+      const std::string text = section.text(name).substr(water_word.size());
+      if (text.empty())
+        section.fail(name, "needs the height up to which the water stands, a "
+                           "function of time [m]: 'water LEVEL', such as "
+                           "'water 12'.");
+      const TimeFunction level = time_function(section, name, text);
       return { LoadQuantity::force, level, std::make_shared<LoadField>(level) };
     }
 
@@ -588,7 +592,8 @@ namespace quoin
             "[m], 9810 N/m^3 times the depth below it [Pa]",
             [&](const ParameterSection &section, const std::string &name)
             {
-              return section.text(name).rfind(water_word, 0) == 0
+              const std::string text = section.text(name);
+              return text.substr(0, text.find(' ')) == water_word
                          ? water_pressure(section, name)
                          : plain(section, name);
             });

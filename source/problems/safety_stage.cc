@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace quoin
 {
@@ -67,6 +66,9 @@ namespace quoin
       void begin_trial(const StageParameters &variant);
       void come_to_rest(const StageParameters &variant, SafetyTrial &trial);
       void find_equilibrium(SafetyTrial &trial);
+      /** What rest proves: nothing if the model has moved on before, beyond
+          @p limit [m]. */
+      void judge_rest(bool moved_on, double limit, SafetyTrial &trial) const;
       /** Whether a failure may come from joints that chatter under adaptive
           damping, so that a trial with local damping must confirm it. */
       bool needs_confirmation() const;
@@ -218,15 +220,7 @@ namespace quoin
             trial.verdict = Verdict::failing;
           else if (share >= 1. && has_settled())
           {
-            if (!watch.has_moved_on())
-              trial.verdict = Verdict::stable;
-            else
-              log.message(
-                  "stage ", stage.name, ": factor ", trial.factor,
-                  ": the model reached equilibrium after it had moved beyond "
-                  "the failure displacement of ",
-                  limit,
-                  " m, so that this factor is neither stable nor unstable");
+            judge_rest(watch.has_moved_on(), limit, trial);
             return;
           }
           if (trial.verdict != Verdict::undecided
@@ -262,8 +256,7 @@ namespace quoin
       solver.begin_stage(stage, previous_stage(system.parameters.stages, index),
                          state);
       const double limit = failure_displacement();
-      std::optional<FailureWatch> watch; // of a jump
-      double before = 0.;
+      JumpWatch watch(limit);
       trial.verdict = Verdict::undecided;
       try
       {
@@ -277,14 +270,7 @@ namespace quoin
           solver.record().jumps.clear();
           const ImplicitState &now  = state.get<ImplicitState>();
           const double displacement = largest_displacement();
-          if (!now.jumps)
-          {
-            watch.reset();
-            before = displacement;
-          }
-          else if (!watch)
-            watch.emplace(limit, 0.);
-          if (watch && watch->has_failed(now.drag_time, displacement - before))
+          if (watch.has_failed(now.jumps, now.drag_time, displacement))
           {
             trial.verdict = Verdict::failing;
             return;
@@ -297,13 +283,26 @@ namespace quoin
           if (context.run.progress.due())
             context.run.progress.update(figures());
         }
-        trial.verdict = Verdict::stable;
+        judge_rest(watch.has_moved_on(), limit, trial);
       }
       catch (const ModelFailure &)
       {
         outputs.write_iterations();
         solver.record().jumps.clear();
       }
+    }
+
+    void SafetyStage::judge_rest(const bool moved_on, const double limit,
+                                 SafetyTrial &trial) const
+    {
+      if (!moved_on)
+        trial.verdict = Verdict::stable;
+      else
+        log.message("stage ", stage.name, ": factor ", trial.factor,
+                    ": the model reached equilibrium after it had moved beyond "
+                    "the failure displacement of ",
+                    limit,
+                    " m, so that this factor is neither stable nor unstable");
     }
 
     double SafetyStage::failure_displacement() const

@@ -8,7 +8,8 @@ high) of the columns of the case's reference.csv; the two ends of the bracket
 lie a margin or a share outside it. At the end on the safe side the "columns"
 must stay below "bound" (and, if "at rest", have stopped), at the other end they
 must exceed it. "steps" bisections between give the limit itself. "tolerances"
-bound the errors of the check and the energy residual of the runs that stand.
+bound the errors of the check and the energy residual of the runs that stand,
+which warn of nothing but what "warnings" says.
 """
 import importlib.util
 import json
@@ -90,12 +91,16 @@ def run(case, folder, options, value, check=False):
         if check and "check" in case:
             extra = getattr(checks, case["check"])(case, folder, output,
                                                    histories)
+        failed = []
         if stands:
             extra.update(checks.energy_residual(case, folder, output,
                                                 histories))
-    failed = []
+            failed = common.unexpected_warnings(case.get("warnings", []),
+                                                output)
+    tolerances = {"energy residual": common.MOST_RESIDUAL,
+                  **case.get("tolerances", {})}
     for label, error in extra.items():
-        bound = case["tolerances"][label]
+        bound = tolerances[label]
         print("    %-28s %.3e  tolerance %.1e" % (label, error, bound))
         if not error <= bound:
             failed.append("%s %.3e > %.1e" % (label, error, bound))

@@ -962,15 +962,14 @@ def salencon(case, folder, output, histories):
     """Displacements relative to the largest one, those of the wall and at the
     edge of the plastic zone relative to themselves; its radius by the area of
     the cells that have yielded; stresses of all cells relative to the pressure.
-    "factor": that of all stresses, and so of displacements; "stiffer": that of
-    the rock's stiffness, for the small strains of the closed form."""
+    "factor": that of all stresses, and so of displacements, for the small
+    strains of the closed form."""
     exact = reference_module(folder)
     reference = np.genfromtxt(os.path.join(folder, case["profile"]),
                               delimiter=",", skip_header=1)
     grid = vtu.read_at(os.path.join(output, "blocks.pvd"))
     factor = case.get("factor", 1.0)
-    scale = case.get("stiffer", 1.0) / factor
-    x, u = grid.points[:, :2], scale * grid.point_data["displacement"][:, :2]
+    x, u = grid.points[:, :2], grid.point_data["displacement"][:, :2] / factor
     r = np.hypot(x[:, 0], x[:, 1])
     radial = np.sum(x * u, axis=1) / r
     wanted = np.interp(r, reference[:, 0], reference[:, 1])
@@ -1080,15 +1079,15 @@ def excavated_hole(case, folder, output, histories):
 
 def excavated_hole_yielding(case, folder, output, histories):
     """Mean displacement of the wall and the plastic radius, by the area that has
-    yielded, at the end of each stage; displacements of all nodes. "stiffer" as
-    in salencon()."""
+    yielded, at the end of each stage; displacements of all nodes. "factor" as in
+    salencon()."""
     exact = reference_module(folder)
     path = os.path.join(output, "blocks.pvd")
     errors = {}
     for (time, _), share in zip(vtu.read_pvd(path), (0.8, 1.0)):
         grid = vtu.read_at(path, time)
         x, u = grid.points, grid.point_data["displacement"][:, :2]
-        u = case.get("stiffer", 1.0) * u
+        u = u / case.get("factor", 1.0)
         u = u - np.mean(u[np.hypot(x[:, 0], x[:, 1]) < 1 + 1e-6], axis=0)
         r = np.hypot(x[:, 0], x[:, 1])
         radial = np.sum(x[:, :2] * u, axis=1) / r

@@ -25,6 +25,7 @@ MPI_ENVIRONMENT = {
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
     "OMPI_MCA_mpi_yield_when_idle": "1",
 }
+MOST_RESIDUAL = 1e-4           # of the energy balance, unless a case says more
 RUN_FAILED = 2                 # exit status of quoin: its outputs are kept
 
 
@@ -96,6 +97,26 @@ def run(quoin, prm, output, sets=(), ranks=1, extra=(), accepted=(0,)):
         raise kind("%s ended with exit status %d:\n%s"
                    % (os.path.relpath(prm, ROOT), done.returncode, tail))
     return seconds
+
+
+def unexpected_warnings(texts, output):
+    """Warnings of the log that have none of the texts, and the texts that no
+    warning has."""
+    with open(os.path.join(output, "log.txt")) as log:
+        warnings = [line for line in log if line.startswith("Warning: ")]
+    return (["warns: " + line.strip() for line in warnings
+             if not any(text in line for text in texts)]
+            + ["does not warn: " + text for text in texts
+               if not any(text in line for line in warnings)])
+
+
+def energy_residual_share(output):
+    """Largest residual of the energy balance by the energy throughput; 0 of a
+    run without blocks, which has no balance."""
+    with open(os.path.join(output, "summary.json")) as stream:
+        summary = json.load(stream)
+    largest = summary.get("largest energy residual [J]", 0)
+    return largest and largest / summary["energy throughput [J]"]
 
 
 def in_parallel(act, items):

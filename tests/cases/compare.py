@@ -7,7 +7,8 @@ Every column of the reference but the time is compared with the column of the
 same name of histories.csv, interpolated at the reference's times. The error is
 the largest difference relative to the column's peak (its "scale" if given). A
 case may add a check of checks.py or wall_checks.py, which returns further
-errors. Each is bounded by its entry in "tolerances", or by "tolerance".
+errors. Each is bounded by its entry in "tolerances", or by "tolerance". The
+energy balance must close, and the run warn of nothing but what "warnings" says.
 """
 import json
 import os
@@ -77,18 +78,6 @@ def iterations_a_step(output):
     return summary["iterations"] / summary["steps"]
 
 
-def unexpected_warnings(case, output):
-    """Warnings of the log that have none of the case's texts 'warnings', and
-    the texts that none has."""
-    with open(os.path.join(output, "log.txt")) as log:
-        warnings = [line for line in log if line.startswith("Warning: ")]
-    texts = case.get("warnings", [])
-    return (["warns: " + line.strip() for line in warnings
-             if not any(text in line for text in texts)]
-            + ["does not warn: " + text for text in texts
-               if not any(text in line for line in warnings)])
-
-
 def run_case(case, options):
     name = case["name"]
     results = common.begin(options, name)
@@ -114,15 +103,24 @@ def run_case(case, options):
                                                  histories)
         iterations = ("iterations a step" in case
                       and iterations_a_step(output))
-        failed = unexpected_warnings(case, output)
-    tolerance, tolerances = case["tolerance"], case.get("tolerances", {})
-    unknown = set(tolerances) - set(errors) - set(extra)
+        failed = common.unexpected_warnings(case.get("warnings", []), output)
+        residual = common.energy_residual_share(output)
+    tolerance = case["tolerance"]
+    tolerances = {"energy residual": common.MOST_RESIDUAL,
+                  **case.get("tolerances", {})}
+    unknown = set(tolerances) - set(errors) - set(extra) - {"energy residual"}
     if unknown:
         raise Failure("%s: tolerances of what is not compared: %s"
                       % (name, ", ".join(sorted(unknown))))
     if iterations and iterations > case["iterations a step"]:
         failed.append("%.2f iterations a step > %g"
                       % (iterations, case["iterations a step"]))
+    print("  %-30s %.3e  tolerance %.1e"
+          % ("energy residual / throughput", residual,
+             tolerances["energy residual"]))
+    if not residual <= tolerances["energy residual"]:
+        failed.append("energy residual %.1e of the throughput > %g"
+                      % (residual, tolerances["energy residual"]))
     worst = 0.0
     for column, (largest, rms) in errors.items():
         bound = tolerances.get(column, tolerance)

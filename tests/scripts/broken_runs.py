@@ -62,12 +62,15 @@ class Broken(unittest.TestCase):
         self.results = os.path.join(self.folder, "results")
         os.mkdir(self.results)
 
-    def quoin(self, end, log="", **files):
-        """A program that writes <name>.csv and a log and ends as ENDS says."""
+    def quoin(self, end, log="", summary={}, **files):
+        """A program that writes <name>.csv, a log and a summary and ends as ENDS
+        says."""
         path = os.path.join(self.folder, "quoin")
         texts = {name + ".csv": text for name, text in files.items()}
         with open(path, "w") as file:
-            file.write(QUOIN % (dict(texts, **{"log.txt": log}), ENDS[end]))
+            file.write(QUOIN % (dict(texts, **{
+                "log.txt": log, "summary.json": json.dumps(summary)}),
+                ENDS[end]))
         os.chmod(path, 0o755)
         return path
 
@@ -108,11 +111,14 @@ class Results(Broken):
                      error=0.1, tolerance=0.2, seconds=1., passed=True)
         write_result(self.results, "wedge", title="the wedge", reference="",
                      error=0.3, tolerance=0.2, seconds=1., passed=False)
+        # of a case that was taken out since
+        write_result(self.results, "gone", passed=False)
         text = subprocess.run(
             [sys.executable, os.path.join(SCRIPTS, "table"), "--results",
              self.results, "--output", "-"], stdout=subprocess.PIPE, text=True,
             check=True).stdout
         self.assertNotIn("earlier", text)
+        self.assertNotIn("gone", text)
         self.assertIn("| column | | | **no result** | | |", text)
         self.assertIn("| fill | the fill | Hooke | 1.0e-01 | 2.0e-01 | 1.0 |",
                       text)
@@ -124,18 +130,17 @@ class Results(Broken):
 class Limits(Broken):
     """A motion of 2 m counts as a collapse."""
 
-    case = {"name": "limit", "columns": ["x"], "bound": 1., "set": [],
-            "tolerances": {"energy residual": 1e-3}}
+    case = {"name": "limit", "columns": ["x"], "bound": 1., "set": []}
 
-    def stands(self, end, moved):
+    def stands(self, end, moved, log="", residual=0., **case):
         files = {"histories": table("time [s],x [m]", (0, 0), (1, moved)),
                  "energies": table(
                      "time,kinetic,strain,joint,friction,fracture,crushing,"
                      "plastic,damping,viscous,contact,external,residual",
-                     [0] * 13, [1] * 12 + [0])}
+                     [0] * 13, [1] * 12 + [residual])}
         with contextlib.redirect_stdout(io.StringIO()):
-            return bracket.run(self.case, self.folder,
-                               self.options(end, **files), 0.3)[0]
+            return bracket.run(dict(self.case, **case), self.folder,
+                               self.options(end, log=log, **files), 0.3)[0]
 
     def test_a_run_that_failed_may_have_collapsed(self):
         self.assertTrue(self.stands("finished", 0.5))
@@ -150,10 +155,26 @@ class Limits(Broken):
             with self.assertRaisesRegex(Failure, "exit status %d" % status):
                 self.stands(end, 2.)
 
+    def test_what_stands_warns_of_nothing(self):
+        log = "Warning: the load jumps\n"
+        self.assertTrue(self.stands("finished", 0.5, log, warnings=["jumps"]))
+        with self.assertRaisesRegex(Failure, "warns: Warning: the load"):
+            self.stands("finished", 0.5, log)
+        self.assertFalse(self.stands("finished", 2., log))
+
+    def test_what_stands_keeps_its_energy(self):
+        self.assertTrue(self.stands("finished", 0.5, residual=9e-5))
+        self.assertTrue(self.stands("finished", 0.5, residual=2e-4,
+                                    tolerances={"energy residual": 1e-3}))
+        with self.assertRaisesRegex(Failure, "energy residual 2.000e-04"):
+            self.stands("finished", 0.5, residual=2e-4)
+        self.assertFalse(self.stands("finished", 2., residual=2e-4))
+
 
 class Columns(Broken):
-    def compare(self, end, log="", **case):
-        """A run that ends at the time @p end, the reference at 1 s."""
+    def compare(self, end, log="", residual=0., **case):
+        """A run that ends at the time @p end, the reference at 1 s, with an
+        energy residual by the throughput."""
         times = np.linspace(0., end, 21)
         histories = table("time [s],u [m]", *zip(times, times))
         with open(os.path.join(self.folder, "reference.csv"), "w") as file:
@@ -162,8 +183,10 @@ class Columns(Broken):
                      "source": "", "reference": "reference.csv",
                      "tolerance": 0.1}, **case)
         with contextlib.redirect_stdout(io.StringIO()):
-            compare.run_case(case, self.options("finished", log=log,
-                                                histories=histories))
+            compare.run_case(case, self.options(
+                "finished", log=log, histories=histories,
+                summary={"largest energy residual [J]": 5. * residual,
+                         "energy throughput [J]": 5.}))
         return self.result("case")
 
     def test_runs_that_end_early(self):
@@ -180,12 +203,19 @@ class Columns(Broken):
         with self.assertRaisesRegex(Failure, "does not warn: jumps"):
             self.compare(1., "a run\n", warnings=["jumps"])
 
+    def test_energy_residual(self):
+        self.assertTrue(self.compare(1., residual=9e-5)["passed"])
+        self.assertTrue(self.compare(
+            1., residual=2e-4, tolerances={"energy residual": 1e-3})["passed"])
+        with self.assertRaisesRegex(Failure, "energy residual 2.0e-04"):
+            self.compare(1., residual=2e-4)
+
     def test_tolerances(self):
         self.assertTrue(self.compare(1., tolerance=0.021)["passed"])
         with self.assertRaisesRegex(Failure, "u 2.000e-02 > 1.0e-02"):
             self.compare(1., tolerances={"u": 0.01})
         self.assertEqual(self.result("case")["passed"], False)
-        with self.assertRaisesRegex(Failure, "not compared: energy"):
+        with self.assertRaisesRegex(Failure, "not compared: energy$"):
             self.compare(1., tolerances={"energy": 0.01})
 
 

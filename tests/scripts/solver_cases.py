@@ -73,7 +73,7 @@ class Check(Folders):
     def table(self, **values):
         results = os.path.join(self.folder.name, "results")
         os.makedirs(results, exist_ok=True)
-        write_result(results, "wall", title="wall W: by both solvers",
+        write_result(results, "tue_wall_j4d_solvers", title="wall W: by both solvers",
                      reference="tests", error=0.1, tolerance=0.2, seconds=1.,
                      passed=True, **values)
         return subprocess.run(

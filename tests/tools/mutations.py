@@ -71,6 +71,8 @@ KINDS = {
                   "--only {what}"),
     "other ranks": ("quoin", "{tree}/tests/cases/resume_ranks.py --quoin "
                     "{quoin} --only {what}"),
+    "shipped": ("quoin", "{tree}/tests/cases/shipped_cases.py --quoin {quoin} "
+                "--only {what}"),
     "errors": ("quoin", "{tree}/tests/errors/errors.py --quoin {quoin} "
                "--only {what}"),
     "figures": ("quoin", "{tree}/tests/scripts/figures.py --quoin {quoin}"),
@@ -206,8 +208,8 @@ def wanted_groups(known, cases):
             if text and "__main__" in text and name not in (
                     "compare.py", "bracket.py", "interrupt.py", "resume.py",
                     "resume_ranks.py",
-                    "hybrid_long_run.py", "wall_stability.py", "figures.py",
-                    "polygons.py", "traces.py"):
+                    "hybrid_long_run.py", "shipped_cases.py", "wall_stability.py",
+                    "figures.py", "polygons.py", "traces.py"):
                 groups.add("%s/%s" % (kind, name))
     return groups | {"unit tests on two ranks"} | (
         set(KINDS) - {"unit", "ranks", "case", "cases", "scripts"})

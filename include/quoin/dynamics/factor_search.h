@@ -147,6 +147,31 @@ namespace quoin
     bool moved_on = false;
     std::vector<double> times, displacements;
   };
+
+  /** The same of a trial by the implicit solver: each jump counts from its own
+      start, and what any of them has shown stays true. */
+  class JumpWatch
+  {
+  public:
+    /** @p limit [m] */
+    explicit JumpWatch(const double limit) : limit(limit)
+    {
+    }
+
+    /** Takes the largest @p displacement [m], within a jump (@p jumps) or at
+        an equilibrium, at a pseudo-time since the jump began. */
+    bool has_failed(bool jumps, double pseudo_time, double displacement);
+    bool has_moved_on() const
+    {
+      return moved_on;
+    }
+
+  private:
+    const double limit;
+    double before = 0.; /**< displacement at the last equilibrium [m] */
+    bool moved_on = false;
+    std::optional<FailureWatch> jump;
+  };
 } // namespace quoin
 
 #endif

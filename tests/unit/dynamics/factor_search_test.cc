@@ -155,3 +155,43 @@ TEST(FailureWatch, WhatCollapsesLateHasFailed)
   }
   EXPECT_TRUE(has_failed);
 }
+
+TEST(JumpWatch, RemembersEveryJump)
+{
+  // The motion of FailureWatch.WhatIsCaughtFarAwayHasMovedOn in the first or
+  // the second of two jumps, from 4 m; the other one settles within 1 m.
+  for (const unsigned int far : { 0, 1 })
+  {
+    JumpWatch watch(1.5);
+    double before = 4.;
+    for (unsigned int jump = 0; jump < 2; ++jump)
+    {
+      EXPECT_FALSE(watch.has_failed(false, 0., before));
+      double moved = 0.;
+      for (double t = 0.1; t <= 40.; t += 0.1)
+      {
+        moved = jump == far ? 1. + 0.5 * std::clamp(t - 10., 0., 3.)
+                            : 1. - std::exp(-t);
+        EXPECT_FALSE(watch.has_failed(true, t, before + moved));
+      }
+      EXPECT_EQ(watch.has_moved_on(), jump >= far);
+      before += moved;
+    }
+    EXPECT_FALSE(watch.has_failed(false, 0., before));
+    EXPECT_TRUE(watch.has_moved_on());
+  }
+}
+
+TEST(JumpWatch, CountsFromTheStartOfAJump)
+{
+  // What slides on fails, however far equilibria had moved before, and those do
+  // not count.
+  JumpWatch watch(1.);
+  for (unsigned int i = 0; i <= 100; ++i)
+    EXPECT_FALSE(watch.has_failed(false, 0., 0.1 * i));
+  double failed_at = 0.;
+  for (double t = 0.01; t < 20. && failed_at == 0.; t += 0.01)
+    if (watch.has_failed(true, t, 10. + 0.2 * t))
+      failed_at = t;
+  EXPECT_NEAR(failed_at, 5., 0.02);
+}

@@ -1,0 +1,84 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Runs the shipped parameter files that cases.json and brackets.json do not.
+
+Each must come to its end, close its energy balance as theirs do, and warn of
+nothing but what WARNINGS says, a text of each warning.
+"""
+import glob
+import json
+import os
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import common  # noqa: E402
+from common import Failure  # noqa: E402
+
+FILES = os.path.join(common.ROOT, "parameter_files")
+WAVES = "brings frequencies of up to"
+WARNINGS = {
+    # the kernel alone, without joints
+    "benchmarks/blocks/case.prm": ["is held by nothing"],
+    # as coarse as 30 m of rock around allow, see its README
+    "rock/blast/large.prm": [WAVES],
+    # all frequencies of the mesh, which must leave and not grow
+    "verification/hybrid_long_run/case.prm": [WAVES],
+    "verification/hybrid_long_run/half_plane.prm": [WAVES],
+}
+
+
+def others():
+    """Paths of the parameter files that no table of cases names."""
+    listed = set()
+    for table in ("cases.json", "brackets.json"):
+        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)),
+                               table)) as stream:
+            listed |= {os.path.normpath(os.path.join(
+                common.VERIFICATION, case["folder"],
+                case.get("prm", "case.prm"))) for case in json.load(stream)}
+    found = glob.glob(os.path.join(FILES, "*", "*", "*.prm"))
+    return sorted(os.path.relpath(path, FILES)
+                  for path in set(found) - listed)
+
+
+def run(quoin, name):
+    with tempfile.TemporaryDirectory(prefix="quoin_") as output:
+        seconds = common.run(quoin, os.path.join(FILES, name), output)
+        failed = common.unexpected_warnings(WARNINGS.get(name, []), output)
+        residual = common.energy_residual_share(output)
+    print("  %s: energy residual %.1e, %.1f s" % (name, residual, seconds),
+          flush=True)
+    if not residual <= common.MOST_RESIDUAL:
+        failed.append("energy residual %.1e > %g"
+                      % (residual, common.MOST_RESIDUAL))
+    if failed:
+        raise Failure("%s: %s" % (name, "; ".join(failed)))
+
+
+def main():
+    parser = common.arguments(__doc__.splitlines()[0])
+    parser.add_argument("--only", default="", help="those with this in their "
+                        "path below parameter_files/")
+    options = parser.parse_args()
+    names = others()
+    strange = sorted(set(WARNINGS) - set(names))
+    if strange:
+        raise Failure("warnings of files that are not run: "
+                      + ", ".join(strange))
+    failures = []
+    for name in names:
+        if options.only not in name:
+            continue
+        try:
+            run(options.quoin, name)
+        except Failure as failure:
+            print("FAILED: %s" % failure, flush=True)
+            failures.append(name)
+    if failures:
+        raise Failure("%d files: %s" % (len(failures), ", ".join(failures)))
+
+
+if __name__ == "__main__":
+    common.main(main)
