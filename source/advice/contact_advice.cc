@@ -115,9 +115,8 @@ namespace quoin
   {
     const ModelProperties &properties = model.properties();
     const BlockTable<2> &table        = model.nodes().table();
-    const auto masses = block_masses(model.nodes(), model.mass());
-    const auto acts = sets_on_blocks(model.nodes(), model.joints(), properties,
-                                     model.parameters().large_displacements);
+    const auto masses         = block_masses(model.nodes(), model.mass());
+    const auto acts           = sets_on_blocks(model);
     const unsigned int n_sets = properties.joints.size();
     std::vector<TypicalImpact> result(n_sets);
     for (unsigned int s = 0; s < n_sets; ++s)

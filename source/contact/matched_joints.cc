@@ -73,8 +73,10 @@ namespace quoin
 
   void MatchedJoints::prepare(const NodeMap<2> &nodes,
                               const std::vector<JointSetParameters> &sets,
-                              const Thickness &thickness)
+                              const Thickness &group_thickness)
   {
+    node_map  = &nodes;
+    thickness = group_thickness;
     set_laws(sets);
     all_segments.clear();
     const BlockTable<2> &table = nodes.table();

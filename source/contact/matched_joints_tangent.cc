@@ -114,7 +114,8 @@ namespace quoin
       take({ segment.nodes.data(), 4, segment.force.data(),
              segment.stiffness[0].data(), 8, all_segments[i].share,
              segment.inelastic, segment.inelastic_gradient.data(),
-             all_segments[i].set });
+             all_segments[i].set,
+             all_segments[i].area[0] + all_segments[i].area[1] });
     }
   }
 

@@ -461,12 +461,12 @@ namespace quoin
   // -- sums of a step ----------------------------------------------------
 
   template <int dim>
-  double CentralDifferences<dim>::stored_energy(const State<dim> &state) const
+  void
+  CentralDifferences<dim>::add_stored_energy(const State<dim> &state,
+                                             EnergyAccounts &energies) const
   {
-    double sum = 0.;
     for (const ForceOperator<dim> *each : forces)
-      sum += each->stored_energy(state);
-    return sum;
+      each->add_stored_energy(state, energies);
   }
 
   template <int dim>

@@ -11,22 +11,6 @@
 
 namespace quoin
 {
-  namespace
-  {
-    ContactModel contact_model_of(const Model<2> &model)
-    {
-      const ModelProperties &properties = model.properties();
-      ContactModel result;
-      result.parameters = model.parameters().contact;
-      result.sets       = properties.joints;
-      for (const MaterialParameters &material : properties.materials)
-        result.materials.push_back(material.name);
-      result.material_of_group = properties.material_of_group;
-      result.thickness         = model.thickness();
-      return result;
-    }
-  } // namespace
-
   template <int dim>
   ExplicitSolver<dim>::ExplicitSolver(
       Model<dim> &model, const std::vector<LoadParameters> &loads,
@@ -34,17 +18,13 @@ namespace quoin
       std::unique_ptr<FarField> far_field,
       std::unique_ptr<StaticFarField> static_field)
     : Solver<dim>(model, loads, std::move(far_field), std::move(static_field)),
+      block_contacts(model.contacts()),
       stepper(model.nodes(), model.blocks(), time_shares),
       node_mass(model.mass()), all_stages(stages)
   {
     if constexpr (dim == 2)
-    {
       if (model.parameters().contact.has_box)
         box = std::make_unique<const ModelBox>(model);
-      if (model.parameters().large_displacements)
-        block_contacts = std::make_unique<BlockContacts>(
-            model.nodes(), model.joints(), contact_model_of(model));
-    }
   }
 
   template <int dim>
@@ -60,39 +40,88 @@ namespace quoin
   void ExplicitSolver<dim>::step(State<dim> &state, const Requests &wanted)
   {
     Requests requests = wanted;
-    if (stage.slows_loads() && requests.balance)
-      requests.energies = true;
-    const StepContext context = step_context(state, stage, time_step);
-    const bool step_changes   = context.dt_before != context.dt;
+    requests.energies |= stage.slows_loads() && requests.balance;
+    StepSums sums;
+    const StepContext context = begin_step(state, requests);
+    // 1. Contact search.
+    stepper.update_neighbours(state, context);
+    // 2. Forces of contacts, joints and loads on all nodes.
+    add_forces(state, context, requests, sums);
+    // 3. Forces of blocks and motion of their nodes, tile by tile.
+    stepper.advance_tiles(state, context, requests.balance, sums);
+    // 4. Motion of nodes that several processes share.
+    stepper.advance_shared_nodes(state, context, requests.balance, sums);
+    // 5. Rigid blocks.
+    advance_rigid_blocks(state, context, sums);
+    // 6. Constrained nodes.
+    move_constrained_nodes(state, context);
+    // 7. Work and energies; exchange of ghost positions.
+    end_step(state, context, requests, sums);
+  }
+
+  template <int dim>
+  StepContext ExplicitSolver<dim>::begin_step(State<dim> &state,
+                                              const Requests &requests)
+  {
     time_shares.begin_step();
     state.energy += state.pending;
     state.pending = EnergyAccounts();
     if constexpr (dim == 2)
       if (requests.balance && box)
         look_at_box(state);
+    return step_context(state, stage, time_step);
+  }
 
-    // 1. Contact search.
-    stepper.update_neighbours(state, context);
-    // 2. Forces of contacts, joints and loads on all nodes.
+  template <int dim>
+  void ExplicitSolver<dim>::add_forces(State<dim> &state,
+                                       const StepContext &context,
+                                       const Requests &requests, StepSums &sums)
+  {
     stepper.add_forces(state, context);
-    const StoredEnergies stored
-        = requests.energies ? stored_energies(state) : StoredEnergies();
-    if (requests.energies || step_changes)
+    if (requests.energies)
+      find_stored_energies(state);
+    if (requests.energies || context.dt_before != context.dt)
     {
       velocity_before = state.velocity;
       rigid_before    = state.template get<RigidBlockStates>();
     }
-    StepSums sums;
     if (requests.balance)
       sums.applied = stepper.applied_force();
-    // 3. Forces of blocks and motion of their nodes, tile by tile.
-    stepper.advance_tiles(state, context, requests.balance, sums);
-    // 4. Motion of nodes that several processes share.
-    stepper.advance_shared_nodes(state, context, requests.balance, sums);
-    // 5. Rigid blocks.
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::find_stored_energies(const State<dim> &state)
+  {
+    // The cells' internal variables are still those of the previous step.
+    plastic_now = state.template get<PlasticHistory>();
+    model.blocks().update(state.nodes.data(), plastic_now);
+    stored_before = EnergyAccounts();
+    stored_before.strain
+        = strain_energy(model.blocks(), state.nodes.data(), plastic_now);
+    stepper.add_stored_energy(state, stored_before);
+    time_shares.lap(energy_phase);
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::advance_rigid_blocks(State<dim> &state,
+                                                 const StepContext &context,
+                                                 StepSums &sums)
+  {
     if constexpr (dim == 2)
-      advance_rigid_blocks(state, context, sums);
-    // 6. Constrained nodes.
+    {
+      const NodeForces<2> forces = stepper.capture_rigid_blocks(state);
+      const RigidBlockWork work  = model.rigid_blocks().advance(
+           context, rigid_stage, forces.force, forces.viscous, state);
+      sums.damping += work.damping;
+      sums.unbalanced += work.unbalanced;
+      time_shares.lap(rigid_phase);
+    }
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::move_constrained_nodes(State<dim> &state,
+                                                   const StepContext &context)
+  {
     stepper.move_constrained_nodes(state, context);
     if constexpr (dim == 2)
       model.rigid_blocks().follow_nodes(rigid_stage, state);
@@ -101,32 +130,22 @@ namespace quoin
       acting.pattern->correct(context, state);
       time_shares.lap(load_phase);
     }
-    // 7. Work and energies; exchange of ghost positions.
-    book_energies(state, context, requests, stored, sums);
-    stepper.exchange_positions(state);
-    advance_time(state, context, requests);
   }
 
   template <int dim>
-  typename ExplicitSolver<dim>::StoredEnergies
-  ExplicitSolver<dim>::stored_energies(const State<dim> &state)
+  void
+  ExplicitSolver<dim>::end_step(State<dim> &state, const StepContext &context,
+                                const Requests &requests, const StepSums &sums)
   {
-    // The cells' internal variables are still those of the previous step.
-    plastic_now = state.template get<PlasticHistory>();
-    model.blocks().update(state.nodes.data(), plastic_now);
-    StoredEnergies stored;
-    stored.strain
-        = strain_energy(model.blocks(), state.nodes.data(), plastic_now);
-    stored.joint = stepper.stored_energy(state);
-    time_shares.lap(energy_phase);
-    return stored;
+    book_energies(state, context, requests, sums);
+    stepper.exchange_positions(state);
+    advance_time(state, context, requests);
   }
 
   template <int dim>
   void ExplicitSolver<dim>::book_energies(State<dim> &state,
                                           const StepContext &context,
                                           const Requests &requests,
-                                          const StoredEnergies &stored,
                                           const StepSums &sums)
   {
     stepper.book_work(state, context, sums);
@@ -134,13 +153,13 @@ namespace quoin
     {
       // 1/2 m v- v+, or the same half work on from v- if the step changed.
       const double share = context.dt_before / context.dt_velocity;
-      this->find_energies(state, stored.strain, stored.joint,
-                          kinetic_energy(model.nodes(), node_mass,
-                                         velocity_before, state.velocity, share)
-                              + model.rigid_blocks().kinetic_energy(
-                                  rigid_stage, rigid_before,
-                                  state.template get<RigidBlockStates>(),
-                                  share));
+      stored_before.kinetic
+          = kinetic_energy(model.nodes(), node_mass, velocity_before,
+                           state.velocity, share)
+            + model.rigid_blocks().kinetic_energy(
+                rigid_stage, rigid_before,
+                state.template get<RigidBlockStates>(), share);
+      this->find_energies(state, stored_before);
     }
     if (context.dt_before != context.dt)
       account_for_new_step(state, context);
@@ -220,19 +239,6 @@ namespace quoin
     state.energy.plastic += model.blocks().update(
         state.nodes.data(), state.template get<PlasticHistory>());
     model.nodes().exchange().update_ghosts(state.velocity.data());
-  }
-
-  template <>
-  void ExplicitSolver<2>::advance_rigid_blocks(State<2> &state,
-                                               const StepContext &context,
-                                               StepSums &sums)
-  {
-    const NodeForces<2> forces = stepper.capture_rigid_blocks(state);
-    const RigidBlockWork work  = model.rigid_blocks().advance(
-         context, rigid_stage, forces.force, forces.viscous, state);
-    sums.damping += work.damping;
-    sums.unbalanced += work.unbalanced;
-    time_shares.lap(rigid_phase);
   }
 
   template class ExplicitSolver<2>;

@@ -106,7 +106,7 @@ namespace quoin
     if constexpr (dim == 2)
     {
       if (block_contacts)
-        forces.push_back(block_contacts.get());
+        forces.push_back(block_contacts);
       forces.push_back(&model.joints());
     }
     for (NodalLoad<dim> &load : all_loads)
@@ -212,7 +212,6 @@ namespace quoin
     scale_masses(stage, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_gravity(previous, automatic_ramp());
-    set_contact_laws(model.properties().joints);
     prepare(state);
     collect_operators(previous);
     for (const auto &constraint : all_constraints)
@@ -238,7 +237,6 @@ namespace quoin
                                          State<dim> &state)
   {
     this->activate(resumed, state);
-    set_contact_laws(model.properties().joints);
     collect_operators(nullptr);
     const State<dim> saved = state;
     scale_masses(stage, state);

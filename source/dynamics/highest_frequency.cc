@@ -58,10 +58,10 @@ namespace quoin
             scale.push_back(1. / std::sqrt(factor * inertia));
         }
         if constexpr (dim == 2)
-          if (model.parameters().large_displacements)
+          if (model.contacts())
           {
             contacts.assign(nodes.n_local(), NodeStiffness<dim>{});
-            model.add_contact_bound(contacts);
+            model.contacts()->add_stiffness_bound(state, {}, contacts);
             nodes.exchange().add_to_owners(contacts.data());
           }
       }

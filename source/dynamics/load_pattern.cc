@@ -57,7 +57,7 @@ namespace quoin
       if (is_among(load.name(), stage.pattern->loads))
       {
         refuse_change(load, stage);
-        load.add_forces(TimePoint{ 0., 0. }, nodal.data());
+        load.add_loads(TimePoint{ 0., 0. }, nodal.data());
       }
     const auto absent = absent_nodes(model, state);
     for (unsigned int i = 0; i < nodal.size(); ++i)

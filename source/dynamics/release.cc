@@ -43,10 +43,10 @@ namespace quoin
   }
 
   template <int dim>
-  void Release<dim>::add_forces(const double load_time,
-                                NodeVector<dim> *force) const
+  void Release<dim>::add_loads(const TimePoint &time,
+                               NodeVector<dim> *force) const
   {
-    const double s = share(load_time);
+    const double s = share(time.stage);
     for (const NodalForce &item : forces)
       for (unsigned int d = 0; d < dim; ++d)
         force[item.node].v[d] += item.start[d] + s * item.change[d];

@@ -31,9 +31,8 @@ namespace quoin
   {
     /** Share of what is stored at the start that may be rounding. */
     constexpr double rounding = 1e-10;
-    return std::max({ std::abs(accounts.sum(EnergyKind::given)), stored(),
-                      accounts.sum(EnergyKind::dissipated),
-                      rounding * at_start });
+    return std::max({ std::abs(sum(EnergyKind::given)), sum(EnergyKind::stored),
+                      sum(EnergyKind::dissipated), rounding * at_start });
   }
 
   template <int dim>
@@ -78,9 +77,10 @@ namespace quoin
       make_free_fields(loads);
 
     const State<dim> rest = model.initial_state();
-    strain_at_start       = sum(model.blocks().stored_energy(rest));
+    model.blocks().add_stored_energy(rest, stored_at_start);
     if constexpr (dim == 2)
-      joint_at_start = sum(model.joints().stored_energy(rest));
+      model.joints().add_stored_energy(rest, stored_at_start);
+    sum_accounts(stored_at_start);
   }
 
   template <>
@@ -379,23 +379,32 @@ namespace quoin
   }
 
   template <int dim>
-  void Solver<dim>::find_energies(const State<dim> &state, const double strain,
-                                  const double joint, const double kinetic)
+  void Solver<dim>::sum_accounts(EnergyAccounts &energies) const
   {
-    std::vector<double> values = { kinetic, strain, joint };
+    std::vector<double> values;
     for (const EnergyAccount &account : energy_accounts)
-      values.push_back(state.energy.*account.value);
+      values.push_back(energies.*account.value);
     dealii::Utilities::MPI::sum(values, communicator, values);
-    last_energies.kinetic = values[0];
-    last_energies.strain  = values[1] - strain_at_start;
-    last_energies.joint   = values[2] - joint_at_start;
-    last_energies.at_start
-        = std::abs(strain_at_start) + std::abs(joint_at_start);
-    if (const auto *beyond = state.template find<StaticFarFieldState>())
-      last_energies.far_field = beyond->stored;
-    unsigned int i = 3;
+    unsigned int i = 0;
     for (const EnergyAccount &account : energy_accounts)
-      last_energies.accounts.*account.value = values[i++];
+      energies.*account.value = values[i++];
+  }
+
+  template <int dim>
+  void Solver<dim>::find_energies(const State<dim> &state,
+                                  EnergyAccounts stored)
+  {
+    for (const auto &constraint : all_constraints)
+      constraint->add_stored_energy(state, stored);
+    stored += state.energy;
+    sum_accounts(stored);
+    last_energies.at_start = 0.;
+    for (const EnergyAccount &account : energy_accounts)
+    {
+      const double at_start        = stored_at_start.*account.value;
+      last_energies.*account.value = stored.*account.value - at_start;
+      last_energies.at_start += std::abs(at_start);
+    }
   }
 
   template <int dim>

@@ -27,22 +27,16 @@ namespace quoin
   } // namespace
 
   Equilibrium::Equilibrium(const Model<2> &model, DofMap &dof_map,
-                           const std::vector<const NodalLoad<2> *> &loads,
+                           const Operators &operators,
                            const std::vector<bool> &path_sets,
                            const double stage_start,
                            const StaticFarField *far_field,
                            const LoadPattern<2> *pattern)
-    : model(model), dof_map(dof_map), loads(loads), path_sets(path_sets),
-      stage_start(stage_start), communicator(model.nodes().communicator()),
-      pattern(pattern), far_field(far_field)
+    : model(model), dof_map(dof_map), operators(operators),
+      path_sets(path_sets), stage_start(stage_start),
+      communicator(model.nodes().communicator()), pattern(pattern),
+      far_field(far_field)
   {
-    for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
-    {
-      const auto &segment = model.joints().segments()[i];
-      if (path_sets[segment.set])
-        path_area += (segment.area[0] + segment.area[1]) * segment.share;
-    }
-    path_area = dealii::Utilities::MPI::sum(path_area, communicator);
     make_pattern();
   }
 
@@ -50,30 +44,28 @@ namespace quoin
   {
     dealii::TrilinosWrappers::SparsityPattern entries(
         dof_map.owned(), dof_map.owned(), dof_map.relevant(), communicator);
-    const auto add = [&](const unsigned int *nodes, const unsigned int n)
-    {
-      element_dofs.resize(2 * n);
-      dof_map.get_dofs(nodes, n, element_dofs);
-      dof_map.constraints().add_entries_local_to_global(element_dofs, entries,
-                                                        false);
-    };
     State<2> rest  = model.initial_state();
-    double sums[3] = { 0., 0., 0. }; // stiffness, mass, nodes
-    model.blocks().linearise(
-        rest, true,
-        [&](const ElementLinearisation<2> &cell)
-        {
-          add(cell.nodes, cell.n_nodes);
-          for (unsigned int i = 0; i < 2 * cell.n_nodes; ++i)
-            sums[0] += 0.5 * cell.stiffness[i * cell.row_length + i];
-        });
-    model.joints().linearise(rest, false,
-                             [&](const ElementLinearisation<2> &segment)
-                             { add(segment.nodes, segment.n_nodes); });
+    double sums[4] = { 0., 0., 0., 0. }; // stiffness, mass, nodes, path
+    for (const ForceOperator<2> *each : operators)
+      each->linearise(
+          rest, each->is_internal(),
+          [&](const ElementLinearisation<2> &element)
+          {
+            const unsigned int n = 2 * element.n_nodes;
+            element_dofs.resize(n);
+            dof_map.get_dofs(element.nodes, element.n_nodes, element_dofs);
+            dof_map.constraints().add_entries_local_to_global(element_dofs,
+                                                              entries, false);
+            for (unsigned int i = 0; each->is_internal() && i < n; ++i)
+              sums[0] += 0.5 * element.stiffness[i * element.row_length + i];
+            if (is_on_path(element))
+              sums[3] += element.area * element.share;
+          });
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       sums[1] += model.mass()[i];
     sums[2] = model.nodes().n_deformable_nodes();
-    MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
+    MPI_Allreduce(MPI_IN_PLACE, sums, 4, MPI_DOUBLE, MPI_SUM, communicator);
+    path_area = sums[3];
     const double stiffness
         = sums[2] > 0. ? sums[0] / sums[2] : joint_stiffness();
     const unsigned int n_nodes = model.nodes().exchange().n_global();
@@ -189,14 +181,12 @@ namespace quoin
     for (unsigned int k = 0; k < element.n_nodes; ++k)
       for (unsigned int d = 0; d < 2; ++d)
         force[element.nodes[k]].v[d] += element.force[2 * k + d];
-    const bool is_on_path
-        = element.inelastic_gradient && path_sets[element.set];
-    if (is_on_path)
+    if (is_on_path(element))
       path += element.share * element.inelastic;
     if (!slopes)
       return;
     add_stiffness(element, slopes->by_advance);
-    if (!is_on_path)
+    if (!is_on_path(element))
       return;
     std::array<double, 8> slope;
     for (unsigned int j = 0; j < slope.size(); ++j)
@@ -229,7 +219,7 @@ namespace quoin
       for (unsigned int d = 0; d < 2; ++d)
       {
         const double by_far_field = force[node].v[d];
-        joint_force[node].v[d] += by_far_field;
+        applied_force[node].v[d] += by_far_field;
         if (!dof_map.is_free(node, d))
           continue;
         balance.far_field_force[d] += by_far_field;
@@ -289,29 +279,29 @@ namespace quoin
     State<2> &trial = balance.state;
     trial.nodes     = configuration.nodes;
     trial.energy    = EnergyAccounts();
-    model.joints().prepare(trial);
-    model.blocks().prepare(trial);
+    for (const ForceOperator<2> *each : operators)
+      each->prepare(trial);
     trial.copy_slices(committed);
     trial.add<BreakingJoints>().points = broken;
     balance.force.assign(model.nodes().n_local(), no_force);
-    joint_force.assign(model.nodes().n_local(), no_force);
+    applied_force.assign(model.nodes().n_local(), no_force);
 
     double path = 0.;
-    model.joints().linearise(trial, slopes,
-                             [&](const ElementLinearisation<2> &segment) {
-                               add_element(segment, joint_force, path, slopes);
-                             });
+    for (const ForceOperator<2> *each : operators)
+    {
+      auto &force = each->is_internal() ? balance.force : applied_force;
+      each->linearise(trial, slopes,
+                      [&](const ElementLinearisation<2> &element)
+                      {
+                        if (!dof_map.is_absent(element.nodes[0]))
+                          add_element(element, force, path, slopes);
+                      });
+    }
     balance.path
         = path_area > 0.
               ? dealii::Utilities::MPI::sum(path, communicator) / path_area
               : 0.;
-    model.blocks().linearise(trial, slopes,
-                             [&](const ElementLinearisation<2> &cell)
-                             {
-                               if (!dof_map.is_absent(cell.nodes[0]))
-                                 add_element(cell, balance.force, path, slopes);
-                             });
-    model.nodes().exchange().add_to_owners(joint_force.data());
+    model.nodes().exchange().add_to_owners(applied_force.data());
     model.nodes().exchange().add_to_owners(balance.force.data());
   }
 
@@ -338,8 +328,8 @@ namespace quoin
     for (unsigned int i = 0; i < n_owned; ++i)
       for (unsigned int d = 0; d < 2; ++d)
       {
-        joint_force[i].v[d] += balance.external[i].v[d];
-        balance.force[i].v[d] += joint_force[i].v[d];
+        applied_force[i].v[d] += balance.external[i].v[d];
+        balance.force[i].v[d] += applied_force[i].v[d];
         if (!held.empty())
           balance.force[i].v[d] += left * held[2 * i + d];
       }
@@ -347,7 +337,7 @@ namespace quoin
       for (unsigned int b = 0; b < dof_map.bodies().size(); ++b)
         for (unsigned int d = 0; d < 3; ++d)
           balance.held[b][d] = left * held_force(dof_map.bodies(), now, b, d);
-    find_ratio(joint_force, balance);
+    find_ratio(applied_force, balance);
   }
 
   void Equilibrium::add_external(const double load_time, const double factor,
@@ -356,10 +346,8 @@ namespace quoin
     for (unsigned int i = 0; pattern && i < force.size(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
         force[i].v[d] += factor * pattern->forces()[i].v[d];
-    for (const NodalLoad<2> *load : loads)
-      load->add_forces({ load_time, stage_start + load_time }, force.data());
-    if (release)
-      release->add_forces(load_time, force.data());
+    for (const ForceOperator<2> *each : operators)
+      each->add_loads({ load_time, stage_start + load_time }, force.data());
     for (unsigned int i = 0; i < force.size(); ++i)
       if (dof_map.is_absent(i))
         force[i] = no_force;

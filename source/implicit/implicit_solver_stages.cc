@@ -137,10 +137,9 @@ namespace quoin
     dof_map = std::make_unique<DofMap>(model, acting.constraints, held_blocks,
                                        state, acting.pattern != nullptr);
     equilibrium = std::make_unique<Equilibrium>(
-        model, *dof_map, acting.nodal, path_sets, stage_start,
+        model, *dof_map, operators_with(acting.nodal), path_sets, stage_start,
         far.elastostatic_acts ? far.elastostatic : nullptr,
         acting.pattern.get());
-    equilibrium->set_release(acting.release);
     // Multigrid gives no factor.
     linear_solver = std::make_unique<LinearSolver>(
         acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
@@ -148,6 +147,15 @@ namespace quoin
     residual.reinit(dof_map->owned(), communicator);
     slopes.by_advance = slopes.path_by_dof = correction = advanced = residual;
     broken.assign(model.joints().n_points(), 0);
+  }
+
+  Equilibrium::Operators ImplicitSolver::operators_with(
+      const std::vector<const NodalLoad<2> *> &loads) const
+  {
+    Equilibrium::Operators result{ &model.joints(), &model.blocks() };
+    result.insert(result.end(), loads.begin(), loads.end());
+    result.push_back(&acting.release);
+    return result;
   }
 
   void ImplicitSolver::hold_absent_blocks(const State<2> &state)
@@ -236,9 +244,9 @@ namespace quoin
       for (const NodalLoad<2> *load : acting.nodal)
         if (previous && names_load(*previous, load->name()))
           before.push_back(load);
-      Equilibrium without(model, *dof_map, previous ? before : acting.nodal,
+      Equilibrium without(model, *dof_map,
+                          operators_with(previous ? before : acting.nodal),
                           path_sets, stage_start, nullptr);
-      without.set_release(acting.release);
       without.find_forces(state, configuration_of(dof_map->bodies(), state),
                           broken, balance);
       far.elastostatic->hold(balance.force.data(), state);
@@ -296,8 +304,10 @@ namespace quoin
       state.time = state.stage_start + stage_duration;
     if (far.elastostatic_acts)
       state.get<StaticFarFieldState>().stored = balance.far_field_energy;
-    find_energies(state, model.blocks().stored_energy(state),
-                  model.joints().stored_energy(state), 0.);
+    EnergyAccounts stored;
+    for (const ForceOperator<2> *each : operators_with(acting.nodal))
+      each->add_stored_energy(state, stored);
+    find_energies(state, stored);
   }
 
   void ImplicitSolver::book_work(const State<2> &state,

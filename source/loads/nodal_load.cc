@@ -261,8 +261,8 @@ namespace quoin
   }
 
   template <int dim>
-  void NodalLoad<dim>::add_forces(const TimePoint &time,
-                                  NodeVector<dim> *force) const
+  void NodalLoad<dim>::add_loads(const TimePoint &time,
+                                 NodeVector<dim> *force) const
   {
     if (field)
     {

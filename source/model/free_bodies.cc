@@ -257,7 +257,7 @@ namespace quoin
       const NodeExchange &exchange = model.nodes().exchange();
       std::vector<NodeVector<dim>> force(exchange.n_local(), NodeVector<dim>{});
       for (const NodalLoad<dim> *load : loads)
-        load->add_forces(time, force.data());
+        load->add_loads(time, force.data());
       constexpr unsigned int n = n_motions<dim> + 1;
       std::vector<double> sums(n * n_blocks, 0.);
       if constexpr (dim == 2)

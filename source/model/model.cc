@@ -5,6 +5,7 @@
 #include <quoin/base/nearest_name.h>
 #include <quoin/mesh/kind_text.h>
 #include <quoin/model/block_placement.h>
+#include <quoin/model/contact_bounds.h>
 #include <quoin/operators/archive.h>
 
 #include <algorithm>
@@ -35,7 +36,10 @@ namespace quoin
       find_initial_stress();
     pack_blocks({});
     if constexpr (dim == 2)
+    {
       matched_joints.prepare(nodes, now.joints, group_thickness);
+      make_contacts();
+    }
     if (!table.is_quadratic)
       find_stable_step();
   }
@@ -142,19 +146,49 @@ namespace quoin
     block_forces.prepare(data);
   }
 
+  template <>
+  void Model<2>::make_contacts()
+  {
+    if (!given.large_displacements || node_map.table().is_quadratic)
+      return;
+    ContactModel contacts;
+    contacts.parameters = given.contact;
+    contacts.sets       = now.joints;
+    for (const MaterialParameters &material : now.materials)
+      contacts.materials.push_back(material.name);
+    contacts.material_of_group = now.material_of_group;
+    contacts.thickness         = group_thickness;
+    block_contacts
+        = std::make_unique<BlockContacts>(node_map, matched_joints, contacts);
+  }
+
+  // -- the stable step -------------------------------------------------------
+
+  template <int dim>
+  std::vector<const ForceOperator<dim> *> Model<dim>::stiff_operators() const
+  {
+    std::vector<const ForceOperator<dim> *> operators = { &block_forces };
+    if constexpr (dim == 2)
+    {
+      // Contacts stand for joints, too, which may become contacts.
+      if (block_contacts)
+        operators.push_back(block_contacts.get());
+      else
+        operators.push_back(&matched_joints);
+    }
+    return operators;
+  }
+
   template <int dim>
   StableTimeStep<dim> Model<dim>::stability_at(const State<dim> &state) const
   {
     std::vector<NodeStiffness<dim>> bound(node_map.n_local(),
                                           NodeStiffness<dim>{});
-    block_forces.add_stiffness_bound(state, {}, bound);
+    NodeRatio ratio;
     if constexpr (dim == 2)
-    {
-      if (given.large_displacements)
-        add_contact_bound(bound);
-      else
-        add_joint_bound(state, bound);
-    }
+      ratio = spring_ratio(state);
+    for (const ForceOperator<dim> *each : stiff_operators())
+      each->add_stiffness_bound(state, ratio, bound);
     node_map.exchange().add_to_owners(bound.data());
     bound.resize(node_map.n_owned());
     std::vector<double> rigid_bound;
@@ -179,19 +213,13 @@ namespace quoin
   }
 
   template <>
-  void Model<2>::add_joint_bound(const State<2> &state,
-                                 std::vector<NodeStiffness<2>> &bound) const
+  NodeRatio Model<2>::spring_ratio(const State<2> &state) const
   {
+    const auto by_mass = [this](const unsigned int a, const unsigned int b)
+    { return node_mass[a] / node_mass[b]; };
     const auto &is_rigid = node_map.table().is_rigid;
     if (std::find(is_rigid.begin(), is_rigid.end(), true) == is_rigid.end())
-    {
-      matched_joints.add_stiffness_bound(
-          state,
-          [&](const unsigned int a, const unsigned int b)
-          { return node_mass[a] / node_mass[b]; },
-          bound);
-      return;
-    }
+      return by_mass;
 
     // omega^2 of each body, node or rigid block, if the other side of its
     // joints were fixed. Springs are divided in the ratio of these, because a
@@ -199,8 +227,10 @@ namespace quoin
     // those of two bodies.
     std::vector<NodeStiffness<2>> springs(node_map.n_local(),
                                           NodeStiffness<2>{});
-    matched_joints.add_stiffness_bound(
-        state, [](unsigned int, unsigned int) { return 0.; }, springs);
+    for (const ForceOperator<2> *each : stiff_operators())
+      if (!each->is_internal())
+        each->add_stiffness_bound(
+            state, [](unsigned int, unsigned int) { return 0.; }, springs);
     std::vector<double> own(node_map.n_local(), 0.);
     for (unsigned int i = 0; i < node_map.n_deformable_nodes(); ++i)
       own[i] = StableTimeStep<2>({ springs[i] })
@@ -210,18 +240,56 @@ namespace quoin
                 own.begin() + rigid.block(b).end,
                 rigid.largest_eigenvalue(b, springs));
     node_map.exchange().update_ghosts(own.data());
+    return [this, by_mass, own](const unsigned int a, const unsigned int b)
+    {
+      const auto &is_rigid = node_map.table().is_rigid;
+      return is_rigid[node_map.block_of_node(a)]
+                     || is_rigid[node_map.block_of_node(b)]
+                 ? own[b] / own[a]
+                 : by_mass(a, b);
+    };
+  }
 
-    const auto is_rigid_node = [&](const unsigned int i)
-    { return is_rigid[node_map.block_of_node(i)]; };
-    matched_joints.add_stiffness_bound(
-        state,
-        [&](const unsigned int a, const unsigned int b)
-        {
-          return is_rigid_node(a) || is_rigid_node(b)
-                     ? own[b] / own[a]
-                     : node_mass[a] / node_mass[b];
-        },
-        bound);
+  template <>
+  void Model<2>::add_dashpot_bound(std::vector<NodeStiffness<2>> &bound,
+                                   std::vector<double> &rigid_bound) const
+  {
+    if (std::none_of(now.joints.begin(), now.joints.end(),
+                     [](const JointSetParameters &set)
+                     { return set.damping.acts(); }))
+      return;
+    double impedance = 0.;
+    for (const auto &[p, s] : group_impedances(now, given.plane))
+      if (std::isfinite(p))
+        impedance = std::max(impedance, p);
+    DampingBound damping;
+    damping.dashpot.assign(node_map.n_deformable_nodes(), 0.);
+    damping.share.assign(node_map.table().n_blocks(), 0.);
+    for (const ForceOperator<2> *each : stiff_operators())
+      each->add_damping_bound(block_masses(node_map, node_mass), impedance,
+                              damping);
+    /** omega^2 of undamped steps as short as those with dashpots of the rate
+        c/m: h^2 omega^2 + 2 h rate = 4 there. */
+    const auto damped = [](const double eigenvalue, const double rate)
+    {
+      const double omega = rate + std::sqrt(rate * rate + eigenvalue);
+      return omega * omega;
+    };
+    for (unsigned int i = 0; i < node_map.n_deformable_nodes(); ++i)
+    {
+      const double own = StableTimeStep<2>({ bound[i] })
+                             .largest_eigenvalue({ node_mass[i] });
+      const double rate = damping.dashpot[i] / node_mass[i];
+      for (unsigned int c = 0; c < 2; ++c)
+        bound[i][c] += node_mass[i] * (damped(own, rate) - own);
+    }
+    const unsigned int first = node_map.blocks().n_deformable;
+    for (unsigned int r = 0; r < rigid_bound.size(); ++r)
+      // On springs of its own, between two others.
+      rigid_bound[r]
+          = damped(rigid_bound[r],
+                   damping.share[node_map.blocks().parts[first + r].number]
+                       * std::sqrt(8. * rigid_bound[r]));
   }
 
   template <int dim>

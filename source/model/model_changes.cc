@@ -41,6 +41,11 @@ namespace quoin
     find_masses();
     pack_blocks(construction);
     matched_joints.set_laws(now.joints);
+    if (block_contacts)
+    {
+      block_contacts->set_laws(now.joints);
+      block_contacts->set_materials(now.material_of_group);
+    }
     if (!node_map.table().is_quadratic)
       find_stable_step();
   }

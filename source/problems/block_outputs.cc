@@ -23,18 +23,11 @@ namespace quoin
      */
     constexpr double largest_created_share = 0.5;
 
-    /** Columns of stored energies and of the accounts, dissipated ones first.
-     */
     std::vector<std::string> energy_columns()
     {
-      std::vector<std::string> names
-          = { "time [s]", "kinetic [J]", "strain [J]", "joint [J]" };
+      std::vector<std::string> names = { "time [s]" };
       for (const EnergyAccount &account : energy_accounts)
-      {
-        if (account.kind == EnergyKind::given)
-          names.push_back("far field [J]");
         names.push_back(account.name + std::string(" [J]"));
-      }
       names.push_back("residual [J]");
       return names;
     }
@@ -183,14 +176,9 @@ namespace quoin
   {
     const Energies &energies = system.solver->energies();
     most_residual = std::max(most_residual, std::abs(energies.residual()));
-    std::vector<double> row
-        = { time, energies.kinetic, energies.strain, energies.joint };
+    std::vector<double> row = { time };
     for (const EnergyAccount &account : energy_accounts)
-    {
-      if (account.kind == EnergyKind::given)
-        row.push_back(energies.far_field);
-      row.push_back(energies.accounts.*account.value);
-    }
+      row.push_back(energies.*account.value);
     row.push_back(energies.residual());
     energy_table.add_row(row);
   }

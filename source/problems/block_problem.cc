@@ -24,9 +24,6 @@ namespace quoin
 {
   namespace
   {
-    /** Smaller shares of the time are not reported. */
-    constexpr double least_share = 1e-3;
-
     template <int dim>
     std::string step_text(const BlockContext<dim> &context,
                           const StageParameters &stage)
@@ -310,7 +307,7 @@ namespace quoin
                        { "cut steps", context.cuts } });
     summarise_searches(summary);
     summarise_outcomes(summary);
-    summarise_time(summary, seconds);
+    summarise_time(system.solver->time_spent(), seconds, summary);
     if (parameters.model.contact.has_box)
     {
       const auto &marks = state.block_marks;
@@ -324,32 +321,6 @@ namespace quoin
         summarise_contacts(summary, seconds);
     if (summary["finished"] && parameters.measure_bandwidth)
       summarise_bandwidth(summary, seconds);
-  }
-
-  template <int dim>
-  void BlockProblem<dim>::summarise_time(nlohmann::ordered_json &summary,
-                                         const double seconds) const
-  {
-    const PhaseClock &clock = system.solver->time_spent();
-    std::vector<double> times;
-    for (unsigned int i = 0; i < clock.phases().size(); ++i)
-      times.push_back(clock.time(i));
-    // Processes step together: the mean of their times counts. They have the
-    // same phases, because they have the same operators.
-    dealii::Utilities::MPI::sum(times, run.communicator, times);
-    // Samples of a short run may exceed the total.
-    const double all = std::max(
-        seconds * dealii::Utilities::MPI::n_mpi_processes(run.communicator),
-        std::accumulate(times.begin(), times.end(), 0.));
-    double other = 1.;
-    for (unsigned int i = 0; i < times.size() && all > 0.; ++i)
-    {
-      const double share = times[i] / all;
-      other -= share;
-      if (share >= least_share)
-        summary["time shares"][clock.phases()[i]] = share;
-    }
-    summary["time shares"]["other"] = std::max(other, 0.);
   }
 
   template <int dim>
@@ -482,8 +453,7 @@ namespace quoin
     constexpr double largest_of_contacts = 0.05;
     const Energies &energies             = system.solver->energies();
     const double of_contacts
-        = energies.accounts.contact
-          / (energies.throughput() - energies.accounts.damping);
+        = energies.contact / (energies.throughput() - energies.damping);
     if (std::abs(of_contacts) > largest_of_contacts)
       run.log.warning(
           "general contacts ", of_contacts > 0. ? "took" : "gave", " ",
@@ -507,13 +477,7 @@ namespace quoin
                                           + "element updates a second",
                                 ", energy balance error ", 100. * residual,
                                 " % of the energy throughput") };
-    std::string shares;
-    for (const auto &[phase, share] : summary["time shares"].items())
-      if (share.template get<double>() >= least_share)
-        shares += text_of(shares.empty() ? "" : ", ", phase, " ",
-                          std::round(1e3 * share.template get<double>()) / 10.,
-                          " %");
-    words.figures += "\ntime: " + shares;
+    words.figures += time_line(summary);
     if (system.solver->contacts())
       words.figures += text_of(
           "\ncontacts: ", millions("contact updates per second"),

@@ -287,8 +287,6 @@ namespace quoin
                                       const State<2> &state)
   {
     model->set_properties(properties, state.get<ConstructionState>());
-    if (explicit_solver)
-      explicit_solver->set_contact_laws(properties.joints);
   }
 
   template <int dim>

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/known_names.h>
-#include <quoin/base/wall_clock.h>
 #include <quoin/advice/advice.h>
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/problems/boundary_problem.h>
@@ -52,9 +51,19 @@ namespace quoin
       run.log.message("sampled field: ", system.sampled.points.size(),
                       " points");
     if (settings.is_static)
-      return naming(parameters.file, [&]() { solve_static(); });
+    {
+      context.seconds += context.measured(
+          "solve",
+          [&]()
+          {
+            naming(parameters.file,
+                   [&]() { context.solution = system.solve_static(); });
+          });
+      return;
+    }
     report_steps();
-    system.make_operators(run.log);
+    context.seconds += context.measured("matrices", [&]()
+                                        { system.make_operators(run.log); });
   }
 
   void BoundaryProblem::report_steps()
@@ -78,13 +87,6 @@ namespace quoin
   {
     if (!settings.is_static)
       report_boundary_costs(system, context.control, run);
-  }
-
-  void BoundaryProblem::solve_static()
-  {
-    const auto start = WallClock::now();
-    context.solution = system.solve_static();
-    solution_seconds = seconds_since(start);
   }
 
   void BoundaryProblem::open_outputs()
@@ -120,7 +122,7 @@ namespace quoin
   }
 
   void BoundaryProblem::summarise(nlohmann::ordered_json &summary,
-                                  double /*seconds*/) const
+                                  const double seconds) const
   {
     const Eigen::VectorXd lengths = system.geometry.boundary.lengths();
     summary.update(
@@ -135,7 +137,7 @@ namespace quoin
           { "peak memory [B]", peak_memory(run.communicator) } });
     if (settings.is_static)
       summary["wall time [s]"]
-          = summary["wall time [s]"].get<double>() + solution_seconds;
+          = summary["wall time [s]"].get<double>() + context.seconds;
     else
       summary.update({ { "time [s]", double(context.state.step) * system.dt },
                        { "steps", context.state.step },
@@ -148,6 +150,7 @@ namespace quoin
                          context.n_done > 0
                              ? context.march_seconds / double(context.n_done)
                              : 0. } });
+    summarise_time(context.time_spent, seconds + context.seconds, summary);
     if (const PassivityReport *passivity = system.passivity.get())
       summary["passivity"] = { { "smallest eigenvalue [rho c2]",
                                  passivity->smallest_eigenvalue },
@@ -161,6 +164,7 @@ namespace quoin
   {
     return { settings.is_static ? "static solution"
                                 : text_of(context.state.step, " steps"),
-             text_of(1e-6 * summary["peak memory [B]"].get<double>(), " MB") };
+             text_of(1e-6 * summary["peak memory [B]"].get<double>(), " MB",
+                     time_line(summary)) };
   }
 } // namespace quoin

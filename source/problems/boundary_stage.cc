@@ -81,8 +81,15 @@ namespace quoin
 
     void MarchingStage::prepare()
     {
-      context.marching = std::make_unique<TimeMarching>(
-          *system.kernel, *system.history, system.given->traction_is_given());
+      context.seconds
+          += context.measured("matrices",
+                              [&]()
+                              {
+                                context.marching
+                                    = std::make_unique<TimeMarching>(
+                                        *system.kernel, *system.history,
+                                        system.given->traction_is_given());
+                              });
     }
 
     void MarchingStage::begin()
@@ -136,8 +143,11 @@ namespace quoin
                    end          = double(step) * system.dt;
       const VectorXd u_incident = system.waves->displacements(end);
       const VectorXd p_incident = system.waves->tractions(begin, end);
-      marching.step(
-          system.scattered_values(begin, end, u_incident, p_incident));
+      const VectorXd given
+          = system.scattered_values(begin, end, u_incident, p_incident);
+      context.measured("history", [&]() { marching.predict(); });
+      context.measured("solve", [&]() { marching.begin_step(given); });
+      context.measured("history", [&]() { marching.finish_step(); });
       if (!marching.u().allFinite() || !marching.p().allFinite())
         throw RunError(text_of(
             "boundary elements: the solution is no longer finite at time ", end,
@@ -151,7 +161,7 @@ namespace quoin
           state.all_p[k * system.n_steps + state.step] = marching.p()[k];
         }
       state.step = step;
-      write_step(u_incident, p_incident);
+      context.measured("output", [&]() { write_step(u_incident, p_incident); });
     }
 
     void MarchingStage::write_step(const VectorXd &u_incident,
@@ -240,6 +250,7 @@ namespace quoin
       }
 
     private:
+      void write();
       VectorXd displacements(const std::vector<Eigen::Vector2d> &points) const
       {
         return static_interior_displacements(
@@ -251,7 +262,7 @@ namespace quoin
       bool is_written = false;
     };
 
-    Stage::Checkpoint StaticStage::take_step()
+    void StaticStage::write()
     {
       const double time = context.settings.duration;
       const VectorXd &u = context.solution->displacement;
@@ -270,6 +281,11 @@ namespace quoin
         const VectorXd field = displacements(system.sampled.points);
         write_field(context, output, time, field, 0. * field);
       }
+    }
+
+    Stage::Checkpoint StaticStage::take_step()
+    {
+      context.measured("output", [&]() { write(); });
       is_written = true;
       context.run.tables.check();
       return Checkpoint::no;

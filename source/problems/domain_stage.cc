@@ -127,8 +127,13 @@ namespace quoin
           columns.push_back(column);
         }
       const BoundaryHistories &histories = *system.histories;
-      const Eigen::MatrixXd u            = system.domain_displacements(
-                     record, histories.interior_points(), wanted);
+      Eigen::MatrixXd u;
+      context.measured("domain",
+                       [&]()
+                       {
+                         u = system.domain_displacements(
+                             record, histories.interior_points(), wanted);
+                       });
       const std::size_t n_columns = histories.column_names().size();
       const auto write_rows       = [&]()
       {
@@ -145,7 +150,8 @@ namespace quoin
         }
         table.flush();
       };
-      context.run.on_first_rank(write_rows);
+      context.measured("output",
+                       [&]() { context.run.on_first_rank(write_rows); });
       rows = {};
     }
 
@@ -153,15 +159,27 @@ namespace quoin
     {
       const auto &points    = system.sampled.points;
       const std::size_t end = std::min(n_done + batch_size, points.size());
-      displacement.middleRows(2 * n_done, 2 * (end - n_done))
-          = system.domain_displacements(
-              record, { points.begin() + n_done, points.begin() + end }, steps);
+      context.measured(
+          "domain",
+          [&]()
+          {
+            displacement.middleRows(2 * n_done, 2 * (end - n_done))
+                = system.domain_displacements(
+                    record, { points.begin() + n_done, points.begin() + end },
+                    steps);
+          });
       n_done = end;
-      for (std::size_t k = 1; n_done == points.size() && k < steps.size();
-           k += 2)
-        write_field(context, output, steps[k] * system.dt, displacement.col(k),
-                    (displacement.col(k) - displacement.col(k - 1))
-                        / system.dt);
+      if (n_done < points.size())
+        return;
+      context.measured(
+          "output",
+          [&]()
+          {
+            for (std::size_t k = 1; k < steps.size(); k += 2)
+              write_field(
+                  context, output, steps[k] * system.dt, displacement.col(k),
+                  (displacement.col(k) - displacement.col(k - 1)) / system.dt);
+          });
     }
   } // namespace
 

@@ -102,8 +102,8 @@ namespace quoin
     const TimePoint time{ load_time, state.stage_start + load_time };
     AlignedArray<NodeVector<dim>> force(nodes.n_local(), NodeVector<dim>{});
     for (const NodalLoad<dim> *load : loads.nodal)
-      load->add_forces(time, force.data());
-    loads.release.add_forces(load_time, force.data());
+      load->add_loads(time, force.data());
+    loads.release.add_loads(time, force.data());
     const auto absent = absent_nodes(*system.model, state);
     ForceBalance result;
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)

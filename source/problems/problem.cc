@@ -5,8 +5,12 @@
 #include <quoin/problems/boundary_problem.h>
 #include <quoin/results/checkpoint.h>
 
+#include <nlohmann/json.hpp>
+
 #include <cctype>
+#include <cmath>
 #include <fstream>
+#include <numeric>
 #include <sstream>
 
 namespace quoin
@@ -20,6 +24,46 @@ namespace quoin
     // Costs are not measured if they are not shown.
     if (run.options.check && !run.options.quiet)
       report_costs();
+  }
+
+  namespace
+  {
+    /** Smaller shares of the time are not reported. */
+    constexpr double least_share = 1e-3;
+  } // namespace
+
+  void Problem::summarise_time(const PhaseClock &clock, const double seconds,
+                               nlohmann::ordered_json &summary) const
+  {
+    std::vector<double> times;
+    for (unsigned int i = 0; i < clock.phases().size(); ++i)
+      times.push_back(clock.time(i));
+    // Processes step together: the mean of their times counts. They have the
+    // same phases, because they have the same operators.
+    dealii::Utilities::MPI::sum(times, run.communicator, times);
+    // Samples of a short run may exceed the total.
+    const double all = std::max(
+        seconds * dealii::Utilities::MPI::n_mpi_processes(run.communicator),
+        std::accumulate(times.begin(), times.end(), 0.));
+    double other = 1.;
+    for (unsigned int i = 0; i < times.size() && all > 0.; ++i)
+    {
+      const double share = times[i] / all;
+      other -= share;
+      if (share >= least_share)
+        summary["time shares"][clock.phases()[i]] = share;
+    }
+    summary["time shares"]["other"] = std::max(other, 0.);
+  }
+
+  std::string Problem::time_line(const nlohmann::ordered_json &summary)
+  {
+    std::string shares;
+    for (const auto &[phase, share] : summary["time shares"].items())
+      if (share.get<double>() >= least_share)
+        shares += text_of(shares.empty() ? "" : ", ", phase, " ",
+                          std::round(1e3 * share.get<double>()) / 10., " %");
+    return "\ntime: " + shares;
   }
 
   namespace

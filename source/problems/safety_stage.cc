@@ -316,7 +316,7 @@ namespace quoin
         energy += contacts->stored_energy(base);
       AlignedArray<NodeVector<2>> forces(base.nodes.size(), NodeVector<2>());
       for (const NodalLoad<2> *load : system.solver->stage_loads().nodal)
-        load->add_forces({ 0., base.time }, forces.data());
+        load->add_loads({ 0., base.time }, forces.data());
       model.nodes().exchange().add_to_owners(forces.data());
       double force = 0.;
       for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)

@@ -26,11 +26,16 @@ namespace quoin
                        "singular. Look for elements that coincide.");
   }
 
-  Eigen::VectorXd TimeMarching::solve(const Eigen::VectorXd &given)
+  void TimeMarching::predict()
   {
     if (!has_past)
       past = history.predict();
-    has_past          = true;
+    has_past = true;
+  }
+
+  Eigen::VectorXd TimeMarching::solve(const Eigen::VectorXd &given)
+  {
+    predict();
     Eigen::VectorXd u = Eigen::VectorXd::Zero(given.size());
     Eigen::VectorXd p = u;
     for (Eigen::Index k = 0; k < given.size(); ++k)

@@ -104,8 +104,25 @@ namespace quoin
      */
     void update(const StepContext &step, State<2> &state) override;
 
+    /** Springs wherever blocks may touch, at matched joints too. */
+    void add_stiffness_bound(
+        const State<2> &state, const NodeRatio &ratio,
+        std::vector<NodeStiffness<2>> &stiffness) const override;
+    void add_damping_bound(const std::vector<double> &masses, double impedance,
+                           DampingBound &bound) const override;
+    /** As MatchedJoints::sets_on_blocks(), with sets that may act once the
+        block touches others: those of its joints and of new contacts of its
+        materials with any that are in the mesh. Collective. */
+    std::vector<std::uint8_t> sets_on_blocks() const;
+
     /** Other laws of the same joint sets, with the same stiffness. */
     void set_laws(const std::vector<JointSetParameters> &sets);
+    /** Other materials of the cell groups: what begins from now on follows
+        their sets. */
+    void set_materials(const std::vector<unsigned int> &of_group)
+    {
+      material_of_group = of_group;
+    }
 
     /** Pairs that go through the lanes together, 1, 4 or 8: for tests, which
         take pairs one by one for reference. */
@@ -134,7 +151,12 @@ namespace quoin
     void add_forces(const StepContext &step, State<2> &state,
                     const NodeForces<2> &forces) override;
 
-    double stored_energy(const State<2> &state) const override;
+    double stored_energy(const State<2> &state) const;
+    void add_stored_energy(const State<2> &state,
+                           EnergyAccounts &energies) const override
+    {
+      energies.joint += stored_energy(state);
+    }
 
     /** Points that press on each other, this rank's share. */
     double n_touching(const ContactState &contacts) const;

@@ -92,7 +92,8 @@ namespace quoin
   {
   public:
     /**
-     * Takes the joint faces of @p nodes; @p thickness: of each cell group.
+     * Takes the joint faces of @p nodes, to which it keeps a reference;
+     * @p thickness: of each cell group.
      * Throws an InputError about a joint face that belongs to no set, or a
      * curve named by two sets.
      */
@@ -112,11 +113,21 @@ namespace quoin
                     const NodeForces<2> &forces) override;
 
     /** Recoverable energy [J] of this rank's share of the joints. */
-    double stored_energy(const State<2> &state) const override;
+    double stored_energy(const State<2> &state) const;
+    void add_stored_energy(const State<2> &state,
+                           EnergyAccounts &energies) const override
+    {
+      energies.joint += stored_energy(state);
+    }
 
     void add_stiffness_bound(
         const State<2> &state, const NodeRatio &ratio,
         std::vector<NodeStiffness<2>> &stiffness) const override;
+    void add_damping_bound(const std::vector<double> &masses, double impedance,
+                           DampingBound &bound) const override;
+    /** Which sets have joints at each block of the mesh: entry b n + s is 1 if
+        set s of n has. Collective. */
+    std::vector<std::uint8_t> sets_on_blocks() const;
 
     const std::vector<JointSegment> &segments() const
     {
@@ -229,6 +240,8 @@ namespace quoin
                          const NodeVector<2> *velocity, const Acts &acts,
                          const Traction &traction, NodeVector<2> *force) const;
 
+    const NodeMap<2> *node_map = nullptr;
+    Thickness thickness;                    /**< thickness of cell groups */
     std::vector<JointSegment> all_segments; /**< sorted by set */
     /** Blocks and groups of each segment. */
     std::vector<PairDashpots::Item> segment_sides;

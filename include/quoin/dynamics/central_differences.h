@@ -118,8 +118,9 @@ namespace quoin
     /** Ratio of unbalanced to applied force, of all ranks [-]. Collective. */
     double unbalanced_ratio(const State<dim> &state, const StepContext &context,
                             StepSums sums) const;
-    /** Recoverable energy of operators, of this rank [J]. */
-    double stored_energy(const State<dim> &state) const;
+    /** Adds the recoverable energy of operators, of this rank. */
+    void add_stored_energy(const State<dim> &state,
+                           EnergyAccounts &energies) const;
 
   private:
     bool has_viscous_forces() const

@@ -119,16 +119,9 @@ namespace quoin
       return std::exchange(blocks_outside, {});
     }
 
-    /** Sets the laws of all joint sets for general contacts, if any. */
-    void set_contact_laws(const std::vector<JointSetParameters> &sets)
-    {
-      if (block_contacts)
-        block_contacts->set_laws(sets);
-    }
-
     const BlockContacts *contacts() const override
     {
-      return block_contacts.get();
+      return block_contacts;
     }
 
   private:
@@ -170,24 +163,29 @@ namespace quoin
      */
     void remove_blocks(const std::vector<BlockOutside> &found,
                        State<dim> &state);
-    /** Energies at the start of a step, of this rank [J]. */
-    struct StoredEnergies
-    {
-      double strain = 0., joint = 0.;
-    };
-    StoredEnergies stored_energies(const State<dim> &state);
+    /** Times and factors of the step; books what the last step left pending and
+        looks for blocks outside the box. */
+    StepContext begin_step(State<dim> &state, const Requests &requests);
+    /** Adds all forces but those of blocks, and keeps what energies and sums
+        need of the start of the step. */
+    void add_forces(State<dim> &state, const StepContext &context,
+                    const Requests &requests, StepSums &sums);
+    void find_stored_energies(const State<dim> &state);
     void advance_rigid_blocks(State<dim> &state, const StepContext &context,
                               StepSums &sums);
+    /** Moves nodes by constraints, and then all by the load pattern. */
+    void move_constrained_nodes(State<dim> &state, const StepContext &context);
+    void end_step(State<dim> &state, const StepContext &context,
+                  const Requests &requests, const StepSums &sums);
     void book_energies(State<dim> &state, const StepContext &context,
-                       const Requests &requests, const StoredEnergies &stored,
-                       const StepSums &sums);
+                       const Requests &requests, const StepSums &sums);
     void account_for_new_step(State<dim> &state,
                               const StepContext &context) const;
     /** Advances time, step counts and load time to the next step. */
     void advance_time(State<dim> &state, const StepContext &context,
                       const Requests &requests) const;
 
-    std::unique_ptr<BlockContacts> block_contacts;
+    BlockContacts *const block_contacts; /**< null: small displacements */
 
     CentralDifferences<dim> stepper;
     std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
@@ -202,9 +200,11 @@ namespace quoin
     std::vector<bool> moved_blocks; /**< of this rank, moved by loads */
     std::vector<BlockOutside> blocks_outside;
 
-    /** Velocities before the step, when they are needed. */
+    /** Velocities and, of this rank, stored energies before the step, when they
+        are needed. */
     AlignedArray<NodeVector<dim>> velocity_before;
     std::vector<RigidBlockState> rigid_before;
+    EnergyAccounts stored_before;
     PlasticHistory plastic_now; /**< when energies are requested */
 
     const unsigned int energy_phase = time_shares.phase("energies"),
@@ -222,10 +222,6 @@ namespace quoin
   template <>
   void ExplicitSolver<2>::remove_blocks(const std::vector<BlockOutside> &found,
                                         State<2> &state);
-  template <>
-  void ExplicitSolver<2>::advance_rigid_blocks(State<2> &state,
-                                               const StepContext &context,
-                                               StepSums &sums);
 } // namespace quoin
 
 #endif

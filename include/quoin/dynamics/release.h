@@ -41,12 +41,8 @@ namespace quoin
     {
       return "loads";
     }
-    void add_forces(double load_time, NodeVector<dim> *force) const;
-    void add_forces(const StepContext &step, State<dim> &,
-                    const NodeForces<dim> &forces) override
-    {
-      add_forces(step.begin.stage, forces.force);
-    }
+    void add_loads(const TimePoint &time,
+                   NodeVector<dim> *force) const override;
     double external_power(const TimePoint &time,
                           const NodeVector<dim> *velocity) const override;
 

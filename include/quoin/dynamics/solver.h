@@ -24,29 +24,17 @@
 namespace quoin
 {
   /** Energies of the whole model at one time [J]. */
-  struct Energies
+  struct Energies : EnergyAccounts
   {
-    double kinetic = 0.;
-    double strain  = 0.; /**< strain energy of the blocks since the start */
-    double joint   = 0.; /**< recoverable, since the start */
-    /** Energy of static boundary elements since the start. */
-    double far_field = 0.;
-    /** Stored energy of blocks and joints at the start, which determines the
+    /** Stored energy of the operators at the start, which determines the
         rounding error of their energies since then. */
     double at_start = 0.;
-    EnergyAccounts accounts;
 
     /** Error of the energy balance [J]; zero but for rounding and kinks. */
     double residual() const
     {
-      return stored() + accounts.sum(EnergyKind::dissipated)
-             - accounts.sum(EnergyKind::given);
-    }
-
-    /** Recoverable and kinetic energy [J]. */
-    double stored() const
-    {
-      return kinetic + strain + joint + far_field;
+      return sum(EnergyKind::stored) + sum(EnergyKind::dissipated)
+             - sum(EnergyKind::given);
     }
 
     /** Energy throughput, the scale of the residual [J]. */
@@ -194,9 +182,9 @@ namespace quoin
     std::vector<bool> find_held_blocks() const;
     /** Throws an InputError if two platens of the stage share a node. */
     void refuse_shared_platens() const;
-    /** Sums the energies of all ranks; the arguments are this rank's [J]. */
-    void find_energies(const State<dim> &state, double strain, double joint,
-                       double kinetic);
+    /** Sums the energies of all ranks, @p stored those that nodes and operators
+        of this rank store [J]. */
+    void find_energies(const State<dim> &state, EnergyAccounts stored);
     double sum(double value) const;
 
     Model<dim> &model;
@@ -218,7 +206,10 @@ namespace quoin
     void add_far_fields(std::unique_ptr<FarField> far_field,
                         std::unique_ptr<StaticFarField> static_field);
 
-    double strain_at_start = 0., joint_at_start = 0.;
+    /** Adds up @p energies of all ranks. */
+    void sum_accounts(EnergyAccounts &energies) const;
+
+    EnergyAccounts stored_at_start; /**< of all ranks */
     Energies last_energies;
   };
 

@@ -98,6 +98,14 @@ namespace quoin
     NodalStiffness nodal_stiffness(const NodeExchange &exchange) const;
 
     void prepare(State<2> &state) const override;
+    void add_stored_energy(const State<2> &state,
+                           EnergyAccounts &energies) const override
+    {
+      // The same on all ranks.
+      const auto *own = state.find<StaticFarFieldState>();
+      if (own && is_first_rank)
+        energies.far_field += own->stored;
+    }
     void begin_stage(State<2> &state, bool continues) override;
     void resume_stage(const State<2> &state) override;
     void correct(const StepContext &step,

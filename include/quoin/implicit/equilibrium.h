@@ -6,9 +6,8 @@
 
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/dynamics/load_pattern.h>
-#include <quoin/dynamics/release.h>
 #include <quoin/implicit/dof_map.h>
-#include <quoin/loads/nodal_load.h>
+#include <quoin/operators/force_operator.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
@@ -83,6 +82,10 @@ namespace quoin
   class Equilibrium
   {
   public:
+    /** Operators of the explicit solver, with derivatives (linearise()) or
+        forces that follow from time (add_loads()). */
+    using Operators = std::vector<const ForceOperator<2> *>;
+
     /**
      * Keeps references. @p path_sets: whether the inelastic motion of each
      * joint set measures the path; @p far_field: boundary elements, or null;
@@ -90,16 +93,9 @@ namespace quoin
      * factor().
      */
     Equilibrium(const Model<2> &model, DofMap &dof_map,
-                const std::vector<const NodalLoad<2> *> &loads,
-                const std::vector<bool> &path_sets, double stage_start,
-                const StaticFarField *far_field,
+                const Operators &operators, const std::vector<bool> &path_sets,
+                double stage_start, const StaticFarField *far_field,
                 const LoadPattern<2> *pattern = nullptr);
-
-    /** Adds the forces of excavated blocks; keeps a reference. */
-    void set_release(const Release<2> &forces)
-    {
-      release = &forces;
-    }
 
     /**
      * Sets the drag on nodes: @p drag times a typical stiffness, distributed by
@@ -166,6 +162,11 @@ namespace quoin
     /** Adds an element to matrix and, by prescribed motion, @p by_advance. */
     void add_stiffness(const ElementLinearisation<2> &element,
                        DofMap::Vector &by_advance);
+    /** Whether the inelastic motion of @p element measures the path. */
+    bool is_on_path(const ElementLinearisation<2> &element) const
+    {
+      return element.inelastic_gradient && path_sets[element.set];
+    }
     /** Adds the forces of an element to @p force and its derivatives to those
         of @p slopes, unless that is null. */
     void add_element(const ElementLinearisation<2> &element,
@@ -179,10 +180,9 @@ namespace quoin
 
     const Model<2> &model;
     DofMap &dof_map;
-    const std::vector<const NodalLoad<2> *> loads;
+    const Operators operators;
     const std::vector<bool> path_sets;
     const double stage_start;
-    const Release<2> *release = nullptr;
     MPI_Comm communicator;
     double path_area     = 0.; /**< of the joints that measure the path [m^2] */
     double least_applied = 0.; /**< lower bound of Balance::applied [N] */
@@ -200,7 +200,7 @@ namespace quoin
     dealii::FullMatrix<double> element_matrix;
     dealii::Vector<double> no_load; /**< of an element */
     std::vector<DofMap::Index> element_dofs;
-    AlignedArray<NodeVector<2>> joint_force;
+    AlignedArray<NodeVector<2>> applied_force; /**< see Balance::applied */
   };
 } // namespace quoin
 

@@ -164,6 +164,9 @@ namespace quoin
     };
 
     void prepare_stage(const State<2> &state);
+    /** Joints, blocks, @p loads and what excavated blocks leave behind. */
+    Equilibrium::Operators
+    operators_with(const std::vector<const NodalLoad<2> *> &loads) const;
     /** Excludes absent rigid blocks from the bodies. */
     void hold_absent_blocks(const State<2> &state);
     double rest_time() const;

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 namespace quoin
 {
@@ -189,7 +188,15 @@ namespace quoin
   struct RockLaw : JointLawDefaults
   {
     template <int dim>
-    using Point = std::enable_if_t<dim == 2, RockPoint>;
+    struct PlanePoint
+    {
+      static_assert(dim == 2,
+                    "Laws of rock joints take slip as one number: they "
+                    "exist in two dimensions alone.");
+      using type = RockPoint;
+    };
+    template <int dim>
+    using Point = typename PlanePoint<dim>::type;
 
     static constexpr const char *kind = "a law of rock joints";
     static constexpr bool stiffens    = true;

@@ -190,6 +190,12 @@ namespace quoin
                          State<dim> &state)
         = 0;
 
+    /** As ForceOperator::add_stored_energy(). */
+    virtual void add_stored_energy(const State<dim> &,
+                                   EnergyAccounts & /*energies*/) const
+    {
+    }
+
     /**
      * Force x, y [N] and moment about the origin or, for a platen, its centre
      * [N m] on the nodes at the start of the last step; summed over ranks by

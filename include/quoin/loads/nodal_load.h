@@ -50,12 +50,8 @@ namespace quoin
     {
       return "loads";
     }
-    void add_forces(const TimePoint &time, NodeVector<dim> *force) const;
-    void add_forces(const StepContext &step, State<dim> &,
-                    const NodeForces<dim> &forces) override
-    {
-      add_forces(step.begin, forces.force);
-    }
+    void add_loads(const TimePoint &time,
+                   NodeVector<dim> *force) const override;
     double external_power(const TimePoint &time,
                           const NodeVector<dim> *velocity) const override;
 

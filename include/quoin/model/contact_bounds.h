@@ -25,16 +25,9 @@ namespace quoin
   DashpotBlocks dashpot_blocks(const Model<2> &model,
                                std::vector<std::uint8_t> is_held);
 
-  /**
-   * Which joint sets act on each block, or may once it touches others: entry
-   * b n + s is 1 if set s of n does on block b. Those of its joints and, if
-   * @p may_meet, those of new contacts of its materials with any that are in
-   * the mesh. Collective.
-   */
-  std::vector<std::uint8_t> sets_on_blocks(const NodeMap<2> &nodes,
-                                           const MatchedJoints &joints,
-                                           const ModelProperties &properties,
-                                           bool may_meet);
+  /** MatchedJoints::sets_on_blocks() or, if blocks may meet anywhere,
+      BlockContacts::sets_on_blocks(). Collective. */
+  std::vector<std::uint8_t> sets_on_blocks(const Model<2> &model);
 } // namespace quoin
 
 #endif

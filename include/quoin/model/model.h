@@ -7,7 +7,7 @@
 #include <quoin/base/thickness.h>
 #include <quoin/model/construction_state.h>
 #include <quoin/operators/state.h>
-#include <quoin/contact/contact_parameters.h>
+#include <quoin/contact/block_contacts.h>
 #include <quoin/contact/joint_changes.h>
 #include <quoin/blocks/block_cells.h>
 #include <quoin/blocks/stable_time_step.h>
@@ -71,9 +71,11 @@ namespace quoin
   public:
     /**
      * Keeps a reference to @p nodes. Throws an InputError about groups without
-     * material and joints without set. Collective.
+     * material, joints without set and materials that may touch without one.
+     * Collective.
      */
     Model(const NodeMap<dim> &nodes, const ModelParameters &parameters);
+    Model(const Model &) = delete;
 
     /** State at rest, with initial joint tractions and absent blocks. */
     State<dim> initial_state() const;
@@ -129,8 +131,17 @@ namespace quoin
     {
       return matched_joints;
     }
+    /** Null if displacements are small. */
+    const BlockContacts *contacts() const
+    {
+      return block_contacts.get();
+    }
+    BlockContacts *contacts()
+    {
+      return block_contacts.get();
+    }
     /** Bound of the critical step; none for quadratic meshes, whose corners
-     * have no mass. */
+        have no mass. */
     const StableTimeStep<dim> &stability() const
     {
       return *stable_step;
@@ -138,9 +149,6 @@ namespace quoin
     /** Bound of the critical step with the plastic strains of @p state;
      * collective. */
     StableTimeStep<dim> stability_at(const State<dim> &state) const;
-    /** Adds springs wherever blocks may come into contact to the bound of local
-       nodes [N/m]. Collective. */
-    void add_contact_bound(std::vector<NodeStiffness<dim>> &bound) const;
     /**
      * Lumped masses of owned nodes and ghosts [kg]; zero at the corners of
      * quadratic triangles.
@@ -164,9 +172,11 @@ namespace quoin
     AlignedArray<double> packed_initial_stress() const;
     void pack_blocks(const ConstructionState &construction);
     void find_stable_step();
-    /** Adds springs of the joints to the bound of the local nodes. */
-    void add_joint_bound(const State<dim> &state,
-                         std::vector<NodeStiffness<dim>> &bound) const;
+    void make_contacts();
+    /** The operators that bound the stable step. */
+    std::vector<const ForceOperator<dim> *> stiff_operators() const;
+    /** In what ratio their springs are divided between nodes. Collective. */
+    NodeRatio spring_ratio(const State<dim> &state) const;
     /** Adds to both bounds, of owned nodes [N/m] and of rigid blocks [1/s^2],
         what dashpots take of the step. Collective. */
     void add_dashpot_bound(std::vector<NodeStiffness<dim>> &bound,
@@ -187,15 +197,15 @@ namespace quoin
     BlockForces<dim> block_forces;
     RigidBlocks rigid;
     MatchedJoints matched_joints;
+    std::unique_ptr<BlockContacts> block_contacts;
     std::unique_ptr<StableTimeStep<dim>> stable_step;
   };
 
   // Members that exist in two dimensions only.
   template <>
-  void Model<2>::add_joint_bound(const State<2> &state,
-                                 std::vector<NodeStiffness<2>> &bound) const;
+  void Model<2>::make_contacts();
   template <>
-  void Model<2>::add_contact_bound(std::vector<NodeStiffness<2>> &bound) const;
+  NodeRatio Model<2>::spring_ratio(const State<2> &state) const;
   template <>
   void Model<2>::add_dashpot_bound(std::vector<NodeStiffness<2>> &bound,
                                    std::vector<double> &rigid_bound) const;

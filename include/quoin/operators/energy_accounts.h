@@ -9,9 +9,31 @@ namespace quoin
   /** On which side of the energy balance an account stands. */
   enum class EnergyKind
   {
-    given,     /**< work done on the model */
-    dissipated /**< energy dissipated or radiated */
+    stored,     /**< recoverable or kinetic energy at one time */
+    dissipated, /**< energy dissipated or radiated so far */
+    given       /**< work done on the model so far */
   };
+
+// All accounts of the energy balance, in the order of the columns of
+// energies.csv: member of EnergyAccounts, kind, column without its unit. A new
+// account is a line here, from which sums over MPI processes, checkpoints, the
+// balance and the column of energies.csv follow.
+// clang-format off
+#define QUOIN_ENERGY_ACCOUNTS(account)                                         \
+  account(kinetic, stored, "kinetic"),        /* nodes and rigid blocks */     \
+  account(strain, stored, "strain"),          /* deformable blocks */          \
+  account(joint, stored, "joint"),            /* joints and contacts */        \
+  account(friction, dissipated, "friction"),  /* slip, dilation of joints */   \
+  account(fracture, dissipated, "fracture"),  /* joints that break */          \
+  account(crushing, dissipated, "crushing"),  /* crushed joints */             \
+  account(plastic, dissipated, "plastic"),    /* blocks that yield */          \
+  account(damping, dissipated, "damping"),    /* local, adaptive, Rayleigh */  \
+  account(viscous, dissipated, "viscous"),    /* viscous boundaries */         \
+  account(contact, dissipated, "contact"),    /* lost without work */          \
+  account(radiated, dissipated, "radiated"),  /* boundary elements */          \
+  account(far_field, stored, "far field"),    /* static boundary elements */   \
+  account(external, given, "external")        /* loads, prescribed motion */
+  // clang-format on
 
   struct EnergyAccounts;
 
@@ -24,46 +46,38 @@ namespace quoin
   };
 
   /**
-   * Work and energy accumulated since the start of the run [J]. Each work is
-   * the exact trapezoidal one of the central difference scheme, so that with
-   * elastic forces the balance closes to rounding.
+   * Energies of QUOIN_ENERGY_ACCOUNTS [J]. Works are the exact trapezoidal ones
+   * of the central difference scheme, so that with elastic forces the balance
+   * closes to rounding.
    *
-   * A new account needs a member and a line in energy_accounts: from that line
-   * follow sums over MPI processes, checkpoints, the balance and the column of
-   * energies.csv.
+   * In State::energy each operator accumulates what it dissipates or gives
+   * since the start of the run; what it stores, which follows from the state,
+   * it adds in ForceOperator::add_stored_energy() when it is asked for.
    */
   struct EnergyAccounts
   {
-    double external = 0.; /**< done by loads and prescribed motion */
-    double friction = 0.; /**< dissipated in slip and dilation of joints */
-    double fracture = 0.; /**< lost when joints break */
-    double crushing = 0.; /**< dissipated by crushed joints */
-    double plastic  = 0.; /**< dissipated by blocks that yield */
-    double damping = 0.; /**< dissipated by local, adaptive, Rayleigh damping */
-    double viscous = 0.; /**< left through viscous boundaries */
-    double contact = 0.; /**< what contacts lost without work */
-    double radiated = 0.; /**< radiated into boundary elements */
+#define QUOIN_ENERGY_MEMBER(member, kind, name) member = 0.
+    double QUOIN_ENERGY_ACCOUNTS(QUOIN_ENERGY_MEMBER);
+#undef QUOIN_ENERGY_MEMBER
 
     EnergyAccounts &operator+=(const EnergyAccounts &other);
 
     /** Sum of the accounts of @p kind [J]. */
     double sum(EnergyKind kind) const;
 
+    /** Archives what has accumulated. */
     template <typename Archive>
     void serialize(Archive &archive, unsigned int);
   };
 
   /** All accounts, in the order of the columns of energies.csv. */
   inline constexpr EnergyAccount energy_accounts[] = {
-    { "friction", EnergyKind::dissipated, &EnergyAccounts::friction },
-    { "fracture", EnergyKind::dissipated, &EnergyAccounts::fracture },
-    { "crushing", EnergyKind::dissipated, &EnergyAccounts::crushing },
-    { "plastic", EnergyKind::dissipated, &EnergyAccounts::plastic },
-    { "damping", EnergyKind::dissipated, &EnergyAccounts::damping },
-    { "viscous", EnergyKind::dissipated, &EnergyAccounts::viscous },
-    { "contact", EnergyKind::dissipated, &EnergyAccounts::contact },
-    { "radiated", EnergyKind::dissipated, &EnergyAccounts::radiated },
-    { "external", EnergyKind::given, &EnergyAccounts::external },
+#define QUOIN_ENERGY_LINE(member, kind, name)                                  \
+  {                                                                            \
+    name, EnergyKind::kind, &EnergyAccounts::member                            \
+  }
+    QUOIN_ENERGY_ACCOUNTS(QUOIN_ENERGY_LINE)
+#undef QUOIN_ENERGY_LINE
   };
 
   inline EnergyAccounts &EnergyAccounts::operator+=(const EnergyAccounts &other)
@@ -86,7 +100,8 @@ namespace quoin
   void EnergyAccounts::serialize(Archive &archive, const unsigned int)
   {
     for (const EnergyAccount &account : energy_accounts)
-      archive &this->*account.value;
+      if (account.kind != EnergyKind::stored)
+        archive &this->*account.value;
   }
 } // namespace quoin
 

@@ -44,7 +44,8 @@ namespace quoin
         reversal [m^3], and its derivative [m^2], only if requested. */
     double inelastic                 = 0.;
     const double *inelastic_gradient = nullptr;
-    unsigned int set                 = 0; /**< of joints */
+    unsigned int set                 = 0;  /**< of joints */
+    double area                      = 0.; /**< of the joint [m^2] */
   };
 
   /** Takes the elements of ForceOperator::linearise(). */
@@ -57,6 +58,16 @@ namespace quoin
   /** Symmetric matrix of a node [N/m]: xx, yy, xy or xx, yy, zz, xy, xz, yz. */
   template <int dim>
   using NodeStiffness = std::array<double, dim *(dim + 1) / 2>;
+
+  /** What bounds dashpots between blocks, for StableTimeStep. */
+  struct DampingBound
+  {
+    /** Of owned nodes; a dashpot between two nodes counts twice at each
+        [N s/m]. */
+    std::vector<double> dashpot;
+    /** Of the blocks of the mesh, in shares of critical damping [-]. */
+    std::vector<double> share;
+  };
 
   /**
    * A force on nodes that follows from their positions and velocities and from
@@ -89,21 +100,36 @@ namespace quoin
 
     /**
      * Updates its internal variables for the positions at the start of the
-     * step, books the dissipation in State::energy, and adds its forces.
-     * Collective.
+     * step, books the dissipation in State::energy, and adds its forces; those
+     * of add_loads(), unless an operator has others. Collective.
      */
-    virtual void add_forces(const StepContext &step, State<dim> &state,
+    virtual void add_forces(const StepContext &step, State<dim> & /*state*/,
                             const NodeForces<dim> &forces)
-        = 0;
+    {
+      add_loads(step.begin, forces.force);
+    }
+
+    /** Adds its forces at @p time [N] if they follow from time alone. */
+    virtual void add_loads(const TimePoint & /*time*/,
+                           NodeVector<dim> * /*force*/) const
+    {
+    }
 
     /**
      * Passes its elements at the positions of @p state to @p take, for implicit
      * solvers, updates its internal variables there, and books the dissipation
-     * in State::energy. Does nothing if it has no derivatives.
+     * in State::energy. Does nothing if forces follow from time alone.
      */
     virtual void linearise(State<dim> & /*state*/, bool /*with_stiffness*/,
                            const TakeElement<dim> & /*take*/) const
     {
+    }
+
+    /** Whether its forces are internal ones of blocks: all others count as
+        applied to blocks in ratios of the unbalanced force. */
+    virtual bool is_internal() const
+    {
+      return false;
     }
 
     /**
@@ -119,10 +145,22 @@ namespace quoin
     {
     }
 
-    /** Recoverable energy of this rank's share [J], after add_forces(). */
-    virtual double stored_energy(const State<dim> &) const
+    /**
+     * Adds the dashpots of deformable nodes and of blocks, as large as they
+     * may become, with @p masses of the blocks of the mesh [kg] and the largest
+     * wave @p impedance of blocks [Pa s/m]. Collective.
+     */
+    virtual void add_damping_bound(const std::vector<double> & /*masses*/,
+                                   double /*impedance*/,
+                                   DampingBound & /*bound*/) const
     {
-      return 0.;
+    }
+
+    /** Adds its recoverable energy, of this rank's share after add_forces(), to
+        its account [J]. */
+    virtual void add_stored_energy(const State<dim> &,
+                                   EnergyAccounts & /*energies*/) const
+    {
     }
 
     /** Power [W] of external work on nodes that move with @p velocity. */

@@ -47,7 +47,6 @@ namespace quoin
     void summarise_searches(nlohmann::ordered_json &summary) const;
     void summarise_outcomes(nlohmann::ordered_json &summary) const;
     /** Adds the share of each phase in the time. Collective. */
-    void summarise_time(nlohmann::ordered_json &summary, double seconds) const;
     void summarise_contacts(nlohmann::ordered_json &summary,
                             double seconds) const;
     void summarise_bandwidth(nlohmann::ordered_json &summary,

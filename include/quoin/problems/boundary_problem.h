@@ -34,12 +34,9 @@ namespace quoin
     void report_model() override;
     void report_costs() override;
     void report_steps();
-    void solve_static();
-
     const BoundaryElementParameters &settings;
     BoundaryContext context;
     BoundarySystem &system;
-    double solution_seconds = 0.; /**< time of the static solution [s] */
   };
 } // namespace quoin
 

@@ -4,6 +4,7 @@
 #ifndef quoin_problems_boundary_stage_h
 #define quoin_problems_boundary_stage_h
 
+#include <quoin/base/phase_clock.h>
 #include <quoin/problems/boundary_system.h>
 #include <quoin/problems/problem.h>
 #include <quoin/results/boundary_output.h>
@@ -12,6 +13,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace quoin
@@ -30,12 +32,25 @@ namespace quoin
     /** Writes the fields on the boundary at @p time [s]. */
     void write_boundary(double time, const BoundaryState &fields);
 
+    /** Runs @p task and books its time as that of the phase @p name; returns
+        that time [s]. */
+    template <typename Task>
+    double measured(const std::string &name, const Task &task)
+    {
+      const unsigned int phase = time_spent.phase(name);
+      const double before      = time_spent.time(phase);
+      time_spent.measure(phase, task);
+      return time_spent.time(phase) - before;
+    }
+
     const RunContext &run;
     const BoundaryElementParameters &settings;
     BoundarySystem system;
     const StepControl control;
     RootTable &history_table;
     BoundaryOutput boundary_output;
+    PhaseClock time_spent; /**< of this process */
+    double seconds = 0.;   /**< before the first step, of time_spent [s] */
 
     /** State in a checkpoint. */
     struct State

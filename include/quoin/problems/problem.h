@@ -4,6 +4,7 @@
 #ifndef quoin_problems_problem_h
 #define quoin_problems_problem_h
 
+#include <quoin/base/phase_clock.h>
 #include <quoin/mesh/mesh_data.h>
 #include <quoin/parameters/parameters.h>
 #include <quoin/results/checkpoint.h>
@@ -154,6 +155,13 @@ namespace quoin
     /** Reports time, memory and disk space of the run; measures for half a
         second and leaves the model changed. */
     virtual void report_costs() = 0;
+
+    /** Adds the shares of @p clock in @p seconds of this process to
+        @p summary. Collective. */
+    void summarise_time(const PhaseClock &clock, double seconds,
+                        nlohmann::ordered_json &summary) const;
+    /** These shares as a last line of the log. */
+    static std::string time_line(const nlohmann::ordered_json &summary);
 
     const Parameters &parameters;
     const RunContext &run;

@@ -43,6 +43,10 @@ namespace quoin
      */
     void step(const Eigen::VectorXd &given);
 
+    /** Computes the part of the history in the step to come, as begin_step()
+        does unless it was called. */
+    void predict();
+
     /** Does what step() does without adding the step to the history: see
      * finish_step(). */
     void begin_step(const Eigen::VectorXd &given);

@@ -129,7 +129,7 @@ TEST(Construction, ForcesOfWhatIsTakenStay)
         AlignedArray<NodeVector<2>> held(before.size(),
                                          NodeVector<2>{ { 0., 0. } });
         const Release<2> release(run.state, stage, 4.);
-        release.add_forces(time, held.data());
+        release.add_loads({ time, time }, held.data());
         const double left = 1. - 0.25 * share;
         for (std::size_t i = lower.begin; i < lower.end; ++i)
           for (unsigned int d = 0; d < 2; ++d)

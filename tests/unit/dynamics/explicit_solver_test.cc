@@ -142,8 +142,7 @@ TEST(ExplicitSolver, EnergyIsWhatTheFormulasSay)
               1e-9 * after.kinetic);
   EXPECT_NEAR(after.joint, 0.5 * kn * opening * opening, 1e-9 * after.joint);
   EXPECT_NEAR(after.strain, 0., 1e-9 * after.joint);
-  EXPECT_NEAR(after.accounts.external, after.kinetic + after.joint,
-              1e-9 * after.joint);
+  EXPECT_NEAR(after.external, after.kinetic + after.joint, 1e-9 * after.joint);
   EXPECT_NEAR(run.solver.resultant("lift")[1], kn * opening,
               1e-9 * kn * opening);
   EXPECT_NEAR(run.solver.resultant("held")[1], -kn * opening,
@@ -171,7 +170,7 @@ TEST(ExplicitSolver, AccountsBalanceWithAnyDamping)
     run.begin(stage);
     run.throw_at_random(1e-11);
     EXPECT_LT(residual_of_steps(run, 1000), 2e-12) << static_cast<int>(damping);
-    const double taken = run.solver.energies().accounts.damping;
+    const double taken = run.solver.energies().damping;
     EXPECT_EQ(taken > 0., damping != DampingType::none);
   }
 }
@@ -596,7 +595,7 @@ TEST(ExplicitSolver, ViscousBoundaryAbsorbs)
   }
   EXPECT_NEAR(first_residual, initial, 0.01 * initial);
   EXPECT_LT(last, 0.01 * initial);
-  EXPECT_NEAR(run.solver.energies().accounts.viscous, initial, 0.02 * initial);
+  EXPECT_NEAR(run.solver.energies().viscous, initial, 0.02 * initial);
 }
 
 TEST(ExplicitSolver, ViscousBoundaryInAnyDirection)

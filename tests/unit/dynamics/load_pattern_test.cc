@@ -157,7 +157,7 @@ TEST(LoadPattern, WorkWithLocalDampingIsThatOfTheFactor)
     moved  = now;
   }
   const Energies &energies = run.solver.energies();
-  EXPECT_NEAR(energies.accounts.external, work, 1e-6 * work);
+  EXPECT_NEAR(energies.external, work, 1e-6 * work);
   EXPECT_LT(std::abs(energies.residual()), 1e-4 * energies.throughput());
 }
 

@@ -81,7 +81,7 @@ TEST(NodalLoad, PressurePushesOnTheBlock)
   const Rectangle rectangle;
   const NodalLoad<2> load = rectangle.load({ "right" }, "2 * t", 0.5);
   std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
-  load.add_forces({ 3., 3. }, force.data());
+  load.add_loads({ 3., 3. }, force.data());
   for (const unsigned int node : { 1U, 2U })
   {
     EXPECT_DOUBLE_EQ(force[node].v[0], -6. * 0.5 * 0.5);
@@ -95,7 +95,7 @@ TEST(NodalLoad, PressureAllAroundIsInBalanceAndDoesTheWorkOfVolume)
   const Rectangle rectangle;
   const NodalLoad<2> load = rectangle.load({ "wall", "right" }, "7", 2.);
   std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
-  load.add_forces({ 0., 0. }, force.data());
+  load.add_loads({ 0., 0. }, force.data());
   double sum[2] = { 0., 0. };
   for (const NodeVector<2> &f : force)
     for (unsigned int d = 0; d < 2; ++d)
@@ -124,7 +124,7 @@ TEST(NodalLoad, DistributionIsAFactorByPlace)
   {
     load.set_mass({ mass, 2. * mass, 3. * mass, 4. * mass });
     std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
-    load.add_forces({ 0., 0. }, force.data());
+    load.add_loads({ 0., 0. }, force.data());
     const double expected[4] = { 0., 12., 78., 80. };
     for (unsigned int i = 0; i < 4; ++i)
     {
@@ -141,7 +141,7 @@ TEST(NodalLoad, DistributionIsAFactorByPlace)
   const NodalLoad<2> pressure(parameters, rectangle.nodes,
                               std::vector<double>(4, 1.), 1.);
   std::vector<NodeVector<2>> force(4, NodeVector<2>{ { 0., 0. } });
-  pressure.add_forces({ 0., 0. }, force.data());
+  pressure.add_loads({ 0., 0. }, force.data());
   EXPECT_DOUBLE_EQ(force[1].v[1], 4.5);
   EXPECT_EQ(force[0].v[1], 0.);
   EXPECT_EQ(force[2].v[1], 0.);
@@ -170,7 +170,7 @@ TEST(NodalLoad, GravityActsInItsGroupsAlone)
     const TestNodes nodes(mesh);
     const NodalLoad<2> load(parameters, nodes, mass, Thickness({ 1., 1. }));
     std::vector<NodeVector<2>> force(8, NodeVector<2>{ { 0., 0. } });
-    load.add_forces({ 0., 0. }, force.data());
+    load.add_loads({ 0., 0. }, force.data());
     for (unsigned int i = 0; i < 8; ++i)
       EXPECT_DOUBLE_EQ(force[i].v[1], i < 4 ? 0. : -3. * mass[i]);
   }

@@ -57,7 +57,7 @@ namespace
            const TimePoint &time)
       : at(4, NodeVector<2>{ { 0., 0. } })
     {
-      load.add_forces(time, at.data());
+      load.add_loads(time, at.data());
       for (unsigned int i = 0; i < 4; ++i)
       {
         const auto &p = rectangle.mesh.vertices[i];
@@ -180,7 +180,7 @@ TEST(TractionField, InThreeDimensions)
     const NodalLoad<3> load(parameters.along_axes<3>(), nodes,
                             std::vector<double>(nodes.n_owned(), 1.), 1.);
     std::vector<NodeVector<3>> force(nodes.n_local(), NodeVector<3>{});
-    load.add_forces({ 0., 0. }, force.data());
+    load.add_loads({ 0., 0. }, force.data());
     std::array<double, 6> result{};
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
     {

@@ -186,7 +186,7 @@ TEST(ModelBox, DeletedBlockTouchesNothing)
     run.solver.step(run.state, { true, true });
     const double start  = run.solver.energies().residual();
     const double stored = run.solver.energies().joint;
-    const double lost   = run.solver.energies().accounts.contact;
+    const double lost   = run.solver.energies().contact;
     EXPECT_GT(stored, 1.);
     EXPECT_TRUE(run.solver.take_blocks_outside().empty());
     shift(run, -0.6);
@@ -196,8 +196,7 @@ TEST(ModelBox, DeletedBlockTouchesNothing)
     EXPECT_TRUE(found[0].removed);
     EXPECT_TRUE(run.state.get<ContactState>().pairs.empty());
     EXPECT_EQ(run.solver.energies().joint, 0.);
-    EXPECT_NEAR(run.solver.energies().accounts.contact - lost, stored,
-                1e-2 * stored);
+    EXPECT_NEAR(run.solver.energies().contact - lost, stored, 1e-2 * stored);
     EXPECT_NEAR(run.solver.energies().residual(), start, 1e-2 * stored);
 
     // No force is left on the other: its momentum stays.
@@ -242,7 +241,7 @@ TEST(ModelBox, JointedBlocksLeaveTogether)
   EXPECT_TRUE(found[0].removed && found[1].removed);
   EXPECT_EQ(run.solver.energies().joint, 0.);
   EXPECT_EQ(run.solver.energies().strain, 0.);
-  EXPECT_LT(run.solver.energies().accounts.external, -1.);
+  EXPECT_LT(run.solver.energies().external, -1.);
   EXPECT_TRUE(step_and_check(run).empty());
 }
 

@@ -41,7 +41,7 @@ namespace
     {
       const NodalLoad<2> load(parameters, nodes, model->mass(), thickness);
       std::vector<NodeVector<2>> force(nodes->n_local(), { { 0., 0. } });
-      load.add_forces({ 0., 0. }, force.data());
+      load.add_loads({ 0., 0. }, force.data());
       std::array<double, 3> sum{};
       for (unsigned int v = 0; v < force.size(); ++v)
       {
@@ -106,7 +106,7 @@ TEST(QuadraticModel, TractionAndPressureHaveTheirResultants)
   const NodalLoad<2> load(traction("pull", "top", "0", "1"), stack.nodes,
                           stack.model->mass(), thickness);
   std::vector<NodeVector<2>> force(stack.nodes->n_local(), { { 0., 0. } });
-  load.add_forces({ 0., 0. }, force.data());
+  load.add_loads({ 0., 0. }, force.data());
   const double expected[]
       = { 1. / 6., 2. / 3., 1. / 3., 2. / 3., 1. / 3., 2. / 3., 1. / 6. };
   for (unsigned int i = 0; i < 7; ++i)

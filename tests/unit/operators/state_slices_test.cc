@@ -101,8 +101,19 @@ TEST(StateSlices, OfAnotherModelAreRefused)
                boost::archive::archive_exception);
 }
 
-// A member without its line would be lost to checkpoints and to the balance.
-TEST(EnergyAccounts, AllHaveALine)
+// Scripts read the columns of energies.csv.
+TEST(EnergyAccounts, ColumnsKeepTheirOrder)
+{
+  std::vector<std::string> names;
+  for (const EnergyAccount &account : energy_accounts)
+    names.push_back(account.name);
+  EXPECT_EQ(names, (std::vector<std::string>{
+                       "kinetic", "strain", "joint", "friction", "fracture",
+                       "crushing", "plastic", "damping", "viscous", "contact",
+                       "radiated", "far field", "external" }));
+}
+
+TEST(EnergyAccounts, AllCountInTheBalance)
 {
   EXPECT_EQ(std::size(energy_accounts) * sizeof(double),
             sizeof(EnergyAccounts));
@@ -111,4 +122,5 @@ TEST(EnergyAccounts, AllHaveALine)
     EXPECT_EQ(accounts.*account.value += 1., 1.) << account.name;
   EXPECT_EQ(accounts.sum(EnergyKind::given), 1.);
   EXPECT_EQ(accounts.sum(EnergyKind::dissipated), 8.);
+  EXPECT_EQ(accounts.sum(EnergyKind::stored), 4.);
 }
