@@ -193,8 +193,8 @@ namespace quoin
   {
     const Direction after(rigid.rotation);
     // 1 - cos without cancellation.
-    const double half_sine = std::sin(0.5 * rigid.rotation);
-    const double versine   = 2. * half_sine * half_sine;
+    const double versine
+        = after.c > 0. ? after.s * after.s / (1. + after.c) : 1. - after.c;
     const double c = before.c + after.c, s = before.s + after.s;
     const double half = 0.5 * rigid.velocity[2];
     const Arm *arm    = arms_of(block);

@@ -238,6 +238,12 @@ namespace quoin
       load_edges(ea, a);
       load_edges(eb, b);
       ContactPair *pairs = contacts.pairs.data();
+      // Those of the pack after the next one: active pairs lie anywhere.
+      for (unsigned int j = first + 2 * lanes;
+           j < std::min(n_active, first + 3 * lanes); ++j)
+        for (unsigned int line = 0; line < sizeof(ContactPair); line += 64)
+          __builtin_prefetch(
+              reinterpret_cast<const char *>(pairs + active[j]) + line, 1);
       PairLanes<lanes> at;
       L::load(reinterpret_cast<const char *>(&pairs->shift),
               sizeof(ContactPair), pair, at.shift, at.shift_start);
