@@ -43,6 +43,18 @@ def residual_of(table):
     return float(np.max(np.abs(table["residual"])) / peak_energy(table))
 
 
+def require_time_shares(output, phases):
+    """summary.json says what the time went into, all of it."""
+    with open(os.path.join(output, "summary.json")) as stream:
+        shares = json.load(stream)["time shares"]
+    missing = set(phases) - set(shares)
+    if missing:
+        raise Failure("'time shares' has no %s" % ", ".join(sorted(missing)))
+    # Shares below 0.1 % are left out.
+    if abs(sum(shares.values()) - 1) > 1e-3 * len(shares) + 5e-3:
+        raise Failure("'time shares' add up to %g" % sum(shares.values()))
+
+
 def energy_residual(case, folder, output, histories):
     """The residual of the energy balance relative to the peak energy."""
     return {"energy residual": residual_of(energies(output))}
@@ -722,6 +734,7 @@ def amplitude(t, values, omega, periods=1):
 
 def finite_bar_bem(case, folder, output, histories):
     """The whole run against d'Alembert: error and bounds of the last period."""
+    require_time_shares(output, case.get("phases", ["matrices"]))
     bar = reference_module(folder)
     histories = strictly_increasing(histories)
     t = histories["time"]

@@ -85,6 +85,16 @@ TEST(ContactBounds, CountTheJointsOfABlock)
     EXPECT_NEAR(stack.bound(group) - soft.bound(group), 2. * 6e9 * 0.5, 1.);
 }
 
+TEST(ContactBounds, FollowTheMaterialsOfAStage)
+{
+  Stack stack(1e9, 1e9, 1e9, 9e9);
+  const Stack soft(1e9, 1e9, 1e9, 1e9);
+  ModelProperties properties      = stack.model.properties();
+  properties.material_of_group[1] = properties.material_of_group[0];
+  stack.model.set_properties(properties, ConstructionState());
+  EXPECT_DOUBLE_EQ(stack.bound("upper"), soft.bound("upper"));
+}
+
 TEST(ContactBounds, DashpotsShortenTheStep)
 {
   ModelParameters damped = Stack::parameters(1e9, 1e9, 1e9, 1e9);
