@@ -7,8 +7,6 @@
 #include "../joints/composite_walk.h"
 #include "../joints/rock_walk.h"
 
-#include <quoin/joints/slip_weakening_law.h>
-
 #include "test_contacts.h"
 
 using namespace quoin;
@@ -30,7 +28,7 @@ namespace
     {
       joints.prepare(nodes, sets, thickness);
       joints.prepare(state);
-      const unsigned int n_blocks = nodes.table().n_blocks();
+      const unsigned int n_blocks = nodes->table().n_blocks();
       DashpotBlocks blocks;
       blocks.communicator = MPI_COMM_WORLD;
       blocks.inverse_mass.assign(n_blocks, 1. / 200.);
@@ -210,6 +208,14 @@ namespace
     return { joint, contact };
   }
 
+  CompositeLaw mortar()
+  {
+    CompositeLaw law     = composite_test::wall();
+    law.normal_stiffness = kn;
+    law.shear_stiffness  = ks;
+    return law;
+  }
+
   CoulombLaw dilating()
   {
     CoulombLaw law;
@@ -250,14 +256,13 @@ namespace
                 name.c_str(), all.n_points, all.n_slipping, all.n_open,
                 all.n_begun, all.n_ended, all.n_joints, all.n_shifted,
                 all.n_turning, all.n_beside, all.n_states);
-    for (const auto &[word, d] :
-         { std::make_pair("force", all.force),
-           std::make_pair("viscous", all.viscous),
-           std::make_pair("traction", all.traction),
-           std::make_pair("gap", all.gap),
-           std::make_pair("internal", all.internal),
-           std::make_pair("place", all.place),
-           std::make_pair("energy", all.energy) })
+    for (const auto &[word, d] : { std::make_pair("force", all.force),
+                                   std::make_pair("viscous", all.viscous),
+                                   std::make_pair("traction", all.traction),
+                                   std::make_pair("gap", all.gap),
+                                   std::make_pair("internal", all.internal),
+                                   std::make_pair("place", all.place),
+                                   std::make_pair("energy", all.energy) })
       std::printf("  %s %g of %g: %g\n", word, d.error, d.size, d.share());
   }
 
@@ -265,7 +270,7 @@ namespace
   void expect_lanes_as_one()
   {
     for (const JointLaw &law :
-         { JointLaw(touching().law), JointLaw(dilating()),
+         { JointLaw(touching().law), JointLaw(dilating()), JointLaw(mortar()),
            JointLaw(rock_test::rough()), JointLaw(rock_test::yielding()) })
     {
       expect_same(compare(rows(), with_law(law), lanes, 2e-3, 2e-3),
