@@ -21,6 +21,8 @@ WAVES = "brings frequencies of up to"
 WARNINGS = {
     # the kernel alone, without joints
     "benchmarks/blocks/case.prm": ["is held by nothing"],
+    # it falls down
+    "masonry/arch_collapse/case.prm": ["has left the box"],
     # as coarse as 30 m of rock around allow, see its README
     "rock/blast/large.prm": [WAVES],
     # all frequencies of the mesh, which must leave and not grow
