@@ -70,7 +70,7 @@ namespace quoin
       if constexpr (n_internal > 0)
       {
         L::load_four([&](const int l) { return points[l]->internal; }, row);
-        for (unsigned int i = 0; i < n_internal; ++i)
+        for (unsigned int i = 0; i < 4; ++i)
           F::store(now.values[4 + i], row[i]);
       }
       if constexpr (lanes == 1)
@@ -199,8 +199,8 @@ namespace quoin
         points[0]->state = now.state[0];
       if constexpr (n_internal > 0)
       {
-        Value row[4]{};
-        for (unsigned int i = 0; i < n_internal; ++i)
+        Value row[4];
+        for (unsigned int i = 0; i < 4; ++i)
           row[i] = F::load(now.values[4 + i]);
         L::store_four([&](const int l) { return points[l]->internal; }, row);
       }
@@ -208,7 +208,8 @@ namespace quoin
 
   private:
     static constexpr unsigned int n_internal = PointOf<Law>::internal.size();
-    static_assert(n_internal <= ContactPoint::most_internal);
+    static_assert(n_internal <= ContactPoint::most_internal
+                  && ContactPoint::most_internal == 4);
     /** Springs of constant stiffness carry energy that tractions tell. */
     static constexpr bool keeps_before = Law::stiffens || lanes == 1;
 

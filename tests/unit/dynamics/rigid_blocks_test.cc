@@ -621,9 +621,10 @@ TEST(RigidBlocks, BoundOfContactsAnywhere)
 {
   BlockMesh<2> mesh;
   make_stack(mesh, 2, 1);
-  ModelParameters parameters     = two_blocks(2e10, 3e10);
-  parameters.materials           = { rigid("lower"), rigid("upper") };
-  parameters.large_displacements = true;
+  ModelParameters parameters            = two_blocks(2e10, 3e10);
+  parameters.materials                  = { rigid("lower"), rigid("upper") };
+  parameters.large_displacements        = true;
+  parameters.joints[0].all_new_contacts = true;
   const TestNodes nodes(mesh, parameters.materials);
   const Model<2> model(nodes, parameters);
   // Around a rectangle of 2 m by 1 m every node but those in the middle of
