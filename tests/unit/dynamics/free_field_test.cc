@@ -220,7 +220,7 @@ TEST(FreeField, RefusesWhatIsNoBase)
   expect_refused(
       { load("base", LoadType::viscous_boundary, "left", velocity, "0", "0"),
         free_field("side", "left") },
-      { "'Base'", "level" });
+      { "'Base'", "not horizontal" });
 
   BlockMesh<2> mesh;
   make_sides(mesh, 2, 2);
