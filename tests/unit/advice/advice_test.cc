@@ -231,7 +231,8 @@ TEST(InputAdvice, BoundaryElementsTooLongForStress)
   EXPECT_TRUE(element_advice(shaking, 2000., 2., false).empty());
   const auto advice = element_advice(shaking, 2000., 2., true);
   ASSERT_EQ(advice.size(), 1U);
-  EXPECT_NE(advice[0].find("too low by about 5 %"), std::string::npos) << advice[0];
+  EXPECT_NE(advice[0].find("too low by about 5 %"), std::string::npos)
+      << advice[0];
   EXPECT_NE(advice[0].find("elements of 1 m"), std::string::npos) << advice[0];
   // Too long for displacements, too: that is said.
   const auto too_long = element_advice(shaking, 2000., 4.1, true);
