@@ -475,8 +475,10 @@ namespace quoin
     return names;
   }
 
-  void ParameterFile::refuse_idle_overrides(NotedParameters &prm) const
+  std::vector<std::string>
+  ParameterFile::idle_overrides(NotedParameters &prm) const
   {
+    std::vector<std::string> warnings;
     for (const std::string &option : overrides)
     {
       const auto path = path_of_option(option);
@@ -492,14 +494,15 @@ namespace quoin
               begin + "it has no effect, because 'Names' of section '" + path[0]
               + "' does not list '" + path[1]
               + "'. Listed are: " + known_names_like(path[1], listed) + ".");
-      throw InputError(begin
-                       + "it has no effect, because the other parameters "
-                         "of "
-                       + file + " leave '" + path.back()
-                       + "' unused. Leave this option out, or change what "
-                         "the parameter goes with: --print-parameters says "
-                         "when it is used.");
+      warnings.push_back(begin
+                         + "it has no effect, because the other parameters "
+                           "of "
+                         + file + " leave '" + path.back()
+                         + "' unused. Leave this option out, or change what "
+                           "the parameter goes with: --print-parameters says "
+                           "when it is used.");
     }
+    return warnings;
   }
 
   void ParameterFile::parse(ParameterHandler &prm,

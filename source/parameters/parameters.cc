@@ -208,10 +208,10 @@ namespace quoin
       read_block_model(top, parameters);
 
     // Before plausibility, which looks at more than a run uses.
-    input.refuse_idle_overrides(prm);
-    const auto doubts = implausible_values(top, parameters);
-    parameters.warnings.insert(parameters.warnings.end(), doubts.begin(),
-                               doubts.end());
+    for (const auto &doubts :
+         { input.idle_overrides(prm), implausible_values(top, parameters) })
+      parameters.warnings.insert(parameters.warnings.end(), doubts.begin(),
+                                 doubts.end());
 
     std::ostringstream effective;
     prm.print_parameters(effective, ParameterHandler::ShortPRM);

@@ -103,7 +103,8 @@ def run_case(case, options):
                                                  histories)
         iterations = ("iterations a step" in case
                       and iterations_a_step(output))
-        failed = common.unexpected_warnings(case.get("warnings", []), output)
+        failed = common.unexpected_warnings(case.get("warnings", []), output,
+                                            case.get("possible warnings", []))
         residual = common.energy_residual_share(output)
     tolerance = case["tolerance"]
     tolerances = {"energy residual": common.MOST_RESIDUAL,

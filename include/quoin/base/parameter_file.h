@@ -33,9 +33,10 @@ namespace quoin
      */
     std::vector<std::string> subsections(const std::string &section) const;
 
-    /** Throws an InputError about an override of an entry of @p prm that has
-        not been read, so that it has no effect. */
-    void refuse_idle_overrides(NotedParameters &prm) const;
+    /** Warnings about overrides of entries of @p prm that have not been read,
+       so that they have no effect. Throws an InputError about one in a
+       subsection that no 'Names' lists. */
+    std::vector<std::string> idle_overrides(NotedParameters &prm) const;
 
   private:
     std::string file;
