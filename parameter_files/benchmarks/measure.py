@@ -1,0 +1,115 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Runs all benchmarks one after the other and prints one table of what a step,
+a triangle, a point of a joint and a pair of contacts cost; see README.md.
+
+  measure.py [--quoin build/quoin] [--repeat 3] [--only joints]
+             [--against ANOTHER_QUOIN]
+
+With --against the runs of both programs alternate, and the last column is how
+many times as fast a step of the first one is.
+"""
+import argparse
+import json
+import os
+import subprocess
+import tempfile
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+ROOT = os.path.dirname(os.path.dirname(HERE))
+WALLS = "../masonry/tue_walls/"
+
+# (name, parameter file, overrides)
+BENCHMARKS = [
+    ("blocks", "blocks/case.prm", []),
+    ("blocks, 2 million", "blocks/case.prm",
+     ["Mesh/File=blocks_2m.geo", "Mesh/Refinements=2",
+      "Stages/shake/Duration=0.0015"]),
+    ("joints, composite, sticking", "joints/case.prm", []),
+    ("joints, Coulomb, sticking", "joints/case.prm",
+     ["Joints/mortar/Law=Coulomb"]),
+    ("joints, Coulomb, slipping", "joints/case.prm",
+     ["Joints/mortar/Law=Coulomb", "Joints/mortar/Cohesion=0",
+      "Joints/mortar/Tensile strength=0", "Joints/mortar/Friction angle=5",
+      "Loads/press/Horizontal=velocity 2 * min(1, t / 0.0005)"]),
+    ("wall J4D to 1 mm", WALLS + "j4d.prm", ["Stages/push/Duration=0.05"]),
+    ("contacts of rigid blocks", "contacts/case.prm", []),
+    ("contacts of deformable blocks", "../verification/pile/case.prm", []),
+]
+
+
+def run(quoin, file, overrides):
+    """The summary of one run."""
+    with tempfile.TemporaryDirectory(prefix="quoin_") as output:
+        command = [quoin, os.path.join(HERE, file), "--quiet", "--output",
+                   output]
+        for override in overrides:
+            command += ["--set", override]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        with open(os.path.join(output, "summary.json")) as stream:
+            return json.load(stream)
+
+
+def seconds_a_step(summary):
+    return summary["wall time [s]"] / summary["steps"]
+
+
+def fastest(quoins, file, overrides, repeat):
+    """The summaries of the fastest runs of each program."""
+    best = [None] * len(quoins)
+    for _ in range(repeat):
+        for i, quoin in enumerate(quoins):
+            summary = run(quoin, file, overrides)
+            if (best[i] is None
+                    or seconds_a_step(summary) < seconds_a_step(best[i])):
+                best[i] = summary
+    return best
+
+
+def row(name, best):
+    """A line of the table."""
+    first = best[0]
+    step = seconds_a_step(first)
+    shares = first.get("time shares", {})
+    n_points = 2 * first.get("joint faces", 0)
+    joint = (1e9 * shares.get("joints", 0) * step / n_points
+             if n_points else 0)
+    contacts = first.get("contact updates per second", 0) / 1e6
+    cells = [name, str(first["cells"]), str(n_points), str(first["steps"]),
+             f"{1e6 * step:.4g}",
+             f"{first['element updates per second'] / 1e6:.3g}"
+             if first["cells"] else "",
+             f"{joint:.2g}" if joint else "",
+             f"{contacts:.3g}" if contacts else "",
+             f"{100 * first['share of memory bandwidth']:.0f} %"
+             if "share of memory bandwidth" in first else ""]
+    if len(best) > 1:
+        cells.append(f"{seconds_a_step(best[1]) / step:.2f}")
+    return "| " + " | ".join(cells) + " |"
+
+
+def main():
+    parser = argparse.ArgumentParser(
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--quoin", default=os.path.join(ROOT, "build",
+                                                        "quoin"))
+    parser.add_argument("--against")
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--only", default="")
+    options = parser.parse_args()
+    quoins = [options.quoin] + ([options.against] if options.against else [])
+    names = ["benchmark", "triangles", "joint points", "steps", "step [us]",
+             "million triangles a second", "joint point [ns]",
+             "million contact updates a second", "of the memory bandwidth"]
+    names += ["times as fast"] if options.against else []
+    print("| " + " | ".join(names) + " |\n" + "|" + "---|" * len(names))
+    for name, file, overrides in BENCHMARKS:
+        if options.only in name:
+            print(row(name, fastest(quoins, file, overrides, options.repeat)),
+                  flush=True)
+
+
+if __name__ == "__main__":
+    main()
