@@ -337,7 +337,7 @@ namespace quoin
     template <int lanes>
     void add_forces_in_lanes(ContactState &contacts, double viscous_beta,
                              bool damps, Losses &losses);
-    /** The same for the pairs @p active under one law. */
+    /** add_forces_in_lanes() for the pairs @p active under one law. */
     template <int lanes, typename Law>
     void add_forces_under(const Law &law,
                           const std::vector<unsigned int> &active,
