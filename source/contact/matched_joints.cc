@@ -177,7 +177,8 @@ namespace quoin
     const LawLanes<Law, native_lanes> laws(law);
     const PointArrays arrays = arrays_of(history);
     DissipationLanes<native_lanes> lost;
-    // Of the last group: beyond its end are points of another set, or none.
+    // Points of the last group: those behind it belong to another set, or to
+    // none.
     PointPack<2 * native_lanes> pack;
     for (unsigned int g = group_begin[set]; g < group_begin[set + 1]; ++g)
     {

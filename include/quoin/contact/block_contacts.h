@@ -356,8 +356,8 @@ namespace quoin
     /** Activates pairs that have come into contact; sets active_pairs. */
     template <int lanes>
     void begin_contacts(ContactState &contacts);
-    /** The same for pairs without history, @p n from @p first on, that may
-        touch. */
+    /** Activates those of @p n idle pairs, from @p first on, that have come
+       into contact. */
     template <int lanes>
     void look_at_idle(const unsigned int *first, unsigned int n,
                       ContactState &contacts);
@@ -423,7 +423,7 @@ namespace quoin
         compact_viscous;
     AlignedArray<Edge> local_edges;
     AlignedArray<EdgeLinks> edge_links;
-    // Of this step.
+    // Pairs of the present step.
     std::vector<unsigned int> active_pairs, idle_pairs, new_contacts;
     std::vector<std::vector<unsigned int>> pairs_of_set; /**< active ones */
 

@@ -79,8 +79,8 @@ namespace quoin
     static constexpr const char *slice_name = "contacts";
 
     AlignedArray<ContactPair> pairs; /**< ascending in their edges */
-    /** Of each pair what it says of being active and open, because a step has
-        to know of all. Not archived; empty: to be made again. */
+    /** Copies of each pair's flags active and was_open, which a step reads of
+        all pairs. They are not archived; empty: to be made again. */
     AlignedArray<PairMark> marks;
 
     /** Flag of each interface of joints. */

@@ -148,8 +148,9 @@ namespace quoin
     std::vector<double> times, displacements;
   };
 
-  /** The same of a trial by the implicit solver: each jump counts from its own
-      start, and what any of them has shown stays true. */
+  /** Watches the jumps of a trial by the implicit solver: time and
+     displacements of each count from its own start; once one has moved on, the
+     trial has. */
   class JumpWatch
   {
   public:

@@ -62,10 +62,11 @@ namespace quoin
   /** What bounds dashpots between blocks, for StableTimeStep. */
   struct DampingBound
   {
-    /** Of owned nodes; a dashpot between two nodes counts twice at each
-        [N s/m]. */
+    /** Sum of the dashpots at each owned node; one between two nodes counts
+        twice at each [N s/m]. */
     std::vector<double> dashpot;
-    /** Of the blocks of the mesh, in shares of critical damping [-]. */
+    /** Damping of each block of the mesh, as a share of the critical one [-].
+     */
     std::vector<double> share;
   };
 
