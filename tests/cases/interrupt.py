@@ -74,8 +74,12 @@ def start(words, output):
     return process
 
 
-def interrupt(process, number, name):
-    """Sends the signal; False if the run has finished before."""
+def interrupt(process, number, name, ranks):
+    """Sends the signal; False if the run has finished before.
+
+    mpirun passes signals on while its processes run; one that comes after they
+    have ended, while it clears up, ends mpirun itself.
+    """
     process.send_signal(number)
     try:
         status = process.wait(timeout=PATIENCE)
@@ -83,6 +87,8 @@ def interrupt(process, number, name):
         resume.kill_all(process)
         raise Failure("%s: it goes on %d s after the signal"
                       % (name, PATIENCE))
+    if ranks > 1 and status == -number:
+        return False
     if status not in (0, 128 + number):
         raise Failure("%s: exit status %d, not %d"
                       % (name, status, 128 + number))
@@ -117,7 +123,7 @@ def interrupt_and_resume(options, name):
                                    ["--resume"] if done else [])
             process = start(words, broken)
             time.sleep(0.5 * chance.random() * lasting)
-            if not interrupt(process, number, name):
+            if not interrupt(process, number, name, ranks):
                 lasting /= 2
                 done = 0
                 shutil.rmtree(broken)
