@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/contact/pair_dashpots.h>
+#include <quoin/base/none.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -12,8 +13,6 @@ namespace quoin
 {
   namespace
   {
-    constexpr unsigned int none = -1;
-
     using Blocks = std::array<unsigned int, 2>;
 
     Blocks ascending(Blocks blocks)

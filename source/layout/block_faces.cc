@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/disjoint_sets.h>
+#include <quoin/base/none.h>
 #include <quoin/layout/block_faces.h>
 
 #include <algorithm>
@@ -12,9 +13,7 @@ namespace quoin
 {
   namespace
   {
-    using Point                 = dealii::Point<2>;
-    constexpr unsigned int none = -1;
-
+    using Point = dealii::Point<2>;
     /** Parts of the network that hang together. */
     std::vector<unsigned int> find_parts(const JointNetwork &network)
     {

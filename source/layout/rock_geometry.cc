@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/plane_geometry.h>
+#include <quoin/base/none.h>
 #include <quoin/layout/rock_layout.h>
 
 #include <algorithm>
@@ -13,10 +14,8 @@ namespace quoin
 {
   namespace
   {
-    using Point                 = dealii::Point<2>;
-    using Numbers               = GmshNumbers;
-    constexpr unsigned int none = -1;
-
+    using Point   = dealii::Point<2>;
+    using Numbers = GmshNumbers;
     class Writer
     {
     public:

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/none.h>
 #include <quoin/layout/rock_layout.h>
 
 #include <algorithm>
@@ -11,9 +12,7 @@ namespace quoin
 {
   namespace
   {
-    using Point                 = dealii::Point<2>;
-    constexpr unsigned int none = -1;
-
+    using Point = dealii::Point<2>;
     class Layer
     {
     public:

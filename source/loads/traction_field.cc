@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/none.h>
 #include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/traction_field.h>
@@ -14,7 +15,6 @@ namespace quoin
 {
   namespace
   {
-    constexpr unsigned int none = -1;
     /** Parts of the edge of a triangle that a jump or a kink cuts. */
     constexpr unsigned int n_parts = 8;
 

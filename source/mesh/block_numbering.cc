@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/mesh/block_numbering.h>
+#include <quoin/base/none.h>
 
 #include <deal.II/base/exceptions.h>
 #include <deal.II/base/utilities.h>
@@ -17,8 +18,6 @@ namespace quoin
 {
   namespace
   {
-    constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
-
     std::vector<unsigned int>
     inverse_permutation(const std::vector<unsigned int> &order)
     {

@@ -4,6 +4,7 @@
 #include <quoin/base/disjoint_sets.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/nearest_name.h>
+#include <quoin/base/none.h>
 #include <quoin/mesh/block_numbering.h>
 #include <quoin/mesh/block_splitter.h>
 
@@ -21,8 +22,6 @@ namespace quoin
 {
   namespace
   {
-    constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
-
     /** Vertices of each side of a simplex: its normal, to the right of the edge
         in two dimensions and by the right hand in three, points outwards. */
     template <int dim>

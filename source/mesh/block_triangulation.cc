@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/mesh/block_triangulation.h>
+#include <quoin/base/none.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
@@ -20,8 +21,6 @@ namespace quoin
   {
     template <int dim>
     using Description = dealii::TriangulationDescription::Description<dim, dim>;
-
-    constexpr unsigned int none = -1;
 
     /** Vertices of the cell that are those of each of its faces. */
     template <int dim>

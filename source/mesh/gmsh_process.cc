@@ -36,11 +36,6 @@ namespace quoin
                  : beside;
     }
 
-    [[noreturn]] void fail(const std::string &source, const std::string &what)
-    {
-      throw InputError("Mesh '" + source + "': " + what);
-    }
-
     /** A file descriptor, closed with this object and in other programs. */
     class Descriptor
     {
@@ -107,6 +102,11 @@ namespace quoin
     }
   } // namespace
 
+  void fail_on_mesh(const std::string &source, const std::string &what)
+  {
+    throw InputError("Mesh '" + source + "': " + what);
+  }
+
   GmshMesh run_gmsh(const std::string &source,
                     const std::vector<std::string> &arguments,
                     const std::string &input)
@@ -116,14 +116,15 @@ namespace quoin
     std::array<int, 2> ends   = { { -1, -1 } };
     Descriptor input_file(anonymous_file(input));
     if (input_file.number < 0 || pipe2(ends.data(), O_CLOEXEC) != 0)
-      fail(source,
-           std::string("no pipe to gmsh can be made: ") + std::strerror(errno));
+      fail_on_mesh(source, std::string("no pipe to gmsh can be made: ")
+                               + std::strerror(errno));
     Descriptor own_end(ends[0]), other_end(ends[1]);
     pid_t process;
     const int error = spawn(process, program, arguments, input_file.number,
                             other_end.number);
     if (error != 0)
-      fail(source, "the program '" + program
+      fail_on_mesh(source,
+                   "the program '" + program
                        + "', which runs gmsh, cannot be started: "
                        + std::strerror(error)
                        + ". Put it beside this program, with which it is "
@@ -145,14 +146,16 @@ namespace quoin
 
     // 3. What it came to.
     if (WIFSIGNALED(status) && !is_crash(WTERMSIG(status)))
-      fail(source, std::string("gmsh was ended from outside (")
+      fail_on_mesh(source,
+                   std::string("gmsh was ended from outside (")
                        + strsignal(WTERMSIG(status))
                        + "), perhaps because memory is short. Coarsen the "
                          "mesh or use a larger machine.");
     if (!channel.is_complete())
-      fail(source,
-           "gmsh ended while it read the file, which is damaged or has a "
-           "command such as Exit. Open it in gmsh and repair it there.");
+      fail_on_mesh(
+          source,
+          "gmsh ended while it read the file, which is damaged or has a "
+          "command such as Exit. Open it in gmsh and repair it there.");
     return mesh;
   }
 } // namespace quoin

@@ -19,28 +19,26 @@ namespace quoin
 {
   namespace
   {
-    [[noreturn]] void fail(const std::string &source, const std::string &what)
-    {
-      throw InputError("Mesh '" + source + "': " + what);
-    }
-
     void check_file(const std::string &filename)
     {
       namespace fs = std::filesystem;
       std::error_code ignored;
       if (!fs::exists(filename, ignored))
-        fail(filename, "there is no such file. Check Mesh/File, which is "
-                       "relative to the parameter file.");
+        fail_on_mesh(filename,
+                     "there is no such file. Check Mesh/File, which is "
+                     "relative to the parameter file.");
       if (fs::is_directory(filename, ignored)
           || !std::ifstream(filename).good())
-        fail(filename, "this cannot be read as a file. Check Mesh/File and "
-                       "the file's permissions.");
+        fail_on_mesh(filename,
+                     "this cannot be read as a file. Check Mesh/File and "
+                     "the file's permissions.");
       const std::string extension = fs::path(filename).extension();
       if (extension != ".geo" && extension != ".msh")
-        fail(filename, "the name ends in '" + extension
-                           + "'. Give a gmsh geometry (.geo) or mesh (.msh).");
+        fail_on_mesh(filename,
+                     "the name ends in '" + extension
+                         + "'. Give a gmsh geometry (.geo) or mesh (.msh).");
       if (fs::file_size(filename, ignored) == 0)
-        fail(filename, "the file is empty. Save it again from gmsh.");
+        fail_on_mesh(filename, "the file is empty. Save it again from gmsh.");
     }
 
     /** Arguments of quoin_gmsh. */
@@ -105,10 +103,10 @@ namespace quoin
       GmshMesh read
           = run_gmsh(source, arguments(file, cells, dimension), geometry);
       if (!read.gmsh_errors.empty())
-        fail(source, "gmsh could not make a mesh of it: " + read.gmsh_errors
-                         + ". " + cure);
+        fail_on_mesh(source, "gmsh could not make a mesh of it: "
+                                 + read.gmsh_errors + ". " + cure);
       if (!read.refusal.empty())
-        fail(source, read.refusal);
+        fail_on_mesh(source, read.refusal);
       if (read.dimension == 3)
         return take<3>(read, source, cells.kind);
       return take<2>(read, source, cells.kind);

@@ -11,6 +11,10 @@
 
 namespace quoin
 {
+  /** Throw an InputError of the mesh named @p source. */
+  [[noreturn]] void fail_on_mesh(const std::string &source,
+                                 const std::string &what);
+
   /**
    * Run the program quoin_gmsh, which lies in the folder of this program or in
    * the one above, and wait for its end. @p arguments are those of its command
