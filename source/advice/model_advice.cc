@@ -4,7 +4,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/advice/contact_advice.h>
 #include <quoin/parameters/plausibility.h>
-#include <quoin/loads/time_function.h>
+#include <quoin/signals/time_function.h>
 
 #include <algorithm>
 #include <cmath>

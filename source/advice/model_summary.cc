@@ -6,7 +6,7 @@
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/signal_frequency.h>
+#include <quoin/signals/signal_frequency.h>
 #include <quoin/mesh/global_geometry.h>
 #include <quoin/advice/model_summary.h>
 

@@ -7,8 +7,8 @@
 #include <quoin/parameters/schema.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
-#include <quoin/results/collective.h>
-#include <quoin/results/interruption.h>
+#include <quoin/output/collective.h>
+#include <quoin/output/interruption.h>
 
 #include <deal.II/base/mpi.h>
 

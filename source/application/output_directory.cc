@@ -3,8 +3,8 @@
 
 #include <quoin/application/output_directory.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/results/checkpoint.h>
-#include <quoin/results/field_series.h>
+#include <quoin/output/checkpoint.h>
+#include <quoin/output/field_series.h>
 
 #include <filesystem>
 

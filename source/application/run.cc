@@ -5,9 +5,9 @@
 #include <quoin/application/run.h>
 #include <quoin/base/parameter_file.h>
 #include <quoin/base/wall_clock.h>
-#include <quoin/results/atomic_file.h>
-#include <quoin/results/checkpoint.h>
-#include <quoin/results/json_file.h>
+#include <quoin/output/atomic_file.h>
+#include <quoin/output/checkpoint.h>
+#include <quoin/output/json_file.h>
 
 #include <nlohmann/json.hpp>
 

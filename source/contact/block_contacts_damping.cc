@@ -7,7 +7,7 @@
 
 #include "contact_pairs.h"
 #include "contact_points.h"
-#include "dashpot_tractions.h"
+#include <quoin/joint_elements/dashpot_tractions.h>
 
 namespace quoin
 {

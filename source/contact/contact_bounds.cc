@@ -5,7 +5,7 @@
 // for the stable time step.
 
 #include <quoin/contact/block_contacts.h>
-#include <quoin/contact/matched_joints.h>
+#include <quoin/joint_elements/matched_joints.h>
 
 #include <algorithm>
 #include <cmath>

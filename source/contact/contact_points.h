@@ -4,7 +4,7 @@
 #ifndef quoin_source_contact_contact_points_h
 #define quoin_source_contact_contact_points_h
 
-#include "joint_points.h"
+#include <quoin/joint_elements/joint_points.h>
 
 // Points of general contacts under the joint laws.
 

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/dynamics/release.h>
-#include <quoin/loads/time_function.h>
+#include <quoin/signals/time_function.h>
 
 #include <algorithm>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/parameter_entries.h>
 #include <quoin/base/unread_parameters.h>
 #include <quoin/joints/joint_law.h>
 #include <quoin/joints/law_entries.h>
@@ -9,7 +10,6 @@
 #include <cctype>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace quoin
 {
@@ -17,17 +17,6 @@ namespace quoin
   {
     using dealii::Patterns::Anything;
     using dealii::Patterns::Double;
-
-    /** As in parameter files: 1e6, not 1e+06. */
-    std::string default_text(const double value)
-    {
-      std::ostringstream stream;
-      stream << value;
-      std::string text = stream.str();
-      if (const auto e = text.find("e+"); e != std::string::npos)
-        text.erase(e + 1, text[e + 2] == '0' ? 2 : 1);
-      return text;
-    }
 
     /** "'a', 'b' or 'c'" */
     std::string quoted(const std::vector<std::string> &words)
@@ -110,7 +99,8 @@ namespace quoin
     if (reads())
       value = section->positive(name);
     else
-      collect(name, default_text(value), Double(), sentence, unit);
+      collect(name, ParameterEntries::default_text({ value }), Double(),
+              sentence, unit);
   }
 
   void LawEntries::nonnegative(const std::string &name, double &value,
@@ -120,7 +110,8 @@ namespace quoin
     if (reads())
       value = section->nonnegative(name);
     else
-      collect(name, default_text(value), Double(), sentence, unit);
+      collect(name, ParameterEntries::default_text({ value }), Double(),
+              sentence, unit);
   }
 
   void LawEntries::within(const std::string &name, double &value,
@@ -130,7 +121,8 @@ namespace quoin
     if (reads())
       value = section->within(name, low, high);
     else
-      collect(name, default_text(value), Double(), sentence, unit);
+      collect(name, ParameterEntries::default_text({ value }), Double(),
+              sentence, unit);
   }
 
   void LawEntries::positive_or_none(const std::string &name, double &value,

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "element_limit.h"
+#include <quoin/layout/element_limit.h>
 #include "numbered_names.h"
 
 namespace quoin

@@ -4,7 +4,7 @@
 #include <quoin/base/finite_numbers.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/loads/in_situ_stress.h>
-#include <quoin/loads/space_time_function.h>
+#include <quoin/signals/space_time_function.h>
 
 #include <deal.II/base/utilities.h>
 

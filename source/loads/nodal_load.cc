@@ -5,7 +5,7 @@
 #include <quoin/base/nearest_name.h>
 #include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
-#include <quoin/loads/time_function.h>
+#include <quoin/signals/time_function.h>
 #include <quoin/loads/traction_field.h>
 #include <quoin/mesh/kind_text.h>
 

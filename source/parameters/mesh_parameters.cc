@@ -3,7 +3,7 @@
 
 #include <quoin/base/parameter_entries.h>
 #include <quoin/layout/arch_layout.h>
-#include <quoin/layout/rock_layout.h>
+#include <quoin/rock/rock_layout.h>
 #include <quoin/layout/wall_layout.h>
 #include <quoin/parameters/model_parameters.h>
 

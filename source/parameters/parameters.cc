@@ -5,7 +5,7 @@
 #include <quoin/base/parameter_entries.h>
 #include <quoin/base/parameter_file.h>
 #include <quoin/layout/arch_parameters.h>
-#include <quoin/layout/rock_parameters.h>
+#include <quoin/rock/rock_parameters.h>
 #include <quoin/layout/wall_parameters.h>
 #include <quoin/parameters/model_parameters.h>
 #include <quoin/parameters/plausibility.h>

@@ -3,7 +3,7 @@
 
 #include <quoin/mesh/gmsh_reader.h>
 #include <quoin/problems/block_outputs.h>
-#include <quoin/results/atomic_file.h>
+#include <quoin/output/atomic_file.h>
 #include <quoin/results/field_output.h>
 #include <quoin/results/result_origin.h>
 

@@ -3,7 +3,7 @@
 
 #include <quoin/base/wall_clock.h>
 #include <quoin/problems/boundary_stage.h>
-#include <quoin/results/checkpoint_clock.h>
+#include <quoin/output/checkpoint_clock.h>
 #include <quoin/results/field_output.h>
 #include <quoin/tdbem/plain_vector.h>
 

@@ -5,7 +5,7 @@
 #include <quoin/base/point_text.h>
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/problems/block_stage.h>
-#include <quoin/results/checkpoint_clock.h>
+#include <quoin/output/checkpoint_clock.h>
 #include <quoin/results/result_origin.h>
 
 namespace quoin

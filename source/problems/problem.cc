@@ -3,7 +3,7 @@
 
 #include <quoin/problems/block_problem.h>
 #include <quoin/problems/boundary_problem.h>
-#include <quoin/results/checkpoint.h>
+#include <quoin/output/checkpoint.h>
 
 #include <nlohmann/json.hpp>
 

@@ -4,8 +4,8 @@
 #include <quoin/base/number_text.h>
 #include <quoin/model/model_box.h>
 #include <quoin/problems/block_stage.h>
-#include <quoin/results/atomic_file.h>
-#include <quoin/results/interruption.h>
+#include <quoin/output/atomic_file.h>
+#include <quoin/output/interruption.h>
 #include <quoin/results/result_origin.h>
 
 #include <algorithm>

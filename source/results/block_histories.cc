@@ -3,7 +3,7 @@
 
 #include <quoin/base/constants.h>
 #include <quoin/base/known_names.h>
-#include <quoin/contact/joint_changes.h>
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/model/block_placement.h>
 #include <quoin/operators/archive.h>
 #include <quoin/results/block_histories.h>

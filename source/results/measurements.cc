@@ -4,7 +4,7 @@
 #include <quoin/operators/state.h>
 #include <quoin/base/wall_clock.h>
 #include <quoin/results/measurements.h>
-#include <quoin/results/progress.h>
+#include <quoin/output/progress.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>

@@ -18,8 +18,8 @@
 #include <quoin/application/run.h>
 #include <quoin/base/exceptions.h>
 #include <quoin/base/lone_process.h>
-#include <quoin/loads/record.h>
-#include <quoin/loads/time_function.h>
+#include <quoin/signals/record.h>
+#include <quoin/signals/time_function.h>
 #include <quoin/mesh/gmsh_reader.h>
 #include <quoin/mesh/mesh_report.h>
 #include <quoin/mesh/node_map.h>

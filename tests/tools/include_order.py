@@ -4,7 +4,8 @@
 """Modules include only from their left:
 
 base < mesh, layout, materials, joints, elastodynamics
-     < operators, tdbem < blocks, contact, loads < farfield < model < dynamics
+     < operators, rock, tdbem < joint_elements, output, signals
+     < blocks, contact, loads < farfield, stages < model < dynamics
      < implicit, results < parameters < advice < problems < application
 
 Modules between the same two signs do not know each other.
@@ -15,8 +16,9 @@ import sys
 
 TIERS = [["base"],
          ["mesh", "layout", "materials", "joints", "elastodynamics"],
-         ["operators", "tdbem"], ["blocks", "contact", "loads"], ["farfield"],
-         ["model"], ["dynamics"], ["implicit", "results"], ["parameters"],
+         ["operators", "rock", "tdbem"],
+         ["joint_elements", "output", "signals"],
+         ["blocks", "contact", "loads"], ["farfield", "stages"], ["model"], ["dynamics"], ["implicit", "results"], ["parameters"],
          ["advice"], ["problems"], ["application"]]
 RANK = {name: rank for rank, tier in enumerate(TIERS) for name in tier}
 # boundary elements stand alone: a boundary polyline, nothing of the blocks

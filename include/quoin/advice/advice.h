@@ -6,7 +6,7 @@
 
 #include <quoin/base/number_text.h>
 #include <quoin/dynamics/solver.h>
-#include <quoin/loads/signal_frequency.h>
+#include <quoin/signals/signal_frequency.h>
 #include <quoin/mesh/mesh_report.h>
 #include <quoin/parameters/parameters.h>
 

@@ -4,7 +4,7 @@
 #ifndef quoin_application_output_directory_h
 #define quoin_application_output_directory_h
 
-#include <quoin/results/output_lock.h>
+#include <quoin/output/output_lock.h>
 
 #include <string>
 

@@ -5,8 +5,8 @@
 #define quoin_application_run_h
 
 #include <quoin/problems/problem.h>
-#include <quoin/results/checkpoint_clock.h>
-#include <quoin/results/output_lock.h>
+#include <quoin/output/checkpoint_clock.h>
+#include <quoin/output/output_lock.h>
 
 #include <memory>
 #include <string>

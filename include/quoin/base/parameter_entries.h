@@ -142,12 +142,14 @@ namespace quoin
         read(*section);
     }
 
+    /** Numbers as in parameter files: 1e6, not 1e+06. */
+    static std::string default_text(const std::vector<double> &values);
+
   private:
     /** Declares the entry unless a section is read; returns whether it did. */
     bool declare(const std::string &name, const std::string &preset,
                  const dealii::Patterns::PatternBase &pattern,
                  const std::string &sentence);
-    static std::string default_text(const std::vector<double> &values);
 
     dealii::ParameterHandler *prm   = nullptr;
     const ParameterSection *section = nullptr;

@@ -9,9 +9,9 @@
 #include <quoin/operators/force_operator.h>
 #include <quoin/contact/contact_edges.h>
 #include <quoin/contact/contact_parameters.h>
-#include <quoin/contact/matched_joints.h>
+#include <quoin/joint_elements/matched_joints.h>
 #include <quoin/contact/pair_copies.h>
-#include <quoin/contact/pair_dashpots.h>
+#include <quoin/joint_elements/pair_dashpots.h>
 #include <quoin/joints/joint_parameters.h>
 
 #include <array>

@@ -5,7 +5,7 @@
 #define quoin_contact_law_fields_h
 
 #include <quoin/contact/contact_state.h>
-#include <quoin/contact/matched_joints.h>
+#include <quoin/joint_elements/matched_joints.h>
 
 #include <string>
 

@@ -7,7 +7,7 @@
 #include <quoin/base/phase_clock.h>
 #include <quoin/blocks/block_forces.h>
 #include <quoin/blocks/node_update.h>
-#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/stages/stage_parameters.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/mesh/node_map.h>
 

@@ -6,7 +6,7 @@
 
 #include <quoin/model/model.h>
 #include <quoin/dynamics/solver.h>
-#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/stages/stage_parameters.h>
 
 #include <string>
 #include <vector>

@@ -4,7 +4,7 @@
 #ifndef quoin_dynamics_load_pattern_h
 #define quoin_dynamics_load_pattern_h
 
-#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/stages/stage_parameters.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/model/model.h>

@@ -6,7 +6,7 @@
 
 #include <quoin/model/construction_state.h>
 #include <quoin/operators/force_operator.h>
-#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/stages/stage_parameters.h>
 
 #include <vector>
 

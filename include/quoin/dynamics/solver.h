@@ -11,7 +11,7 @@
 #include <quoin/farfield/static_far_field.h>
 #include <quoin/model/model.h>
 #include <quoin/dynamics/stage_loads.h>
-#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/stages/stage_parameters.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/platen.h>

@@ -7,7 +7,7 @@
 #include <quoin/model/free_bodies.h>
 #include <quoin/dynamics/load_pattern.h>
 #include <quoin/dynamics/release.h>
-#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/stages/stage_parameters.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/nodal_load.h>
 

@@ -4,10 +4,10 @@
 #ifndef quoin_farfield_boundary_parameters_h
 #define quoin_farfield_boundary_parameters_h
 
-#include <quoin/loads/space_time_function.h>
+#include <quoin/signals/space_time_function.h>
 #include <quoin/base/parameter_section.h>
 #include <quoin/farfield/far_field.h>
-#include <quoin/loads/time_function.h>
+#include <quoin/signals/time_function.h>
 #include <quoin/materials/material_parameters.h>
 #include <quoin/elastodynamics/elastic_medium.h>
 #include <quoin/tdbem/formulation.h>

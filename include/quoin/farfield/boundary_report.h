@@ -5,7 +5,7 @@
 #define quoin_farfield_boundary_report_h
 
 #include <quoin/farfield/boundary_geometry.h>
-#include <quoin/loads/signal_frequency.h>
+#include <quoin/signals/signal_frequency.h>
 #include <quoin/tdbem/formulation.h>
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 #ifndef quoin_loads_initial_motion_h
 #define quoin_loads_initial_motion_h
 
-#include <quoin/loads/space_time_function.h>
+#include <quoin/signals/space_time_function.h>
 #include <quoin/base/parameter_section.h>
 #include <quoin/operators/state.h>
 

@@ -4,8 +4,8 @@
 #ifndef quoin_loads_load_field_h
 #define quoin_loads_load_field_h
 
-#include <quoin/loads/space_time_function.h>
-#include <quoin/loads/time_function.h>
+#include <quoin/signals/space_time_function.h>
+#include <quoin/signals/time_function.h>
 
 #include <optional>
 #include <vector>

@@ -6,8 +6,8 @@
 
 #include <quoin/base/parameter_section.h>
 #include <quoin/loads/in_situ_stress.h>
-#include <quoin/loads/space_time_function.h>
-#include <quoin/loads/time_function.h>
+#include <quoin/signals/space_time_function.h>
+#include <quoin/signals/time_function.h>
 
 #include <array>
 #include <memory>

@@ -4,7 +4,7 @@
 #ifndef quoin_model_contact_bounds_h
 #define quoin_model_contact_bounds_h
 
-#include <quoin/contact/pair_dashpots.h>
+#include <quoin/joint_elements/pair_dashpots.h>
 #include <quoin/model/model.h>
 
 #include <cstdint>

@@ -8,7 +8,7 @@
 #include <quoin/model/construction_state.h>
 #include <quoin/operators/state.h>
 #include <quoin/contact/block_contacts.h>
-#include <quoin/contact/joint_changes.h>
+#include <quoin/joint_elements/joint_changes.h>
 #include <quoin/blocks/block_cells.h>
 #include <quoin/blocks/stable_time_step.h>
 #include <quoin/blocks/rigid_blocks.h>

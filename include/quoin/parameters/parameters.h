@@ -6,12 +6,12 @@
 
 #include <quoin/base/time_control.h>
 #include <quoin/farfield/boundary_parameters.h>
-#include <quoin/results/field_format.h>
+#include <quoin/output/field_format.h>
 #include <quoin/results/history_parameters.h>
 #include <quoin/loads/initial_motion.h>
 #include <quoin/model/model.h>
 #include <quoin/model/named_blocks.h>
-#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/stages/stage_parameters.h>
 #include <quoin/implicit/implicit_parameters.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>

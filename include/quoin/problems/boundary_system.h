@@ -10,7 +10,7 @@
 #include <quoin/farfield/incident_waves.h>
 #include <quoin/parameters/parameters.h>
 #include <quoin/results/boundary_histories.h>
-#include <quoin/results/log.h>
+#include <quoin/output/log.h>
 #include <quoin/tdbem/boundary_history.h>
 #include <quoin/elastodynamics/elastic_medium.h>
 #include <quoin/tdbem/interior_points.h>

@@ -7,10 +7,10 @@
 #include <quoin/base/phase_clock.h>
 #include <quoin/mesh/mesh_data.h>
 #include <quoin/parameters/parameters.h>
-#include <quoin/results/checkpoint.h>
-#include <quoin/results/log.h>
-#include <quoin/results/progress.h>
-#include <quoin/results/table_set.h>
+#include <quoin/output/checkpoint.h>
+#include <quoin/output/log.h>
+#include <quoin/output/progress.h>
+#include <quoin/output/table_set.h>
 
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>

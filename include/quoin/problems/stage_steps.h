@@ -6,7 +6,7 @@
 
 #include <quoin/farfield/incident_waves.h>
 #include <quoin/problems/block_system.h>
-#include <quoin/results/log.h>
+#include <quoin/output/log.h>
 
 #include <cstdint>
 #include <memory>

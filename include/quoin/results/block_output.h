@@ -4,7 +4,7 @@
 #ifndef quoin_results_block_output_h
 #define quoin_results_block_output_h
 
-#include <quoin/results/field_series.h>
+#include <quoin/output/field_series.h>
 
 #include <array>
 #include <cstdint>

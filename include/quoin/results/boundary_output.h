@@ -4,7 +4,7 @@
 #ifndef quoin_results_boundary_output_h
 #define quoin_results_boundary_output_h
 
-#include <quoin/results/field_series.h>
+#include <quoin/output/field_series.h>
 
 #include <array>
 #include <cstdint>

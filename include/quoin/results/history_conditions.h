@@ -4,7 +4,7 @@
 #ifndef quoin_results_history_conditions_h
 #define quoin_results_history_conditions_h
 
-#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/stages/stage_parameters.h>
 #include <quoin/results/history_parameters.h>
 
 #include <string>

@@ -5,7 +5,7 @@
 #define quoin_results_joint_output_h
 
 #include <quoin/joints/joint_history.h>
-#include <quoin/results/field_series.h>
+#include <quoin/output/field_series.h>
 
 #include <array>
 #include <cstdint>

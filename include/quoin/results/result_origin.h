@@ -5,7 +5,7 @@
 #define quoin_results_result_origin_h
 
 #include <quoin/base/archive_members.h>
-#include <quoin/dynamics/stage_parameters.h>
+#include <quoin/stages/stage_parameters.h>
 #include <quoin/joints/joint_history.h>
 #include <quoin/model/model.h>
 #include <quoin/operators/state.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "../results/temporary_directory.h"
+#include "../output/temporary_directory.h"
 
 #include <quoin/application/output_directory.h>
 

@@ -5,7 +5,7 @@
 
 #include <quoin/farfield/incident_waves.h>
 #include <quoin/base/exceptions.h>
-#include <quoin/loads/signal.h>
+#include <quoin/signals/signal.h>
 
 #include <gtest/gtest.h>
 

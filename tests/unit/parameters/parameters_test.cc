@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../base/message_of.h"
-#include "../results/temporary_directory.h"
+#include "../output/temporary_directory.h"
 
 #include <quoin/parameters/parameters.h>
 #include <quoin/base/exceptions.h>

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include "../model/test_models.h"
-#include "../results/temporary_directory.h"
+#include "../output/temporary_directory.h"
 
 #include <quoin/problems/costs.h>
 #include <quoin/results/field_output.h>

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include "temporary_directory.h"
+#include "../output/temporary_directory.h"
 
 #include <quoin/base/exceptions.h>
 #include <quoin/results/block_output.h>
 #include <quoin/results/joint_output.h>
-#include <quoin/results/json_file.h>
+#include <quoin/output/json_file.h>
 
 #include <nlohmann/json.hpp>
 

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joint_elements_matched_joints_h
+#define quoin_joint_elements_matched_joints_h
+
+#include <quoin/base/thickness.h>
+#include <quoin/joint_elements/pair_dashpots.h>
+#include <quoin/joint_elements/segment_group.h>
+#include <quoin/joints/joint_history.h>
+#include <quoin/operators/force_operator.h>
+#include <quoin/joints/joint_parameters.h>
+#include <quoin/mesh/node_map.h>
+
+#include <array>
+#include <variant>
+#include <vector>
+
+namespace quoin
+{
+  /**
+   * A segment's nodal forces and minus their derivative by the displacements
+   * of its nodes, lower[0], lower[1], upper[0], upper[1]: entry 2 i + d is
+   * node i, component d.
+   */
+  struct JointLinearisation
+  {
+    std::array<unsigned int, 4> nodes;
+    std::array<double, 8> force;                    /**< [N] */
+    std::array<std::array<double, 8>, 8> stiffness; /**< [N/m] */
+    /**
+     * Sum over the points of area times what inelastic opening and slip grew
+     * by, less on the way back [m^3], and its derivative [m^2].
+     */
+    double inelastic;
+    std::array<double, 8> inelastic_gradient;
+  };
+
+  /** Points of brittle joints that may break in a step of an implicit solver;
+      see MatchedJoints::linearise(). */
+  struct BreakingJoints
+  {
+    static constexpr const char *slice_name = "breaking joints";
+
+    std::vector<std::uint8_t> points; /**< 1: it may; one entry for each */
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.own(points, 2, JointHistory::slice_name);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive_members(archive, *this);
+    }
+  };
+
+  /** A joint face of this rank. */
+  struct JointSegment
+  {
+    std::array<unsigned int, 2> lower, upper; /**< local nodes */
+    std::array<double, 2> area;               /**< area of each point [m^2] */
+    float share; /**< fraction of the energy that this rank counts */
+    unsigned int set;
+    unsigned int face; /**< index into LocalFaces::joints */
+  };
+
+  /** Opening and slip [m] of both points of @p segment. */
+  std::array<std::array<double, 2>, 2> joint_gaps(const JointSegment &segment,
+                                                  const NodeRecord<2> *nodes);
+
+  /**
+   * The zero-thickness joints between coincident edges of two blocks, or of
+   * the two lips of a crack.
+   *
+   * Each joint face is a segment with a contact point at either end: the
+   * vertex of one side against the vertex of the other, with half the
+   * segment's length as tributary length, or that of Simpson's rule on the
+   * halves of a quadratic edge (nodal quadrature, which keeps stiff joints free
+   * of traction oscillations). The local frame turns with the
+   * segment: normal n from the lower to the upper side, tangent s = (n_y,
+   * -n_x), both from the mean of the two current edges. Opening and slip are
+   * the components of the upper vertex's displacement relative to the lower
+   * one. Point k of segment i has history entry 2 i + k.
+   *
+   * A segment between blocks of two ranks is computed by both, from the same
+   * numbers; each then counts half of its energy.
+   */
+  class MatchedJoints : public ForceOperator<2>
+  {
+  public:
+    /**
+     * Takes the joint faces of @p nodes, to which it keeps a reference;
+     * @p thickness: of each cell group.
+     * Throws an InputError about a joint face that belongs to no set, or a
+     * curve named by two sets.
+     */
+    void prepare(const NodeMap<2> &nodes,
+                 const std::vector<JointSetParameters> &sets,
+                 const Thickness &thickness);
+
+    const char *kind() const override
+    {
+      return "joints";
+    }
+
+    /** Intact points, free of traction. */
+    void prepare(State<2> &state) const override;
+
+    void add_forces(const StepContext &step, State<2> &state,
+                    const NodeForces<2> &forces) override;
+
+    /** Recoverable energy [J] of this rank's share of the joints. */
+    double stored_energy(const State<2> &state) const;
+    void add_stored_energy(const State<2> &state,
+                           EnergyAccounts &energies) const override
+    {
+      energies.joint += stored_energy(state);
+    }
+
+    void add_stiffness_bound(
+        const State<2> &state, const NodeRatio &ratio,
+        std::vector<NodeStiffness<2>> &stiffness) const override;
+    void add_damping_bound(const std::vector<double> &masses, double impedance,
+                           DampingBound &bound) const override;
+    /** Which sets have joints at each block of the mesh: entry b n + s is 1 if
+        set s of n has. Collective. */
+    std::vector<std::uint8_t> sets_on_blocks() const;
+
+    const std::vector<JointSegment> &segments() const
+    {
+      return all_segments;
+    }
+    unsigned int n_points() const
+    {
+      return 2 * all_segments.size();
+    }
+
+    /** The law of each set. */
+    const std::vector<JointLaw> &laws() const
+    {
+      return all_laws;
+    }
+
+    /**
+     * Joints follow the laws of @p sets from now on, of which there are as
+     * many as before, each of its kind. Their tractions jump unless
+     * keep_joint_tractions() moves the offsets too.
+     */
+    void set_laws(const std::vector<JointSetParameters> &sets);
+
+    /** Sets what dashpots need, without which there are none. Collective. */
+    void set_blocks(const DashpotBlocks &blocks);
+    /** Whether a set has dashpots that act. */
+    bool has_dashpots() const;
+
+    /**
+     * Updates the internal variables for the positions in @p nodes, adds the
+     * joint forces to @p force and the dissipation to @p energy.
+     */
+    void add_forces(const NodeRecord<2> *nodes, JointHistory &history,
+                    EnergyAccounts &energy, NodeVector<2> *force) const;
+
+    /**
+     * Adds the stiffness-proportional damping forces of points that neither
+     * slip nor are open: beta kn, beta ks times the rates [Pa].
+     */
+    void add_viscous_forces(const NodeRecord<2> *nodes,
+                            const JointHistory &history,
+                            const NodeVector<2> *velocity, double beta,
+                            NodeVector<2> *force) const;
+
+    /**
+     * Adds the forces [N] of intact joints that are as stiff as they can become
+     * to @p force, for nodes displaced by @p displacement [m] from @p nodes.
+     */
+    void add_elastic_forces(const NodeRecord<2> *nodes,
+                            const NodeVector<2> *displacement,
+                            NodeVector<2> *force) const;
+
+    /**
+     * What add_forces() does, of all segments or of segment @p i, with its
+     * derivative, consistent with the update of @p history, if
+     * @p with_stiffness; otherwise stiffness and inelastic_gradient are not
+     * set. Books the dissipation.
+     *
+     * The tractions of a brittle joint jump when it breaks, which no Newton
+     * iteration survives. So intact points of a brittle law stay elastic here
+     * beyond their strength unless @p broken or BreakingJoints of the state, an
+     * entry for each point, say that they break; see excess().
+     */
+    void linearise(State<2> &state, bool with_stiffness,
+                   const TakeElement<2> &take) const override;
+    void linearise(unsigned int i, const NodeRecord<2> *nodes,
+                   const std::vector<std::uint8_t> &broken,
+                   JointHistory &history, EnergyAccounts &energy,
+                   JointLinearisation &result,
+                   bool with_stiffness = true) const;
+
+    /**
+     * By how much entry @p point of @p history that linearise() left elastic
+     * exceeds its strength, as a share of its stress; zero or less: it holds.
+     */
+    double excess(unsigned int point, const JointHistory &history) const;
+
+  private:
+    void group_segments();
+
+    /** add_forces() of a set. */
+    template <typename Law>
+    void add_set_forces(unsigned int set, const Law &law,
+                        const NodeRecord<2> *nodes, JointHistory &history,
+                        EnergyAccounts &energy, NodeVector<2> *force) const;
+    /** add_viscous_forces() of a set. */
+    template <typename Law>
+    void add_set_viscous_forces(unsigned int set, const Law &law,
+                                const NodeRecord<2> *nodes,
+                                const JointHistory &history,
+                                const NodeVector<2> *velocity, double beta,
+                                NodeVector<2> *force) const;
+
+    void add_dashpot_forces(const NodeRecord<2> *nodes,
+                            const JointHistory &history,
+                            const NodeVector<2> *velocity,
+                            NodeVector<2> *force);
+
+    /** Opening and slip of a point [m] and their rates [m/s]. */
+    struct Motion
+    {
+      std::array<double, 2> gap, rate;
+    };
+    /**
+     * Adds to @p force, for the points of segment @p i, the tractions [Pa] that
+     * @p traction (entry of the history, motion) gives if @p acts (entry).
+     */
+    template <typename Acts, typename Traction>
+    void add_rate_forces(unsigned int i, const NodeRecord<2> *nodes,
+                         const NodeVector<2> *velocity, const Acts &acts,
+                         const Traction &traction, NodeVector<2> *force) const;
+
+    const NodeMap<2> *node_map = nullptr;
+    Thickness thickness;                    /**< thickness of cell groups */
+    std::vector<JointSegment> all_segments; /**< sorted by set */
+    /** Blocks and groups of each segment. */
+    std::vector<PairDashpots::Item> segment_sides;
+    std::vector<JointDamping> dampings; /**< damping of each joint set */
+    PairDashpots dashpots;
+    std::vector<JointLaw> all_laws;
+    std::vector<unsigned int> set_begin; /**< first segment of each set */
+    AlignedArray<SegmentGroup<native_lanes>> groups;
+    std::vector<unsigned int> group_begin; /**< first group of each set */
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_signals_time_function_h
+#define quoin_signals_time_function_h
+
+#include <quoin/signals/signal.h>
+#include <quoin/operators/step_context.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+
+namespace quoin
+{
+  /** Time in a stage after which loads are taken as constant [s]. */
+  constexpr double late_time = 1e9;
+
+  /** Half a cosine from 0 at @p time 0 to 1 at @p duration [s], and 1 beyond.
+   */
+  double half_cosine(double time, double duration);
+
+  /**
+   * A value that depends on time alone: an expression of t (time in the
+   * stage) and T (total time), with pi and the functions of muParser,
+   * if(condition, a, b) among them; or "table FILE", a CSV file of times [s] in
+   * the stage and values, linear in between and constant beyond its ends; or a
+   * signal of the time in the stage, such as "wavelet Ricker 5" (see
+   * read_signal()). "times EXPRESSION" after a table or a signal multiplies it.
+   */
+  class TimeFunction
+  {
+  public:
+    TimeFunction() = default;
+
+    /**
+     * Reads @p text. File names are relative to @p folder. Throws an InputError
+     * that says what is wrong, without naming section or parameter.
+     */
+    TimeFunction(const std::string &text, const std::string &folder);
+
+    explicit TimeFunction(std::function<double(const TimePoint &)> function)
+      : evaluate(std::move(function))
+    {
+    }
+
+    /** Whether @p text begins like a table or a signal. */
+    static bool is_named(const std::string &text);
+
+    double operator()(const TimePoint &time) const
+    {
+      return evaluate(time);
+    }
+
+    /** The function of the time since the start of a run with one stage. */
+    Signal signal() const;
+
+  private:
+    std::function<double(const TimePoint &)> evaluate
+        = [](const TimePoint &) { return 0.; };
+    Signal known; /**< without value unless it is a signal alone */
+  };
+} // namespace quoin
+
+#endif

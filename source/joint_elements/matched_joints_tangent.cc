@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// What MatchedJoints gives to solvers that need derivatives.
+
+#include <quoin/joint_elements/matched_joints.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "joint_frame.h"
+#include <quoin/joint_elements/joint_points.h>
+
+namespace quoin
+{
+  namespace
+  {
+    using Row = std::array<double, 8>;
+
+    /**
+     * How an increment counts that adds to @p total: as more of it, so that
+     * slip on the way back does not, or by its size where there is none yet.
+     */
+    double sign_of_growth(const double total, const double increment)
+    {
+      return total != 0.       ? std::copysign(1., total)
+             : increment != 0. ? std::copysign(1., increment)
+                               : 0.;
+    }
+
+    /** A point updated for its gap, and the derivatives there. */
+    struct Response
+    {
+      JointTangent<2> tangent;
+      std::array<double, 2> stiffness;      /**< kn, ks of the moment [Pa/m] */
+      double slip_by_pressure;              /**< derivative in the law [m/Pa] */
+      double plastic_opening, plastic_slip; /**< plastic increments [m] */
+      double opens, slips;                  /**< sign_of_growth() of these */
+    };
+
+    /** Updates point @p p for @p opening and @p slip [m]. */
+    template <typename Law>
+    Response respond(const Law &law, const double opening, const double slip,
+                     const bool may_break, const double weight,
+                     JointHistory &history, const unsigned int p,
+                     EnergyAccounts &energy)
+    {
+      auto point                 = read_point(law, history, p);
+      const double total_opening = point.plastic_opening;
+      const double total_slip    = point.plastic_slip;
+      Response result;
+      JointDissipation lost;
+      if constexpr (Law::is_brittle)
+        lost = law.update_waiting(point, opening, slip, may_break,
+                                  result.tangent);
+      else
+        lost = law.update(point, opening, slip, result.tangent);
+      book(lost, weight, energy);
+      write_point(point, history, p);
+      result.stiffness        = law.stiffness_at(point.normal_traction);
+      result.slip_by_pressure = law.slip_by_pressure(point);
+      result.plastic_opening  = point.plastic_opening - total_opening;
+      result.plastic_slip     = point.plastic_slip - total_slip;
+      // An open joint may keep the plastic opening that it had.
+      result.opens
+          = result.plastic_opening == 0.
+                ? 0.
+                : sign_of_growth(total_opening, result.plastic_opening);
+      result.slips = sign_of_growth(total_slip, result.plastic_slip);
+      return result;
+    }
+
+    /** How the frame turns with the displacements of its four nodes [1/m]:
+        d phi = (E x dE)/|E|^2, E the sum of both edges. */
+    Row turn_of_frame(const JointFrame &frame)
+    {
+      Row turn;
+      for (unsigned int i = 0; i < 8; ++i)
+        turn[i] = (i / 2 % 2 == 1 ? -1. : 1.) * frame.normal[i % 2]
+                  * frame.inverse_length;
+      return turn;
+    }
+
+    /** 1 at the upper node of point @p k, -1 at the lower one, else 0. */
+    double side_of(const unsigned int node, const unsigned int k)
+    {
+      return node == 2 + k ? 1. : node == k ? -1. : 0.;
+    }
+
+    /** The second derivative of phi by components @p i and @p j of its nodes'
+        displacements [1/m^2]. */
+    double second_turn(const JointFrame &frame, const unsigned int i,
+                       const unsigned int j)
+    {
+      const double sign = (i / 2 + j / 2) % 2 == 1 ? -1. : 1.;
+      const double *n = frame.normal, *s = frame.tangent;
+      return -sign * (s[i % 2] * n[j % 2] + n[i % 2] * s[j % 2])
+             * frame.inverse_length * frame.inverse_length;
+    }
+  } // namespace
+
+  void MatchedJoints::linearise(State<2> &state, const bool with_stiffness,
+                                const TakeElement<2> &take) const
+  {
+    const BreakingJoints *breaking = state.find<BreakingJoints>();
+    const std::vector<std::uint8_t> broken
+        = breaking ? breaking->points : std::vector<std::uint8_t>(n_points());
+    JointHistory &history = state.get<JointHistory>();
+    JointLinearisation segment;
+    for (unsigned int i = 0; i < all_segments.size(); ++i)
+    {
+      linearise(i, state.nodes.data(), broken, history, state.energy, segment,
+                with_stiffness);
+      take({ segment.nodes.data(), 4, segment.force.data(),
+             segment.stiffness[0].data(), 8, all_segments[i].share,
+             segment.inelastic, segment.inelastic_gradient.data(),
+             all_segments[i].set,
+             all_segments[i].area[0] + all_segments[i].area[1] });
+    }
+  }
+
+  void MatchedJoints::linearise(const unsigned int i,
+                                const NodeRecord<2> *nodes,
+                                const std::vector<std::uint8_t> &broken,
+                                JointHistory &history, EnergyAccounts &energy,
+                                JointLinearisation &result,
+                                const bool with_stiffness) const
+  {
+    const JointSegment &segment = all_segments[i];
+    const JointFrame local      = joint_frame(segment, nodes);
+    result.nodes = { { segment.lower[0], segment.lower[1], segment.upper[0],
+                       segment.upper[1] } };
+    result.force.fill(0.);
+    result.inelastic = 0.;
+    if (with_stiffness)
+    {
+      for (Row &row : result.stiffness)
+        row.fill(0.);
+      result.inelastic_gradient.fill(0.);
+    }
+    if (history.handed_over[i])
+      return;
+
+    const Row turn = turn_of_frame(local);
+    double couple  = 0.;
+    for (unsigned int k = 0; k < 2; ++k)
+    {
+      const auto local_gap = joint_gap(segment, local, nodes, k);
+      const double opening = local_gap[0], slip = local_gap[1];
+      const double area    = segment.area[k];
+      const unsigned int p = 2 * i + k;
+      Response point;
+      std::visit(
+          [&](const auto &law)
+          {
+            point = respond(law, opening, slip, broken[p], area * segment.share,
+                            history, p, energy);
+          },
+          all_laws[segment.set]);
+      result.inelastic += area
+                          * (point.opens * point.plastic_opening
+                             + point.slips * point.plastic_slip);
+
+      const double sigma = area * history.normal_traction[p];
+      const double tau   = area * history.shear_traction[p];
+      // How opening and slip change with the displacements of the nodes.
+      Row by_opening, by_slip;
+      for (unsigned int j = 0; j < 8; ++j)
+      {
+        const double side = side_of(j / 2, k);
+        by_opening[j]     = side * local.normal[j % 2] - slip * turn[j];
+        by_slip[j]        = side * local.tangent[j % 2] + opening * turn[j];
+        result.force[j] -= sigma * by_opening[j] + tau * by_slip[j];
+      }
+      couple += tau * opening - sigma * slip;
+      const JointTangent<2> &tangent = point.tangent;
+      for (unsigned int j = 0; with_stiffness && j < 8; ++j)
+      {
+        const double d_sigma = tangent.normal_opening * by_opening[j]
+                               + tangent.normal_slip * by_slip[j];
+        const double d_tau = tangent.shear_opening * by_opening[j]
+                             + tangent.shear_slip * by_slip[j];
+        for (unsigned int i = 0; i < 8; ++i)
+        {
+          const double side = side_of(i / 2, k);
+          result.stiffness[i][j]
+              += area * (d_sigma * by_opening[i] + d_tau * by_slip[i])
+                 + sigma
+                       * (-side * local.tangent[i % 2] * turn[j]
+                          - turn[i] * by_slip[j])
+                 + tau
+                       * (side * local.normal[i % 2] * turn[j]
+                          + turn[i] * by_opening[j]);
+        }
+        result.inelastic_gradient[j]
+            += area
+               * (point.opens * (by_opening[j] - d_sigma / point.stiffness[0])
+                  + point.slips
+                        * (by_slip[j] - d_tau / point.stiffness[1]
+                           - point.slip_by_pressure * d_sigma));
+      }
+    }
+    for (unsigned int j = 0; with_stiffness && j < 8; ++j)
+      for (unsigned int i = 0; i < 8; ++i)
+        result.stiffness[i][j] += couple * second_turn(local, i, j);
+  }
+
+  double MatchedJoints::excess(const unsigned int p,
+                               const JointHistory &history) const
+  {
+    double excess = 0.;
+    if (!history.handed_over[p / 2])
+      std::visit(
+          [&](const auto &law)
+          {
+            if constexpr (std::decay_t<decltype(law)>::is_brittle)
+              excess = law.excess(read_point(law, history, p));
+          },
+          all_laws[all_segments[p / 2].set]);
+    return excess;
+  }
+} // namespace quoin

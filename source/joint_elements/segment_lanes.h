@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_source_joint_elements_segment_lanes_h
+#define quoin_source_joint_elements_segment_lanes_h
+
+#include <quoin/base/lane_functions.h>
+#include <quoin/base/node_vector.h>
+#include <quoin/joint_elements/segment_group.h>
+
+#include <algorithm>
+
+// The geometry of joint_frame.h for several segments at once, one in each lane.
+
+namespace quoin
+{
+  template <int lanes>
+  struct SegmentLanes
+  {
+    using F     = LaneFunctions<lanes>;
+    using L     = Lanes<lanes>;
+    using Value = typename F::Value;
+    using Bits  = typename F::Bits;
+
+    Value normal[2];
+    Value inverse_length;      /**< see JointFrame [1/m] */
+    Value opening[2], slip[2]; /**< of both points [m] */
+
+    /** Segments that are there and have not become general contacts. */
+    static QUOIN_INLINE Bits present(const SegmentGroup<lanes> &group,
+                                     const std::uint8_t *handed_over)
+    {
+      if (group.size == lanes)
+        return F::load_bytes(handed_over + group.first) == 0;
+      std::uint8_t gone[lanes];
+      std::fill_n(gone, lanes, 1);
+      std::copy_n(handed_over + group.first, group.size, gone);
+      return F::load_bytes(gone) == 0;
+    }
+
+    /** Lanes that are not @p present have frames and gaps of zero. */
+    QUOIN_INLINE SegmentLanes(const SegmentGroup<lanes> &group,
+                              const NodeRecord<2> *nodes, const Bits &present)
+    {
+      // X, Y, u and v of lower[0], lower[1], upper[0], upper[1]
+      Value node[4][4];
+      const char *base = reinterpret_cast<const char *>(nodes);
+      for (unsigned int i = 0; i < 4; ++i)
+        L::load_four(
+            [&](const int l)
+            {
+              return reinterpret_cast<const double *>(
+                  base + 2 * std::size_t(group.nodes[i][l]));
+            },
+            node[i]);
+      const Value none{};
+      Value edge[2];
+      for (unsigned int d = 0; d < 2; ++d)
+        edge[d] = (node[1][d] - node[0][d]) + (node[3][d] - node[2][d])
+                  + (node[1][2 + d] - node[0][2 + d])
+                  + (node[3][2 + d] - node[2][2 + d]);
+      inverse_length
+          = 1. / F::square_root(edge[0] * edge[0] + edge[1] * edge[1]);
+      inverse_length = present ? inverse_length : none;
+      normal[0]      = edge[1] * inverse_length;
+      normal[1]      = -edge[0] * inverse_length;
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        Value gap[2];
+        for (unsigned int d = 0; d < 2; ++d)
+          gap[d] = (node[2 + k][d] - node[k][d])
+                   + (node[2 + k][2 + d] - node[k][2 + d]);
+        opening[k] = gap[0] * normal[0] + gap[1] * normal[1];
+        slip[k]    = gap[0] * normal[1] - gap[1] * normal[0];
+      }
+    }
+
+    /** Adds what the resultants @p sigma and @p tau [N] at both points do to
+        the nodes, with what the turning of the frame adds (joint_frame.h). */
+    QUOIN_INLINE void add_forces(const SegmentGroup<lanes> &group,
+                                 const Value (&sigma)[2], const Value (&tau)[2],
+                                 NodeVector<2> *force) const
+    {
+      char *to           = reinterpret_cast<char *>(force);
+      const Value couple = inverse_length
+                           * ((tau[0] * opening[0] - sigma[0] * slip[0])
+                              + (tau[1] * opening[1] - sigma[1] * slip[1]));
+      const Value end[2] = { couple * normal[0], couple * normal[1] };
+      Value pull[2][2];
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        pull[k][0] = sigma[k] * normal[0] + tau[k] * normal[1];
+        pull[k][1] = sigma[k] * normal[1] - tau[k] * normal[0];
+      }
+      L::add(to, group.nodes[0], pull[0][0] - end[0], pull[0][1] - end[1]);
+      L::add(to, group.nodes[1], pull[1][0] + end[0], pull[1][1] + end[1]);
+      L::add(to, group.nodes[2], -pull[0][0] - end[0], -pull[0][1] - end[1]);
+      L::add(to, group.nodes[3], end[0] - pull[1][0], end[1] - pull[1][1]);
+    }
+
+    /** Rates [m/s] of the openings and slips of both points. */
+    QUOIN_INLINE void find_rates(const SegmentGroup<lanes> &group,
+                                 const NodeVector<2> *velocity,
+                                 Value (&opening_rate)[2],
+                                 Value (&slip_rate)[2]) const
+    {
+      const char *base = reinterpret_cast<const char *>(velocity);
+      Value v[4][2];
+      for (unsigned int i = 0; i < 4; ++i)
+        L::load(base, 1, group.nodes[i], v[i][0], v[i][1]);
+      Value turn{};
+      for (unsigned int d = 0; d < 2; ++d)
+        turn -= normal[d] * ((v[1][d] - v[0][d]) + (v[3][d] - v[2][d]));
+      turn *= inverse_length;
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const Value x = v[2 + k][0] - v[k][0], y = v[2 + k][1] - v[k][1];
+        opening_rate[k] = x * normal[0] + y * normal[1] - slip[k] * turn;
+        slip_rate[k]    = x * normal[1] - y * normal[0] + opening[k] * turn;
+      }
+    }
+  };
+} // namespace quoin
+
+#endif

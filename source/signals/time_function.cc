@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/constants.h>
+#include <quoin/base/exceptions.h>
+#include <quoin/signals/signal_text.h>
+#include <quoin/signals/time_function.h>
+#include <quoin/signals/time_table.h>
+
+#include <deal.II/base/function_parser.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <sstream>
+
+namespace quoin
+{
+  TimeFunction::TimeFunction(const std::string &given,
+                             const std::string &folder)
+  {
+    std::string text    = dealii::Utilities::trim(given);
+    const bool is_named = TimeFunction::is_named(text);
+    if (is_named)
+    {
+      const std::size_t times = text.find(" times ");
+      const std::string named = text.substr(0, times);
+      if (is_signal_text(named))
+      {
+        const Signal signal = read_signal(named, folder);
+        evaluate            = [value = signal.value](const TimePoint &time)
+        { return value(time.stage); };
+        if (times == std::string::npos)
+          known = signal;
+      }
+      else
+      {
+        const std::string name = dealii::Utilities::trim(named.substr(5));
+        if (name.empty())
+          throw InputError("names no file: give 'table FILE' or 'table FILE "
+                           "times' and an expression.");
+        const auto table = std::make_shared<const TimeTable>(
+            read_time_table(name.front() == '/' ? name : folder + name));
+        evaluate = [table](const TimePoint &time)
+        { return interpolate(*table, time.stage); };
+      }
+      if (times == std::string::npos)
+        return;
+      text = text.substr(times + 7);
+    }
+
+    const auto parser = std::make_shared<dealii::FunctionParser<2>>(1);
+    try
+    {
+      parser->initialize("t,T", text, { { "pi", constants::pi } });
+      parser->value(dealii::Point<2>(0., 0.));
+    }
+    catch (const dealii::ExceptionBase &error)
+    {
+      std::ostringstream reason;
+      error.print_info(reason);
+      throw InputError("is no expression of t and T: " + reason.str());
+    }
+    const auto expression = [parser](const TimePoint &time)
+    { return parser->value(dealii::Point<2>(time.stage, time.total)); };
+    const double moments[] = { 0., 0.37, 41., 5e3 };
+    if (std::none_of(std::begin(moments), std::end(moments),
+                     [&](const double t) {
+                       return std::isfinite(expression({ t, t }));
+                     }))
+      throw InputError("is no finite number at any time.");
+    if (is_named)
+      evaluate = [named = evaluate, expression](const TimePoint &time)
+      { return named(time) * expression(time); };
+    else
+      evaluate = expression;
+  }
+
+  double half_cosine(const double time, const double duration)
+  {
+    return time < duration
+               ? 0.5 * (1. - std::cos(constants::pi * time / duration))
+               : 1.;
+  }
+
+  bool TimeFunction::is_named(const std::string &text)
+  {
+    return text.rfind("table ", 0) == 0 || is_signal_text(text);
+  }
+
+  Signal TimeFunction::signal() const
+  {
+    if (known.value)
+      return known;
+    Signal result;
+    result.value = [f = evaluate](const double t) { return f({ t, t }); };
+    return result;
+  }
+} // namespace quoin
