@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-<<<<<<< HEAD:source/contact/pair_dashpots.cc
-#include <quoin/contact/pair_dashpots.h>
 #include <quoin/base/none.h>
-=======
 #include <quoin/joint_elements/pair_dashpots.h>
->>>>>>> 98c235d63c65386376aec3a73072b4f664da275a:source/joint_elements/pair_dashpots.cc
 
 #include <deal.II/base/mpi.h>
 

@@ -2,12 +2,8 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/base/disjoint_sets.h>
-<<<<<<< HEAD:source/layout/block_faces.cc
 #include <quoin/base/none.h>
-#include <quoin/layout/block_faces.h>
-=======
 #include <quoin/rock/block_faces.h>
->>>>>>> 98c235d63c65386376aec3a73072b4f664da275a:source/rock/block_faces.cc
 
 #include <algorithm>
 #include <cmath>

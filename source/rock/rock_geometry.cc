@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
-#include <quoin/base/plane_geometry.h>
 #include <quoin/base/none.h>
+#include <quoin/base/plane_geometry.h>
 #include <quoin/rock/rock_layout.h>
 
 #include <algorithm>
