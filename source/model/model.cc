@@ -180,7 +180,8 @@ namespace quoin
   }
 
   template <int dim>
-  StableTimeStep<dim> Model<dim>::stability_at(const State<dim> &state) const
+  StableTimeStep<dim> Model<dim>::stability_at(const State<dim> &state,
+                                               const bool with_springs) const
   {
     std::vector<NodeStiffness<dim>> bound(node_map.n_local(),
                                           NodeStiffness<dim>{});
@@ -188,7 +189,8 @@ namespace quoin
     if constexpr (dim == 2)
       ratio = spring_ratio(state);
     for (const ForceOperator<dim> *each : stiff_operators())
-      each->add_stiffness_bound(state, ratio, bound);
+      if (with_springs || each->is_internal())
+        each->add_stiffness_bound(state, ratio, bound);
     node_map.exchange().add_to_owners(bound.data());
     bound.resize(node_map.n_owned());
     std::vector<double> rigid_bound;
@@ -196,7 +198,8 @@ namespace quoin
     {
       for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
         rigid_bound.push_back(rigid.largest_eigenvalue(b, bound));
-      add_dashpot_bound(bound, rigid_bound);
+      if (with_springs)
+        add_dashpot_bound(bound, rigid_bound);
     }
     std::fill(bound.begin() + node_map.n_deformable_nodes(), bound.end(),
               NodeStiffness<dim>{});

@@ -5,6 +5,7 @@
 #include <quoin/farfield/boundary_report.h>
 #include <quoin/advice/contact_advice.h>
 #include <quoin/dynamics/highest_frequency.h>
+#include <quoin/dynamics/step_limit.h>
 #include <quoin/dynamics/state_checks.h>
 #include <quoin/problems/block_problem.h>
 #include <quoin/problems/costs.h>
@@ -40,6 +41,11 @@ namespace quoin
                         stage.slows_loads() ? " steps or more" : " steps");
       if (added > 0.)
         text += text_of(", mass scaling adds ", 100. * added, " % of mass");
+      if (const double times = StableTimeStep<dim>::shortened_by(
+              critical, stage.stiffness_coefficient);
+          times > 1.1)
+        text += text_of(", stiffness-proportional damping makes it ", times,
+                        " times shorter");
       return text;
     }
 
@@ -148,6 +154,10 @@ namespace quoin
       }
       context.steps.choose(stage);
       run.log.message(step_text(context, stage));
+      if (i == 0)
+        if (const StepLimit<dim> limit = find_step_limit(*system.model, state);
+            limit.critical > 0.)
+          run.log.message(limit.text());
       if (run.options.check && i == 0)
         report_highest_frequency();
       advise_about_stage(i, begun);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace quoin
@@ -41,6 +42,18 @@ namespace quoin
       rigid_eigenvalue = eigenvalues;
     }
 
+    /** Bound of omega^2 [1/s^2] of owned node @p i with mass @p mass [kg]. */
+    double squared_frequency(const unsigned int i, const double mass) const
+    {
+      return eigenvalue[i] / mass;
+    }
+
+    /** omega^2 [1/s^2] of each rigid block. */
+    const std::vector<double> &rigid_blocks() const
+    {
+      return rigid_eigenvalue;
+    }
+
     /** Mass that node @p i needs for the step @p dt to be critical [kg]. */
     double mass_for(const unsigned int i, const double dt) const
     {
@@ -68,6 +81,13 @@ namespace quoin
      * 2/omega (sqrt(1 + xi^2) - xi), xi = beta omega / 2.
      */
     static double critical(double largest_eigenvalue, double beta);
+
+    /** How many times shorter @p beta makes the critical step: @p critical is
+        the damped one. */
+    static double shortened_by(const double critical, const double beta)
+    {
+      return std::sqrt(1. + 2. * beta / critical);
+    }
 
   private:
     std::vector<double> eigenvalue; /**< largest eigenvalue of S_i [N/m] */

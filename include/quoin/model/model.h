@@ -146,9 +146,11 @@ namespace quoin
     {
       return *stable_step;
     }
-    /** Bound of the critical step with the plastic strains of @p state;
-     * collective. */
-    StableTimeStep<dim> stability_at(const State<dim> &state) const;
+    /** Bound of the critical step with the plastic strains of @p state; of
+     * the blocks alone if joints and contacts are not @p with_springs.
+     * Collective. */
+    StableTimeStep<dim> stability_at(const State<dim> &state,
+                                     bool with_springs = true) const;
     /**
      * Lumped masses of owned nodes and ghosts [kg]; zero at the corners of
      * quadratic triangles.

@@ -5,6 +5,7 @@
 
 #include <quoin/blocks/stable_time_step.h>
 #include <quoin/dynamics/highest_frequency.h>
+#include <quoin/dynamics/step_limit.h>
 
 #include <Eigen/Dense>
 
@@ -80,6 +81,9 @@ TEST(StableTimeStep, CriticalStep)
     const double xi = 0.5 * beta * omega;
     EXPECT_NEAR(StableTimeStep<2>::critical(omega * omega, beta),
                 2. / omega * (std::sqrt(1. + xi * xi) - xi), 1e-9 / omega);
+    const double critical = StableTimeStep<2>::critical(omega * omega, beta);
+    EXPECT_NEAR(StableTimeStep<2>::shortened_by(critical, beta) * critical,
+                2. / omega, 1e-9 / omega);
   }
   // All damping: 2 / (beta omega^2), which the difference above would lose.
   EXPECT_NEAR(StableTimeStep<2>::critical(omega * omega, 1e6)
@@ -153,6 +157,44 @@ TEST(HighestFrequency, IsThatOfTheAssembledOperator)
       EXPECT_GE(found, exact * (1. - 1e-6)) << n << " " << kn;
       EXPECT_LE(found, exact * 1.015) << n << " " << kn;
     }
+}
+
+TEST(StepLimit, NamesTheStiffestBody)
+{
+  // Cells of the light and stiff block above, then stiff joints between.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 8, 4);
+  for (const double kn : { 1e3, 1e15 })
+  {
+    ModelParameters parameters = two_blocks(kn, 0.5 * kn);
+    parameters.materials       = { material("lower", 8000., 1e9, 0.4),
+                                   material("upper", 1000., 5e10, 0.) };
+    const TestNodes nodes(mesh);
+    const Model<2> model(nodes, parameters);
+    const StepLimit<2> limit = find_step_limit(model, model.initial_state());
+
+    std::vector<double> squared;
+    for (unsigned int i = 0; i < model.mass().size(); ++i)
+      squared.push_back(
+          model.stability().squared_frequency(i, model.mass()[i]));
+    const unsigned int stiffest
+        = std::max_element(squared.begin(), squared.end()) - squared.begin();
+    EXPECT_EQ(limit.where, model.nodes().point(stiffest));
+    EXPECT_EQ(limit.block, model.nodes().block_of_node(stiffest));
+    EXPECT_FALSE(limit.is_rigid);
+    EXPECT_NEAR(limit.cells_share, kn < 1e9 ? 1. : 0., 1e-3);
+    if (kn < 1e9)
+      EXPECT_EQ(limit.block, 1U);
+
+    std::sort(squared.begin(), squared.end(), std::greater<>());
+    const double n = squared.size();
+    EXPECT_DOUBLE_EQ(limit.critical, 2. / std::sqrt(squared[0]));
+    for (unsigned int k = 0; k < limit.longer.size(); ++k)
+      EXPECT_NEAR(
+          limit.longer[k],
+          std::sqrt(squared[0] / squared[std::ceil(limit.shares[k] * n)]),
+          2e-6 * limit.longer[k]);
+  }
 }
 
 TEST(StableTimeStep, BoundsTheLargestFrequencyOfUnequalBlocks)
