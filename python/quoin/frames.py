@@ -23,6 +23,10 @@ class Columns(dict):
     def columns(self):
         return list(self)
 
+    def __missing__(self, name):
+        raise KeyError(f"there is no column '{name}'; there are "
+                       + (", ".join(map(str, self)) or "none"))
+
     def __len__(self):
         return len(next(iter(self.values()), ()))
 

@@ -35,15 +35,18 @@ def all_joints(joints, contacts, farthest):
     """The joints of a moment, of which those that were handed over to contacts
     have tractions, states and fields of laws of the contact that lies on them.
     One without a contact keeps its own, which bears nothing. Those whose sides
-    are farther apart than @p farthest [m] are left out: there the blocks have
-    gone separate ways. None if nothing is left."""
+    are farther apart than @p farthest [m], or have turned against each other by
+    more than 60 degrees, are left out: there the blocks have gone separate ways.
+    None if nothing is left."""
     if joints is None:
         return None
     is_over = joints.cell_data["handed over"] != 0
     moved = from_the_start(joints).point_data
-    opening, slip = (moved[name][joints.cells].mean(axis=1)
-                     for name in ("opening", "slip"))
-    stays = ~is_over | (np.hypot(opening, slip) <= farthest)
+    apart = np.stack([moved[name][joints.cells] for name in ("opening", "slip")])
+    # a gap that grows by twice the sine of half the turn along a face
+    turned = np.linalg.norm(apart[:, :, 1] - apart[:, :, 0], axis=0)
+    stays = ~is_over | ((np.linalg.norm(apart.mean(axis=2), axis=0) <= farthest)
+                        & (turned <= joints.cell_data["length"]))
     if not stays.any():
         return None
     ends = joints.cells[stays].ravel()

@@ -7,7 +7,7 @@ import os
 
 import numpy as np
 
-from quoin import run_parameters, vtu
+from quoin import moments, run_parameters, stages, vtu
 from quoin.csv_table import Table, unit_of
 from quoin.frames import frame
 from quoin.joint_states import NAMES
@@ -83,10 +83,15 @@ class Results:
             self._series(series))])
 
     def fields(self, series="blocks", time=None):
-        """The Grid of a series nearest to a time [s], by default the last: its
-        points, cells, and point_data and cell_data, arrays by name. None if
-        the series is empty then."""
-        return vtu.read_at(self._series(series), time)
+        """The Grid of a series nearest to a time [s] or to the end of a stage,
+        by default the last: its points, cells, and point_data and cell_data,
+        arrays by name. None if the series is empty then. A time at which the
+        run had not begun or had ended is refused."""
+        path = self._series(series)
+        time = stages.time_of(self.output, time, stages.end)
+        if time is not None and vtu.read_pvd(path):
+            moments.check_times(self.output, series + ".pvd", [time])
+        return vtu.read_at(path, time)
 
     def field(self, name, time=None, series="blocks"):
         """An array of a series by its name, of its points or its cells."""
@@ -100,7 +105,7 @@ class Results:
 
     def joints(self, time=None):
         """A row each face of a joint of a plane model, at the time [s] nearest
-        to this, by default the last.
+        to this or to the end of this stage, by default the last.
 
         "x", "y" [m]: its middle now; "length" [m]; "set", the name in section
         'Joints'; "state": intact, slipping, slipped or open, the worse of its

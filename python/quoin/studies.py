@@ -35,11 +35,14 @@ def combinations(grid):
     axes = []
     for names, values in grid.items():
         together = names if isinstance(names, tuple) else (names,)
+        if isinstance(values, str) or not hasattr(values, "__iter__"):
+            values = ()
         axis = [value if isinstance(names, tuple) else (value,)
                 for value in values]
-        if not axis or any(len(value) != len(together) for value in axis):
-            raise ValueError(f"the grid of {', '.join(together)} needs one or "
-                             f"more values, each of {len(together)}")
+        if not axis or any(not isinstance(value, (tuple, list))
+                           or len(value) != len(together) for value in axis):
+            raise ValueError(f"the grid of {', '.join(together)} needs a list "
+                             f"of one or more values, each of {len(together)}")
         axes.append([dict(zip(together, value)) for value in axis])
     return [{name: value for part in parts for name, value in part.items()}
             for parts in itertools.product(*axes)]

@@ -57,7 +57,7 @@ def mean_dip(traces):
     double = (length * np.exp(2j * np.arctan2(ways[:, 1], ways[:, 0]))).sum()
     alike = min(abs(double) / length.sum(), 1.0)
     return (0.5 * np.degrees(np.angle(double)),
-            0.5 * np.degrees(np.sqrt(-2.0 * np.log(max(alike, 1e-12)))))
+            0.5 * np.degrees(np.sqrt(-2.0 * np.log(max(alike, 1e-12))) + 0.0))
 
 
 def read_csv(path):

@@ -69,6 +69,15 @@ class HandedOver(unittest.TestCase):
         self.assertEqual(list(found.cell_data["joint set"]), [0])
         self.assertIsNone(joint_movement.all_joints(None, None, 1.))
 
+    def test_a_block_that_turned_over(self):
+        joints = faces()
+        joints.cell_data["handed over"] = np.ones(2, dtype=np.uint8)
+        for turn, shown in ((50., [0, 1]), (70., [0])):
+            gap = 2. * np.sin(np.radians(turn / 2.))
+            joints.point_data["opening"] = np.array([0., 0., 0., gap])
+            found = joint_movement.all_joints(joints, None, 1.)
+            self.assertEqual(list(found.cell_data["joint set"]), shown)
+
     def test_what_a_contact_on_the_line_says(self):
         # on the first face alone
         contact = faces(((0.1, 0.9),))

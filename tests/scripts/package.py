@@ -76,7 +76,7 @@ class Results(unittest.TestCase):
         self.folder = os.path.join(scratch.name, "run")
         write_run(self.folder, [0., 1e-3, 2e-3], [0., -5., -4.],
                   {0: joint_grid(NOTHING, NOTHING),
-                   2: joint_grid(WIDE, NOTHING)})
+                   2: joint_grid(WIDE, NOTHING)}, ends={"settle": 0.})
         self.results = quoin.read(self.folder)
 
     def test_tables(self):
@@ -99,6 +99,8 @@ class Results(unittest.TestCase):
             frames.pandas = known
         self.assertEqual(histories.columns, ["time", "u", "f"])
         self.assertEqual(len(histories), 3)
+        with self.assertRaisesRegex(KeyError, "'g'; there are time, u, f"):
+            histories["g"]
         np.testing.assert_array_equal(histories["u"], [0., 1e-3, 2e-3])
         self.assertEqual(repr(histories).splitlines()[1].split(),
                          ["0", "0", "0"])
@@ -117,6 +119,10 @@ class Results(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "no field 'stress'; there are "
                                     "block, displacement, material"):
             self.results.field("stress")
+        with self.assertRaisesRegex(ValueError, "near 9 s: they are from 0 "):
+            self.results.field("displacement", 9.)
+        with self.assertRaisesRegex(ValueError, "'push' is neither a time"):
+            self.results.fields(time="push")
         with self.assertRaisesRegex(ValueError, "fields of blocks, joints"):
             self.results.times("contacts")
         with self.assertRaisesRegex(ValueError, "no such folder"):
@@ -130,7 +136,9 @@ class Results(unittest.TestCase):
         # the mean of both ends
         np.testing.assert_allclose(joints["opening"], [1e-4, 1.5e-4])
         np.testing.assert_allclose(joints["x"], [0.5 + 1e-5, 2. + 1.5e-5])
-        self.assertEqual(list(self.results.joints(0.)["opening"]), [0., 0.])
+        for time in (0., "settle"):
+            self.assertEqual(list(self.results.joints(time)["opening"]),
+                             [0., 0.])
 
 
 class Runs(unittest.TestCase):
@@ -336,7 +344,8 @@ class Runs(unittest.TestCase):
         self.assertEqual(
             studies.combinations({("a", "b"): [(1, 2), (3, 4)], "c": [5]}),
             [{"a": 1, "b": 2, "c": 5}, {"a": 3, "b": 4, "c": 5}])
-        for grid in ({"a": []}, {("a", "b"): [(1, 2, 3)]}):
+        for grid in ({"a": []}, {("a", "b"): [(1, 2, 3)]}, {"a": 1},
+                     {"a": "12"}, {("a", "b"): [1]}):
             with self.assertRaisesRegex(ValueError, "one or more values"):
                 studies.combinations(grid)
 

@@ -145,6 +145,8 @@ class Read(Files):
         dip, deviation = traces.mean_dip([trace(20., 3.), trace(200., 1.)])
         self.assertAlmostEqual(dip, 20.)
         self.assertAlmostEqual(deviation, 0., delta=1e-5)
+        deviation = traces.mean_dip([trace(30., 40.)])[1]
+        self.assertEqual(f"{deviation:.1f}", "0.0")
 
     def test_unit_that_a_drawing_names(self):
         head = [(0, "SECTION"), (2, "HEADER"), (9, "$ACADVER"), (1, "AC1015"),
