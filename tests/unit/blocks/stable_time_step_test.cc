@@ -184,7 +184,9 @@ TEST(StepLimit, NamesTheStiffestBody)
     EXPECT_FALSE(limit.is_rigid);
     EXPECT_NEAR(limit.cells_share, kn < 1e9 ? 1. : 0., 1e-3);
     if (kn < 1e9)
+    {
       EXPECT_EQ(limit.block, 1U);
+    }
 
     std::sort(squared.begin(), squared.end(), std::greater<>());
     const double n = squared.size();
