@@ -4,6 +4,7 @@
 #include <quoin/base/parameter_entries.h>
 
 #include <charconv>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -58,9 +59,14 @@ namespace quoin
     {
       char digits[32];
       // Fifteen digits: a quotient by a unit may be off in the last one.
-      const auto end = std::to_chars(digits, digits + sizeof(digits), value,
-                                     std::chars_format::general, 15)
-                           .ptr;
+      const auto end
+          = std::abs(value) < 1e6
+                ? std::to_chars(digits, digits + sizeof(digits), value,
+                                std::chars_format::general, 15)
+                      .ptr
+                : std::to_chars(digits, digits + sizeof(digits), value,
+                                std::chars_format::scientific)
+                      .ptr;
       std::string text(digits, end);
       // Writes 1e-7 and 1e6, not 1e-07 and 1e+06.
       if (const auto power = text.find('e'); power != std::string::npos)
