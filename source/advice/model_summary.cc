@@ -70,7 +70,8 @@ namespace quoin
       {
         std::set<unsigned int> nodes;
         for (const BoundaryFace<dim> &face :
-             faces_of_curves(node_map, load.boundaries, load.name))
+             faces_of_curves(node_map, load.boundaries, load.name,
+                             load.is_pressure_alone()))
           nodes.insert(face.nodes.begin(), face.nodes.end());
         return " on " + count_text(nodes.size(), "node") + " of "
                + join(load.boundaries, ", ");

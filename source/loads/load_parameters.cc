@@ -299,6 +299,13 @@ namespace quoin
                           { return part.field != nullptr; });
   }
 
+  bool LoadParameters::is_pressure_alone() const
+  {
+    const auto given = given_components();
+    return type == LoadType::traction && given.size() == 1
+           && pressure.quantity != LoadQuantity::free;
+  }
+
   std::array<double, 3>
   component_values(const std::array<LoadComponent, 3> &components,
                    const TimePoint &time)
@@ -385,7 +392,9 @@ namespace quoin
                      "Type of the load; 'boundary elements' are described in "
                      "section 'Boundary elements'.");
       entries.list("Boundary", load.boundaries,
-                   "Physical curves on which the load acts.");
+                   "Physical curves on which the load acts; where a "
+                   "traction is a pressure alone, also joints, on both "
+                   "faces.");
       if (const ParameterSection *section = entries.read_section())
         refuse_unread_parameters(*section);
       if (entries.reads_if(load.type == LoadType::platen))

@@ -51,7 +51,7 @@ namespace quoin
   std::vector<BoundaryFace<dim>>
   faces_of_curves(const NodeMap<dim> &node_map,
                   const std::vector<std::string> &names,
-                  const std::string &load)
+                  const std::string &load, const bool with_joints)
   {
     const auto &face_names = node_map.table().face_names;
     std::vector<BoundaryFace<dim>> faces;
@@ -66,13 +66,16 @@ namespace quoin
           = position(face_names, name, load, "Boundary", boundary_kind<dim>);
       std::vector<bool> wanted(face_names.size(), false);
       wanted[line]     = true;
-      const auto found = gather_faces(node_map, wanted);
+      const auto found = gather_faces(node_map, wanted, with_joints);
       faces.insert(faces.end(), found.begin(), found.end());
       if (found.empty())
         throw InputError("section 'Loads/" + load + "': 'Boundary = " + name
                          + (dim == 2 ? "' has no edge" : "' has no face")
                          + " on the outer boundary of a block. Name a boundary "
-                         + (dim == 2 ? "curve." : "surface."));
+                         + (dim == 2 ? "curve" : "surface")
+                         + ". A joint may be named by a load of the type "
+                           "'traction' that has a 'Pressure' alone, which then "
+                           "acts on both of its faces.");
     }
     return faces;
   }
@@ -150,7 +153,8 @@ namespace quoin
       return;
     }
     const auto faces
-        = faces_of_curves(node_map, parameters.boundaries, parameters.name);
+        = faces_of_curves(node_map, parameters.boundaries, parameters.name,
+                          parameters.is_pressure_alone());
     if (parameters.differs_by_place())
     {
       make_field(parameters, node_map, faces, thickness);
@@ -311,7 +315,7 @@ namespace quoin
   template class NodalLoad<2>;
   template std::vector<BoundaryFace<2>>
   faces_of_curves(const NodeMap<2> &, const std::vector<std::string> &,
-                  const std::string &);
+                  const std::string &, bool);
   template std::vector<unsigned int>
   groups_of_names(const NodeMap<2> &, const std::vector<std::string> &,
                   const std::string &);
@@ -319,7 +323,7 @@ namespace quoin
   template class NodalLoad<3>;
   template std::vector<BoundaryFace<3>>
   faces_of_curves(const NodeMap<3> &, const std::vector<std::string> &,
-                  const std::string &);
+                  const std::string &, bool);
   template std::vector<unsigned int>
   groups_of_names(const NodeMap<3> &, const std::vector<std::string> &,
                   const std::string &);

@@ -14,25 +14,43 @@ namespace quoin
 {
   template <int dim>
   std::vector<BoundaryFace<dim>> gather_faces(const NodeMap<dim> &nodes,
-                                              const std::vector<bool> &wanted)
+                                              const std::vector<bool> &wanted,
+                                              const bool with_joints)
   {
     std::vector<BoundaryFace<dim>> own;
-    for (const OuterFace<dim> &face : nodes.faces().outer)
+    const auto add = [&](const std::array<unsigned int, dim> &face_nodes,
+                         const unsigned int cell, const unsigned int name)
     {
-      if (!wanted[face.name])
-        continue;
       BoundaryFace<dim> result;
       for (unsigned int k = 0; k < dim; ++k)
       {
-        result.nodes[k]  = nodes.exchange().global(face.nodes[k]);
-        result.points[k] = nodes.point(face.nodes[k]);
-        result.shares[k] = face_share(nodes, face.nodes[k]);
+        result.nodes[k]  = nodes.exchange().global(face_nodes[k]);
+        result.points[k] = nodes.point(face_nodes[k]);
+        result.shares[k] = face_share(nodes, face_nodes[k]);
       }
-      result.group = nodes.cells().group[face.cell];
-      result.block = nodes.blocks().block_of_cell(face.cell);
-      result.name  = face.name;
+      result.group = nodes.cells().group[cell];
+      result.block = nodes.blocks().block_of_cell(cell);
+      result.name  = name;
       own.push_back(result);
-    }
+    };
+    for (const OuterFace<dim> &face : nodes.faces().outer)
+      if (wanted[face.name])
+        add(face.nodes, face.cell, face.name);
+    if (with_joints)
+      for (const JointNodes<dim> &joint : nodes.faces().joints)
+      {
+        if (!wanted[joint.name])
+          continue;
+        if (joint.is_own[0])
+          add(joint.lower, joint.cells[0], joint.name);
+        if (joint.is_own[1])
+        {
+          // The normal points out of the lower side: the other way round.
+          std::array<unsigned int, dim> upper = joint.upper;
+          std::swap(upper[0], upper[1]);
+          add(upper, joint.cells[1], joint.name);
+        }
+      }
     std::vector<BoundaryFace<dim>> all;
     for (const auto &part :
          dealii::Utilities::MPI::all_gather(nodes.communicator(), own))
@@ -105,15 +123,15 @@ namespace quoin
     return true;
   }
 
-  template std::vector<BoundaryFace<2>> gather_faces(const NodeMap<2> &,
-                                                     const std::vector<bool> &);
+  template std::vector<BoundaryFace<2>>
+  gather_faces(const NodeMap<2> &, const std::vector<bool> &, bool);
   template std::array<dealii::Point<2>, 2> box_of_block(const NodeMap<2> &,
                                                         unsigned int);
   template dealii::Point<2> point_of_block(const NodeMap<2> &, unsigned int);
   template bool first_point(const NodeMap<2> &, unsigned int,
                             dealii::Point<2> &, unsigned int *);
-  template std::vector<BoundaryFace<3>> gather_faces(const NodeMap<3> &,
-                                                     const std::vector<bool> &);
+  template std::vector<BoundaryFace<3>>
+  gather_faces(const NodeMap<3> &, const std::vector<bool> &, bool);
   template std::array<dealii::Point<3>, 2> box_of_block(const NodeMap<3> &,
                                                         unsigned int);
   template dealii::Point<3> point_of_block(const NodeMap<3> &, unsigned int);

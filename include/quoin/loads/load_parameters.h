@@ -97,6 +97,10 @@ namespace quoin
         'distribution'. */
     bool differs_by_place() const;
 
+    /** Whether tractions are a pressure and nothing else: it may act in
+        joints. */
+    bool is_pressure_alone() const;
+
     /** All functions of time: the components, lateral and pressure. */
     std::array<LoadComponent, 5> functions() const
     {

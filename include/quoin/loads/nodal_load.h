@@ -108,7 +108,7 @@ namespace quoin
   std::vector<BoundaryFace<dim>>
   faces_of_curves(const NodeMap<dim> &node_map,
                   const std::vector<std::string> &names,
-                  const std::string &load);
+                  const std::string &load, bool with_joints = false);
 
   /** Groups named @p names; throws an InputError naming @p load. */
   template <int dim>

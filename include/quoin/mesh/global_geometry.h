@@ -33,10 +33,12 @@ namespace quoin
   };
 
   /** The outer faces of all ranks whose names @p wanted says, by ascending
-      global nodes. */
+      global nodes; @p with_joints: and both faces of the joints whose names it
+      says, each with its block behind it. */
   template <int dim>
   std::vector<BoundaryFace<dim>> gather_faces(const NodeMap<dim> &nodes,
-                                              const std::vector<bool> &wanted);
+                                              const std::vector<bool> &wanted,
+                                              bool with_joints = false);
 
   /** Lower and upper corner of the box around block @p number [m]. */
   template <int dim>
