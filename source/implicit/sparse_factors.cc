@@ -14,7 +14,25 @@ namespace quoin
 {
   namespace
   {
+    /** Columns that are eliminated together. */
+    constexpr int block_size = 24;
+
     using Matrix = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+    /** Scalar product in eight parts, which the compiler takes at once. */
+    double product(const double *a, const double *b, const int n)
+    {
+      double parts[8] = {}, rest = 0.;
+      int i = 0;
+      for (; i + 8 <= n; i += 8)
+        for (int k = 0; k < 8; ++k)
+          parts[k] += a[i + k] * b[i + k];
+      for (; i < n; ++i)
+        rest += a[i] * b[i];
+      for (const double part : parts)
+        rest += part;
+      return rest;
+    }
 
     bool is_symmetric(const int n, const int *starts, const int *columns)
     {
@@ -109,7 +127,7 @@ namespace quoin
           node.in_parent.push_back(find(parent, node.rows[k]));
       }
       node.lower.resize(n_rows, node.n_columns);
-      node.upper.resize(node.n_columns, n_more);
+      node.upper.resize(n_more, node.n_columns);
       node.exchanges.resize(node.n_columns);
     }
     // Supernodes are in postorder: the updates of children lie on the top.
@@ -165,39 +183,63 @@ namespace quoin
       const Matrix all(front.data(), n_rows, n_rows,
                        Eigen::OuterStride<>(n_rows));
       node.lower = all.leftCols(n);
-      node.upper = all.topRightCorner(n, m);
-      auto own   = node.lower.topRows(n);
-      for (int k = 0; k < n; ++k)
-      {
-        int pivot;
-        const double size = own.col(k).tail(n - k).cwiseAbs().maxCoeff(&pivot);
-        if (!(size > 0.))
+      node.upper = all.topRightCorner(n, m).transpose();
+      for (int begin = 0; begin < n; begin += block_size)
+        if (!eliminate(node, begin, std::min(block_size, n - begin)))
           return false;
-        pivot += k;
-        node.exchanges[k] = pivot;
-        if (pivot != k)
-        {
-          own.row(k).swap(own.row(pivot));
-          node.upper.row(k).swap(node.upper.row(pivot));
-        }
-        const int left = n - k - 1;
-        own.col(k).tail(left) /= own(k, k);
-        for (int j = k + 1; j < n; ++j)
-          own.col(j).tail(left) -= own(k, j) * own.col(k).tail(left);
-      }
       if (m == 0)
         continue;
-      const auto triangle = node.lower.topRows(n);
-      triangle.triangularView<Eigen::UnitLower>().solveInPlace(node.upper);
-      auto below = node.lower.bottomRows(m);
-      triangle.triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(
-          below);
       Matrix update(top, m, m, Eigen::OuterStride<>(m));
       update = all.bottomRightCorner(m, m);
-      update.noalias() -= below * node.upper;
+      update.noalias() -= node.lower.bottomRows(m) * node.upper.transpose();
       top += std::size_t(m) * m;
       stack.push_back(s);
     }
+    return true;
+  }
+
+  bool SparseFactors::eliminate(Supernode &node, const int begin,
+                                const int size)
+  {
+    const int n = node.n_columns, n_rows = node.n_rows;
+    auto &lower = node.lower;
+    auto &upper = node.upper;
+    for (int k = begin; k < begin + size; ++k)
+    {
+      int pivot;
+      const double largest
+          = lower.col(k).segment(k, n - k).cwiseAbs().maxCoeff(&pivot);
+      if (!(largest > 0.))
+        return false;
+      pivot += k;
+      node.exchanges[k] = pivot;
+      if (pivot != k)
+      {
+        lower.row(k).swap(lower.row(pivot));
+        upper.col(k).swap(upper.col(pivot));
+      }
+      const int left = n_rows - k - 1;
+      lower.col(k).tail(left) /= lower(k, k);
+      for (int j = k + 1; j < begin + size; ++j)
+        lower.col(j).tail(left) -= lower(k, j) * lower.col(k).tail(left);
+    }
+    // Rows of other columns, once no row is exchanged any more.
+    const int next = begin + size, later = n - next;
+    for (int k = begin; k < next; ++k)
+      for (int j = k + 1; j < next; ++j)
+      {
+        upper.col(j) -= lower(j, k) * upper.col(k);
+        lower.row(j).tail(later) -= lower(j, k) * lower.row(k).tail(later);
+      }
+    if (later == 0)
+      return true;
+    lower.bottomRightCorner(n_rows - next, later).noalias()
+        -= lower.block(next, begin, n_rows - next, size)
+           * lower.block(begin, next, size, later);
+    if (upper.rows() > 0)
+      upper.rightCols(later).noalias()
+          -= upper.middleCols(begin, size)
+             * lower.block(next, begin, later, size).transpose();
     return true;
   }
 
@@ -214,8 +256,9 @@ namespace quoin
       for (int j = 0; j < n; ++j)
         own.tail(n - j - 1)
             -= own[j] * node.lower.col(j).segment(j + 1, n - j - 1);
-      auto more      = gathered.head(m);
-      more.noalias() = node.lower.bottomRows(m) * own;
+      auto more = gathered.head(m);
+      if (m > 0)
+        more.noalias() = node.lower.bottomRows(m) * own;
       for (int i = 0; i < m; ++i)
         work[node.rows[n + i]] -= more[i];
     }
@@ -226,7 +269,8 @@ namespace quoin
       auto more = gathered.head(m);
       for (int i = 0; i < m; ++i)
         more[i] = work[node->rows[n + i]];
-      own.noalias() -= node->upper * more;
+      for (int j = 0; j < n; ++j)
+        own[j] -= product(node->upper.col(j).data(), more.data(), m);
       for (int j = n - 1; j >= 0; --j)
       {
         own[j] /= node->lower(j, j);

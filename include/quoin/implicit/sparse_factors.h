@@ -4,7 +4,7 @@
 #ifndef quoin_implicit_sparse_factors_h
 #define quoin_implicit_sparse_factors_h
 
-#include <Eigen/Dense>
+#include <quoin/base/eigen_core.h>
 
 #include <vector>
 
@@ -43,9 +43,12 @@ namespace quoin
       std::vector<Entry> entries;
       unsigned int n_children = 0;
       Eigen::MatrixXd lower;     /**< all rows, own columns */
-      Eigen::MatrixXd upper;     /**< own columns, other rows */
+      Eigen::MatrixXd upper;     /**< transposed: other rows, own columns */
       Eigen::VectorXi exchanges; /**< of own rows */
     };
+
+    /** Eliminates @p size columns of a supernode; false: a pivot is zero. */
+    static bool eliminate(Supernode &node, int begin, int size);
 
     std::vector<int> permutation; /**< numbers in the matrix */
     std::vector<Supernode> supernodes;
