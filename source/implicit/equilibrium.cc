@@ -22,7 +22,7 @@ namespace quoin
 
     double norm(const NodeVector<2> &f)
     {
-      return std::hypot(f.v[0], f.v[1]);
+      return std::sqrt(f.v[0] * f.v[0] + f.v[1] * f.v[1]);
     }
   } // namespace
 

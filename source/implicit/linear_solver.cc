@@ -18,9 +18,9 @@ namespace quoin
     constexpr double iterative_tolerance   = 1e-10;
     constexpr unsigned int most_iterations = 1000;
 
-    /** Relative residual of a solution by SparseFactors [-]: that aimed at,
-        with so many refinements at most, and the largest accepted. */
-    constexpr double refined = 1e-11, accepted = 1e-8;
+    /** Relative residual of a solution by SparseFactors that is accepted [-],
+        after so many refinements at most. */
+    constexpr double accepted               = 1e-8;
     constexpr unsigned int most_refinements = 3;
   } // namespace
 
@@ -101,7 +101,7 @@ namespace quoin
     const double scale = right_hand_side.l2_norm();
     sparse_factors.solve(right_hand_side.begin(), solution.begin());
     double left = matrix->residual(remainder, solution, right_hand_side);
-    for (unsigned int i = 0; i < most_refinements && left > refined * scale;
+    for (unsigned int i = 0; i < most_refinements && left > accepted * scale;
          ++i)
     {
       sparse_factors.solve(remainder.begin(), refinement.begin());
