@@ -22,7 +22,7 @@ namespace quoin
 
     double norm(const NodeVector<2> &f)
     {
-      return std::hypot(f.v[0], f.v[1]);
+      return std::sqrt(f.v[0] * f.v[0] + f.v[1] * f.v[1]);
     }
   } // namespace
 
@@ -91,6 +91,17 @@ namespace quoin
     }
     entries.compress();
     matrix.reinit(entries);
+    int *starts, *columns;
+    matrix.trilinos_matrix().ExtractCrsDataPointers(starts, columns,
+                                                    matrix_values);
+    for (int row = 0; row < matrix.trilinos_matrix().NumMyRows(); ++row)
+    {
+      const int column
+          = matrix.trilinos_matrix().LCID(matrix.trilinos_matrix().GRID(row));
+      diagonal_places.push_back(
+          std::find(columns + starts[row], columns + starts[row + 1], column)
+          - columns);
+    }
   }
 
   void Equilibrium::find_far_stiffness()
@@ -155,10 +166,59 @@ namespace quoin
     return dealii::Utilities::MPI::max(largest, communicator);
   }
 
+  void Equilibrium::find_places(const ElementLinearisation<2> &element)
+  {
+    const unsigned int n = 2 * element.n_nodes;
+    ElementPlaces places{ all_places.size(), 0, {} };
+    element_dofs.resize(n);
+    dof_map.get_dofs(element.nodes, element.n_nodes, element_dofs);
+    const Epetra_CrsMatrix &rows = matrix.trilinos_matrix();
+    const bool is_free
+        = std::all_of(element_dofs.begin(), element_dofs.end(),
+                      [&](const Index dof)
+                      {
+                        return !dof_map.constraints().is_constrained(dof)
+                               && dof_map.owned().is_element(dof);
+                      });
+    if (is_free && element.n_nodes <= places.nodes.size())
+    {
+      std::copy(element.nodes, element.nodes + element.n_nodes,
+                places.nodes.begin());
+      places.n_values = n * n;
+      int *starts, *columns;
+      double *values;
+      rows.ExtractCrsDataPointers(starts, columns, values);
+      for (const Index i : element_dofs)
+      {
+        const int row = rows.LRID(int(i));
+        for (const Index j : element_dofs)
+          all_places.push_back(std::find(columns + starts[row],
+                                         columns + starts[row + 1],
+                                         rows.LCID(int(j)))
+                               - columns);
+      }
+    }
+    element_places.push_back(places);
+  }
+
   void Equilibrium::add_stiffness(const ElementLinearisation<2> &element,
                                   DofMap::Vector &by_advance)
   {
     const unsigned int n = 2 * element.n_nodes;
+    if (next_element == element_places.size())
+      find_places(element);
+    const ElementPlaces &places = element_places[next_element++];
+    if (places.n_values == n * n
+        && std::equal(element.nodes, element.nodes + element.n_nodes,
+                      places.nodes.begin()))
+    {
+      const int *to = all_places.data() + places.first;
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j < n; ++j)
+          matrix_values[*to++]
+              += element.share * element.stiffness[i * element.row_length + j];
+      return;
+    }
     if (element_dofs.size() != n || element_matrix.m() != n)
     {
       element_dofs.resize(n);
@@ -176,7 +236,8 @@ namespace quoin
 
   void Equilibrium::add_element(const ElementLinearisation<2> &element,
                                 AlignedArray<NodeVector<2>> &force,
-                                double &path, Slopes *slopes)
+                                double &path, const bool on_path,
+                                Slopes *slopes)
   {
     for (unsigned int k = 0; k < element.n_nodes; ++k)
       for (unsigned int d = 0; d < 2; ++d)
@@ -186,8 +247,10 @@ namespace quoin
     if (!slopes)
       return;
     add_stiffness(element, slopes->by_advance);
-    if (!is_on_path(element))
+    if (!on_path || !is_on_path(element))
       return;
+    element_dofs.resize(2 * element.n_nodes);
+    dof_map.get_dofs(element.nodes, element.n_nodes, element_dofs);
     std::array<double, 8> slope;
     for (unsigned int j = 0; j < slope.size(); ++j)
     {
@@ -274,8 +337,10 @@ namespace quoin
   void Equilibrium::add_forces(const State<2> &committed,
                                const Configuration &configuration,
                                const std::vector<std::uint8_t> &broken,
-                               Balance &balance, Slopes *slopes)
+                               Balance &balance, Slopes *slopes,
+                               const bool on_path)
   {
+    next_element    = 0;
     State<2> &trial = balance.state;
     trial.nodes     = configuration.nodes;
     trial.energy    = EnergyAccounts();
@@ -294,7 +359,7 @@ namespace quoin
                       [&](const ElementLinearisation<2> &element)
                       {
                         if (!dof_map.is_absent(element.nodes[0]))
-                          add_element(element, force, path, slopes);
+                          add_element(element, force, path, on_path, slopes);
                       });
     }
     balance.path
@@ -416,7 +481,8 @@ namespace quoin
     slopes.by_advance      = 0.;
     slopes.path_by_dof     = 0.;
     slopes.path_by_advance = 0.;
-    add_forces(committed, configuration, broken, balance, &slopes);
+    add_forces(committed, configuration, broken, balance, &slopes,
+               advance.on_path);
     add_drag(committed, configuration, balance, &slopes);
     add_far_field(committed, configuration, balance, &slopes);
     add_loads(committed, configuration, balance);
@@ -495,9 +561,12 @@ namespace quoin
     // scaled to keep the condition number.
     const double size
         = matrix.frobenius_norm() / std::sqrt(double(dof_map.owned().size()));
+    unsigned int local = 0;
     for (const Index row : dof_map.owned())
-      if (matrix.diag_element(row) == 0. && row != dof_map.factor())
-        matrix.set(row, row, size > 0. ? size : 1.);
-    matrix.compress(dealii::VectorOperation::insert);
+    {
+      double &value = matrix_values[diagonal_places[local++]];
+      if (value == 0. && row != dof_map.factor())
+        value = size > 0. ? size : 1.;
+    }
   }
 } // namespace quoin

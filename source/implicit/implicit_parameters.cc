@@ -71,7 +71,7 @@ namespace quoin
           { { "automatic", LinearSolverType::automatic },
             { "direct", LinearSolverType::direct },
             { "iterative", LinearSolverType::iterative } },
-          "Solver of linear systems. direct: LU factors, by Amesos; iterative: "
+          "Solver of linear systems. direct: LU factors; iterative: "
           "GMRES with algebraic multigrid that includes the rigid body modes; "
           "automatic: iterative beyond 200 000 degrees of freedom.");
       if (const ParameterSection *section = entries.read_section())

@@ -158,6 +158,7 @@ namespace quoin
     {
       advance.load_time = target.load_time;
       advance.released  = target.released;
+      advance.on_path   = target.path > 0.;
       if (target.path > 0.) // the load time is an unknown
         advance.load_time
             = configuration.load_time + target.load_time - state.load_time;
@@ -221,6 +222,7 @@ namespace quoin
     double share        = 0.;
     advance.load_time   = target.load_time;
     advance.released    = target.released;
+    advance.on_path     = target.path > 0.;
     equilibrium->linearise(state, configuration, broken, advance, balance,
                            slopes);
     find_correction(target, configuration, true, share);

@@ -17,6 +17,11 @@ namespace quoin
     /** Relative residual, negligible in Newton's method [-]. */
     constexpr double iterative_tolerance   = 1e-10;
     constexpr unsigned int most_iterations = 1000;
+
+    /** Relative residual of a solution by SparseFactors that is accepted [-],
+        after so many refinements at most. */
+    constexpr double accepted               = 1e-8;
+    constexpr unsigned int most_refinements = 3;
   } // namespace
 
   LinearSolver::LinearSolver(const LinearSolverType type, const Model<2> &model,
@@ -34,20 +39,7 @@ namespace quoin
   {
     matrix = &new_matrix;
     if (direct)
-    {
-      factors = std::make_unique<dealii::TrilinosWrappers::SolverDirect>(
-          control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(
-                       false, "Amesos_Klu"));
-      try
-      {
-        factors->initialize(*matrix);
-      }
-      catch (const dealii::ExceptionBase &)
-      {
-        return false; // singular
-      }
-      return true;
-    }
+      return factorise() || factorise_with_pivoting();
     find_rigid_motions(*matrix, configuration);
     Teuchos::ParameterList list;
     dealii::TrilinosWrappers::PreconditionAMG::AdditionalData data;
@@ -63,6 +55,60 @@ namespace quoin
     list.set("null space: vectors", rigid_motions->Values());
     multigrid.initialize(matrix->trilinos_matrix(), list);
     return true;
+  }
+
+  bool LinearSolver::factorise()
+  {
+    const Epetra_CrsMatrix &rows = matrix->trilinos_matrix();
+    int *starts, *columns;
+    double *values;
+    if (rows.ExtractCrsDataPointers(starts, columns, values) != 0)
+      return false;
+    if (!is_analysed)
+    {
+      is_analysed = true;
+      has_pattern
+          = rows.Comm().NumProc() == 1
+            && dof_map.factor() == dealii::numbers::invalid_dof_index
+            && rows.RowMap().SameAs(rows.ColMap())
+            && sparse_factors.analyse(rows.NumMyRows(), starts, columns);
+      remainder.reinit(dof_map.owned(), model.nodes().communicator());
+      refinement = remainder;
+    }
+    factors.reset();
+    return has_pattern && sparse_factors.factorise(values);
+  }
+
+  bool LinearSolver::factorise_with_pivoting()
+  {
+    factors = std::make_unique<dealii::TrilinosWrappers::SolverDirect>(
+        control, dealii::TrilinosWrappers::SolverDirect::AdditionalData(
+                     false, "Amesos_Klu"));
+    try
+    {
+      factors->initialize(*matrix);
+    }
+    catch (const dealii::ExceptionBase &)
+    {
+      return false; // singular
+    }
+    return true;
+  }
+
+  bool LinearSolver::solve_by_factors(const Vector &right_hand_side,
+                                      Vector &solution)
+  {
+    const double scale = right_hand_side.l2_norm();
+    sparse_factors.solve(right_hand_side.begin(), solution.begin());
+    double left = matrix->residual(remainder, solution, right_hand_side);
+    for (unsigned int i = 0; i < most_refinements && left > accepted * scale;
+         ++i)
+    {
+      sparse_factors.solve(remainder.begin(), refinement.begin());
+      solution += refinement;
+      left = matrix->residual(remainder, solution, right_hand_side);
+    }
+    return left <= accepted * scale; // not if it is no number
   }
 
   void LinearSolver::find_rigid_motions(const Matrix &stiffness,
@@ -124,7 +170,15 @@ namespace quoin
     try
     {
       if (direct)
-        factors->solve(solution, right_hand_side);
+      {
+        if (factors || !solve_by_factors(right_hand_side, solution))
+        {
+          if (!factors && !factorise_with_pivoting())
+            return false;
+          solution = 0.;
+          factors->solve(solution, right_hand_side);
+        }
+      }
       else
       {
         control.set_tolerance(iterative_tolerance * scale);

@@ -54,8 +54,9 @@ namespace quoin
   /** Target of a step from a configuration. */
   struct Advance
   {
-    double load_time = 0.; /**< there [s] */
-    double released  = 1.; /**< there [-] */
+    double load_time = 0.;    /**< there [s] */
+    double released  = 1.;    /**< there [-] */
+    bool on_path     = false; /**< whether slopes of the path are needed */
   };
 
   /** Derivatives at a configuration, besides the stiffness matrix. */
@@ -64,8 +65,8 @@ namespace quoin
     /** Change of the residual by the loads and prescribed motions of a whole
         Advance [N]. */
     DofMap::Vector by_advance;
-    /** Derivatives of Balance::path: by degree of freedom [-], and by the
-        prescribed motions of a whole Advance [m]. */
+    /** Derivatives of Balance::path, if the Advance is on_path: by degree of
+        freedom [-], and by the prescribed motions of a whole Advance [m]. */
     DofMap::Vector path_by_dof;
     double path_by_advance = 0.;
   };
@@ -143,7 +144,7 @@ namespace quoin
     void add_forces(const State<2> &committed,
                     const Configuration &configuration,
                     const std::vector<std::uint8_t> &broken, Balance &balance,
-                    Slopes *slopes);
+                    Slopes *slopes, bool on_path = false);
     void add_loads(const State<2> &committed,
                    const Configuration &configuration, Balance &balance);
     void add_drag(const State<2> &committed, const Configuration &configuration,
@@ -159,6 +160,8 @@ namespace quoin
                      DofMap::Vector &by_advance);
     void find_ratio(const AlignedArray<NodeVector<2>> &applied,
                     Balance &balance);
+    /** Finds the values of the matrix that an element adds to. */
+    void find_places(const ElementLinearisation<2> &element);
     /** Adds an element to matrix and, by prescribed motion, @p by_advance. */
     void add_stiffness(const ElementLinearisation<2> &element,
                        DofMap::Vector &by_advance);
@@ -171,7 +174,7 @@ namespace quoin
         of @p slopes, unless that is null. */
     void add_element(const ElementLinearisation<2> &element,
                      AlignedArray<NodeVector<2>> &force, double &path,
-                     Slopes *slopes);
+                     bool on_path, Slopes *slopes);
     void add_far_field(const State<2> &committed,
                        const Configuration &configuration, Balance &balance,
                        const Slopes *slopes);
@@ -196,7 +199,24 @@ namespace quoin
         far_stiffness;
     std::vector<DofMap::Index> far_rows, far_columns; /**< of this rank, all */
 
+    /** Places of an element's stiffness in the matrix's values, row by row,
+        from a first one on in all places. An element some of whose degrees of
+        freedom are constrained, or of another rank, has none: n_values is 0. */
+    struct ElementPlaces
+    {
+      std::size_t first;
+      unsigned int n_values;
+      std::array<unsigned int, 6> nodes;
+    };
+
     dealii::TrilinosWrappers::SparseMatrix matrix;
+    double *matrix_values = nullptr;          /**< of the rows of this rank */
+    std::vector<std::size_t> diagonal_places; /**< of owned rows */
+    /** Of elements in the order in which operators give them, which is the same
+        every time; found when they are first added. */
+    std::vector<ElementPlaces> element_places;
+    std::vector<int> all_places;
+    std::size_t next_element = 0; /**< in that order */
     dealii::FullMatrix<double> element_matrix;
     dealii::Vector<double> no_load; /**< of an element */
     std::vector<DofMap::Index> element_dofs;

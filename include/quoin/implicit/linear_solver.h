@@ -6,6 +6,7 @@
 
 #include <quoin/implicit/dof_map.h>
 #include <quoin/implicit/implicit_parameters.h>
+#include <quoin/implicit/sparse_factors.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
 #include <deal.II/lac/trilinos_solver.h>
@@ -20,7 +21,10 @@ namespace quoin
   /**
    * Solves with the stiffness matrix, by LU factors or by GMRES that is
    * preconditioned by smoothed aggregation multigrid. Multigrid gets the three
-   * rigid body modes as near null space.
+   * rigid body modes as near null space. One rank has SparseFactors, whose
+   * solutions are checked; several ranks, matrices with the row of a load
+   * factor and those that it does not solve have the factors of KLU, which
+   * exchanges any rows.
    */
   class LinearSolver
   {
@@ -50,12 +54,22 @@ namespace quoin
   private:
     void find_rigid_motions(const Matrix &matrix,
                             const Configuration &configuration);
+    /** Factorises by SparseFactors; returns success. */
+    bool factorise();
+    /** Factorises by KLU; returns success. */
+    bool factorise_with_pivoting();
+    /** Solves by SparseFactors; false: the residual stays too large. */
+    bool solve_by_factors(const Vector &right_hand_side, Vector &solution);
 
     const Model<2> &model;
     const DofMap &dof_map;
     bool direct;
     const Matrix *matrix = nullptr;
     dealii::SolverControl control;
+    bool is_analysed = false, has_pattern = false;
+    SparseFactors sparse_factors;
+    Vector remainder, refinement;
+    /** Factors of KLU; null: sparse_factors are those of the matrix. */
     std::unique_ptr<dealii::TrilinosWrappers::SolverDirect> factors;
     std::unique_ptr<Epetra_MultiVector> rigid_motions;
     dealii::TrilinosWrappers::PreconditionAMG multigrid;
