@@ -60,6 +60,8 @@ namespace quoin
   bool LinearSolver::factorise()
   {
     const Epetra_CrsMatrix &rows = matrix->trilinos_matrix();
+    if (rows.Comm().NumProc() > 1)
+      return false;
     int *starts, *columns;
     double *values;
     if (rows.ExtractCrsDataPointers(starts, columns, values) != 0)

@@ -161,8 +161,7 @@ namespace quoin
     {
       Supernode &node = supernodes[s];
       const int n = node.n_columns, n_rows = node.n_rows, m = n_rows - n;
-      std::fill(front.begin(), front.begin() + std::size_t(n_rows) * n_rows,
-                0.);
+      front.head(std::size_t(n_rows) * n_rows).setZero();
       for (const Entry &entry : node.entries)
         front[entry.offset] += values[entry.value];
       for (unsigned int c = 0; c < node.n_children; ++c)

@@ -52,7 +52,9 @@ namespace quoin
 
     std::vector<int> permutation; /**< numbers in the matrix */
     std::vector<Supernode> supernodes;
-    std::vector<double> front, updates; /**< updates: a stack */
+    /** Updates are a stack. Aligned, as rounding of sums in registers depends
+       on where these begin. */
+    Eigen::VectorXd front, updates;
     Eigen::VectorXd work, gathered;
   };
 } // namespace quoin
