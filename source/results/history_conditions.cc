@@ -4,6 +4,7 @@
 #include <quoin/results/history_conditions.h>
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/expression.h>
 #include <quoin/base/known_names.h>
 #include <quoin/base/nearest_name.h>
 
@@ -13,7 +14,6 @@
 #include <cctype>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 namespace quoin
 {
@@ -113,16 +113,9 @@ namespace quoin
     if (condition.names.empty())
       throw InputError(begin + "which names no history. Known are: "
                        + known_names(known) + ".");
-    try
-    {
-      value(condition, std::vector<double>(known.size(), 0.));
-    }
-    catch (const dealii::ExceptionBase &error)
-    {
-      std::ostringstream reason;
-      error.print_info(reason);
-      throw InputError(begin + "which is no expression: " + reason.str());
-    }
+    parse_expression(
+        expression, begin + "which is no expression",
+        [&]() { value(condition, std::vector<double>(known.size(), 0.)); });
     return condition;
   }
 

@@ -4,6 +4,7 @@
 #include <quoin/signals/space_time_function.h>
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/expression.h>
 #include <quoin/signals/time_function.h>
 
 #include <deal.II/base/function_parser.h>
@@ -11,7 +12,6 @@
 
 #include <memory>
 #include <regex>
-#include <sstream>
 
 namespace quoin
 {
@@ -64,21 +64,17 @@ namespace quoin
                        "one: take t, the time in the stage.");
 
     const auto parser = std::make_shared<dealii::FunctionParser<3>>(1);
-    try
-    {
-      // Without z the third component has a name that no expression has.
-      parser->initialize(has_total  ? "x,y,T,t"
-                         : dim == 2 ? "x,y,z_,t"
-                                    : "x,y,z,t",
-                         text, { { "pi", constants::pi } }, true);
-      parser->value(dealii::Point<3>());
-    }
-    catch (const dealii::ExceptionBase &error)
-    {
-      std::ostringstream reason;
-      error.print_info(reason);
-      throw InputError("is no expression of " + names + ": " + reason.str());
-    }
+    // Without z the third component has a name that no expression has.
+    parse_expression(text, "is no expression of " + names,
+                     [&]()
+                     {
+                       parser->initialize(has_total  ? "x,y,T,t"
+                                          : dim == 2 ? "x,y,z_,t"
+                                                     : "x,y,z,t",
+                                          text, { { "pi", constants::pi } },
+                                          true);
+                       parser->value(dealii::Point<3>());
+                     });
     on_place = mentions(text, "xyz");
     on_time  = on_time || mentions(text, "tT");
     evaluate = [parser, has_total](dealii::Point<3> x, const TimePoint &time)

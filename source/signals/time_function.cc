@@ -3,6 +3,7 @@
 
 #include <quoin/base/constants.h>
 #include <quoin/base/exceptions.h>
+#include <quoin/base/expression.h>
 #include <quoin/signals/signal_text.h>
 #include <quoin/signals/time_function.h>
 #include <quoin/signals/time_table.h>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <iterator>
 #include <memory>
-#include <sstream>
 
 namespace quoin
 {
@@ -52,17 +52,13 @@ namespace quoin
     }
 
     const auto parser = std::make_shared<dealii::FunctionParser<2>>(1);
-    try
-    {
-      parser->initialize("t,T", text, { { "pi", constants::pi } });
-      parser->value(dealii::Point<2>(0., 0.));
-    }
-    catch (const dealii::ExceptionBase &error)
-    {
-      std::ostringstream reason;
-      error.print_info(reason);
-      throw InputError("is no expression of t and T: " + reason.str());
-    }
+    parse_expression(
+        text, "is no expression of t and T",
+        [&]()
+        {
+          parser->initialize("t,T", text, { { "pi", constants::pi } });
+          parser->value(dealii::Point<2>(0., 0.));
+        });
     const auto expression = [parser](const TimePoint &time)
     { return parser->value(dealii::Point<2>(time.stage, time.total)); };
     const double moments[] = { 0., 0.37, 41., 5e3 };
