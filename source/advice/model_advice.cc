@@ -283,6 +283,33 @@ namespace quoin
       }
     }
 
+    /** Signs and units of the initial stress of deformable blocks. */
+    void check_initial_stress(const Model<2> &model, Advice &advice)
+    {
+      /** The largest normal stress below which MPa may have been meant [Pa]. */
+      constexpr double few_pascals    = 1e3;
+      const BlockForcesData<2> &cells = model.blocks().cell_data();
+      std::vector<double> largest     = { 0., 0. }; // tension, magnitude
+      for (unsigned int c = 0; c < cells.cells.size(); ++c)
+      {
+        const auto [xx, yy, xy, zz] = cells.initial_stress_of(c);
+        largest[0]                  = std::max({ largest[0], xx, yy });
+        largest[1]                  = std::max(
+                             { largest[1], std::abs(xx), std::abs(yy), std::abs(xy) });
+      }
+      dealii::Utilities::MPI::max(largest, model.nodes().communicator(),
+                                  largest);
+      Checks checks(advice, "initial stress: ");
+      checks.warn_if(largest[0] > 0.01 * largest[1],
+                     "blocks are in tension of up to ", largest[0],
+                     " Pa. Tension is positive: compressive stresses are "
+                     "negative numbers.");
+      checks.warn_if(largest[1] > 0. && largest[1] < few_pascals,
+                     "it is nowhere larger than ", largest[1],
+                     " Pa. Stresses are in Pa: -8e6, not -8, for 8 MPa of "
+                     "compression.");
+    }
+
     template <int dim>
     void check_materials(const Parameters &parameters, const Model<dim> &model,
                          Advice &advice)
@@ -338,7 +365,10 @@ namespace quoin
     check_ranks(report, model.nodes(), advice);
     check_laws(parameters, advice);
     if constexpr (dim == 2)
+    {
       check_initial_joints(parameters, model, state, advice);
+      check_initial_stress(model, advice);
+    }
     check_materials(parameters, model, advice);
     if constexpr (dim == 2)
     {

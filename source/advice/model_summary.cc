@@ -10,11 +10,14 @@
 #include <quoin/mesh/global_geometry.h>
 #include <quoin/advice/model_summary.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -186,6 +189,41 @@ namespace quoin
     return lines;
   }
 
+  namespace
+  {
+    /** Range of the initial stress of @p load at the cells of its groups. */
+    std::string stress_text(const LoadParameters &load, const NodeMap<2> &nodes)
+    {
+      const auto groups = groups_of_names(nodes, load.groups, load.name);
+      std::vector<double> low(3, std::numeric_limits<double>::max());
+      std::vector<double> minus_high = low;
+      for (unsigned int c = 0; c < nodes.cells().size(); ++c)
+      {
+        if (!groups.empty()
+            && std::count(groups.begin(), groups.end(), nodes.cells().group[c])
+                   == 0)
+          continue;
+        dealii::Point<2> centre;
+        for (const unsigned int node : nodes.cells().nodes[c])
+          centre += nodes.point(node) / 3.;
+        const auto stress = load.initial_stress(centre[0], centre[1], 0.);
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          low[k]        = std::min(low[k], stress[k]);
+          minus_high[k] = std::min(minus_high[k], -stress[k]);
+        }
+      }
+      dealii::Utilities::MPI::min(low, nodes.communicator(), low);
+      dealii::Utilities::MPI::min(minus_high, nodes.communicator(), minus_high);
+      std::string text;
+      const char *names[] = { "xx", "yy", "xy" };
+      for (unsigned int k = 0; k < 3 && low[0] <= -minus_high[0]; ++k)
+        text += text_of(k == 0 ? ": " : ", ", names[k], " ",
+                        range_text(low[k], -minus_high[k]));
+      return text.empty() ? text : text + " Pa";
+    }
+  } // namespace
+
   template <int dim>
   std::vector<std::string> load_lines(const Parameters &parameters,
                                       const NodeMap<dim> &nodes)
@@ -211,6 +249,9 @@ namespace quoin
         text += text_of(", moving, over ", load.shape->width, " m");
       if (load.type == LoadType::free_field)
         text += ", on the base " + load.base;
+      if constexpr (dim == 2)
+        if (load.type == LoadType::initial_stress)
+          text += stress_text(load, nodes);
       for (const StageParameters &stage : parameters.stages)
         if (is_in_pattern(stage, load))
           text += ", times the factor that stage " + stage.name + " seeks";
