@@ -93,6 +93,78 @@ namespace quoin
           "T / 2), or give a 'Kinetic energy limit'.");
     }
 
+    /** A motion that loads prescribe. */
+    struct PrescribedShaking
+    {
+      std::string load;         /**< empty: none */
+      double acceleration = 0.; /**< largest one [m/s^2] */
+    };
+
+    /**
+     * The strongest motion by which a load shakes the model. Slow motions that
+     * begin and end smoothly do not, nor do those that begin at once or reverse
+     * at once at a constant velocity: they load it.
+     */
+    PrescribedShaking find_shaking(const StageOfRun &run)
+    {
+      /** Acceleration and velocity of weak earthquakes [m/s^2, m/s]. */
+      constexpr double least_acceleration = 1., least_velocity = 0.05;
+      /** Change within an interval, by the range, that is a jump [-]. */
+      constexpr double jump    = 0.3;
+      constexpr unsigned int n = 1025;
+      const double interval    = run.stage.duration / (n - 1);
+      PrescribedShaking found;
+      for (const LoadParameters *load : run.loads)
+        for (const auto &given : load->given_components())
+        {
+          const LoadQuantity quantity = given.component.quantity;
+          if ((load->type != LoadType::prescribed_motion
+               && load->type != LoadType::platen)
+              || given.component.field || given.name == "rotation"
+              || quantity == LoadQuantity::force)
+            continue;
+          auto values
+              = sampled(run.function(given.component), run.stage.duration, n);
+          if (quantity == LoadQuantity::displacement)
+            values = derivative(values, interval);
+          const auto [low, high]
+              = std::minmax_element(values.begin(), values.end());
+          if (std::max(-*low, *high) < least_velocity)
+            continue;
+          for (unsigned int i = 0; i + 1 < n; ++i)
+          {
+            const double change = std::abs(values[i + 1] - values[i]);
+            if (change < jump * (*high - *low)
+                && change > std::max(least_acceleration, found.acceleration)
+                                * interval)
+              found = { load->name, change / interval };
+          }
+        }
+      return found;
+    }
+
+    /** Warns of damping for equilibria in a stage that follows motion. */
+    void check_damped_motion(const StageOfRun &run, Checks &checks)
+    {
+      const std::string damping
+          = run.stage.damping == DampingType::local ? "local" : "adaptive";
+      const std::string cure
+          = ", and 'Damping = " + damping
+            + "', which is meant for equilibria, falsifies motion: blocks that "
+              "would rock, slide or fall may stand. Take 'Rayleigh' with a "
+              "stiffness coefficient, or 'none' with a 'Restitution' of "
+              "joints.";
+      const PrescribedShaking shaking = find_shaking(run);
+      checks.warn_if(!shaking.load.empty(), "the load ", shaking.load,
+                     " shakes the model with up to ", shaking.acceleration,
+                     " m/s^2", cure);
+      checks.warn_if(run.index == 0
+                         && !run.parameters.initial_motion.velocity.empty(),
+                     "the model begins with the velocities of section 'Initial "
+                     "motion'",
+                     cure);
+    }
+
     void check_damping(const StageOfRun &run, Checks &checks)
     {
       const StageParameters &stage = run.stage;
@@ -102,6 +174,9 @@ namespace quoin
           stage.end == StageEnd::time && is_of_equilibria && brings_waves(run),
           "waves come in, and 'Damping = local' or 'adaptive', which is meant "
           "for equilibria, takes their energy. Take 'none' or 'Rayleigh'.");
+      if (stage.end == StageEnd::time && !stage.slows_loads()
+          && is_of_equilibria)
+        check_damped_motion(run, checks);
       checks.warn_if(
           stage.scaled_time_step > 0. && stage.end == StageEnd::time
               && !stage.slows_loads() && !is_of_equilibria,

@@ -31,6 +31,74 @@ namespace quoin
     return dealii::Utilities::MPI::max(largest, nodes.communicator());
   }
 
+  void JointMotion::take_larger(const JointMotion &other)
+  {
+    slip     = std::max(slip, other.slip);
+    distance = std::max(distance, other.distance);
+    turn     = std::max(turn, other.turn);
+  }
+
+  namespace
+  {
+    /** Mean rotation of each block of the whole mesh by the displacements of
+        its nodes, linear in them [rad]. Collective. */
+    std::vector<double> block_rotations(const NodeMap<2> &nodes,
+                                        const State<2> &state)
+    {
+      // Of each block: number of nodes, sums of X, u, X x u and X . X.
+      constexpr unsigned int n = 7;
+      std::vector<double> sums(n * nodes.table().n_blocks(), 0.);
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      {
+        const auto &[X, u]    = state.nodes[i];
+        double *sum           = &sums[n * nodes.block_of_node(i)];
+        const double added[n] = { 1.,
+                                  X[0],
+                                  X[1],
+                                  u[0],
+                                  u[1],
+                                  X[0] * u[1] - X[1] * u[0],
+                                  X[0] * X[0] + X[1] * X[1] };
+        for (unsigned int k = 0; k < n; ++k)
+          sum[k] += added[k];
+      }
+      dealii::Utilities::MPI::sum(sums, nodes.communicator(), sums);
+      std::vector<double> rotations(nodes.table().n_blocks(), 0.);
+      for (unsigned int b = 0; b < rotations.size(); ++b)
+      {
+        const double *sum = &sums[n * b];
+        const double inertia
+            = sum[6] - (sum[1] * sum[1] + sum[2] * sum[2]) / sum[0];
+        if (inertia > 0.)
+          rotations[b] = (sum[5] - (sum[1] * sum[4] - sum[2] * sum[3]) / sum[0])
+                         / inertia;
+      }
+      return rotations;
+    }
+  } // namespace
+
+  JointMotion joint_motion(const Model<2> &model, const State<2> &state)
+  {
+    const NodeMap<2> &nodes = model.nodes();
+    const auto rotations    = block_rotations(nodes, state);
+    JointMotion motion;
+    for (const JointSegment &segment : model.joints().segments())
+    {
+      const unsigned int a = nodes.block_of_node(segment.lower[0]),
+                         b = nodes.block_of_node(segment.upper[0]);
+      if (state.is_absent(a) || state.is_absent(b))
+        continue;
+      motion.turn
+          = std::max(motion.turn, std::abs(rotations[a] - rotations[b]));
+      for (const auto &gap : joint_gaps(segment, state.nodes.data()))
+        motion.distance = std::max(motion.distance, std::hypot(gap[0], gap[1]));
+    }
+    for (double *value : { &motion.turn, &motion.distance })
+      *value = dealii::Utilities::MPI::max(*value, nodes.communicator());
+    motion.slip = largest_slip_share(model, state);
+    return motion;
+  }
+
   namespace
   {
     /** Height of a cell by its longest edge below which its shape is a likely

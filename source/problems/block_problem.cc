@@ -242,7 +242,10 @@ namespace quoin
   {
     archive &archived &context.outputs &context.iterations &context
         .cuts &context.searches &context.outcomes &context.loads &context
-        .damping_shares &context.peaks &context.displaced;
+        .damping_shares &context.peaks &context.displaced &context.joint_motion;
+    Energies energies = system.solver->energies();
+    archive &energies;
+    system.solver->set_energies(energies);
   }
 
   template <int dim>
@@ -458,19 +461,22 @@ namespace quoin
                       " % of the energy throughput, more than 0.1 %. ",
                       residual_advice());
     /** Largest energy that changing areas and normals of contacts may take or
-        give, by what damping leaves of the energy throughput: damping may take
-        most of it before and after contacts. */
+        give, by what damping leaves of the energy throughput, as damping may
+        take most of it before and after contacts, or by the largest kinetic
+        energy, most of which impacts may take. */
     constexpr double largest_of_contacts = 0.05;
     const Energies &energies             = system.solver->energies();
-    const double of_contacts
-        = energies.contact / (energies.throughput() - energies.damping);
+    const double left        = energies.throughput() - energies.damping;
+    const double kinetic     = context.outputs.largest_kinetic();
+    const double of_contacts = energies.contact / std::max(left, kinetic);
     if (std::abs(of_contacts) > largest_of_contacts)
       run.log.warning(
           "general contacts ", of_contacts > 0. ? "took" : "gave", " ",
-          100. * std::abs(of_contacts),
-          " % of the energy that damping left as their areas and normals "
-          "changed "
-          "(column 'contact [J]' of energies.csv), more than 5 %: overlaps are "
+          100. * std::abs(of_contacts), " % of ",
+          left > kinetic ? "the energy that damping left"
+                         : "the largest kinetic energy",
+          " as their areas and normals changed (column 'contact [J]' of "
+          "energies.csv), more than 5 %: overlaps are "
           "deep for edges as long as these. Compare with a run with a higher "
           "'Normal stiffness'.");
     const std::uint64_t n_trial_steps = std::accumulate(

@@ -8,6 +8,14 @@
 
 namespace quoin
 {
+  namespace
+  {
+    double degrees(const double radians)
+    {
+      return radians * 180. / dealii::numbers::PI;
+    }
+  } // namespace
+
   template <int dim>
   BlockContext<dim>::BlockContext(const Parameters &parameters,
                                   MeshData<dim> mesh, const RunContext &run)
@@ -61,7 +69,8 @@ namespace quoin
     finish();
     system.solver->check_finite(state);
     check_cells(*system.model, state, stage.loads);
-    warn_of_slip();
+    follow_joint_motion();
+    warn_of_joint_motion();
     if (const std::string what = context.loads[index].warning(); !what.empty())
       log.warning("stage ", stage.name, ": ", what);
     warn_of_damping();
@@ -165,7 +174,8 @@ namespace quoin
   void BlockStage<dim>::note_outcome()
   {
     context.peaks.clear();
-    StageOutcome &ended = context.outcomes[index];
+    context.joint_motion = {};
+    StageOutcome &ended  = context.outcomes[index];
     if (ended.outcome.empty())
       ended = { stage.safety                  ? "factor of safety"
                 : stage.end == StageEnd::time ? "time over"
@@ -179,21 +189,57 @@ namespace quoin
   }
 
   template <int dim>
-  void BlockStage<dim>::warn_of_slip() const
+  void BlockStage<dim>::follow_joint_motion()
+  {
+    /** Turn of blocks at which small displacements tell nothing [rad]. */
+    constexpr double absurd = dealii::numbers::PI / 4.;
+    if constexpr (dim == 2)
+    {
+      if (system.model->parameters().large_displacements)
+        return;
+      const JointMotion now = joint_motion(*system.model, state);
+      context.joint_motion.take_larger(now);
+      const double diagonal = system.nodes->table().diagonal();
+      if (now.turn <= absurd && now.distance <= diagonal)
+        return;
+      fail(text_of(
+          now.turn > absurd
+              ? text_of("blocks that share a joint have turned by ",
+                        degrees(now.turn), " degrees against each other")
+              : text_of("joints have moved apart by ", now.distance,
+                        " m, more than the diagonal of the model, ", diagonal,
+                        " m"),
+          ", found at time ", state.time, " s, step ", state.step,
+          ": small displacements leave blocks where they are, so that nothing "
+          "after the first degrees means anything. Take 'Displacements = "
+          "large' in section 'Contact', or end the stage before by 'End "
+          "conditions'."));
+    }
+  }
+
+  template <int dim>
+  void BlockStage<dim>::warn_of_joint_motion() const
   {
     /** Slip by face length at which half of the edges still overlap [-]. */
-    constexpr double most = 0.5;
-    if (system.model->parameters().large_displacements)
-      return;
-    double share = 0.;
-    if constexpr (dim == 2)
-      share = largest_slip_share(*system.model, state);
-    if (share > most)
+    constexpr double most_slip = 0.5;
+    /** Turn of blocks, five degrees, which changes lever arms by a tenth of
+        those of a column ten times as high as wide [rad]. */
+    constexpr double most_turn = 5. * dealii::numbers::PI / 180.;
+    const JointMotion &motion  = context.joint_motion;
+    if (motion.slip > most_slip)
       log.warning("stage ", stage.name, ": joints have slipped by up to ",
-                  100. * share,
+                  100. * motion.slip,
                   " % of the edges that touch, but small displacements leave "
                   "blocks where they are: areas and neighbours no longer hold. "
                   "Take 'Displacements = large' in section 'Contact'.");
+    if (motion.turn > most_turn)
+      log.warning("stage ", stage.name,
+                  ": blocks that share a joint have "
+                  "turned by up to ",
+                  degrees(motion.turn),
+                  " degrees against each other, but small displacements leave "
+                  "blocks where they are: lever arms and contacts no longer "
+                  "hold. Take 'Displacements = large' in section 'Contact'.");
   }
 
   template <int dim>

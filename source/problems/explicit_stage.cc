@@ -107,6 +107,8 @@ namespace quoin
           = state.stage_step % ExplicitSolver<dim>::balance_interval == 0;
       if (balance && stage.end == StageEnd::static_ratio)
         look_for_lost_blocks();
+      if (balance)
+        this->follow_joint_motion();
       // Those of the first step are due to motion before the stage.
       if (state.stage_step > 1)
         note_failed_joints(state);

@@ -47,6 +47,7 @@ namespace quoin
 
     Stage::Checkpoint ImplicitStage::take_step()
     {
+      follow_joint_motion();
       try
       {
         advance();

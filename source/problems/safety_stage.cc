@@ -97,6 +97,7 @@ namespace quoin
       if (interrupted)
       {
         state = base;
+        system.solver->set_energies(energies);
         return Checkpoint::kept;
       }
       log.message("stage ", stage.name, ": factor ", trial.factor, " is ",

@@ -137,6 +137,7 @@ def interrupt_and_resume(options, name):
         common.run(options.quoin, prm, broken, sets, ranks, ["--resume"])
         resume.compare_tables(name, whole, broken)
         resume.compare_fields(name, whole, broken)
+        resume.compare_summaries(name, whole, broken)
     print("  %s: interrupted %d times" % (name, done), flush=True)
     return done
 

@@ -8,6 +8,7 @@ checkpoint, resumed each time, and its histories, energies and fields are
 compared with those of an uninterrupted one as bytes. So are the histories of a
 run that writes no fields: to write them must change nothing.
 """
+import json
 import os
 import random
 import shutil
@@ -22,6 +23,9 @@ import common  # noqa: E402
 from common import Failure  # noqa: E402
 
 TABLES = ("histories.csv", "energies.csv", "safety.csv")
+# entries of summary.json that a resumed run must have as the uninterrupted one
+SUMMARY = ("time [s]", "steps", "energy throughput [J]", "energy residual [J]",
+           "largest energy residual [J]", "energy residual share")
 # name: parameter file, overrides, ranks, kills
 CASES = {
     # friction and two stages: much history
@@ -240,6 +244,15 @@ def compare_tables(what, one, other):
                    a.splitlines()[row:row + 1], b.splitlines()[row:row + 1]))
 
 
+def compare_summaries(what, one, other):
+    a, b = (json.loads(read(output, "summary.json"))
+            for output in (one, other))
+    for name in SUMMARY:
+        if name in a and a[name] != b.get(name):
+            raise Failure("%s: '%s' of summary.json is %s, not %s"
+                          % (what, name, b.get(name), a[name]))
+
+
 def field_files(output):
     """Lists and pieces of VTU files, and those of XDMF."""
     folder = os.path.join(output, "fields")
@@ -302,6 +315,7 @@ def kill_and_resume(options, name):
         common.run(options.quoin, prm, broken, sets, ranks, ["--resume"])
         compare_tables(name, whole, broken)
         compare_fields(name, whole, broken)
+        compare_summaries(name, whole, broken)
     return killed
 
 

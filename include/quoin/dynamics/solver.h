@@ -39,6 +39,16 @@ namespace quoin
 
     /** Energy throughput, the scale of the residual [J]. */
     double throughput() const;
+
+    /** Archives all of them: a run that is resumed in the trial of a factor of
+        safety computes none before its end. */
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      for (const EnergyAccount &account : energy_accounts)
+        archive &this->*account.value;
+      archive &at_start;
+    }
   };
 
   /** The two constraints of the load of type 'boundary elements'; null: there

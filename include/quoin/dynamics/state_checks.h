@@ -42,6 +42,27 @@ namespace quoin
    * and small displacements are no longer valid. Collective.
    */
   double largest_slip_share(const Model<2> &model, const State<2> &state);
+
+  /** Largest motions of matched joints and of the blocks that they join. */
+  struct JointMotion
+  {
+    double slip     = 0.; /**< see largest_slip_share() [-] */
+    double distance = 0.; /**< between points that faced each other [m] */
+    /** Difference of the mean rotations of two blocks, as small displacements
+        have them [rad]. */
+    double turn = 0.;
+
+    void take_larger(const JointMotion &other);
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &slip &distance &turn;
+    }
+  };
+
+  /** Joints of absent blocks do not count. Collective. */
+  JointMotion joint_motion(const Model<2> &model, const State<2> &state);
 } // namespace quoin
 
 #endif

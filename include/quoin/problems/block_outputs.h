@@ -85,12 +85,17 @@ namespace quoin
     {
       return most_residual;
     }
+    /** Largest kinetic energy so far [J]. */
+    double largest_kinetic() const
+    {
+      return most_kinetic;
+    }
 
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &fields &boundary &histories &most_residual &largest_throughput
-          &fields_time;
+      archive &fields &boundary &histories &most_residual &most_kinetic
+          &largest_throughput &fields_time;
     }
 
   private:
@@ -123,6 +128,7 @@ namespace quoin
     BoundaryOutput boundary;
 
     double most_residual      = 0.;
+    double most_kinetic       = 0.;
     double largest_throughput = 0.;  /**< boundary elements' too [J] */
     double fields_time        = -1.; /**< time of the last VTU files [s] */
   };

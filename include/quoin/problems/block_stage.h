@@ -4,6 +4,7 @@
 #ifndef quoin_problems_block_stage_h
 #define quoin_problems_block_stage_h
 
+#include <quoin/dynamics/state_checks.h>
 #include <quoin/problems/block_outputs.h>
 #include <quoin/problems/load_record.h>
 #include <quoin/problems/stage_steps.h>
@@ -85,6 +86,9 @@ namespace quoin
     std::vector<LocalDampingShare> damping_shares;
     std::vector<double> peaks; /**< peaks of histories: see HistoryConditions */
     double displaced = 0.;     /**< largest one where the stage began [m] */
+    /** Largest motions of joints in the present stage, if displacements are
+        small. */
+    JointMotion joint_motion;
     std::string failure; /**< why the last stage failed; empty: it did not */
     std::uint64_t n_done = 0; /**< steps of this process */
     /** Number of iterations of the implicit solver. */
@@ -124,6 +128,9 @@ namespace quoin
     }
     /** Writes the fields and throws a FailedStep. */
     [[noreturn]] void fail(const std::string &why);
+    /** Follows the motions of joints if displacements are small; fails if
+        they are absurd. Collective. */
+    void follow_joint_motion();
     /** Progress, with the completed @p fraction of the stage, or -1. */
     ProgressFigures figures_at(double fraction) const;
     /** Share of the loads of an implicit stage that has been reached [-]. */
@@ -143,7 +150,8 @@ namespace quoin
     State<dim> &state;
 
   private:
-    void warn_of_slip() const;
+    /** Warns of motions of joints for which displacements are not small. */
+    void warn_of_joint_motion() const;
     /** Records the loads of the row for @p time [s]. */
     void record_loads(double time);
     /** Warns of local damping that has carried a part of the loads. */

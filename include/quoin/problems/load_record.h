@@ -11,7 +11,9 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
 namespace quoin
 {
@@ -49,10 +51,11 @@ namespace quoin
     /**
      * What is to be warned of: that along an axis along which the applied force
      * varies, the largest force that supports carried at any time is less than
-     * the largest applied one, by more than 5 % of the size of the loads. A
-     * model that vibrates about a balance passes, as its supports take more
-     * than is applied, too; so do loads that balance each other. Empty:
-     * nothing.
+     * the largest applied one, by more than 5 % of the size of the loads, or
+     * that the largest means over a tenth of the rows do so, as vibration may
+     * raise the force of supports for a moment. A model that vibrates about a
+     * balance passes, as its supports take more than is applied, too; so do
+     * loads that balance each other. Empty: nothing.
      */
     std::string warning() const;
 
@@ -66,6 +69,7 @@ namespace quoin
       for (Axis &axis : axes)
         archive &axis.lowest &axis.highest &axis.most_up &axis.most_down &axis
             .applied &axis.time &axis.size;
+      archive &means &sum &n_summed &n_per_mean;
     }
 
   private:
@@ -82,12 +86,33 @@ namespace quoin
 
       /** Largest applied force that supports carried, in its direction [N]. */
       double taken() const;
-      /** Whether it is to be warned of. */
-      bool parts() const;
     };
+
+    /** What supports lack of the largest applied force. */
+    struct Lack
+    {
+      double applied, taken; /**< [N] */
+      double time;           /**< of the applied force [s] */
+      bool is_of_means;      /**< over a tenth of the rows */
+    };
+
+    /** Along axis @p d; none that is to be warned of: empty. */
+    std::optional<Lack> lack(unsigned int d) const;
+    /** That of the largest means over a tenth of the rows, at any size; empty:
+        there are too few rows. */
+    std::optional<Lack> lack_of_means(unsigned int d) const;
+
+    /** Numbers of a row: time [s], applied forces and forces of supports [N].
+     */
+    static constexpr unsigned int n_numbers = 7;
 
     Peak peak;
     std::array<Axis, 3> axes;
+    /** Means of equally many rows, one after the other, and the sum of the rows
+        behind them. */
+    std::vector<double> means;
+    std::vector<double> sum = std::vector<double>(n_numbers, 0.);
+    unsigned int n_summed = 0, n_per_mean = 1;
   };
 
   /**

@@ -730,6 +730,39 @@ TEST(ExplicitSolver, SlipByTheEdgesThatTouch)
   EXPECT_NEAR(largest_slip_share(run.model, run.state), 0.7, 1e-12);
 }
 
+TEST(ExplicitSolver, TurnAndDistanceOfBlocksThatShareAJoint)
+{
+  // The upper block turns about its lower left corner, by displacements that
+  // are linear in the angle, and everything is displaced.
+  BlockMesh<2> mesh;
+  make_stack(mesh, 3, 2);
+  TestRun run(mesh, two_blocks(), {});
+  run.begin(stage_with({}));
+  constexpr double turn = 0.3, opening = 0.01;
+  double low = 1e9, left = 1e9, right = -1e9;
+  for (const NodeRecord<2> &node : run.state.nodes)
+  {
+    left  = std::min(left, node.X[0]);
+    right = std::max(right, node.X[0]);
+  }
+  for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
+    if (mesh.block_of_vertex(v) == 1)
+      low = std::min(low, run.state.nodes[v].X[1]);
+  for (unsigned int v = 0; v < mesh.n_vertices(); ++v)
+  {
+    NodeRecord<2> &node = run.state.nodes[v];
+    node.u[0] = node.u[1] = 5.;
+    if (mesh.block_of_vertex(v) == 0)
+      continue;
+    node.u[0] -= turn * (node.X[1] - low);
+    node.u[1] += turn * (node.X[0] - left) + opening;
+  }
+  const JointMotion motion = joint_motion(run.model, run.state);
+  EXPECT_NEAR(motion.turn, turn, 1e-12);
+  EXPECT_NEAR(motion.distance, turn * (right - left) + opening, 1e-12);
+  EXPECT_EQ(motion.slip, 0.);
+}
+
 TEST(ExplicitSolver, RefusesFreeBodiesInAStaticStage)
 {
   BlockMesh<2> mesh;
