@@ -353,6 +353,32 @@ namespace quoin
       return full;
     }
 
+    /** Notes where the entries of @p full are set. */
+    void note_places(ParameterHandler &prm, const FullText &full,
+                     const bool is_option)
+    {
+      auto *const noted = dynamic_cast<NotedParameters *>(&prm);
+      if (!noted)
+        return;
+      std::vector<std::string> path;
+      for (const Line &line : lines_of(full.text))
+        if (line.keyword == "subsection")
+          path.push_back(line.rest);
+        else if (line.keyword == "end" && !path.empty())
+          path.pop_back();
+        else if (line.keyword == "set")
+        {
+          std::vector<std::string> name = path;
+          name.push_back(dealii::Utilities::trim(
+              line.rest.substr(0, line.rest.find('='))));
+          const Origin &origin = full.origins[line.number - 1];
+          noted->places[boost::algorithm::join(name, "/")]
+              = is_option
+                    ? origin.file
+                    : origin.file + ", line " + std::to_string(origin.line);
+        }
+    }
+
     /** @p source: the file or the option that contains @p text. */
     void parse_text(ParameterHandler &prm, const std::string &file,
                     const std::string &source, const std::string &text,
@@ -368,6 +394,7 @@ namespace quoin
       {
         throw InputError(describe(error, prm, source, full));
       }
+      note_places(prm, full, source != file);
     }
 
     /** Sections and name of the entry that the option "Section/Name=value"

@@ -174,7 +174,14 @@ namespace quoin
   void ParameterSection::fail(const std::string &name,
                               const std::string &why) const
   {
-    throw InputError(file_name + ", section '" + (path.empty() ? "/" : path)
+    std::string place       = file_name;
+    const auto *const noted = dynamic_cast<const NotedParameters *>(&prm);
+    if (noted)
+      if (const auto set
+          = noted->places.find(path.empty() ? name : path + "/" + name);
+          set != noted->places.end())
+        place = set->second;
+    throw InputError(place + ", section '" + (path.empty() ? "/" : path)
                      + "': '" + name + " = " + text(name) + "' " + why);
   }
 

@@ -6,17 +6,23 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <map>
 #include <set>
 #include <string>
 
 namespace quoin
 {
-  /** Parameters with a note of the entries that a ParameterSection has read. */
+  /** Parameters with notes of the entries that a ParameterSection has read and
+      of the places where they are set. */
   class NotedParameters : public dealii::ParameterHandler
   {
   public:
     /** Names of the entries read, with their sections as in "Section/Name". */
     std::set<std::string> read;
+
+    /** Where entries are set, by the same names: "FILE, line N" or an option.
+        Those that keep their defaults are not there. */
+    std::map<std::string, std::string> places;
   };
 } // namespace quoin
 
