@@ -130,7 +130,8 @@ namespace quoin
     if (stage.is_dynamic() || !system.explicit_solver
         || loads.constraints.empty())
       return;
-    record.add_forces(force_balance(system, state, load_time), time);
+    record.add_forces(force_balance(system, state, load_time), time,
+                      stage.end == StageEnd::time);
   }
 
   template <int dim>

@@ -35,7 +35,8 @@ namespace quoin
       peak = { factor, displacement, time };
   }
 
-  void LoadRecord::add_forces(const ForceBalance &forces, const double time)
+  void LoadRecord::add_forces(const ForceBalance &forces, const double time,
+                              const bool to_means)
   {
     const auto &[applied, supports, size] = forces;
     for (unsigned int d = 0; d < 3; ++d)
@@ -52,6 +53,8 @@ namespace quoin
       axis.applied = applied[d];
       axis.time    = time;
     }
+    if (!to_means)
+      return;
     sum[0] += time;
     for (unsigned int d = 0; d < 3; ++d)
     {

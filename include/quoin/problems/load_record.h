@@ -45,8 +45,10 @@ namespace quoin
     /** Adds a row with the @p factor of a load pattern. */
     void add_factor(double factor, double displacement, double time);
 
-    /** Adds a row at @p time [s]. */
-    void add_forces(const ForceBalance &forces, double time);
+    /** Adds a row at @p time [s]; @p to_means: also to the means, which say
+        nothing where a stage seeks an equilibrium and loads pass on the way. */
+    void add_forces(const ForceBalance &forces, double time,
+                    bool to_means = true);
 
     /**
      * What is to be warned of: that along an axis along which the applied force
