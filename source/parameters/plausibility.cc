@@ -80,6 +80,10 @@ namespace quoin
                          meant_strength };
     const Range stiffness{ "Normal stiffness", softest_joint, 1e16, "Pa/m",
                            meant_stiffness };
+    const Range shear_stiffness{ "Shear stiffness", softest_joint, 1e16, "Pa/m",
+                                 meant_stiffness };
+    const Range crushing{ "Compressive strength", 1e4, 1e10, "Pa",
+                          meant_strength };
     const Range thickness{ "Thickness", 1e-3, 50., "m", [](const double value) {
                             return text_of("in mm it would be ", 1e-3 * value,
                                            " m");
@@ -140,16 +144,32 @@ namespace quoin
       for (const JointSetParameters &set : parameters.model.joints)
       {
         const ParameterSection own(section, set.name);
-        for (const Range *range :
-             { &stiffness, &cohesion, &friction, &tension })
-          check(own, "joints " + set.name + ": ", *range, warnings);
+        const std::string where = "joints " + set.name + ": ";
+        const std::size_t n     = warnings.size();
+        check(own, where, stiffness, warnings);
+        if (warnings.size() == n) // it would be the same mistake
+          check(own, where, shear_stiffness, warnings);
+        for (const Range *range : { &cohesion, &friction, &tension, &crushing })
+          check(own, where, *range, warnings);
       }
     }
+    /** Acceleration that no weight of a structure has [m/s^2]. */
+    constexpr double most_gravity = 100.;
     for (const LoadParameters &load : parameters.loads)
+    {
+      if (load.type == LoadType::gravity)
+        for (const auto &given : load.given_components())
+          if (const double value
+              = given.component.value({ late_time, late_time });
+              std::abs(value) > most_gravity)
+            warnings.push_back(
+                text_of("load ", load.name, ": gravity of ", value,
+                        " m/s^2 is far more than usual. Check the unit."));
       if (acts_upwards(load))
         warnings.push_back("load " + load.name
                            + ": gravity acts upwards. Give 'Vertical' a minus "
                              "sign, such as -9.81, unless that is meant.");
+    }
     return warnings;
   }
 } // namespace quoin

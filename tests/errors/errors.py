@@ -75,7 +75,7 @@ def expect(status, printed, wanted_status, words):
                          printed.strip()[-1500:]))
     for alien in ("terminate called", "Aborted", "Segmentation",
                   "Additional information", "An error occurred in line",
-                  "Signal:"):
+                  "Signal:", "Message:  <"):
         if alien in printed:
             raise Failure("the message is a crash report:\n%s"
                           % printed.strip()[-1500:])
