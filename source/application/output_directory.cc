@@ -15,6 +15,10 @@ namespace quoin
   {
     namespace fs = std::filesystem;
     std::error_code error;
+    if (resume && !fs::exists(output, error))
+      throw InputError("There is no checkpoint in '" + output
+                       + "' to resume from, nor such a folder: check --output, "
+                         "or start the run without --resume.");
     fs::create_directories(output, error);
     std::error_code ignored;
     if (!fs::is_directory(output, ignored))

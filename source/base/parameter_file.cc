@@ -353,9 +353,10 @@ namespace quoin
       return full;
     }
 
-    /** Notes where the entries of @p full are set. */
-    void note_places(ParameterHandler &prm, const FullText &full,
-                     const bool is_option)
+    /** Notes where the entries of @p full, of @p file or of an option beside
+        it, are set. */
+    void note_places(ParameterHandler &prm, const std::string &file,
+                     const FullText &full, const bool is_option)
     {
       auto *const noted = dynamic_cast<NotedParameters *>(&prm);
       if (!noted)
@@ -394,7 +395,7 @@ namespace quoin
       {
         throw InputError(describe(error, prm, source, full));
       }
-      note_places(prm, full, source != file);
+      note_places(prm, file, full, source != file);
     }
 
     /** Sections and name of the entry that the option "Section/Name=value"

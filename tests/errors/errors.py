@@ -447,11 +447,13 @@ def other_parameters(quoin, folder):
 
 
 def nothing_to_resume(quoin, folder):
-    """--resume without a checkpoint."""
+    """--resume without a checkpoint; it leaves no folder behind."""
     prm = prepare(folder)
-    status, printed = run([quoin, prm, "--resume", "--output",
-                           os.path.join(folder, "output")])
+    output = os.path.join(folder, "output")
+    status, printed = run([quoin, prm, "--resume", "--output", output])
     expect(status, printed, 1, ["checkpoint", "--resume"])
+    if os.path.exists(output):
+        raise Failure("it leaves the folder of the output behind")
 
 
 LEAVING = ["Contact/Displacements=large", "Joints/bed/Curves=bed",

@@ -20,8 +20,8 @@ namespace quoin
     /** Names of the entries read, with their sections as in "Section/Name". */
     std::set<std::string> read;
 
-    /** Where entries are set, by the same names: "FILE, line N" or an option.
-        Those that keep their defaults are not there. */
+    /** Where entries are set, by the same names: "FILE, line N" or "FILE with
+        --set ..."; those that keep their defaults are not there. */
     std::map<std::string, std::string> places;
   };
 } // namespace quoin
