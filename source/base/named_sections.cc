@@ -4,6 +4,7 @@
 #include <quoin/base/known_names.h>
 #include <quoin/base/named_sections.h>
 #include <quoin/base/nearest_name.h>
+#include <quoin/base/noted_parameters.h>
 
 #include <set>
 
@@ -125,7 +126,8 @@ namespace quoin
                                + name + "'";
       for (const std::string &other : listed)
         if (!is_among(other, found) && edit_distance(name, other) <= near)
-          throw InputError(file + ", " + what + ", but '" + other
+          throw InputError(place_of(names, section.name + "/Names", file) + ", "
+                           + what + ", but '" + other
                            + "', which has none. Spell them alike.");
       in_section(prm, section.name,
                  [&](ParameterHandler &all)

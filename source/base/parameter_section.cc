@@ -174,15 +174,10 @@ namespace quoin
   void ParameterSection::fail(const std::string &name,
                               const std::string &why) const
   {
-    std::string place       = file_name;
-    const auto *const noted = dynamic_cast<const NotedParameters *>(&prm);
-    if (noted)
-      if (const auto set
-          = noted->places.find(path.empty() ? name : path + "/" + name);
-          set != noted->places.end())
-        place = set->second;
-    throw InputError(place + ", section '" + (path.empty() ? "/" : path)
-                     + "': '" + name + " = " + text(name) + "' " + why);
+    throw InputError(
+        place_of(prm, path.empty() ? name : path + "/" + name, file_name)
+        + ", section '" + (path.empty() ? "/" : path) + "': '" + name + " = "
+        + text(name) + "' " + why);
   }
 
   std::string ParameterSection::folder() const

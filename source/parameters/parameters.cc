@@ -167,7 +167,7 @@ namespace quoin
                              const std::vector<std::string> &overrides)
   {
     const ParameterFile input(file, overrides);
-    ParameterHandler names;
+    NotedParameters names;
     declare_names(named_sections, names);
     input.parse(names, true);
 

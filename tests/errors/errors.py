@@ -231,6 +231,17 @@ def error_in_an_included_file(quoin, folder):
     expect(status, printed, 1, [
         "inner.inc, line 4, section 'Joints/bed'", "Cohesionn",
         "nearest known one is 'Cohesion'"])
+    # a value out of range
+    with open(os.path.join(folder, "range.inc"), "w") as stream:
+        stream.write("subsection Joints\n  subsection bed\n"
+                     "    set Friction angle = 95\n  end\nend\n")
+    with open(prm, "w") as stream:
+        stream.write(text + "include range.inc\n")
+    status, printed = run([quoin, prm, "--check"])
+    expect(status, printed, 1, ["range.inc, line 3, section 'Joints/bed'",
+                                "Friction angle = 95"])
+    with open(prm, "w") as stream:
+        stream.write("include outer.inc\n" + text)
     # what comes after it is numbered as in its own file
     status, printed = run([quoin, prm, "--check", "--set", "Title=y"])
     with open(prm, "w") as stream:

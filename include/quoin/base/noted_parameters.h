@@ -24,6 +24,18 @@ namespace quoin
         --set ..."; those that keep their defaults are not there. */
     std::map<std::string, std::string> places;
   };
+
+  /** Where the entry "Section/Name" of @p prm is set, if that has notes of it;
+      otherwise @p file. */
+  inline std::string place_of(const dealii::ParameterHandler &prm,
+                              const std::string &entry, const std::string &file)
+  {
+    const auto *const noted = dynamic_cast<const NotedParameters *>(&prm);
+    if (!noted)
+      return file;
+    const auto place = noted->places.find(entry);
+    return place == noted->places.end() ? file : place->second;
+  }
 } // namespace quoin
 
 #endif
