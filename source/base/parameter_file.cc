@@ -375,7 +375,7 @@ namespace quoin
           const Origin &origin = full.origins[line.number - 1];
           noted->places[boost::algorithm::join(name, "/")]
               = is_option
-                    ? origin.file
+                    ? file + " with " + origin.file
                     : origin.file + ", line " + std::to_string(origin.line);
         }
     }
