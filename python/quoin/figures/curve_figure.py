@@ -354,7 +354,9 @@ class CurveFigure:
     def draw_legend(self, axes, **look):
         wanted = self.has_legend(axes)
         if wanted:
+            # readable where no place is free of curves
             axes.legend(loc=wanted if isinstance(wanted, str) else "best",
+                        frameon=True, framealpha=0.85, edgecolor="none",
                         **look)
 
     def save(self, path=None):
