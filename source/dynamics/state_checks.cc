@@ -45,7 +45,7 @@ namespace quoin
     std::vector<double> block_rotations(const NodeMap<2> &nodes,
                                         const State<2> &state)
     {
-      // Of each block: number of nodes, sums of X, u, X x u and X . X.
+      // A block has seven sums: of 1, X, u, X x u and X . X over its nodes.
       constexpr unsigned int n = 7;
       std::vector<double> sums(n * nodes.table().n_blocks(), 0.);
       for (unsigned int i = 0; i < nodes.n_owned(); ++i)

@@ -212,8 +212,8 @@ namespace quoin
     dealii::TrilinosWrappers::SparseMatrix matrix;
     double *matrix_values = nullptr;          /**< of the rows of this rank */
     std::vector<std::size_t> diagonal_places; /**< of owned rows */
-    /** Of elements in the order in which operators give them, which is the same
-        every time; found when they are first added. */
+    /** Places of elements in the order in which operators give them, which is
+       the same every time; found when they are first added. */
     std::vector<ElementPlaces> element_places;
     std::vector<int> all_places;
     std::size_t next_element = 0; /**< in that order */
