@@ -140,19 +140,21 @@ namespace quoin
     const bool first
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
     const Interruption interruption(first);
+    Parameters parameters;
     const auto report = [&](const std::string &what, const int status)
     {
       // A failure on some ranks alone leaves the others waiting.
       const bool alone = !all_have_failed(errors);
       if (first || alone)
-        std::cerr << "Error: " << what << std::endl;
+        std::cerr << "Error: "
+                  << with_place(what, parameters.file, parameters.places)
+                  << std::endl;
       if (alone)
         MPI_Abort(MPI_COMM_WORLD, status);
       return status;
     };
     try
     {
-      Parameters parameters;
       // A rank whose machine cannot read the files must not leave the others.
       std::string message;
       try

@@ -170,6 +170,26 @@ namespace quoin
                                                       + nearest + "'. " };
     }
 
+    /** What a number must be whose entry has no words of its own, from the
+        library's description @p pattern; empty if that is of no number. */
+    std::string number_words(const std::string &pattern)
+    {
+      std::smatch match;
+      if (!std::regex_search(pattern, match,
+                             std::regex("^\\[(Double|Integer)(?: range)? "
+                                        "(?:(\\S+)\\.\\.\\.(\\S+) )?")))
+        return "";
+      const std::string kind
+          = match[1] == "Double" ? "a number" : "a whole number";
+      const auto is_bound = [](const std::string &bound)
+      { return !bound.empty() && bound.find("MAX") == std::string::npos; };
+      const std::string least = match[2], most = match[3];
+      if (is_bound(least) && is_bound(most))
+        return kind + " from " + least + " to " + most;
+      return kind + (is_bound(least) ? " of at least " + least : "")
+             + (is_bound(most) ? " of at most " + most : "");
+    }
+
     /** A complaint in our own words about @p line of the section @p path; none
         if it has another fault than an unknown name or a wrong value. */
     Complaint complaint_about(const ParameterHandler &prm, const Line &line,
@@ -203,6 +223,10 @@ namespace quoin
         return complaint(given + "must be one of: " + known_names(words) + ".",
                          nearest_name(value, words));
       }
+      if (const std::string words = number_words(pattern);
+          !is_section && !words.empty())
+        return complaint(
+            given + "must be " + words + ", without formula or unit.", "");
       return is_section || pattern.empty() || pattern.front() == '['
                  ? Complaint()
                  : complaint(given + "must be a " + pattern + ".", "");
@@ -354,7 +378,7 @@ namespace quoin
     }
 
     /** Notes where the entries of @p full, of @p file or of an option beside
-        it, are set. */
+        it, are set, and which ones a file sets twice. */
     void note_places(ParameterHandler &prm, const std::string &file,
                      const FullText &full, const bool is_option)
     {
@@ -362,6 +386,7 @@ namespace quoin
       if (!noted)
         return;
       std::vector<std::string> path;
+      std::map<std::string, Origin> last;
       for (const Line &line : lines_of(full.text))
         if (line.keyword == "subsection")
           path.push_back(line.rest);
@@ -369,14 +394,26 @@ namespace quoin
           path.pop_back();
         else if (line.keyword == "set")
         {
-          std::vector<std::string> name = path;
-          name.push_back(dealii::Utilities::trim(
-              line.rest.substr(0, line.rest.find('='))));
+          const std::string section = boost::algorithm::join(path, "/");
+          const std::string name    = dealii::Utilities::trim(
+                 line.rest.substr(0, line.rest.find('=')));
+          const std::string entry
+              = section.empty() ? name : section + "/" + name;
           const Origin &origin = full.origins[line.number - 1];
-          noted->places[boost::algorithm::join(name, "/")]
+          const std::string place
               = is_option
                     ? file + " with " + origin.file
                     : origin.file + ", line " + std::to_string(origin.line);
+          noted->places[entry] = place;
+          // A file may set anew what one that it includes has set.
+          const auto [before, is_new] = last.insert({ entry, origin });
+          if (!is_new && before->second.file == origin.file)
+            noted->repeated.push_back(
+                place + ", section '" + (section.empty() ? "/" : section)
+                + "': '" + name + "' was set in line "
+                + std::to_string(before->second.line)
+                + " already, and the last value counts. Remove one of them.");
+          before->second = origin;
         }
     }
 

@@ -36,6 +36,9 @@ namespace quoin
     constexpr double jump_ends = 1e-4;
     /** Ratio of unbalanced to drag force in a trial of the factor of safety. */
     constexpr double drag_share = 0.1;
+    /** Way to the equilibrium behind a jump, by that of the jump, below which a
+        search for the factor of safety takes it. */
+    constexpr double near_share = 0.25;
     /** Steps ahead on the path before return to load control. */
     constexpr unsigned int steps_ahead = 5;
     /** Tolerated relative error of the path's length [-]. */
@@ -333,7 +336,10 @@ namespace quoin
     now.drag_time += now.drag_step;
     now.drag_path += std::abs(balance.path);
     // A search for the factor of safety judges by itself how far it goes.
-    if (now.n_drag >= most_drag_steps || (!stage.safety && has_gone_far(state)))
+    if (now.n_drag >= most_drag_steps
+        || (!stage.safety
+            && largest_move(last_equilibrium.nodes, state.nodes)
+                   > collapse_share * model.nodes().table().diagonal()))
       give_up(state);
     if (iteration <= parameters.wanted_iterations
         && std::abs(balance.path) < most_jump_path(now) / drag_growth)
@@ -347,6 +353,12 @@ namespace quoin
     Configuration configuration;
     const Target target{ now.jump_time, 1., 0. };
     if (solve(state, target, configuration) == Outcome::failed)
+      return;
+    // Whether the model would have come to an equilibrium that lies far ahead
+    // is what a search for the factor of safety asks: it has to go there.
+    if (stage.safety
+        && largest_move(state.nodes, configuration.nodes)
+               > near_share * largest_move(last_equilibrium.nodes, state.nodes))
       return;
     commit(configuration, state);
     now.jumps     = false;
@@ -368,15 +380,15 @@ namespace quoin
     return stage.safety ? std::max(most, safety_flow * now.drag_path) : most;
   }
 
-  bool ImplicitSolver::has_gone_far(const State<2> &state) const
+  double
+  ImplicitSolver::largest_move(const AlignedArray<NodeRecord<2>> &from,
+                               const AlignedArray<NodeRecord<2>> &to) const
   {
     double moved = 0.;
     for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
       for (unsigned int d = 0; d < 2; ++d)
-        moved = std::max(moved, std::abs(state.nodes[i].u[d]
-                                         - last_equilibrium.nodes[i].u[d]));
-    return dealii::Utilities::MPI::max(moved, communicator)
-           > collapse_share * model.nodes().table().diagonal();
+        moved = std::max(moved, std::abs(to[i].u[d] - from[i].u[d]));
+    return dealii::Utilities::MPI::max(moved, communicator);
   }
 
   void ImplicitSolver::give_up(State<2> &state)

@@ -161,6 +161,43 @@ namespace quoin
         }
       return result;
     }
+
+    /** Reads @p parameters by @p prm, whose entries are known. */
+    void read_values(const ParameterFile &input, NotedParameters &prm,
+                     Parameters &parameters)
+    {
+      const ParameterSection top(prm, parameters.file);
+      ParameterEntries entries(top);
+      enter_top(entries, parameters);
+      parameters.output_directory = top.in_folder(parameters.output_directory);
+      if (parameters.is_implicit && parameters.is_boundary_model)
+        top.fail("Solver",
+                 "is for blocks: with 'Model = boundary elements' "
+                 "leave it 'explicit'; statics of these is 'Analysis = "
+                 "static'.");
+      if (!parameters.is_boundary_model)
+        read_mesh(top, parameters);
+      parameters.model.materials
+          = read_named<MaterialParameters>(top, "Materials");
+      if (parameters.model.materials.empty())
+        throw InputError(parameters.file
+                         + ", section 'Materials': 'Names' must list at "
+                           "least one material.");
+      parameters.histories = read_named<HistoryParameters>(top, "Histories");
+      read_section(top, "Time stepping", enter_time_stepping, parameters);
+      read_section(top, "Histories", enter_histories, parameters);
+      read_section(top, "Output", enter_output, parameters);
+      if (parameters.is_boundary_model)
+        read_boundary_model(top, parameters);
+      else
+        read_block_model(top, parameters);
+
+      // Before plausibility, which looks at more than a run uses.
+      for (const auto &doubts :
+           { input.idle_overrides(prm), implausible_values(top, parameters) })
+        parameters.warnings.insert(parameters.warnings.end(), doubts.begin(),
+                                   doubts.end());
+    }
   } // namespace
 
   Parameters read_parameters(const std::string &file,
@@ -175,48 +212,29 @@ namespace quoin
     declare_fixed(prm);
     declare_listed(named_sections, file, names, prm);
     Parameters parameters;
+    parameters.file = file;
     for (const SectionEntries &section : named_sections)
       for (const std::string &warning : declare_unlisted(
                section, file, input.subsections(section.name), names, prm))
         parameters.warnings.push_back(warning);
     input.parse(prm, false);
-
-    parameters.file = file;
-    const ParameterSection top(prm, file);
-    ParameterEntries entries(top);
-    enter_top(entries, parameters);
-    parameters.output_directory = top.in_folder(parameters.output_directory);
-    if (parameters.is_implicit && parameters.is_boundary_model)
-      top.fail("Solver", "is for blocks: with 'Model = boundary elements' "
-                         "leave it 'explicit'; statics of these is 'Analysis = "
-                         "static'.");
-    if (!parameters.is_boundary_model)
-      read_mesh(top, parameters);
-    parameters.model.materials
-        = read_named<MaterialParameters>(top, "Materials");
-    if (parameters.model.materials.empty())
-      throw InputError(file
-                       + ", section 'Materials': 'Names' must list at "
-                         "least one material.");
-    parameters.histories = read_named<HistoryParameters>(top, "Histories");
-    read_section(top, "Time stepping", enter_time_stepping, parameters);
-    read_section(top, "Histories", enter_histories, parameters);
-    read_section(top, "Output", enter_output, parameters);
-    if (parameters.is_boundary_model)
-      read_boundary_model(top, parameters);
-    else
-      read_block_model(top, parameters);
-
-    // Before plausibility, which looks at more than a run uses.
-    for (const auto &doubts :
-         { input.idle_overrides(prm), implausible_values(top, parameters) })
-      parameters.warnings.insert(parameters.warnings.end(), doubts.begin(),
-                                 doubts.end());
+    parameters.places = prm.places;
+    parameters.warnings.insert(parameters.warnings.end(), prm.repeated.begin(),
+                               prm.repeated.end());
+    try
+    {
+      read_values(input, prm, parameters);
+    }
+    catch (const InputError &error)
+    {
+      throw InputError(with_place(error.what(), file, prm.places));
+    }
 
     std::ostringstream effective;
     prm.print_parameters(effective, ParameterHandler::ShortPRM);
-    parameters.effective  = effective.str();
-    parameters.time_files = time_files(parameters.effective, top);
+    parameters.effective = effective.str();
+    parameters.time_files
+        = time_files(parameters.effective, ParameterSection(prm, file));
     return parameters;
   }
 

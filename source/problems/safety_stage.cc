@@ -20,6 +20,9 @@ namespace quoin
     constexpr double failure_by_loading = 10., failure_by_diagonal = 1e-3;
     /** Parts in which strengths are reduced. */
     constexpr unsigned int n_reductions = 20;
+    /** Share of the failure displacement at which a trial of the implicit
+        solver moves against drag. */
+    constexpr double released_at = 0.1;
 
     class SafetyStage : public BlockStage<2>
     {
@@ -265,6 +268,7 @@ namespace quoin
         {
           if (is_interrupted())
             return;
+          const State<2> before = state;
           solver.step(state);
           note_failed_joints(state);
           outputs.write_iterations();
@@ -276,11 +280,17 @@ namespace quoin
             trial.verdict = Verdict::failing;
             return;
           }
-          // Loads that are released slowly may lead ground that flows from one
+          // Forces that are released slowly may lead ground that flows from one
           // equilibrium to the next, until it lies as a heap. Whether it keeps
-          // moving shows when it is released.
-          if (!now.jumps && now.released < 1. && displacement > limit)
+          // moving shows when it is released early, as the explicit solver
+          // does, whose displacements count from the start.
+          const auto &was = before.get<ImplicitState>();
+          if (!was.jumps && was.released < 1.
+              && displacement > released_at * limit)
+          {
+            state = before;
             solver.move_against_drag(state);
+          }
           if (context.run.progress.due())
             context.run.progress.update(figures());
         }

@@ -210,8 +210,9 @@ namespace quoin
     }
     if (!jump)
       jump.emplace(limit, 0.);
-    const bool failed = jump->has_failed(pseudo_time, displacement - before);
-    moved_on          = moved_on || jump->has_moved_on();
-    return failed;
+    const double moved = displacement - before;
+    const bool failed  = jump->has_failed(pseudo_time, moved);
+    moved_on           = moved_on || jump->has_moved_on();
+    return failed || moved > far_beyond * limit;
   }
 } // namespace quoin

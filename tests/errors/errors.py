@@ -240,6 +240,18 @@ def error_in_an_included_file(quoin, folder):
     status, printed = run([quoin, prm, "--check"])
     expect(status, printed, 1, ["range.inc, line 3, section 'Joints/bed'",
                                 "Friction angle = 95"])
+    # a value that only the mesh or another section shows to be wrong
+    for text_of_file, words in [
+            ("subsection Loads\n  subsection push\n"
+             "    set Boundary = tops\n  end\nend\n",
+             ["range.inc, line 3, section 'Loads/push'", "tops", "'top'"]),
+            ("subsection Stages\n  subsection first\n"
+             "    set Loads = pusch\n  end\nend\n",
+             ["range.inc, line 3, section 'Stages/first'", "pusch", "'push'"])]:
+        with open(os.path.join(folder, "range.inc"), "w") as stream:
+            stream.write(text_of_file)
+        status, printed = run([quoin, prm, "--check"])
+        expect(status, printed, 1, words)
     with open(prm, "w") as stream:
         stream.write("include outer.inc\n" + text)
     # what comes after it is numbered as in its own file

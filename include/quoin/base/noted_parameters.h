@@ -9,9 +9,15 @@
 #include <map>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace quoin
 {
+  /** Where entries are set, by their names with sections as in
+      "Section/Name": "FILE, line N" or "FILE with --set ..."; those that keep
+      their defaults are not there. */
+  using ParameterPlaces = std::map<std::string, std::string>;
+
   /** Parameters with notes of the entries that a ParameterSection has read and
       of the places where they are set. */
   class NotedParameters : public dealii::ParameterHandler
@@ -20,9 +26,10 @@ namespace quoin
     /** Names of the entries read, with their sections as in "Section/Name". */
     std::set<std::string> read;
 
-    /** Where entries are set, by the same names: "FILE, line N" or "FILE with
-        --set ..."; those that keep their defaults are not there. */
-    std::map<std::string, std::string> places;
+    ParameterPlaces places;
+
+    /** Warnings of entries that one file sets twice. */
+    std::vector<std::string> repeated;
   };
 
   /** Where the entry "Section/Name" of @p prm is set, if that has notes of it;
@@ -36,6 +43,16 @@ namespace quoin
     const auto place = noted->places.find(entry);
     return place == noted->places.end() ? file : place->second;
   }
+
+  /**
+   * The error @p message "FILE, section 'SECTION': 'NAME = ..." with the place
+   * where that entry is set for @p file. If the entry keeps its default or the
+   * message names none, it is the file that has all entries of that section. A
+   * message of another form, or about a section whose entries several files
+   * set, is returned as it is.
+   */
+  std::string with_place(const std::string &message, const std::string &file,
+                         const ParameterPlaces &places);
 } // namespace quoin
 
 #endif

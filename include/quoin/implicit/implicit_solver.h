@@ -200,8 +200,10 @@ namespace quoin
     bool cut_step(State<2> &state) const;
     /** Largest path increment in the next step of a jump [m]. */
     double most_jump_path(const ImplicitState &now) const;
-    /** Whether a jump has become a collapse; collective. */
-    bool has_gone_far(const State<2> &state) const;
+    /** Largest component of the displacements @p from one configuration
+        @p to another [m]; collective. */
+    double largest_move(const AlignedArray<NodeRecord<2>> &from,
+                        const AlignedArray<NodeRecord<2>> &to) const;
     /** Makes @p state the last equilibrium and throws the RunError. */
     [[noreturn]] void give_up(State<2> &state);
     [[noreturn]] void fail(const State<2> &state, double tried,

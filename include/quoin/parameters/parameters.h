@@ -4,6 +4,7 @@
 #ifndef quoin_parameters_parameters_h
 #define quoin_parameters_parameters_h
 
+#include <quoin/base/noted_parameters.h>
 #include <quoin/base/time_control.h>
 #include <quoin/farfield/boundary_parameters.h>
 #include <quoin/output/field_format.h>
@@ -34,6 +35,7 @@ namespace quoin
   struct Parameters
   {
     std::string file; /**< the parameter file */
+    ParameterPlaces places;
     std::string title;
     std::string output_directory; /**< relative to the working directory */
 

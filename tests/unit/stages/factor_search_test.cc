@@ -195,3 +195,14 @@ TEST(JumpWatch, CountsFromTheStartOfAJump)
       failed_at = t;
   EXPECT_NEAR(failed_at, 5., 0.02);
 }
+
+TEST(JumpWatch, WhatFlowsEverMoreSlowlyFailsBeyondThreeLimits)
+{
+  // As ground flows against drag, by 1.62 times in each doubling of the time.
+  JumpWatch watch(1.);
+  double failed_at = 0.;
+  for (double t = 0.01; t < 20. && failed_at == 0.; t += 0.01)
+    if (watch.has_failed(true, t, std::pow(t, 0.7)))
+      failed_at = t;
+  EXPECT_NEAR(std::pow(failed_at, 0.7), 3., 0.01);
+}
