@@ -181,8 +181,12 @@ namespace quoin
         return "";
       const std::string kind
           = match[1] == "Double" ? "a number" : "a whole number";
+      // The library writes bounds that are none as its largest numbers.
       const auto is_bound = [](const std::string &bound)
-      { return !bound.empty() && bound.find("MAX") == std::string::npos; };
+      {
+        return !bound.empty() && bound.find("MAX") == std::string::npos
+               && bound.find("21474836") == std::string::npos;
+      };
       const std::string least = match[2], most = match[3];
       if (is_bound(least) && is_bound(most))
         return kind + " from " + least + " to " + most;
