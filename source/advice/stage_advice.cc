@@ -296,6 +296,55 @@ namespace quoin
       }
     }
 
+    /**
+     * Warns of a force that comes and goes, as of a blast, in less than
+     * @p passage [s], under damping for equilibria.
+     */
+    void check_pulses(const StageOfRun &run, const double passage,
+                      Checks &checks)
+    {
+      const StageParameters &stage = run.stage;
+      if (stage.end != StageEnd::time || stage.slows_loads()
+          || (stage.damping != DampingType::local
+              && stage.damping != DampingType::adaptive))
+        return;
+      /** Share of the largest force below which there is none. */
+      constexpr double small   = 0.05;
+      constexpr unsigned int n = 1025;
+      const auto is_pulse      = [&](const LoadComponent &component)
+      {
+        const auto values = sampled(run.function(component), stage.duration, n);
+        double largest    = 0.;
+        for (const double v : values)
+          largest = std::max(largest, std::abs(v));
+        const auto acts
+            = [&](const double v) { return std::abs(v) > small * largest; };
+        const auto n_acting = std::count_if(values.begin(), values.end(), acts);
+        return n_acting > 0 && !acts(values.front()) && !acts(values.back())
+               && double(n_acting) / (n - 1) * stage.duration < passage;
+      };
+      for (const LoadParameters *load : run.loads)
+      {
+        if (load->type != LoadType::traction || load->shape)
+          continue;
+        const auto components = load->given_components();
+        checks.warn_if(
+            std::any_of(components.begin(), components.end(),
+                        [&](const auto &given)
+                        {
+                          return given.component.quantity == LoadQuantity::force
+                                 && !given.component.field
+                                 && is_pulse(given.component);
+                        }),
+            "the load ", load->name,
+            " comes and goes faster than an S wave crosses the model twice, "
+            "and 'Damping = ",
+            stage.damping == DampingType::local ? "local" : "adaptive",
+            "', which is meant for equilibria, takes the energy of its waves. "
+            "Take 'none' or 'Rayleigh'.");
+      }
+    }
+
     /** Warns if gravity acts in the previous stage, but not in this one. */
     void check_weight(const StageOfRun &run, Checks &checks)
     {
@@ -525,10 +574,16 @@ namespace quoin
     check_units(run, model.nodes().table().diagonal(), time_step, checks);
     const auto sizes
         = cell_sizes(model, state, parameters.model.materials.size());
-    double rise = 0.;
+    double rise = 0., passage = 0.;
     for (unsigned int m = 0; m < sizes.size(); ++m)
       if (sizes[m].edge > 0.)
-        rise = std::max(rise, 10. * sizes[m].edge / shear_wave(parameters, m));
+      {
+        const double speed = shear_wave(parameters, m);
+        rise               = std::max(rise, 10. * sizes[m].edge / speed);
+        passage
+            = std::max(passage, 2. * model.nodes().table().diagonal() / speed);
+      }
+    check_pulses(run, passage, checks);
     if (rise > 0.) // else nothing deforms
       check_jumps(run, rise, checks);
     check_edges(run, sizes, checks);
