@@ -177,12 +177,6 @@ namespace quoin
       if (stage.end == StageEnd::time && !stage.slows_loads()
           && is_of_equilibria)
         check_damped_motion(run, checks);
-      checks.warn_if(
-          stage.scaled_time_step > 0. && stage.end == StageEnd::time
-              && !stage.slows_loads() && !is_of_equilibria,
-          "'Mass scaling' changes how the model moves, and this stage follows "
-          "its motion. Remove it: it is for stages that seek an equilibrium, "
-          "with 'Damping = local' or 'adaptive'.");
     }
 
     /** Warns of viscous and free-field boundaries with prescribed motion. */

@@ -39,8 +39,7 @@ namespace quoin
       return energy;
     };
 
-    const double before = kinetic();
-    double own = 0., scaled = 0.;
+    const double before      = kinetic();
     std::vector<double> mass = model.mass();
     for (unsigned int b = 0; b < rigid.n_blocks(); ++b)
     {
@@ -49,22 +48,18 @@ namespace quoin
                            ? model.stability().rigid_factor(b, stage.scaled_time_step)
                            : 1.;
       for (unsigned int i = rigid.block(b).begin; i < rigid.block(b).end; ++i)
-      {
-        own += mass[i];
         mass[i] *= factor;
-        scaled += mass[i];
-      }
     }
-    for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
+    added = {};
+    if (stage.scaled_time_step > 0.)
     {
-      own += mass[i];
-      if (stage.scaled_time_step > 0.)
+      for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
         mass[i] = std::max(
             mass[i], model.stability().mass_for(i, stage.scaled_time_step));
-      scaled += mass[i];
+      added = find_added_mass(model, mass, rigid_stage.mass_factor,
+                              stage.scaled_time_step);
     }
-    added_mass = sum(scaled) / sum(own) - 1.;
-    node_mass  = mass;
+    node_mass = mass;
     // A change of the mass of moving nodes is external work.
     state.energy.external += kinetic() - before;
 
@@ -184,7 +179,7 @@ namespace quoin
   {
     // Masses that are added slow waves down.
     return 2. * model.nodes().table().diagonal() / slowest_shear_wave(model)
-           * std::sqrt(1. + added_mass);
+           * std::sqrt(1. + added.share);
   }
 
   template <int dim>

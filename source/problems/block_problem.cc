@@ -32,15 +32,12 @@ namespace quoin
       const ExplicitSolver<dim> &solver = *context.system.explicit_solver;
       const double dt                   = solver.get_time_step();
       const double critical             = solver.critical_time_step();
-      const double added                = solver.added_mass_share();
       std::string text = text_of("stage ", stage.name, ": time step ", dt,
                                  " s, ", 100. * dt / critical,
                                  " % of the critical ", critical, " s");
       if (stage.end == StageEnd::time)
         text += text_of(", ", context.steps.n_steps(),
                         stage.slows_loads() ? " steps or more" : " steps");
-      if (added > 0.)
-        text += text_of(", mass scaling adds ", 100. * added, " % of mass");
       if (const double times = StableTimeStep<dim>::shortened_by(
               critical, stage.stiffness_coefficient);
           times > 1.1)
@@ -154,6 +151,7 @@ namespace quoin
       }
       context.steps.choose(stage);
       run.log.message(step_text(context, stage));
+      report_added_mass(i);
       if (i == 0)
         if (const StepLimit<dim> limit = find_step_limit(*system.model, state);
             limit.critical > 0.)
@@ -171,6 +169,21 @@ namespace quoin
     if (system.implicit_solver)
       run.log.message("static equilibria: inertia, damping and mass scaling "
                       "have no effect");
+  }
+
+  template <int dim>
+  void BlockProblem<dim>::report_added_mass(const unsigned int index)
+  {
+    const StageParameters &stage = parameters.stages[index];
+    const AddedMass &added       = system.explicit_solver->added_mass();
+    if (added.share == 0.)
+      return;
+    run.log.message("stage ", stage.name, ": ", added.text());
+    if (stage.is_dynamic())
+      if (const std::string warning
+          = added.warning(fastest_load(parameters, index).frequency);
+          !warning.empty())
+        run.log.warning("stage ", stage.name, ": ", warning);
   }
 
   template <int dim>

@@ -128,7 +128,10 @@ namespace quoin
       bool scales_mass = false;
       entries.flag("Mass scaling", scales_mass,
                    "Whether mass is added where 'Scaled time step' would "
-                   "otherwise be unstable, for quasi-static analyses only.");
+                   "otherwise be unstable: in stages that seek an equilibrium "
+                   "as much as they bear, in others where few small elements "
+                   "limit the time step; the log says which frequencies it "
+                   "lowers.");
       if (entries.reads_if(scales_mass))
         entries.positive("Scaled time step", stage.scaled_time_step,
                          "Critical time step that 'Mass scaling' provides, "

@@ -4,6 +4,7 @@
 #ifndef quoin_dynamics_explicit_solver_h
 #define quoin_dynamics_explicit_solver_h
 
+#include <quoin/dynamics/added_mass.h>
 #include <quoin/dynamics/central_differences.h>
 #include <quoin/operators/state.h>
 #include <quoin/model/model_box.h>
@@ -89,7 +90,11 @@ namespace quoin
     /** Mass added by mass scaling, by the mass of the model [-]. */
     double added_mass_share() const
     {
-      return added_mass;
+      return added.share;
+    }
+    const AddedMass &added_mass() const
+    {
+      return added;
     }
 
     void set_time_step(const double dt)
@@ -190,7 +195,7 @@ namespace quoin
     CentralDifferences<dim> stepper;
     std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
     double critical_step = 0.;
-    double added_mass    = 0.;
+    AddedMass added;
     double time_step     = 0.;
 
     RigidBlockStage rigid_stage;

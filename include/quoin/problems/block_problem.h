@@ -41,6 +41,8 @@ namespace quoin
     void report_stages();
     /** Says how careful the bound of the time step is. */
     void report_highest_frequency();
+    /** Says what mass scaling changes in stage @p index, which has begun. */
+    void report_added_mass(unsigned int index);
     /** Warns of likely mistakes, once stage @p index has begun with the state
         @p begun. */
     void advise_about_stage(unsigned int index, const State<dim> &begun) const;

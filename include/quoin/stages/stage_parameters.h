@@ -131,7 +131,7 @@ namespace quoin
     /** Whether the stage computes waves, not equilibria. */
     bool is_dynamic() const
     {
-      return end == StageEnd::time && !slows_loads() && scaled_time_step == 0.
+      return end == StageEnd::time && !slows_loads()
              && (damping == DampingType::none
                  || damping == DampingType::rayleigh);
     }

@@ -893,6 +893,13 @@ TEST(ExplicitSolver, MassScalingRaisesTheCriticalStep)
   run.begin(stage);
   EXPECT_NEAR(run.solver.critical_time_step(), 3. * own, 1e-12 * own);
   EXPECT_NEAR(run.solver.added_mass_share(), 8., 1e-12);
+  const AddedMass &added = run.solver.added_mass();
+  EXPECT_NEAR(added.factor, 9., 1e-12);
+  EXPECT_EQ(added.n_slow, 1u);
+  EXPECT_EQ(added.slow_share, 1.);
+  EXPECT_EQ(added.bodies, 1.);
+  EXPECT_NEAR(added.frequency * dealii::numbers::PI * 3. * own, 1., 1e-12);
+  EXPECT_NE(added.warning(1.).find("changes histories"), std::string::npos);
 
   // Gravity pulls on the true mass only: the fall is nine times slower.
   run.step(1);
@@ -920,6 +927,15 @@ TEST(ExplicitSolver, MassScalingBehindAStiffJoint)
   const double joint_share = 2. * 2. * 0.5 * (1. / 2.) / (12. * 0.5);
   EXPECT_GT(run.solver.added_mass_share(), 0.);
   EXPECT_LT(run.solver.added_mass_share(), 1.25 * joint_share);
+  AddedMass added = run.solver.added_mass();
+  EXPECT_LT(added.bodies, 1.);
+  added.share      = 0.;
+  added.slow_share = 0.02;
+  EXPECT_NE(added.warning(1.).find("move too slowly"), std::string::npos);
+  added.slow_share = 0.;
+  EXPECT_EQ(added.warning(0.24 * added.frequency), "");
+  EXPECT_NE(added.warning(0.26 * added.frequency).find("lowers frequencies"),
+            std::string::npos);
 
   run.begin(stage, 0.99);
   run.throw_at_random(1e-6);

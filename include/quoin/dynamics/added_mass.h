@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_dynamics_added_mass_h
+#define quoin_dynamics_added_mass_h
+
+#include <quoin/blocks/rigid_blocks.h>
+#include <quoin/model/model.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** What mass scaling changes in a model. */
+  struct AddedMass
+  {
+    double share  = 0.; /**< added mass by the mass of the model [-] */
+    double bodies = 0.; /**< share of nodes and rigid blocks made heavier */
+    double factor = 1.; /**< largest one of the mass of any of them [-] */
+    /** Blocks made heavier by more than a twentieth, so that their own motions
+        are slower by 2.5 % or more: their number, and their share of the mass
+        of the model [-]. */
+    unsigned int n_slow = 0;
+    double slow_share   = 0.;
+    double frequency    = 0.; /**< above it frequencies are lowered [Hz] */
+
+    /** "mass scaling adds ...", for the log. */
+    std::string text() const;
+
+    /**
+     * What to do if a stage that follows motion feels it: it adds more than a
+     * quarter of a hundredth of mass, more than a hundredth of the model is in
+     * blocks that move more slowly, or frequencies up to
+     * four times @p highest, that of the loads [Hz], are lowered, which waves
+     * need that the mesh resolves. Empty: it does not.
+     */
+    std::string warning(double highest) const;
+  };
+
+  /**
+   * Of the masses @p mass of the local nodes of @p model and the mass @p
+   * factors of its rigid blocks, with which the critical step is @p time_step
+   * [s]. Collective.
+   */
+  template <int dim>
+  AddedMass
+  find_added_mass(const Model<dim> &model, const std::vector<double> &mass,
+                  const std::vector<double> &factors, double time_step);
+} // namespace quoin
+
+#endif
