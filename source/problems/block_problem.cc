@@ -305,6 +305,15 @@ namespace quoin
           { "largest energy residual [J]", context.outputs.largest_residual() },
           { "energy residual share", context.energy_residual() },
           { "solver", system.implicit_solver ? "implicit" : "explicit" } });
+    if constexpr (dim == 2)
+      if (system.water)
+      {
+        const JointFlowState &water = state.template get<JointFlowState>();
+        summary.update({ { "water inflow [m3]", water.inflow },
+                         { "water outflow [m3]", water.outflow },
+                         { "stored water [m3]", water.stored },
+                         { "water residual [m3]", water.residual } });
+      }
     if (const ExplicitSolver<dim> *solver = system.explicit_solver)
       summary.update(
           { { "time step [s]", solver->get_time_step() },
