@@ -221,19 +221,20 @@ namespace quoin
     void read_water(const ParameterSection &top, Parameters &parameters)
     {
       WaterParameters &water = parameters.water = WaterParameters::read(top);
-      const ParameterSection section(top, "Water");
+      const auto fail = [&](const std::string &name, const std::string &why)
+      { ParameterSection(top, "Water").fail(name, why); };
       if (water.flow == FlowKind::none)
       {
-        for (const std::string name : { "Water joints", "Water boundaries" })
-          if (!ParameterSection(top, name).list("Names").empty())
-            section.fail("Flow", "lets no water flow, although section '" + name
-                                     + "' has names. Take 'steady' or "
-                                       "'transient', or remove the names.");
+        if (!water.joints.empty() || !water.boundaries.empty())
+          fail("Flow", std::string("lets no water flow, although section '")
+                           + (water.joints.empty() ? "Water boundaries"
+                                                   : "Water joints")
+                           + "' has names. Take 'steady' or 'transient', or "
+                             "remove the names.");
         return;
       }
       if (parameters.model.large_displacements)
-        section.fail("Flow",
-                     "is along joints of the mesh, but with 'Displacements = "
+        fail("Flow", "is along joints of the mesh, but with 'Displacements = "
                      "large' blocks meet others at contacts that come and go, "
                      "of which no network of channels is made. Take 'small' "
                      "in section 'Contact'.");
@@ -243,22 +244,19 @@ namespace quoin
                            "flows, with their apertures.");
       for (const std::string &name : water.stages)
         if (!find_named(parameters.stages, name))
-          section.fail("Stages", "names '" + name
-                                     + "', which is no stage. Stages are: "
-                                     + known_names_like(name, parameters.stages,
-                                                        &StageParameters::name)
-                                     + ".");
+          fail("Stages", "names '" + name + "', which is no stage. Stages are: "
+                             + known_names_like(name, parameters.stages,
+                                                &StageParameters::name)
+                             + ".");
       if (water.flow != FlowKind::transient || !parameters.is_implicit)
         return;
       for (const StageParameters &stage : parameters.stages)
         if ((water.stages.empty() || is_among(stage.name, water.stages))
             && (stage.end != StageEnd::time || stage.safety))
-          section.fail("Flow",
-                       "is transient and needs a time, but the stage '"
-                           + stage.name
-                           + "' has none: take 'End = time' and a "
-                             "'Duration' there, 'Flow = steady', or leave the "
-                             "stage out of 'Stages'.");
+          fail("Flow",
+               "needs a time, but the stage '" + stage.name
+                   + "' has none: take 'End = time' and a 'Duration' there, "
+                     "'Flow = steady', or leave the stage out of 'Stages'.");
     }
   } // namespace
 
