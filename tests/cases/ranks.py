@@ -49,7 +49,7 @@ PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
 # A slab that presses water out of the joint below it.
 SLAB = os.path.join(common.VERIFICATION, "joint_flow", "consolidation.prm")
 DRAINING = ["Solver=explicit", "Water/Bulk modulus=2e8",
-            "Stages/press/Duration=1e-3", "Histories/Interval=1e-5"]
+            "Stages/press/Duration=2e-4", "Histories/Interval=1e-5"]
 # A stack pushed by a factor of loads that grow with the height; the factor is
 # no number in the first stage, the reaction to it and a displacement are.
 COLLAPSE = os.path.join(common.VERIFICATION, "collapse_load", "stack.prm")
@@ -183,9 +183,10 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                  "Implicit/Force ratio=1e-12"]),
             "water": (SLAB, DRAINING),
             "implicit, water": (
-                SLAB, ["Stages/press/Duration=0.1", "Implicit/First step=0.05",
-                       "Implicit/Largest step=0.05",
-                       "Implicit/Force ratio=1e-12"]),
+                SLAB, ["Stages/press/Duration=0.1", "Implicit/First step=0.1",
+                       "Implicit/Largest step=0.1",
+                       "Materials/rock/Young's modulus=20e9",
+                       "Implicit/Force ratio=1e-11"]),
             "implicit": (WALL, PUSHED),
             "implicit, iterative": (
                 WALL, PUSHED + ["Implicit/Linear solver=iterative"])}

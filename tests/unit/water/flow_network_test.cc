@@ -135,7 +135,7 @@ TEST(FlowNetwork, TransientFlowKeepsItsWater)
   FlowSolution flow;
   for (unsigned int i = 0; i < 200; ++i)
   {
-    flow    = network.transient(FlowConditions(2), 1e-5, content, none, none);
+    flow    = network.transient(FlowConditions(2), 1e-4, content, none, none);
     content = flow.content;
     EXPECT_NEAR(sum(content), all, 1e-15 * all);
   }
