@@ -75,25 +75,29 @@ namespace quoin
     return result;
   }
 
-  std::vector<double> FlowNetwork::outflow(const std::vector<double> &pressure,
+  std::vector<double> FlowNetwork::outflow(const Pressures &pressure,
                                            const double dt) const
   {
-    std::vector<double> result(n_nodes(), 0.);
+    Pressures sum(n_nodes(), 0.);
     for (const FlowChannel &channel : all_channels)
     {
-      const double volume = dt * flow(channel, pressure);
-      result[channel.nodes[0]] += volume;
-      result[channel.nodes[1]] -= volume;
+      const auto [i, j]        = channel.nodes;
+      const long double volume = (long double)(dt * conductance(channel))
+                                 * (pressure[i] - pressure[j]
+                                    + (long double)(fluid.unit_weight)
+                                          * (elevation[i] - elevation[j]));
+      sum[i] += volume;
+      sum[j] -= volume;
     }
-    return result;
+    return { sum.begin(), sum.end() };
   }
 
-  std::vector<double> FlowNetwork::solve(const FlowConditions &conditions,
-                                         const double dt,
-                                         const std::vector<double> &storage,
-                                         const std::vector<double> &known) const
+  FlowNetwork::Pressures
+  FlowNetwork::solve(const FlowConditions &conditions, const double dt,
+                     const std::vector<double> &storage,
+                     const std::vector<double> &known) const
   {
-    std::vector<double> pressure(n_nodes(), 0.);
+    Pressures pressure(n_nodes(), 0.);
     std::vector<int> row(n_nodes(), -1);
     int n = 0;
     for (unsigned int i = 0; i < n_nodes(); ++i)
@@ -128,8 +132,8 @@ namespace quoin
     matrix.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
 
-    // The second pass takes off what rounding left in the first one.
-    for (unsigned int pass = 0; pass < 2; ++pass)
+    // Later passes take off what rounding left in the first one.
+    for (unsigned int pass = 0; pass < 4; ++pass)
     {
       const std::vector<double> out = outflow(pressure, dt);
       Eigen::VectorXd lacking(n);
@@ -137,7 +141,8 @@ namespace quoin
         if (row[i] >= 0)
           lacking[row[i]] = diagonal[i] + storage[i] > 0.
                                 ? known[i] + dt * conditions.source[i]
-                                      - storage[i] * pressure[i] - out[i]
+                                      - double(storage[i] * pressure[i])
+                                      - out[i]
                                 : 0.;
       const Eigen::VectorXd correction = factors.solve(lacking);
       for (unsigned int i = 0; i < n_nodes(); ++i)
@@ -159,8 +164,9 @@ namespace quoin
       }
     const std::vector<double> nothing(n_nodes(), 0.);
     FlowSolution result;
-    result.pressure = solve(conditions, 1., nothing, nothing);
-    const auto out  = outflow(result.pressure, 1.);
+    const Pressures pressure = solve(conditions, 1., nothing, nothing);
+    const auto out           = outflow(pressure, 1.);
+    result.pressure.assign(pressure.begin(), pressure.end());
     for (unsigned int i = 0; i < n_nodes(); ++i)
     {
       if (unconnected[i])
@@ -188,9 +194,10 @@ namespace quoin
       known.push_back(content[i] - volume[i] + compliance[i] * guess[i]);
     }
     FlowSolution result;
-    result.pressure = solve(conditions, dt, storage, known);
-    result.content  = contents(result.pressure);
-    const auto out  = outflow(result.pressure, dt);
+    const Pressures pressure = solve(conditions, dt, storage, known);
+    result.pressure.assign(pressure.begin(), pressure.end());
+    result.content = contents(result.pressure);
+    const auto out = outflow(pressure, dt);
     for (unsigned int i = 0; i < n_nodes(); ++i)
     {
       // Without a given pressure the content follows from the flow: none is

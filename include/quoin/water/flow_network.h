@@ -116,14 +116,17 @@ namespace quoin
                            const std::vector<double> &guess) const;
 
   private:
+    /** Beside a crack, whose resistance is 1e-9 of that of a closed joint, the
+        differences of its pressures are below the rounding of a double. */
+    using Pressures = std::vector<long double>;
+
     /** Solves storage p + dt (flow out) = known + dt source at nodes whose
         pressure is not given. */
-    std::vector<double> solve(const FlowConditions &conditions, double dt,
-                              const std::vector<double> &storage,
-                              const std::vector<double> &known) const;
+    Pressures solve(const FlowConditions &conditions, double dt,
+                    const std::vector<double> &storage,
+                    const std::vector<double> &known) const;
     /** Volume that leaves each node through its channels [m^3]. */
-    std::vector<double> outflow(const std::vector<double> &pressure,
-                                double dt) const;
+    std::vector<double> outflow(const Pressures &pressure, double dt) const;
 
     Fluid fluid;
     std::vector<double> elevation; /**< [m] */

@@ -102,6 +102,30 @@ def undrained(press=2e5, kn=1e10, a0=1e-4, bulk=2e8):
     return w, press + kn * w
 
 
+def cracked_dam(height=50.0, width=40.0, concrete=24e3, water=1e4, kn=1e9,
+                place=28.0):
+    """Length of the crack below a rigid dam, with the head of the reservoir in
+    it and an uplift that falls to zero from its tip to the toe; the effective
+    stress rises from zero at the tip to the toe. Opening at the heel, effective
+    traction at the toe, crack, pressure at a place in the closed part."""
+    weight, head = 0.5 * concrete * height * width, water * height
+    low, high = 0.0, width
+    for _ in range(200):
+        crack = 0.5 * (low + high)
+        rest = width - crack
+        effective = weight - head * (crack + 0.5 * rest)
+        moment = (weight * 2 * width / 3 - 0.5 * water * height**3 / 3
+                  - head * crack * (width - crack / 2)
+                  - 0.5 * head * rest * 2 * rest / 3)  # about the toe
+        if moment < effective * rest / 3:
+            low = crack
+        else:
+            high = crack
+    stress = 2 * effective / rest
+    return (stress / kn * crack / rest, -stress, crack,
+            head * (width - place) / rest)
+
+
 def main():
     pressure, flow, q_h1, v_v2 = network()
     write("network.csv",
@@ -117,6 +141,8 @@ def main():
           [[t] + [diffusion(x, t) for x in (0.5, 1.0, 2.0)] for t in times])
     write("consolidation.csv", "time [s],opening [m],middle [Pa]",
           consolidation([0.01 * k for k in range(1, 201)]))
+    write("dam.csv", "time [s],heel [m],toe [Pa],crack [m],pressure [Pa]",
+          [(1.0,) + cracked_dam()])
     write("undrained.csv", "time [s],opening [m],middle [Pa]",
           [(1.0,) + undrained()])
 
