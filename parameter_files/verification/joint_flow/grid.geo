@@ -32,4 +32,5 @@ Physical Curve("left") = {13, 17, 21};
 Physical Curve("v1") = {14, 18, 22};
 Physical Curve("v2") = {15, 19, 23};
 Physical Curve("right") = {16, 20, 24};
-Physical Surface("rock") = {1:9};
+Physical Surface("rock") = {1:4, 6:9};
+Physical Surface("core") = {5};

@@ -18,14 +18,19 @@ def write(name, head, rows):
             stream.write(",".join("%.12g" % value for value in row) + "\n")
 
 
-def network(weight=1e4):
-    """Heads of the crossings by Kirchhoff's laws; nodes (x, y)."""
+def network(weight=1e4, is_dug=False):
+    """Heads of the crossings by Kirchhoff's laws; nodes (x, y). The crossings
+    are the corners of the block in the middle: once that is excavated water
+    comes out there without pressure."""
     aperture = {"h1": 1e-4, "h2": 2e-4, "v1": 1.5e-4, "v2": 3e-4}
     lines = {"h1": [(x, 1) for x in range(4)], "h2": [(x, 2) for x in range(4)],
              "v1": [(1, y) for y in range(4)], "v2": [(2, y) for y in range(4)]}
     head = {(0, 1): 20.0, (0, 2): 20.0, (3, 1): 5.0, (3, 2): 5.0,
             (1, 3): 3.0}  # a spring: pressure 0 at the height 3
     source = {(2, 2): -1e-5}
+    if is_dug:
+        head.update({(x, y): float(y) for x in (1, 2) for y in (1, 2)})
+        source = {}
     nodes = sorted({node for line in lines.values() for node in line})
     number = {node: i for i, node in enumerate(nodes)}
     matrix, right = np.zeros((len(nodes),) * 2), np.zeros(len(nodes))
@@ -33,6 +38,9 @@ def network(weight=1e4):
     for name, line in lines.items():
         conductance[name] = weight * aperture[name]**3 / (12 * MU)
         for a, b in zip(line, line[1:]):
+            if is_dug and a in [(1, 1), (1, 2), (2, 1)] and b in [
+                    (1, 2), (2, 1), (2, 2)]:
+                continue  # a face of the block
             i, j = number[a], number[b]
             matrix[[i, j, i, j], [i, j, j, i]] += (
                 conductance[name] * np.array([1, 1, -1, -1]))
@@ -47,9 +55,12 @@ def network(weight=1e4):
     inflow = laplace @ heads
     at = {node: heads[i] for node, i in number.items()}
     pressure = {node: weight * (h - node[1]) for node, h in at.items()}
+    if is_dug:
+        conductance["h1"] = conductance["v2"] = 0.0
     flow = {"lake": inflow[number[0, 1]] + inflow[number[0, 2]],
             "river": inflow[number[3, 1]] + inflow[number[3, 2]],
-            "spring": inflow[number[1, 3]], "pump": -1e-5}
+            "spring": inflow[number[1, 3]],
+            "pump": inflow[number[2, 2]] if is_dug else -1e-5}
     q_h1 = conductance["h1"] * (at[1, 1] - at[2, 1])
     v_v2 = conductance["v2"] * (at[2, 1] - at[2, 2]) / aperture["v2"]
     return pressure, flow, q_h1, v_v2
@@ -136,6 +147,13 @@ def main():
     names = ("lake", "river", "spring", "pump")
     write("network_flow.csv", ",".join(n + " [m^3/s]" for n in names),
           [[flow[n] for n in names]])
+    pressure, flow, _, _ = network(is_dug=True)
+    write("excavation.csv",
+          "time [s],p11 [Pa],p21 [Pa],p12 [Pa],p22 [Pa],bottom [Pa],"
+          "q_h1 [m^3/s],q_v2 [m/s]",
+          [(2.0, 0.0, 0.0, 0.0, 0.0, pressure[1, 0], 0.0, 0.0)])
+    write("excavation_flow.csv", ",".join(n + " [m^3/s]" for n in names),
+          [[flow[n] for n in names]])
     times = [1.2e-5 * k for k in range(20, 201)]
     write("diffusion.csv", "time [s],quarter [Pa],middle [Pa],end [Pa]",
           [[t] + [diffusion(x, t) for x in (0.5, 1.0, 2.0)] for t in times])
@@ -143,6 +161,9 @@ def main():
           consolidation([0.01 * k for k in range(1, 201)]))
     write("dam.csv", "time [s],heel [m],toe [Pa],crack [m],pressure [Pa]",
           [(1.0,) + cracked_dam()])
+    # p - kn w bears the load of 0.2 MPa
+    write("steady.csv", "time [s],opening [m],middle [Pa]",
+          [(1.0, (1e5 - 2e5) / 1e10, 1e5)])
     write("undrained.csv", "time [s],opening [m],middle [Pa]",
           [(1.0,) + undrained()])
 
