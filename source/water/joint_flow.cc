@@ -575,7 +575,7 @@ namespace quoin
     if (given.flow == FlowKind::transient && end.total <= before.time)
       return Followed::balanced;
     set_apertures(nodes);
-    const double dt       = end.total - before.time;
+    const double dt       = std::max(0., end.total - before.time);
     FlowSolution solution = solve(end, dt, before);
     double change = 0., largest = 0.;
     for (unsigned int i = 0; i < solution.pressure.size(); ++i)
