@@ -9,6 +9,7 @@
 #include <quoin/model/block_placement.h>
 #include <quoin/model/contact_bounds.h>
 #include <quoin/model/material_waves.h>
+#include <quoin/water/joint_flow.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +68,9 @@ namespace quoin
         = model.stability().largest_eigenvalue(mass, rigid_stage.mass_factor);
     for (const MotionConstraint<dim> *constraint : acting.constraints)
       eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
+    if constexpr (dim == 2)
+      if (water && water->acts())
+        eigenvalue += water->largest_eigenvalue(mass);
     critical_step = StableTimeStep<dim>::critical(
         dealii::Utilities::MPI::max(eigenvalue, communicator),
         stage.stiffness_coefficient);
@@ -110,6 +114,13 @@ namespace quoin
         forces.push_back(&load);
         if (previous && !names_load(*previous, load.name()))
           begun.push_back(&load);
+      }
+    if constexpr (dim == 2)
+      if (water && water->acts())
+      {
+        forces.push_back(water);
+        if (previous && !water->acts_in(previous->name))
+          begun.push_back(water);
       }
     if (acting.pattern)
       forces.push_back(acting.pattern.get());
@@ -204,10 +215,13 @@ namespace quoin
                                         State<dim> &state)
   {
     this->activate(new_stage, state);
+    prepare(state);
+    if constexpr (dim == 2)
+      if (water)
+        water->begin_stage(stage.name, state);
     scale_masses(stage, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_gravity(previous, automatic_ramp());
-    prepare(state);
     collect_operators(previous);
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
@@ -232,6 +246,9 @@ namespace quoin
                                          State<dim> &state)
   {
     this->activate(resumed, state);
+    if constexpr (dim == 2)
+      if (water)
+        water->resume_stage(state);
     collect_operators(nullptr);
     const State<dim> saved = state;
     scale_masses(stage, state);

@@ -12,6 +12,7 @@
 #include <quoin/loads/free_field_boundary.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/viscous_boundary.h>
+#include <quoin/water/joint_flow.h>
 #include <quoin/mesh/global_geometry.h>
 
 #include <algorithm>
@@ -241,6 +242,9 @@ namespace quoin
     for (const auto &constraint : all_constraints)
       constraint->prepare(state);
     state.template add<LoadPatternState>();
+    if constexpr (dim == 2)
+      if (water)
+        water->prepare(state);
   }
 
   template <int dim>

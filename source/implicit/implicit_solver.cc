@@ -2,6 +2,7 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/implicit/implicit_solver.h>
+#include <quoin/water/joint_flow.h>
 
 #include <algorithm>
 #include <cmath>
@@ -258,12 +259,29 @@ namespace quoin
     broken.assign(model.joints().n_points(), 0);
     iteration  = 0;
     last_share = 1.;
-    // Brittle joints break one after the other, each at an equilibrium.
+    if (water && water->acts())
+      water->begin_step(state);
+    // Brittle joints break one after the other, each at an equilibrium, and
+    // water finds its pressures for the openings of one.
+    JointFlow::Followed followed     = JointFlow::Followed::balanced;
+    unsigned int n_without_new_water = 0;
     do
-      if (iterate(state, target, configuration) == Outcome::failed)
-        return Outcome::failed;
-    while (break_joints());
-    return Outcome::converged;
+    {
+      do
+        if (iterate(state, target, configuration) == Outcome::failed)
+          return Outcome::failed;
+      while (break_joints());
+      if (n_without_new_water == 0)
+        n_without_new_water = iteration;
+      if (water && water->acts())
+        followed = water->follow(
+            configuration.nodes.data(),
+            { configuration.load_time, stage_start + configuration.load_time });
+    } while (followed == JointFlow::Followed::changed);
+    // The next step is as long as joints and blocks let it be.
+    iteration = n_without_new_water;
+    return followed == JointFlow::Followed::lost ? Outcome::failed
+                                                 : Outcome::converged;
   }
 
   ImplicitSolver::Target

@@ -10,6 +10,7 @@
 #include <quoin/model/free_bodies.h>
 #include <quoin/implicit/implicit_solver.h>
 #include <quoin/loads/prescribed_motion.h>
+#include <quoin/water/joint_flow.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,7 +134,8 @@ namespace quoin
     acting.release = Release(
         state, stage,
         stage.release_duration >= 0. ? stage.release_duration : stage_duration);
-    rests   = rests && !acting.release.changes();
+    rests = rests && !acting.release.changes()
+            && !(water && water->changes(stage_start, stage_duration));
     dof_map = std::make_unique<DofMap>(model, acting.constraints, held_blocks,
                                        state, acting.pattern != nullptr);
     equilibrium = std::make_unique<Equilibrium>(
@@ -154,6 +156,8 @@ namespace quoin
   {
     Equilibrium::Operators result{ &model.joints(), &model.blocks() };
     result.insert(result.end(), loads.begin(), loads.end());
+    if (water && water->acts())
+      result.push_back(water);
     result.push_back(&acting.release);
     return result;
   }
@@ -179,6 +183,8 @@ namespace quoin
     activate(new_stage, state);
     ramp_gravity(previous, 0.);
     prepare(state);
+    if (water)
+      water->begin_stage(stage.name, state);
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
         constraint->rest(state);
@@ -203,6 +209,8 @@ namespace quoin
                                     State<2> &state)
   {
     activate(resumed, state);
+    if (water)
+      water->resume_stage(state);
     ramp_gravity(previous, 0.);
     for (MotionConstraint<2> *constraint : acting.constraints)
       constraint->set_mass(model.mass());
@@ -288,6 +296,8 @@ namespace quoin
 
     write_configuration(dof_map->bodies(), configuration, state);
     state.copy_slices(balance.state);
+    if (water)
+      water->commit(state);
     RigidBlockStage rigid;
     rigid.held = held_blocks;
     model.rigid_blocks().follow_nodes(rigid, state);

@@ -101,6 +101,50 @@ namespace quoin
     const std::string water_word = "water";
 
     /** The pressure of "water LEVEL". */
+    /** The level of water through the points @p text, "x, y; x, y; ...", as an
+        expression of x, constant beyond the first and the last of them. */
+    std::string level_through(const ParameterSection &section,
+                              const std::string &name, const std::string &text)
+    {
+      const auto refuse = [&]()
+      {
+        section.fail(name, "needs two points or more, x and y [m], with "
+                           "ascending x: 'water through 0, 12; 30, 10; 50, "
+                           "3'.");
+      };
+      std::vector<std::array<double, 2>> points;
+      std::istringstream parts(text);
+      for (std::string part; std::getline(parts, part, ';');)
+      {
+        std::replace(part.begin(), part.end(), ',', ' ');
+        std::istringstream words(part);
+        std::array<double, 2> point;
+        std::string rest;
+        if (!(words >> point[0] >> point[1]) || words >> rest
+            || (!points.empty() && !(point[0] > points.back()[0])))
+          refuse();
+        points.push_back(point);
+      }
+      if (points.size() < 2)
+        refuse();
+      // The slope changes at each point.
+      std::ostringstream level;
+      level.precision(17);
+      level << points[0][1];
+      double before = 0.;
+      for (std::size_t i = 0; i < points.size(); ++i)
+      {
+        const double after = i + 1 < points.size()
+                                 ? (points[i + 1][1] - points[i][1])
+                                       / (points[i + 1][0] - points[i][0])
+                                 : 0.;
+        level << " + (" << after - before << ") * max(0, x - (" << points[i][0]
+              << "))";
+        before = after;
+      }
+      return level.str();
+    }
+
     LoadComponent water_pressure(const ParameterSection &section,
                                  const std::string &name)
     {
@@ -109,6 +153,13 @@ namespace quoin
         section.fail(name, "needs the height up to which the water stands, a "
                            "function of time [m]: 'water LEVEL', such as "
                            "'water 12'.");
+      const std::string through = " through ";
+      if (text.rfind(through, 0) == 0)
+        return made_component(
+            section, name, LoadQuantity::force,
+            "9810 * max(0, "
+                + level_through(section, name, text.substr(through.size()))
+                + " - y)");
       const TimeFunction level = time_function(section, name, text);
       return { LoadQuantity::force, level, std::make_shared<LoadField>(level) };
     }
@@ -598,7 +649,9 @@ namespace quoin
             "outward normal in the mesh and is added to 'Horizontal' and "
             "'Vertical': a function of place and time as for these; or 'water "
             "LEVEL', the pressure of water whose level is a function of time "
-            "[m], 9810 N/m^3 times the depth below it [Pa]",
+            "[m], 9810 N/m^3 times the depth below it; or 'water through X, Y; "
+            "X, Y', that below a line through points with ascending x [m], "
+            "level beyond its ends [Pa]",
             [&](const ParameterSection &section, const std::string &name)
             {
               const std::string text = section.text(name);

@@ -215,6 +215,51 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    /** Reads the flow of water in joints and refuses what it does not do. */
+    void read_water(const ParameterSection &top, Parameters &parameters)
+    {
+      WaterParameters &water = parameters.water = WaterParameters::read(top);
+      const auto fail = [&](const std::string &name, const std::string &why)
+      { ParameterSection(top, "Water").fail(name, why); };
+      if (water.flow == FlowKind::none)
+      {
+        if (!water.joints.empty() || !water.boundaries.empty())
+          fail("Flow", std::string("lets no water flow, although section '")
+                           + (water.joints.empty() ? "Water boundaries"
+                                                   : "Water joints")
+                           + "' has names. Take 'steady' or 'transient', or "
+                             "remove the names.");
+        return;
+      }
+      if (parameters.model.large_displacements)
+        fail("Flow", "is along joints of the mesh, but with 'Displacements = "
+                     "large' blocks meet others at contacts that come and go, "
+                     "of which no network of channels is made. Take 'small' "
+                     "in section 'Contact'.");
+      if (water.joints.empty())
+        ParameterSection(top, "Water joints")
+            .fail("Names", "must list the sets of joints in which water "
+                           "flows, with their apertures.");
+      for (const std::string &name : water.stages)
+        if (!find_named(parameters.stages, name))
+          fail("Stages", "names '" + name + "', which is no stage. Stages are: "
+                             + known_names_like(name, parameters.stages,
+                                                &StageParameters::name)
+                             + ".");
+      if (water.flow != FlowKind::transient || !parameters.is_implicit)
+        return;
+      for (const StageParameters &stage : parameters.stages)
+        if ((water.stages.empty() || is_among(stage.name, water.stages))
+            && (stage.end != StageEnd::time || stage.safety))
+          fail("Flow",
+               "needs a time, but the stage '" + stage.name
+                   + "' has none: take 'End = time' and a 'Duration' there, "
+                     "'Flow = steady', or leave the stage out of 'Stages'.");
+    }
+  } // namespace
+
   void read_block_model(const ParameterSection &top, Parameters &parameters)
   {
     parameters.model.joints = read_named<JointSetParameters>(top, "Joints");
@@ -233,6 +278,7 @@ namespace quoin
         = read_stages(top, parameters.loads, parameters.is_implicit);
     parameters.model.absent_groups = groups_placed_later(parameters.stages);
     parameters.named_blocks        = read_named<NamedBlock>(top, "Blocks");
+    read_water(top, parameters);
     warn_of_idle_loads(parameters);
     check_coupled_histories(top, parameters);
     check_block_histories(top, parameters);
@@ -259,7 +305,8 @@ namespace quoin
 
   void read_boundary_model(const ParameterSection &top, Parameters &parameters)
   {
-    for (const std::string name : { "Joints", "Loads", "Stages", "Blocks" })
+    for (const std::string name : { "Joints", "Loads", "Stages", "Blocks",
+                                    "Water joints", "Water boundaries" })
       refuse_names(top, name, "boundary elements");
     for (const std::string name : { "Displacement", "Velocity" })
       if (const ParameterSection section(top, "Initial motion");

@@ -78,6 +78,16 @@ namespace quoin
                                       { "time [s]", "block [-]", "x [m]",
                                         "y [m]", "velocity x [m/s]",
                                         "velocity y [m/s]", "deleted [-]" });
+    if constexpr (dim == 2)
+      if (system.water)
+      {
+        std::vector<std::string> columns
+            = { "time [s]", "inflow [m^3]", "outflow [m^3]", "stored [m^3]",
+                "residual [m^3]" };
+        for (const WaterBoundary &boundary : system.parameters.water.boundaries)
+          columns.push_back(boundary.name + " [m^3/s]");
+        water_table = &run.tables.add("flow.csv", columns);
+      }
     if (system.implicit_solver)
       convergence_table = &run.tables.add(
           "convergence.csv", { "step [-]", "attempt [-]", "iteration [-]",
@@ -166,8 +176,12 @@ namespace quoin
     write_energies(row.front());
     history_table.add_row(row);
     if constexpr (dim == 2)
+    {
       if (far_field_table)
         write_far_field_row(state);
+      if (water_table)
+        write_water_row(row.front(), state);
+    }
     return row;
   }
 
@@ -204,6 +218,18 @@ namespace quoin
     far_field_table->add_row({ state.time, double(far.n_steps), ledger.radiated,
                                ledger.substeps, ledger.incident, ledger.given,
                                ledger.mismatch });
+  }
+
+  template <>
+  void BlockOutputs<2>::write_water_row(const double time,
+                                        const State<2> &state)
+  {
+    const JointFlowState &water = state.get<JointFlowState>();
+    std::vector<double> row
+        = { time, water.inflow, water.outflow, water.stored, water.residual };
+    row.insert(row.end(), water.boundary_flow.begin(),
+               water.boundary_flow.end());
+    water_table->add_row(row);
   }
 
   template <int dim>

@@ -77,6 +77,35 @@ namespace quoin
     return parameters.stages.size();
   }
 
+  namespace
+  {
+    /** "water: ..." with a line about each place where it is given. */
+    std::vector<std::string> water_lines(const JointFlow &water)
+    {
+      const WaterParameters &given = water.parameters();
+      const bool is_steady         = given.flow == FlowKind::steady;
+      std::vector<std::string> lines{ text_of(
+          "water: ", is_steady ? "steady" : "transient", " flow in ",
+          water.network().channels().size(), " joint faces between ",
+          water.network().n_nodes(), " places") };
+      for (const HydraulicAperture &joint : given.joints)
+        lines.push_back(text_of("water in joints ", joint.name, ": aperture ",
+                                joint.initial, " m and opening, from ",
+                                joint.residual, " to ", joint.largest, " m"));
+      for (unsigned int b = 0; b < given.boundaries.size(); ++b)
+      {
+        const WaterBoundary &boundary = given.boundaries[b];
+        lines.push_back(
+            text_of("water at ", boundary.name, ": ",
+                    boundary.quantity == WaterQuantity::pressure ? "pressure"
+                    : boundary.quantity == WaterQuantity::head   ? "head"
+                                                                 : "flow",
+                    " at ", water.n_nodes_at(b), " of them"));
+      }
+      return lines;
+    }
+  } // namespace
+
   template <int dim>
   void BlockProblem<dim>::report_model()
   {
@@ -106,6 +135,8 @@ namespace quoin
         run.log.messages(contact_lines(*system.model, state));
         run.log.messages(named_block_lines(*system.model, system.named_blocks));
         run.log.messages(face_lines(parameters, *system.nodes));
+        if (system.water)
+          run.log.messages(water_lines(*system.water));
       }
     run.log.warnings(
         model_advice(parameters, system.mesh_report, *system.model, state));
@@ -318,6 +349,15 @@ namespace quoin
           { "largest energy residual [J]", context.outputs.largest_residual() },
           { "energy residual share", context.energy_residual() },
           { "solver", system.implicit_solver ? "implicit" : "explicit" } });
+    if constexpr (dim == 2)
+      if (system.water)
+      {
+        const JointFlowState &water = state.template get<JointFlowState>();
+        summary.update({ { "water inflow [m3]", water.inflow },
+                         { "water outflow [m3]", water.outflow },
+                         { "stored water [m3]", water.stored },
+                         { "water residual [m3]", water.residual } });
+      }
     if (const ExplicitSolver<dim> *solver = system.explicit_solver)
       summary.update(
           { { "time step [s]", solver->get_time_step() },

@@ -71,6 +71,14 @@ namespace quoin
                construction
                    = std::make_unique<Construction>(*model, parameters.stages);
              make_solver(curves);
+             if constexpr (dim == 2)
+               if (parameters.water.flow != FlowKind::none)
+               {
+                 water = std::make_unique<JointFlow>(
+                     parameters.water, *nodes, model->joints(),
+                     parameters.model.joints, model->thickness());
+                 solver->set_flow(water.get());
+               }
            });
   }
 

@@ -8,6 +8,8 @@
 #include <quoin/results/result_origin.h>
 #include <quoin/tdbem/tangential_stress.h>
 
+#include <cmath>
+
 namespace quoin
 {
   template <int dim>
@@ -81,6 +83,22 @@ namespace quoin
     return fields;
   }
 
+  double flow_value(const Model<2> &model, const JointFlowState &water,
+                    const unsigned int point, const unsigned int component)
+  {
+    if (component == 0)
+      return water.point_pressure[point];
+    if (component == 1)
+      return water.point_aperture[point];
+    // Faces run either way along a joint.
+    const JointSegment &segment = model.joints().segments()[point / 2];
+    const auto along            = model.nodes().point(segment.lower[1])
+                       - model.nodes().point(segment.lower[0]);
+    const bool is_steep = std::abs(along[1]) > 1e6 * std::abs(along[0]);
+    const double sign   = along[is_steep ? 1 : 0] < 0. ? -1. : 1.;
+    return sign * (component == 2 ? water.flow : water.velocity)[point / 2];
+  }
+
   JointFields joint_fields(const Model<2> &model, const State<2> &state)
   {
     JointFields fields;
@@ -88,8 +106,14 @@ namespace quoin
     const auto *origin          = state.find<ResultOrigin<2>>();
     const bool is_moved         = origin && !origin->displacement.empty();
     const bool slips_later      = origin && !origin->slip.empty();
-    for (const std::string &name : law_field_names(model.joints()))
+    const auto law_names        = law_field_names(model.joints());
+    for (const std::string &name : law_names)
       fields.of_laws.push_back({ name, {} });
+    const JointFlowState *water = state.find<JointFlowState>();
+    if (water)
+      for (const char *name :
+           { "water pressure", "hydraulic aperture", "flow", "flow velocity" })
+        fields.of_laws.push_back({ name, {} });
     for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
     {
       const auto &segment = model.joints().segments()[i];
@@ -128,8 +152,11 @@ namespace quoin
           fields.earlier_slip.push_back(origin->slip[p]);
         fields.normal_traction.push_back(history.normal_traction[p]);
         fields.shear_traction.push_back(history.shear_traction[p]);
-        for (auto &[name, values] : fields.of_laws)
-          values.push_back(law_field(model.joints(), name, p, history));
+        for (unsigned int f = 0; f < fields.of_laws.size(); ++f)
+          fields.of_laws[f].second.push_back(
+              f < law_names.size()
+                  ? law_field(model.joints(), law_names[f], p, history)
+                  : flow_value(model, *water, p, f - law_names.size()));
         // Its contact carries forces from then on; the law has it as open.
         fields.state.push_back(history.handed_over[i] && gaps[k][0] <= 0.
                                    ? JointState::slipped

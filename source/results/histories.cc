@@ -547,6 +547,11 @@ namespace quoin
       return history.shear_traction[p];
     if (component == 4)
       return static_cast<double>(state_since_origin(state, p));
+    if (component >= 7)
+    {
+      const JointFlowState *water = state.find<JointFlowState>();
+      return water ? flow_value(model, *water, p, component - 7) : 0.;
+    }
     return law_field(model.joints(), component == 5 ? "damage" : "crushing", p,
                      history);
   }

@@ -57,6 +57,10 @@ namespace quoin
         { "joint state", { Q::joint, 4, "-" } },
         { "joint damage", { Q::joint, 5, "-" } },
         { "joint crushing", { Q::joint, 6, "m" } },
+        { "joint water pressure", { Q::joint, 7, "Pa" } },
+        { "joint hydraulic aperture", { Q::joint, 8, "m" } },
+        { "joint flow", { Q::joint, 9, "m^3/s" } },
+        { "joint flow velocity", { Q::joint, 10, "m/s" } },
         { "reaction x", { Q::reaction, 0, "N", 0 } },
         { "reaction y", { Q::reaction, 1, "N", 0 } },
         { "reaction z", { Q::reaction, 2, "N", 3 } },
@@ -118,7 +122,10 @@ namespace quoin
           "energy share' is the kinetic energy divided by the energy "
           "throughput. 'joint damage' is the fraction of tensile strength and "
           "cohesion that a composite law has lost, 'joint crushing' the "
-          "plastic displacement on its cap. 'contacts' is the number of "
+          "plastic displacement on its cap. 'joint flow' is the flow of water "
+          "along the face of a joint, positive to the right, or upwards in a "
+          "vertical one, 'joint flow velocity' its mean over the aperture. "
+          "'contacts' is the number of "
           "contact points in compression, without matched joints; 'open "
           "joints' is the length of matched joints that have failed in tension "
           "or are open. 'load factor' is the factor of a stage's 'Load "

@@ -60,6 +60,25 @@ def energy_residual(case, folder, output, histories):
     return {"energy residual": residual_of(energies(output))}
 
 
+def water_balance(case, folder, output, histories):
+    """What flows in, out and is stored closes to 1e-10 of what went through;
+    the last flows at boundaries are those of the table "flows"."""
+    table, _ = read_table(os.path.join(output, "flow.csv"))
+    went = np.maximum(table["inflow"] + table["outflow"], 1e-300)
+    closed = (table["inflow"] - table["outflow"] - table["stored"]
+              - table["residual"]) / went
+    worst = max(np.max(np.abs(table["residual"] / went)),
+                np.max(np.abs(closed)))
+    if not worst <= 1e-10:
+        raise Failure("the water balance is off by %.1e" % worst)
+    if "flows" not in case:
+        return {}
+    flows, _ = read_table(os.path.join(folder, case["flows"]))
+    scale = max(np.max(np.abs(values)) for values in flows.values())
+    return {"flows": max(abs(table[name][-1] - values[0]) / scale
+                         for name, values in flows.items())}
+
+
 def reset_results(case, folder, output, histories):
     """The run once more without 'Reset': all columns but those that it resets
     ("reset"), and energies, are the same bit by bit. And the residual of the

@@ -13,7 +13,7 @@ without and with joints inside. A static far field, which every rank has as a
 whole, and dashpots that hold what it carried. Blocks placed and excavated, whole
 and divided. A divided block that slides along another one, from a joint that slipped
 on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra. A wall in equilibrium, cracking, to what its iterations leave, by both
-linear solvers; a block that is distributed over 2 and 3 ranks in equilibrium, without
+linear solvers; water in a joint by both solvers; a block that is distributed over 2 and 3 ranks in equilibrium, without
 and with joints inside. A stack of blocks under a load pattern, by both solvers.
 """
 import json
@@ -46,6 +46,10 @@ SHORT.append("Stages/fill/Reset=displacements, slips, joint states")
 WALL = os.path.join(common.MASONRY, "tue_walls", "j4d.prm")
 PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
           "Implicit/Force ratio=1e-8"]
+# A slab that presses water out of the joint below it.
+SLAB = os.path.join(common.VERIFICATION, "joint_flow", "consolidation.prm")
+DRAINING = ["Solver=explicit", "Water/Bulk modulus=2e8",
+            "Stages/press/Duration=2e-4", "Histories/Interval=1e-5"]
 # A stack pushed by a factor of loads that grow with the height; the factor is
 # no number in the first stage, the reaction to it and a displacement are.
 COLLAPSE = os.path.join(common.VERIFICATION, "collapse_load", "stack.prm")
@@ -177,6 +181,12 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                 ["Solver=implicit", "Loads/base/Horizontal=0",
                  "Stages/cycle/Duration=0.05",
                  "Implicit/Force ratio=1e-12"]),
+            "water": (SLAB, DRAINING),
+            "implicit, water": (
+                SLAB, ["Stages/press/Duration=0.1", "Implicit/First step=0.1",
+                       "Implicit/Largest step=0.1",
+                       "Materials/rock/Young's modulus=20e9",
+                       "Implicit/Force ratio=1e-11"]),
             "implicit": (WALL, PUSHED),
             "implicit, iterative": (
                 WALL, PUSHED + ["Implicit/Linear solver=iterative"])}

@@ -22,7 +22,7 @@ sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import common  # noqa: E402
 from common import Failure  # noqa: E402
 
-TABLES = ("histories.csv", "energies.csv", "safety.csv")
+TABLES = ("histories.csv", "energies.csv", "safety.csv", "flow.csv")
 # entries of summary.json that a resumed run must have as the uninterrupted one
 SUMMARY = ("time [s]", "steps", "energy throughput [J]", "energy residual [J]",
            "largest energy residual [J]", "energy residual share")
@@ -148,6 +148,15 @@ CASES = {
         ["Output/Checkpoint interval=0.05", "Histories/Interval=1e-2",
          "Stages/Names=settle, safety, rest", "Stages/rest/Duration=0.5",
          "Stages/rest/Loads=gravity, held"], 1, 3),
+    # water in a joint, by both solvers
+    "water": (os.path.join(common.VERIFICATION, "joint_flow",
+                           "consolidation.prm"),
+              ["Solver=explicit", "Water/Bulk modulus=2e8",
+               "Stages/press/Duration=0.05", "Output/Checkpoint interval=0.05",
+               "Histories/Interval=1e-4", "Output/Field interval=1e-2"], 1, 2),
+    "water, implicit": (
+        os.path.join(common.VERIFICATION, "joint_flow", "consolidation.prm"),
+        ["Output/Checkpoint interval=0.05", "Output/Field interval=0.2"], 1, 2),
     # cells and joints that become softer under pressure
     "properties": (
         os.path.join(common.VERIFICATION, "property_change", "case.prm"),

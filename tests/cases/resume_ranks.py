@@ -79,6 +79,8 @@ CASES = {
                         "Stages/Names=settle, safety, rest",
                         "Stages/rest/Duration=0.5",
                         "Stages/rest/Loads=gravity, held"], UP),
+    "water": of_ranks("water", ALL),
+    "implicit, water": of_ranks("implicit, water", UP),
     "implicit, divided": of_ranks("implicit, divided", ALL,
                                   ["Implicit/First step=0.05",
                                    "Implicit/Largest step=0.05"]),

@@ -136,6 +136,7 @@ namespace quoin
     using Solver<dim>::all_loads;
     using Solver<dim>::stage;
     using Solver<dim>::acting;
+    using Solver<dim>::water;
     using Solver<dim>::time_shares;
     using Solver<dim>::acts_in;
     using Solver<dim>::sum;

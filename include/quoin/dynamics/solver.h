@@ -23,6 +23,8 @@
 
 namespace quoin
 {
+  class JointFlow;
+
   /** Energies of the whole model at one time [J]. */
   struct Energies : EnergyAccounts
   {
@@ -101,6 +103,12 @@ namespace quoin
                                State<dim> & /*state*/)
     {
       return 0.;
+    }
+
+    /** Lets water flow in joints; @p flow must outlive this object. */
+    void set_flow(JointFlow *flow)
+    {
+      water = flow;
     }
 
     /** Sets this rank's @p terms of the displacement that the load pattern of
@@ -203,6 +211,7 @@ namespace quoin
     std::vector<std::unique_ptr<MotionConstraint<dim>>> all_constraints;
     FarFields far; /**< two of them */
     std::vector<NodalLoad<dim>> all_loads;
+    JointFlow *water = nullptr; /**< null: no water flows in joints */
     std::vector<std::string> known_loads;
 
     StageParameters stage;

@@ -16,6 +16,7 @@
 #include <quoin/implicit/implicit_parameters.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/water/water_parameters.h>
 
 #include <string>
 #include <vector>
@@ -51,6 +52,7 @@ namespace quoin
 
     ModelParameters model;
     std::vector<LoadParameters> loads; /**< initial stresses included */
+    WaterParameters water;
     std::vector<StageParameters> stages;
     InitialMotion initial_motion;
     std::vector<NamedBlock> named_blocks;

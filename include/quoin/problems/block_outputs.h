@@ -114,6 +114,7 @@ namespace quoin
     void write_generated_geometry() const;
     void write_energies(double time);
     void write_far_field_row(const State<dim> &state);
+    void write_water_row(double time, const State<dim> &state);
     void write_boundary(const State<dim> &state);
 
     BlockSystem<dim> &system;
@@ -123,7 +124,7 @@ namespace quoin
     const TimeControl row_times, field_times;
     RootTable &history_table, &energy_table;
     RootTable *far_field_table = nullptr, *convergence_table = nullptr,
-              *outside_table = nullptr;
+              *outside_table = nullptr, *water_table = nullptr;
     ModelOutput<dim> fields;
     BoundaryOutput boundary;
 
@@ -138,6 +139,8 @@ namespace quoin
   void BlockOutputs<2>::write_iterations();
   template <>
   void BlockOutputs<2>::write_far_field_row(const State<2> &state);
+  template <>
+  void BlockOutputs<2>::write_water_row(double time, const State<2> &state);
   template <>
   void BlockOutputs<2>::write_boundary(const State<2> &state);
 } // namespace quoin

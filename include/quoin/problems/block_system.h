@@ -13,6 +13,7 @@
 #include <quoin/mesh/mesh_report.h>
 #include <quoin/mesh/node_map.h>
 #include <quoin/parameters/parameters.h>
+#include <quoin/water/joint_flow.h>
 
 #include <memory>
 #include <string>
@@ -67,6 +68,8 @@ namespace quoin
     std::unique_ptr<Model<dim>> model;
     /** Construction in two dimensions. */
     std::unique_ptr<Construction> construction;
+    /** Water that flows in joints; null: there is none. */
+    std::unique_ptr<JointFlow> water;
     std::unique_ptr<Solver<dim>> solver;
     ExplicitSolver<dim> *explicit_solver = nullptr; /**< the solver, or null */
     ImplicitSolver *implicit_solver      = nullptr; /**< the solver, or null */

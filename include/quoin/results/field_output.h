@@ -13,6 +13,7 @@
 #include <quoin/results/block_output.h>
 #include <quoin/results/boundary_output.h>
 #include <quoin/results/joint_output.h>
+#include <quoin/water/joint_flow.h>
 
 namespace quoin
 {
@@ -20,6 +21,12 @@ namespace quoin
   template <int dim>
   BlockFields<dim> block_fields(const Model<dim> &model,
                                 const State<dim> &state);
+
+  /** Of the water at @p point of the joints of this rank: pressure [Pa],
+      hydraulic aperture [m], flow [m^3/s] or its velocity [m/s], positive to
+     the right or, in vertical joints, upwards. */
+  double flow_value(const Model<2> &model, const JointFlowState &water,
+                    unsigned int point, unsigned int component);
 
   /**
    * Fields of the matched joints of this rank, those handed over to general

@@ -25,8 +25,26 @@ def dam(height=50.0, width=40.0, concrete=24e3, water=10e3, phi=50.0):
     return mu * weight / push, mu * (weight - uplift) / push
 
 
+def wedge(phi=45.0, density=2600.0):
+    """Factor of safety of a wedge on a plane below a phreatic line."""
+    x_top, y_top = 20.0, 12.0
+    slope = y_top / x_top
+    length = math.hypot(x_top, y_top)
+    weight = 9.81 * density * 0.5 * (x_top - 12.0) * y_top
+
+    def level(x):
+        return 7 * x / 8 if x < 8 else 7 + 3 * (x - 8) / 12
+    n = 100000
+    uplift = sum(9810 * max(0.0, level(x) - slope * x)
+                 for x in ((i + 0.5) * x_top / n for i in range(n)))
+    uplift *= length / n
+    sine, cosine = y_top / length, x_top / length
+    return ((weight * cosine - uplift) * math.tan(math.radians(phi))
+            / (weight * sine))
+
+
 def main():
-    write("factors.csv", "dry [-],uplift [-]", [dam()])
+    write("factors.csv", "dry [-],uplift [-],wedge [-]", [dam() + (wedge(),)])
     # (density - water) times g times area of the block
     write("buoyancy.csv", "time [s],horizontal [N],vertical [N]",
           [(1.0, 0.0, (24e3 - 10e3) * 2.0 * 1.0)])

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_water_joint_flow_h
+#define quoin_water_joint_flow_h
+
+#include <quoin/base/archive_members.h>
+#include <quoin/base/known_names.h>
+#include <quoin/base/thickness.h>
+#include <quoin/joint_elements/matched_joints.h>
+#include <quoin/operators/force_operator.h>
+#include <quoin/water/water_parameters.h>
+
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** Water in the joints. */
+  struct JointFlowState
+  {
+    static constexpr const char *slice_name = "joint flow";
+
+    bool acts   = false;
+    double time = 0.;             /**< of the last solution [s] */
+    std::vector<double> pressure; /**< of the nodes of the network [Pa] */
+    std::vector<double> content;  /**< see FlowSolution [m^3] */
+
+    // Volumes since the start of the run [m^3].
+    double inflow = 0., outflow = 0., stored = 0., residual = 0.;
+    std::vector<double> boundary_flow; /**< into the joints [m^3/s] */
+
+    // Of the segments of joints of this rank and of their points.
+    std::vector<double> point_pressure; /**< [Pa] */
+    std::vector<double> point_aperture; /**< hydraulic; 0: no water [m] */
+    std::vector<double> flow;           /**< from point 0 to point 1 [m^3/s] */
+    std::vector<double> velocity;       /**< mean over the aperture [m/s] */
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.same(acts, time, pressure, content, inflow, outflow, stored,
+                   residual, boundary_flow);
+      visitor.own(point_pressure, 2, JointHistory::slice_name);
+      visitor.own(point_aperture, 2, JointHistory::slice_name);
+      visitor.own(flow, 1, JointHistory::slice_name);
+      visitor.own(velocity, 1, JointHistory::slice_name);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive_members(archive, *this);
+    }
+  };
+
+  /**
+   * Water that flows along matched joints and presses their faces apart: a
+   * FlowNetwork of the joints of all ranks, which every rank solves. Where
+   * joints meet they share a node. Joints at absent blocks have no water, and
+   * ends of others there the pressure 0 unless another value is given.
+   *
+   * The pressure acts on the reference area, along its normal. Apertures follow
+   * from the openings of joints. In explicit steps the flow is solved every so
+   * often with those of the moment; an implicit solver iterates, see follow().
+   */
+  class JointFlow : public ForceOperator<2>
+  {
+  public:
+    /**
+     * Keeps references to @p nodes and @p joints; @p sets: of joints. Throws an
+     * InputError about names that the model does not have. Collective.
+     */
+    JointFlow(const WaterParameters &parameters, const NodeMap<2> &nodes,
+              const MatchedJoints &joints,
+              const std::vector<JointSetParameters> &sets,
+              const Thickness &thickness);
+
+    const char *kind() const override
+    {
+      return "water";
+    }
+    void prepare(State<2> &state) const override;
+
+    /** Begins stage @p name, with steady flow at once if that is wanted.
+        Collective. */
+    void begin_stage(const std::string &name, State<2> &state);
+    /** Continues it with the water of @p state. Collective. */
+    void resume_stage(const State<2> &state);
+    /** Whether water is in the joints in stage @p name. */
+    bool acts_in(const std::string &name) const
+    {
+      return given.stages.empty() || is_among(name, given.stages);
+    }
+    /** Whether there is water in the stage. */
+    bool acts() const
+    {
+      return now.acts;
+    }
+    /** Whether loads change with time in a stage of @p duration that began at
+        @p start [s] because of the water. */
+    bool changes(double start, double duration) const;
+
+    /** Solves the flow if it is due in this step. */
+    void update(const StepContext &step, State<2> &state) override;
+    void add_loads(const TimePoint &time, NodeVector<2> *force) const override;
+    double external_power(const TimePoint &time,
+                          const NodeVector<2> *velocity) const override;
+    /** Largest eigenvalue of the stiffness of the water in explicit steps, by
+        the @p mass of the local nodes [1/s^2]; collective. */
+    double largest_eigenvalue(const std::vector<double> &mass) const;
+
+    /** Takes the water of the last equilibrium, @p state. */
+    void begin_step(const State<2> &state);
+    /**
+     * Solves the flow with the apertures of @p nodes, which are in equilibrium
+     * with the present pressures, @p end of a step, which began with the last
+     * equilibrium. If the pressures were others there are new ones, for which
+     * another equilibrium is to be found. Collective.
+     */
+    enum class Followed
+    {
+      balanced, /**< pressures and apertures belong together */
+      changed,  /**< there are new pressures */
+      lost      /**< they do not come into balance */
+    };
+    Followed follow(const NodeRecord<2> *nodes, const TimePoint &end);
+    /** Gives the water of follow() to @p state. */
+    void commit(State<2> &state) const
+    {
+      if (now.acts)
+        state.get<JointFlowState>() = now;
+    }
+
+    const WaterParameters &parameters() const
+    {
+      return given;
+    }
+    const FlowNetwork &network() const
+    {
+      return flow_network;
+    }
+    /** Number of the network's nodes at @p boundary of the parameters. */
+    unsigned int n_nodes_at(const unsigned int boundary) const
+    {
+      return boundary_nodes[boundary].size();
+    }
+
+  private:
+    void make_network(const std::vector<JointSetParameters> &sets,
+                      const Thickness &thickness);
+    void find_boundaries();
+    /** Opens and closes channels and finds ends at absent blocks. */
+    void find_open_channels(const State<2> &state);
+    /** Gives channels the apertures of @p nodes; collective. */
+    void set_apertures(const NodeRecord<2> *nodes);
+    FlowConditions conditions(const TimePoint &time) const;
+    /** Flow over @p dt since @p before [s]. */
+    FlowSolution solve(const TimePoint &time, double dt,
+                       const JointFlowState &before) const;
+    /** Throws a RunError about water without a way out. */
+    FlowSolution solve_steady(const FlowConditions &at) const;
+    /** Makes @p solution, of the last @p dt since @p before, that of now. */
+    void take(const FlowSolution &solution, double time, double dt,
+              const JointFlowState &before);
+    /** Forces of the pressures of now. */
+    void find_forces();
+
+    /** A channel's place in the mesh. */
+    struct Face
+    {
+      std::array<unsigned int, 2> lower, upper; /**< global nodes */
+      std::array<std::array<double, 2>, 2> points;
+      std::array<unsigned int, 2> blocks;
+      std::array<double, 2> areas; /**< of the points [m^2] */
+      unsigned int number = 0;     /**< of the joint face on all ranks */
+      unsigned int set    = 0;
+      double thickness    = 1.;
+
+      template <typename Archive>
+      void serialize(Archive &archive, const unsigned int)
+      {
+        archive &lower &upper &points &blocks &areas &number &set &thickness;
+      }
+    };
+
+    const WaterParameters given;
+    const NodeMap<2> &node_map;
+    const MatchedJoints &joints;
+    FlowNetwork flow_network;
+    std::vector<Face> faces; /**< of each channel */
+    /** Channel of each local segment; none without water. */
+    std::vector<unsigned int> channel_of_segment;
+    /** Aperture of each set of joints; null: no water. */
+    std::vector<const HydraulicAperture *> aperture_of_set;
+    std::vector<double> compliance_of_set; /**< of joints [m/Pa] */
+    std::vector<double> compliance;        /**< of nodes [m^3/Pa] */
+    std::vector<double> elevation;         /**< of nodes [m] */
+    /** Global nodes of the mesh and their node of the network. */
+    std::vector<std::pair<unsigned int, unsigned int>> node_of_mesh;
+    std::vector<std::vector<unsigned int>> boundary_nodes;
+    std::vector<std::uint8_t> is_wall; /**< nodes at absent blocks */
+
+    JointFlowState now, before;
+    std::vector<unsigned int> force_nodes; /**< local, owned */
+    std::vector<NodeVector<2>> forces;     /**< [N] */
+    FixedPointAcceleration acceleration;
+    unsigned int n_iterations = 0;
+  };
+} // namespace quoin
+
+#endif

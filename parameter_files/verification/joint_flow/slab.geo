@@ -1,0 +1,26 @@
+// A slab of 2 m x 0.2 m on the ground, their joint "foot".
+Point(1) = {0, -0.2, 0};
+Point(2) = {2, -0.2, 0};
+Point(3) = {2, 0, 0};
+Point(4) = {2, 0.2, 0};
+Point(5) = {0, 0.2, 0};
+Point(6) = {0, 0, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 1};
+Line(7) = {6, 3};
+Curve Loop(1) = {1, 2, -7, 6};
+Curve Loop(2) = {7, 3, 4, 5};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+MeshSize{ : } = 0.1;
+Physical Curve("base") = {1};
+Physical Curve("right") = {2, 3};
+Physical Curve("left") = {5, 6};
+Physical Curve("top") = {4};
+Physical Curve("foot") = {7};
+Physical Surface("ground") = {1};
+Physical Surface("slab") = {2};

@@ -1,0 +1,25 @@
+// A wedge of rock on a plane that falls from (20, 12) m to (0, 0) m.
+Point(1) = {-5, -5, 0};
+Point(2) = {25, -5, 0};
+Point(3) = {25, 12, 0};
+Point(4) = {20, 12, 0};
+Point(5) = {12, 12, 0};
+Point(6) = {0, 0, 0};
+Point(7) = {-5, 0, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 5};
+Line(5) = {5, 6};
+Line(6) = {6, 7};
+Line(7) = {7, 1};
+Line(8) = {6, 4};
+Curve Loop(1) = {1, 2, 3, -8, 6, 7};
+Curve Loop(2) = {8, 4, 5};
+Plane Surface(1) = {1};
+Plane Surface(2) = {2};
+MeshSize{ : } = 2.5;
+Physical Curve("held") = {1, 2, 7};
+Physical Curve("plane") = {8};
+Physical Surface("ground") = {1};
+Physical Surface("wedge") = {2};

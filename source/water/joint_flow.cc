@@ -1,0 +1,606 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/exceptions.h>
+#include <quoin/base/disjoint_sets.h>
+#include <quoin/base/nearest_name.h>
+#include <quoin/base/number_text.h>
+#include <quoin/mesh/global_geometry.h>
+#include <quoin/operators/archive.h>
+#include <quoin/water/joint_flow.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace quoin
+{
+  namespace
+  {
+    constexpr unsigned int none = -1;
+
+    /** Largest change of a pressure, by the largest pressure, at which an
+        equilibrium is one [-]. */
+    constexpr double pressure_tolerance    = 1e-6;
+    constexpr unsigned int most_iterations = 60;
+  } // namespace
+
+  JointFlow::JointFlow(const WaterParameters &parameters,
+                       const NodeMap<2> &nodes, const MatchedJoints &joints,
+                       const std::vector<JointSetParameters> &sets,
+                       const Thickness &thickness)
+    : given(parameters), node_map(nodes), joints(joints)
+  {
+    make_network(sets, thickness);
+    find_boundaries();
+  }
+
+  void JointFlow::make_network(const std::vector<JointSetParameters> &sets,
+                               const Thickness &thickness)
+  {
+    aperture_of_set.assign(sets.size(), nullptr);
+    for (const HydraulicAperture &aperture : given.joints)
+    {
+      const auto set = std::find_if(sets.begin(), sets.end(),
+                                    [&](const JointSetParameters &candidate) {
+                                      return candidate.name == aperture.name;
+                                    });
+      if (set == sets.end())
+        throw InputError(
+            "section 'Water joints': 'Names' has '" + aperture.name
+            + "', which is no set of section 'Joints'. Sets are: "
+            + known_names_like(aperture.name, sets, &JointSetParameters::name)
+            + ".");
+      aperture_of_set[set - sets.begin()] = &aperture;
+    }
+    for (const JointLaw &law : joints.laws())
+      compliance_of_set.push_back(1. / stiffness_bound(law)[0]);
+
+    std::vector<Face> own;
+    for (const JointSegment &segment : joints.segments())
+    {
+      const JointNodes<2> &joint = node_map.faces().joints[segment.face];
+      if (!joint.is_own[0])
+        continue;
+      Face face;
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        face.lower[k]  = node_map.exchange().global(segment.lower[k]);
+        face.upper[k]  = node_map.exchange().global(segment.upper[k]);
+        const auto &X  = node_map.point(segment.lower[k]);
+        face.points[k] = { { X[0], X[1] } };
+      }
+      face.blocks    = joint.blocks;
+      face.areas     = segment.area;
+      face.number    = joint.number;
+      face.set       = segment.set;
+      face.thickness = thickness.common(joint.groups[0], joint.groups[1]);
+      own.push_back(face);
+    }
+    std::vector<Face> all;
+    for (const auto &part :
+         dealii::Utilities::MPI::all_gather(node_map.communicator(), own))
+      all.insert(all.end(), part.begin(), part.end());
+    std::sort(all.begin(), all.end(),
+              [](const Face &a, const Face &b) { return a.number < b.number; });
+
+    // Nodes of the mesh that lie on each other are one node of the network,
+    // also across joints without water.
+    DisjointSets together(node_map.exchange().n_global());
+    for (const Face &face : all)
+      for (unsigned int k = 0; k < 2; ++k)
+        together.unite(face.lower[k], face.upper[k]);
+    std::map<unsigned int, unsigned int> number; // by representatives
+    std::vector<FlowChannel> channels;
+    std::map<unsigned int, unsigned int> channel_of_joint;
+    for (const Face &face : all)
+    {
+      if (!aperture_of_set[face.set])
+        continue;
+      FlowChannel channel{};
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const auto [place, is_new]
+            = number.emplace(together.find(face.lower[k]), number.size());
+        if (is_new)
+          elevation.push_back(face.points[k][1]);
+        channel.nodes[k]    = place->second;
+        channel.aperture[k] = aperture_of_set[face.set]->at(0.);
+      }
+      channel.length    = std::hypot(face.points[1][0] - face.points[0][0],
+                                     face.points[1][1] - face.points[0][1]);
+      channel.thickness = face.thickness;
+      channel_of_joint[face.number] = channels.size();
+      channels.push_back(channel);
+      faces.push_back(face);
+    }
+    if (channels.empty())
+      throw InputError("section 'Water joints': no joint of the mesh is of a "
+                       "set of 'Names', so no water can flow. Name a set of "
+                       "section 'Joints' that has joints.");
+    for (const Face &face : all)
+      for (unsigned int k = 0; k < 2; ++k)
+        for (const unsigned int node : { face.lower[k], face.upper[k] })
+          if (const auto found = number.find(together.find(node));
+              found != number.end())
+            node_of_mesh.emplace_back(node, found->second);
+    std::sort(node_of_mesh.begin(), node_of_mesh.end());
+    node_of_mesh.erase(std::unique(node_of_mesh.begin(), node_of_mesh.end()),
+                       node_of_mesh.end());
+    for (const JointSegment &segment : joints.segments())
+    {
+      const auto found
+          = channel_of_joint.find(node_map.faces().joints[segment.face].number);
+      channel_of_segment.push_back(
+          found == channel_of_joint.end() ? none : found->second);
+    }
+    flow_network = FlowNetwork(given.fluid, elevation, channels);
+    is_wall.assign(elevation.size(), 0);
+    compliance.assign(elevation.size(), 0.);
+  }
+
+  void JointFlow::find_boundaries()
+  {
+    std::vector<std::array<double, 2>> place(elevation.size());
+    for (unsigned int c = 0; c < faces.size(); ++c)
+      for (unsigned int k = 0; k < 2; ++k)
+        place[flow_network.channels()[c].nodes[k]] = faces[c].points[k];
+
+    const auto &names = node_map.table().face_names;
+    std::vector<unsigned int> owner(elevation.size(), none);
+    for (unsigned int b = 0; b < given.boundaries.size(); ++b)
+    {
+      const WaterBoundary &boundary = given.boundaries[b];
+      const std::string where
+          = "section 'Water boundaries/" + boundary.name + "': ";
+      std::vector<unsigned int> nodes;
+      if (boundary.point)
+      {
+        double nearest = std::numeric_limits<double>::max();
+        for (unsigned int i = 0; i < place.size(); ++i)
+        {
+          const double distance
+              = std::hypot(place[i][0] - (*boundary.point)[0],
+                           place[i][1] - (*boundary.point)[1]);
+          // Rounding must not decide between equal distances.
+          if (distance < nearest * (1. - 1e-9))
+          {
+            nearest = distance;
+            nodes   = { i };
+          }
+        }
+      }
+      else
+      {
+        std::vector<bool> wanted(names.size(), false);
+        for (const std::string &curve : boundary.curves)
+        {
+          const auto line = std::find(names.begin(), names.end(), curve);
+          if (line == names.end())
+            throw InputError(where + "'Boundary' names '" + curve
+                             + "', but the mesh has no curve of that name. It "
+                               "has: "
+                             + known_names_like(curve, names) + ".");
+          wanted[line - names.begin()] = true;
+        }
+        for (const BoundaryFace<2> &face : gather_faces(node_map, wanted, true))
+          for (const unsigned int node : face.nodes)
+          {
+            const auto found
+                = std::lower_bound(node_of_mesh.begin(), node_of_mesh.end(),
+                                   std::make_pair(node, 0U));
+            if (found != node_of_mesh.end() && found->first == node)
+              nodes.push_back(found->second);
+          }
+        std::sort(nodes.begin(), nodes.end());
+        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+        if (nodes.empty())
+          throw InputError(where
+                           + "no joint of section 'Water joints' ends on the "
+                             "curves of 'Boundary'. Name one where joints end, "
+                             "or give a 'Point'.");
+      }
+      for (const unsigned int node : nodes)
+      {
+        if (owner[node] != none)
+          throw InputError(
+              where + "the end of a joint at (" + number_text(place[node][0])
+              + ", " + number_text(place[node][1]) + ") m has a value of '"
+              + given.boundaries[owner[node]].name
+              + "' already. Give one value at each place.");
+        owner[node] = b;
+      }
+      boundary_nodes.push_back(nodes);
+    }
+    now.boundary_flow.assign(given.boundaries.size(), 0.);
+    now.pressure.assign(elevation.size(), 0.);
+    now.content.assign(elevation.size(), 0.);
+    const std::size_t n = joints.segments().size();
+    now.point_pressure.assign(2 * n, 0.);
+    now.point_aperture.assign(2 * n, 0.);
+    now.flow.assign(n, 0.);
+    now.velocity.assign(n, 0.);
+  }
+
+  void JointFlow::prepare(State<2> &state) const
+  {
+    if (state.find<JointFlowState>())
+      return;
+    JointFlowState &water = state.add<JointFlowState>();
+    water                 = now;
+    water.acts            = false;
+  }
+
+  void JointFlow::find_open_channels(const State<2> &state)
+  {
+    is_wall.assign(elevation.size(), 0);
+    for (unsigned int c = 0; c < faces.size(); ++c)
+    {
+      FlowChannel &channel = flow_network.channels()[c];
+      channel.is_open      = !state.is_absent(faces[c].blocks[0])
+                        && !state.is_absent(faces[c].blocks[1]);
+      if (!channel.is_open)
+        for (const unsigned int node : channel.nodes)
+          is_wall[node] = 1;
+    }
+  }
+
+  void JointFlow::set_apertures(const NodeRecord<2> *nodes)
+  {
+    std::vector<double> openings(2 * faces.size(), 0.);
+    for (unsigned int i = 0; i < channel_of_segment.size(); ++i)
+    {
+      const JointSegment &segment = joints.segments()[i];
+      // A joint between two ranks is told by that of its lower side.
+      if (channel_of_segment[i] == none
+          || !node_map.faces().joints[segment.face].is_own[0])
+        continue;
+      const auto gaps = joint_gaps(segment, nodes);
+      for (unsigned int k = 0; k < 2; ++k)
+        openings[2 * channel_of_segment[i] + k] = gaps[k][0];
+    }
+    dealii::Utilities::MPI::sum(openings, node_map.communicator(), openings);
+    std::fill(compliance.begin(), compliance.end(), 0.);
+    for (unsigned int c = 0; c < faces.size(); ++c)
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        const HydraulicAperture &law = *aperture_of_set[faces[c].set];
+        FlowChannel &channel         = flow_network.channels()[c];
+        channel.aperture[k]          = law.at(openings[2 * c + k]);
+        if (channel.is_open && law.moves(openings[2 * c + k]))
+          compliance[channel.nodes[k]] += 0.5 * channel.thickness
+                                          * channel.length
+                                          * compliance_of_set[faces[c].set];
+      }
+  }
+
+  FlowConditions JointFlow::conditions(const TimePoint &time) const
+  {
+    FlowConditions result(elevation.size());
+    for (unsigned int i = 0; i < elevation.size(); ++i)
+      result.is_given[i] = is_wall[i];
+    for (unsigned int b = 0; b < boundary_nodes.size(); ++b)
+    {
+      const WaterBoundary &boundary = given.boundaries[b];
+      const double value            = boundary.value(time);
+      if (!std::isfinite(value))
+        throw RunError("'Value' of section 'Water boundaries/" + boundary.name
+                       + "' is no finite number at the time "
+                       + number_text(time.stage)
+                       + " s of the stage. Correct its function of time.");
+      for (const unsigned int node : boundary_nodes[b])
+        if (boundary.quantity == WaterQuantity::flow)
+          result.source[node] = value / double(boundary_nodes[b].size());
+        else
+        {
+          result.is_given[node] = 1;
+          result.pressure[node]
+              = boundary.quantity == WaterQuantity::pressure
+                    ? value
+                    : given.fluid.unit_weight * (value - elevation[node]);
+        }
+    }
+    return result;
+  }
+
+  FlowSolution JointFlow::solve(const TimePoint &time, const double dt,
+                                const JointFlowState &before) const
+  {
+    const FlowConditions at = conditions(time);
+    if (given.flow == FlowKind::transient)
+      return flow_network.transient(at, dt, before.content, compliance,
+                                    now.pressure);
+    return solve_steady(at);
+  }
+
+  FlowSolution JointFlow::solve_steady(const FlowConditions &at) const
+  {
+    const auto unconnected = flow_network.unconnected_nodes(at);
+    for (unsigned int b = 0; b < boundary_nodes.size(); ++b)
+      for (const unsigned int node : boundary_nodes[b])
+        if (unconnected[node] && at.source[node] != 0.)
+          throw RunError("section 'Water boundaries/" + given.boundaries[b].name
+                         + "': water flows into joints from which there is no "
+                           "way to a place of given pressure or head, so there "
+                           "is no steady flow. Give a pressure elsewhere, or "
+                           "take 'Flow = transient'.");
+    return flow_network.steady(at);
+  }
+
+  void JointFlow::take(const FlowSolution &solution, const double time,
+                       const double dt, const JointFlowState &since)
+  {
+    now.acts     = true;
+    now.time     = time;
+    now.pressure = solution.pressure;
+    now.content  = solution.content;
+    now.inflow   = since.inflow;
+    now.outflow  = since.outflow;
+    now.stored   = since.stored;
+    // Steady solutions have the volumes of a second.
+    const bool is_steady = given.flow == FlowKind::steady;
+    const double seconds = is_steady ? dt : 1.;
+    now.residual         = since.residual + seconds * solution.residual;
+    for (unsigned int i = 0; i < solution.inflow.size(); ++i)
+    {
+      (solution.inflow[i] > 0. ? now.inflow : now.outflow)
+          += seconds * std::abs(solution.inflow[i]);
+      if (!is_steady)
+        now.stored += solution.content[i] - since.content[i];
+    }
+    for (unsigned int b = 0; b < boundary_nodes.size(); ++b)
+    {
+      double volume = 0.;
+      for (const unsigned int node : boundary_nodes[b])
+        volume += solution.inflow[node];
+      if (is_steady || dt > 0.)
+        now.boundary_flow[b] = is_steady ? volume : volume / dt;
+    }
+    for (unsigned int i = 0; i < channel_of_segment.size(); ++i)
+    {
+      const unsigned int c = channel_of_segment[i];
+      if (c == none || !flow_network.channels()[c].is_open)
+      {
+        now.flow[i] = now.velocity[i] = 0.;
+        for (unsigned int k = 0; k < 2; ++k)
+          now.point_pressure[2 * i + k] = now.point_aperture[2 * i + k] = 0.;
+        continue;
+      }
+      const FlowChannel &channel = flow_network.channels()[c];
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        now.point_pressure[2 * i + k] = now.pressure[channel.nodes[k]];
+        now.point_aperture[2 * i + k] = channel.aperture[k];
+      }
+      now.flow[i]     = flow_network.flow(channel, now.pressure);
+      now.velocity[i] = now.flow[i] / channel.thickness
+                        / (0.5 * (channel.aperture[0] + channel.aperture[1]));
+    }
+    find_forces();
+  }
+
+  void JointFlow::find_forces()
+  {
+    std::map<unsigned int, NodeVector<2>> sum;
+    const NodeExchange &exchange = node_map.exchange();
+    for (unsigned int c = 0; now.acts && c < faces.size(); ++c)
+    {
+      const FlowChannel &channel = flow_network.channels()[c];
+      if (!channel.is_open)
+        continue;
+      const Face &face = faces[c];
+      double p[2];
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        p[k] = now.pressure[channel.nodes[k]];
+        if (!given.has_suction)
+          p[k] = std::max(p[k], 0.);
+      }
+      // The normal points from the lower to the upper side.
+      const double normal[2]
+          = { (face.points[1][1] - face.points[0][1]) / channel.length,
+              (face.points[0][0] - face.points[1][0]) / channel.length };
+      for (unsigned int k = 0; k < 2; ++k)
+      {
+        // Of linear faces the integral of a linear pressure; halves of
+        // quadratic faces have the weights of Simpson's rule.
+        const double size = node_map.cells().is_quadratic
+                                ? face.areas[k] * p[k]
+                                : channel.thickness * channel.length / 6.
+                                      * (2. * p[k] + p[1 - k]);
+        for (const auto &[node, sign] :
+             { std::pair(face.lower[k], -1.), std::pair(face.upper[k], 1.) })
+          if (exchange.owns(node))
+            for (unsigned int d = 0; d < 2; ++d)
+              sum[exchange.local(node)].v[d] += sign * size * normal[d];
+      }
+    }
+    force_nodes.clear();
+    forces.clear();
+    for (const auto &[node, force] : sum)
+    {
+      force_nodes.push_back(node);
+      forces.push_back(force);
+    }
+  }
+
+  void JointFlow::begin_stage(const std::string &name, State<2> &state)
+  {
+    JointFlowState &water = state.get<JointFlowState>();
+    now                   = water;
+    now.time              = state.time;
+    find_open_channels(state);
+    const bool begins = !now.acts;
+    now.acts          = acts_in(name);
+    if (!now.acts)
+    {
+      for (auto *values : { &now.pressure, &now.content, &now.point_pressure,
+                            &now.point_aperture, &now.flow, &now.velocity,
+                            &now.boundary_flow })
+        std::fill(values->begin(), values->end(), 0.);
+      find_forces();
+      water = now;
+      return;
+    }
+    set_apertures(state.nodes.data());
+    const TimePoint start{ 0., state.time };
+    FlowSolution solution;
+    if (given.flow == FlowKind::steady || (begins && given.starts_steady))
+      try
+      {
+        solution = solve_steady(conditions(start));
+      }
+      catch (const RunError &error)
+      {
+        throw InputError(error.what());
+      }
+    else
+    {
+      solution.pressure = now.pressure;
+      solution.content  = flow_network.contents(now.pressure);
+    }
+    if (given.flow == FlowKind::transient)
+      solution.inflow.assign(elevation.size(), 0.);
+    before         = now;
+    before.content = solution.content;
+    take(solution, state.time, 0., before);
+    water = now;
+  }
+
+  void JointFlow::resume_stage(const State<2> &state)
+  {
+    now = state.get<JointFlowState>();
+    find_open_channels(state);
+    set_apertures(state.nodes.data());
+    find_forces();
+  }
+
+  bool JointFlow::changes(const double start, const double duration) const
+  {
+    if (!now.acts)
+      return false;
+    if (given.flow == FlowKind::transient)
+      return true;
+    constexpr unsigned int n_samples = 100;
+    for (const WaterBoundary &boundary : given.boundaries)
+      for (unsigned int i = 1; i <= n_samples; ++i)
+      {
+        const double t = duration * i / n_samples;
+        if (boundary.value({ t, start + t }) != boundary.value({ 0., start }))
+          return true;
+      }
+    return false;
+  }
+
+  void JointFlow::update(const StepContext &step, State<2> &state)
+  {
+    JointFlowState &water = state.get<JointFlowState>();
+    const bool is_due     = given.flow == FlowKind::transient
+                        || state.stage_step % given.interval == 0;
+    if (!is_due)
+    {
+      // The state may be another one than in the last step.
+      if (now.time != water.time)
+      {
+        now = water;
+        find_forces();
+      }
+      return;
+    }
+    now    = water;
+    before = water;
+    set_apertures(state.nodes.data());
+    // Explicit steps follow the stiffness of the water themselves.
+    std::fill(compliance.begin(), compliance.end(), 0.);
+    const double dt = step.begin.total - before.time;
+    take(solve(step.begin, dt, before), step.begin.total, dt, before);
+    water = now;
+  }
+
+  void JointFlow::add_loads(const TimePoint &, NodeVector<2> *force) const
+  {
+    for (unsigned int i = 0; i < forces.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        force[force_nodes[i]].v[d] += forces[i].v[d];
+  }
+
+  double JointFlow::external_power(const TimePoint &,
+                                   const NodeVector<2> *velocity) const
+  {
+    double power = 0.;
+    for (unsigned int i = 0; i < forces.size(); ++i)
+      for (unsigned int d = 0; d < 2; ++d)
+        power += forces[i].v[d] * velocity[force_nodes[i]].v[d];
+    return power;
+  }
+
+  double JointFlow::largest_eigenvalue(const std::vector<double> &mass) const
+  {
+    if (given.flow != FlowKind::transient)
+      return 0.;
+    // Water in a joint of the smallest aperture that moves is a spring between
+    // its faces: a row of the matrix has at most twice its diagonal.
+    std::vector<double> stiffness(mass.size(), 0.);
+    for (unsigned int c = 0; c < faces.size(); ++c)
+    {
+      const HydraulicAperture &law = *aperture_of_set[faces[c].set];
+      if (law.residual == law.largest)
+        continue;
+      for (unsigned int k = 0; k < 2; ++k)
+        for (const unsigned int node : { faces[c].lower[k], faces[c].upper[k] })
+          if (node_map.exchange().owns(node))
+            stiffness[node_map.exchange().local(node)]
+                += given.fluid.bulk_modulus / law.residual * faces[c].areas[k];
+    }
+    double largest = 0.;
+    for (unsigned int i = 0; i < mass.size(); ++i)
+      if (stiffness[i] > 0.)
+        largest = std::max(largest, 2. * stiffness[i] / mass[i]);
+    return dealii::Utilities::MPI::max(largest, node_map.communicator());
+  }
+
+  void JointFlow::begin_step(const State<2> &state)
+  {
+    before = now = state.get<JointFlowState>();
+    acceleration.clear();
+    n_iterations = 0;
+    find_forces();
+  }
+
+  JointFlow::Followed JointFlow::follow(const NodeRecord<2> *nodes,
+                                        const TimePoint &end)
+  {
+    // Forces that are released take no time, in which no water flows.
+    if (given.flow == FlowKind::transient && end.total <= before.time)
+      return Followed::balanced;
+    set_apertures(nodes);
+    const double dt       = std::max(0., end.total - before.time);
+    FlowSolution solution = solve(end, dt, before);
+    double change = 0., largest = 0.;
+    for (unsigned int i = 0; i < solution.pressure.size(); ++i)
+    {
+      change
+          = std::max(change, std::abs(solution.pressure[i] - now.pressure[i]));
+      largest = std::max(largest, std::abs(solution.pressure[i]));
+    }
+    const bool is_there = change <= pressure_tolerance * largest;
+    if (!is_there && ++n_iterations > most_iterations)
+      return Followed::lost;
+    if (!is_there)
+    {
+      const auto next = acceleration.next(now.pressure, solution.pressure);
+      take(solution, end.total, dt, before);
+      now.pressure = next;
+      find_forces();
+      return Followed::changed;
+    }
+    // Forces stay those of the equilibrium.
+    const auto kept_forces = forces;
+    const auto kept_nodes  = force_nodes;
+    take(solution, end.total, dt, before);
+    forces      = kept_forces;
+    force_nodes = kept_nodes;
+    return Followed::balanced;
+  }
+} // namespace quoin

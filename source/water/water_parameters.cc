@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/base/named_sections.h>
+#include <quoin/base/parameter_entries.h>
+#include <quoin/water/water_parameters.h>
+
+namespace quoin
+{
+  namespace
+  {
+    void enter_aperture(ParameterEntries &entries, HydraulicAperture &joint)
+    {
+      entries.number("Initial aperture", joint.initial,
+                     "Hydraulic aperture of the joints of the set where their "
+                     "mechanical opening is 0; the opening adds to it [m]");
+      entries.positive("Residual aperture", joint.residual,
+                       "Smallest hydraulic aperture, of closed joints [m]");
+      entries.positive("Largest aperture", joint.largest,
+                       "Largest hydraulic aperture, of wide open joints [m]");
+      if (const ParameterSection *section = entries.read_section();
+          section && joint.largest < joint.residual)
+        section->fail("Largest aperture", "must not be less than 'Residual "
+                                          "aperture'.");
+    }
+
+    void enter_boundary(ParameterEntries &entries, WaterBoundary &boundary)
+    {
+      entries.list("Boundary", boundary.curves,
+                   "Physical curves on which joints end, or along which joints "
+                   "run, where the value is given; empty: at 'Point'.");
+      entries.other(
+          "Point", "",
+          "Point x, y whose nearest end or crossing of joints has the value; "
+          "empty: on 'Boundary' [m]",
+          [&](const ParameterSection &section)
+          {
+            if (!section.text("Point").empty())
+              boundary.point = section.numbers<2>("Point");
+          });
+      entries.choice("Quantity", boundary.quantity,
+                     { { "pressure", WaterQuantity::pressure },
+                       { "head", WaterQuantity::head },
+                       { "flow", WaterQuantity::flow } },
+                     "What is given. pressure [Pa]; head: height y to which "
+                     "water would rise [m]; flow: volume that enters the "
+                     "joints, in equal shares at all their ends on 'Boundary', "
+                     "negative where it is taken out [m^3/s].");
+      entries.other("Value", "0",
+                    "Value of 'Quantity', a number or a function of the time t "
+                    "in the stage and T in the run, a table or a signal.",
+                    [&](const ParameterSection &section)
+                    {
+                      boundary.value = section.made("Value",
+                                                    [&]() {
+                                                      return TimeFunction(
+                                                          section.text("Value"),
+                                                          section.folder());
+                                                    });
+                    });
+      if (const ParameterSection *section = entries.read_section();
+          section && boundary.curves.empty() == !boundary.point)
+        section->fail("Boundary", "and 'Point': give one of them.");
+    }
+
+    void enter_water(ParameterEntries &entries, WaterParameters &water)
+    {
+      entries.choice(
+          "Flow", water.flow,
+          { { "none", FlowKind::none },
+            { "steady", FlowKind::steady },
+            { "transient", FlowKind::transient } },
+          "Flow of water along the joints of 'Water joints'. none; steady: at "
+          "any time that of the present apertures; transient: with the water "
+          "that is stored in joints.");
+      entries.positive("Viscosity", water.fluid.viscosity,
+                       "Dynamic viscosity of the water [Pa s]");
+      entries.nonnegative("Unit weight", water.fluid.unit_weight,
+                          "Weight of the water, which acts against y; 0: no "
+                          "gravity in the flow [N/m^3]");
+      entries.positive("Bulk modulus", water.fluid.bulk_modulus,
+                       "Bulk modulus of the water, in transient flow [Pa]");
+      entries.choice("Initial state", water.starts_steady,
+                     { { "dry", false }, { "steady", true } },
+                     "State at the start of transient flow. dry: pressure 0; "
+                     "steady: that of steady flow with the values given at "
+                     "boundaries then.");
+      entries.flag("Suction", water.has_suction,
+                   "Whether negative pressures pull the faces of joints "
+                   "together; otherwise they count as 0 on the faces.");
+      entries.integer("Steps between solutions", water.interval, 1,
+                      "Number of steps of the explicit solver from one "
+                      "solution of steady flow to the next [-]");
+      entries.list("Stages", water.stages,
+                   "Stages in which water is in the joints; empty: all.");
+    }
+  } // namespace
+
+  void HydraulicAperture::declare(dealii::ParameterHandler &prm)
+  {
+    declare_entries(prm, enter_aperture);
+  }
+
+  HydraulicAperture HydraulicAperture::read(const ParameterSection &section,
+                                            const std::string &name)
+  {
+    HydraulicAperture joint = read_entries(section, enter_aperture);
+    joint.name              = name;
+    return joint;
+  }
+
+  void WaterBoundary::declare(dealii::ParameterHandler &prm)
+  {
+    declare_entries(prm, enter_boundary);
+  }
+
+  WaterBoundary WaterBoundary::read(const ParameterSection &section,
+                                    const std::string &name)
+  {
+    WaterBoundary boundary = read_entries(section, enter_boundary);
+    boundary.name          = name;
+    return boundary;
+  }
+
+  void WaterParameters::declare(dealii::ParameterHandler &prm)
+  {
+    declare_entries(prm, enter_water);
+  }
+
+  WaterParameters WaterParameters::read(const ParameterSection &top)
+  {
+    WaterParameters water
+        = read_entries(ParameterSection(top, "Water"), enter_water);
+    water.joints     = read_named<HydraulicAperture>(top, "Water joints");
+    water.boundaries = read_named<WaterBoundary>(top, "Water boundaries");
+    return water;
+  }
+} // namespace quoin
