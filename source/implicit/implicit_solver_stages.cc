@@ -153,6 +153,8 @@ namespace quoin
       const std::vector<const NodalLoad<2> *> &loads) const
   {
     Equilibrium::Operators result{ &model.joints(), &model.blocks() };
+    if (!model.reinforcement().empty())
+      result.push_back(&model.reinforcement());
     result.insert(result.end(), loads.begin(), loads.end());
     result.push_back(&acting.release);
     return result;

@@ -27,6 +27,7 @@ namespace quoin
             { "Rock joints", RockJoints::declare },
             { "Materials", MaterialParameters::declare },
             { "Joints", JointSetParameters::declare },
+            { "Reinforcement", CableParameters::declare },
             { "Loads", LoadParameters::declare },
             { "Stages", StageParameters::declare },
             { "Boundary elements", BoundaryCurveParameters::declare },

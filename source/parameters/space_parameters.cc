@@ -97,6 +97,8 @@ namespace quoin
                        "section 'Joints': 'Names'",
                        "Leave it empty: blocks in three dimensions have no "
                        "joints.");
+    refusals.refuse_if(!parameters.model.cables.empty(),
+                       "section 'Reinforcement': 'Names'", "Leave it empty.");
     refusals.refuse_if(!parameters.named_blocks.empty(),
                        "section 'Blocks': 'Names'", "Leave it empty.");
     refusals.refuse_if(parameters.measure_bandwidth,
