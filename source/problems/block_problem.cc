@@ -109,6 +109,8 @@ namespace quoin
         run.log.messages(contact_lines(*system.model, state));
         run.log.messages(named_block_lines(*system.model, system.named_blocks));
         run.log.messages(face_lines(parameters, *system.nodes));
+        if (!system.model->reinforcement().empty())
+          run.log.message(system.model->reinforcement().text());
       }
     run.log.warnings(
         model_advice(parameters, system.mesh_report, *system.model, state));

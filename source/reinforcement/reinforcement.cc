@@ -303,7 +303,8 @@ namespace quoin
     if (bars.empty())
       return;
     prepare(state);
-    auto &states = state.get<ReinforcementState>().bars;
+    const double power_before = power(state);
+    auto &states              = state.get<ReinforcementState>().bars;
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
       const Bar &bar         = bars[b];
@@ -365,6 +366,27 @@ namespace quoin
         state.energy.external
             += quoin::stored_energy(bar.law, bar.chain, states[b]);
     }
+    // The forces of now belong to the half step before, too.
+    state.energy.external
+        += 0.5 * state.previous_time_step * (power(state) - power_before);
+  }
+
+  double Reinforcement::power(const State<2> &state) const
+  {
+    if (state.previous_time_step == 0.)
+      return 0.;
+    auto states   = state.get<ReinforcementState>().bars;
+    double result = 0.;
+    for (unsigned int b = 0; b < bars.size(); ++b)
+    {
+      update_bar(bars[b], state.nodes.data(), states[b], false);
+      for (unsigned int i = 0; i < bars[b].nodes.size(); ++i)
+        if (const unsigned int node = bars[b].nodes[i];
+            node < node_map->n_owned())
+          for (unsigned int d = 0; d < 2; ++d)
+            result += work.force[2 * i + d] * state.velocity[node].v[d];
+    }
+    return result;
   }
 
   void Reinforcement::update_pressure(State<2> &state) const
@@ -770,13 +792,12 @@ namespace quoin
           n_elements += bar.chain.n_elements();
           n_dowels += bar.dowels.size();
         }
-      lines << "reinforcement " << cables[c].name << ": " << n_bars
-            << (n_bars == 1 ? " bar, " : " bars, ") << n_elements
-            << (n_elements == 1 ? " element, " : " elements, ") << n_dowels
-            << (n_dowels == 1 ? " dowel" : " dowels")
+      lines << (c > 0 ? "\n" : "") << "reinforcement " << cables[c].name << ": "
+            << count_text(n_bars, "bar") << ", "
+            << count_text(n_elements, "element") << ", "
+            << count_text(n_dowels, "dowel")
             << (cables[c].stage.empty() ? ""
-                                        : ", from stage " + cables[c].stage)
-            << "\n";
+                                        : ", from stage " + cables[c].stage);
     }
     return lines.str();
   }

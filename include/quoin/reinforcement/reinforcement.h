@@ -180,6 +180,8 @@ namespace quoin
     /** Updates the pressure on the bond of all bars. Collective. */
     void update_pressure(State<2> &state) const;
     void book(const BarDissipation &lost, State<2> &state) const;
+    /** Power of the forces of bars on this rank's nodes [W]. */
+    double power(const State<2> &state) const;
 
     const NodeMap<2> *node_map  = nullptr;
     const BlockForces<2> *cells = nullptr;
