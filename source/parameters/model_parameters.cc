@@ -168,13 +168,11 @@ namespace quoin
       }
     }
 
-    /** Checks the names of stages that cables, and of cables that histories
-        give. */
+    /** Checks the names of stages that cables give. */
     void check_cables(const ParameterSection &top, const Parameters &parameters)
     {
-      const auto &cables = parameters.model.cables;
       const ParameterSection section(top, "Reinforcement");
-      for (const CableParameters &cable : cables)
+      for (const CableParameters &cable : parameters.model.cables)
       {
         const auto stage
             = std::find_if(parameters.stages.begin(), parameters.stages.end(),
@@ -188,11 +186,18 @@ namespace quoin
                                            &StageParameters::name)
                         + ".");
       }
-      const ParameterSection histories(top, "Histories");
+    }
+
+    /** Checks the names of cables that histories give. */
+    void check_cable_histories(const ParameterSection &top,
+                               const Parameters &parameters)
+    {
+      const auto &cables = parameters.model.cables;
+      const ParameterSection section(top, "Histories");
       for (const HistoryParameters &history : parameters.histories)
         if (history.quantity == HistoryQuantity::cable
             && !find_named(cables, history.cable))
-          ParameterSection(histories, history.name)
+          ParameterSection(section, history.name)
               .fail("Cable", "must be one of section 'Reinforcement'. There "
                              "are: "
                                  + known_names_like(history.cable, cables,
@@ -270,6 +275,7 @@ namespace quoin
     check_coupled_histories(top, parameters);
     check_block_histories(top, parameters);
     check_cables(top, parameters);
+    check_cable_histories(top, parameters);
     check_end_conditions(top, parameters);
     parameters.implicit
         = ImplicitParameters::read(ParameterSection(top, "Implicit"));

@@ -11,6 +11,8 @@ all of it: F = s L. Before it is the free length LF and the plate, in series.
 
 Slip is positive towards the far end: it is -u.
 
+pressure.csv: the bond has friction, and the rock presses on it.
+
 rupture.csv: the bar yields at Y < s L in its free length, which breaks at the
 strain EU.
 """
@@ -20,33 +22,36 @@ import numpy as np
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 EA = 200e9 * np.pi * 0.0254 ** 2 / 4
-BOND, STRENGTH, LENGTH, FREE, PLATE = 1e9, 300e3, 0.5, 0.1, 1e10
+BOND, LENGTH, FREE, PLATE = 1e9, 0.5, 0.1, 1e10
+STRENGTH = 300e3
+# of a bond with friction in rock under 2 MPa, mean of 3 and 1 MPa [N/m]
+PRESSED = 100e3 + np.tan(np.radians(30)) * np.pi * 0.0254 * 2e6
 YIELD, RUPTURE = 80e3, 5e-3
 BETA = np.sqrt(BOND / EA)
 
 
-def pulled(force):
+def pulled(force, strength):
     """Slip of the pulled end at a force on the way to s L [m]."""
-    first = STRENGTH / BETA * np.tanh(BETA * LENGTH)
+    first = strength / BETA * np.tanh(BETA * LENGTH)
     if force <= first:
         return force / (EA * BETA * np.tanh(BETA * LENGTH))
     low, high = 0.0, LENGTH
     for _ in range(60):
         a = (low + high) / 2
-        elastic = STRENGTH / BETA * np.tanh(BETA * (LENGTH - a))
-        low, high = (a, high) if STRENGTH * a + elastic < force else (low, a)
-    return STRENGTH / BOND + elastic * a / EA + STRENGTH * a ** 2 / (2 * EA)
+        elastic = strength / BETA * np.tanh(BETA * (LENGTH - a))
+        low, high = (a, high) if strength * a + elastic < force else (low, a)
+    return strength / BOND + elastic * a / EA + strength * a ** 2 / (2 * EA)
 
 
 def motion(times):
     return 1e-3 * np.where(times < 0.2, 2.5 * times ** 2, times - 0.1)
 
 
-def write(name, limit, breaks):
+def write(name, strength, limit, breaks=False):
     times = np.arange(0, 1.601, 0.01)
     moved = motion(times)
     forces = np.linspace(0, limit, 4001)
-    slips = np.array([pulled(force) for force in forces])
+    slips = np.array([pulled(force, strength) for force in forces])
     whole = slips + forces * (FREE / EA + 1 / PLATE)
     force = np.interp(moved, whole, forces)
     slip = np.where(moved <= whole[-1], np.interp(moved, whole, slips),
@@ -66,5 +71,6 @@ def write(name, limit, breaks):
 
 assert abs(BETA - 3.1413) < 1e-4
 assert abs(EA * BETA * np.tanh(BETA * LENGTH) - 292e6) < 0.5e6
-write("reference.csv", STRENGTH * LENGTH, False)
-write("rupture.csv", YIELD, True)
+write("reference.csv", STRENGTH, STRENGTH * LENGTH)
+write("pressure.csv", PRESSED, PRESSED * LENGTH)
+write("rupture.csv", STRENGTH, YIELD, True)

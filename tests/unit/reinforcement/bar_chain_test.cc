@@ -119,9 +119,11 @@ TEST(BarChain, PretensionIsThatOfThePlate)
     update(law, bar, std::vector<double>(bar.n_elements(), 0.), state);
     EXPECT_NEAR(state.plate_force, 100e3, 1e-6);
     EXPECT_NEAR(state.force[0], 100e3, 1e-6);
-    EXPECT_NEAR(state.anchor_force, anchor > 0. ? 100e3 : 0., 1e-6);
+    EXPECT_NEAR(state.anchor_force, anchor > 0. ? -100e3 : 0., 1e-6);
     if (anchor > 0.)
+    {
       EXPECT_NEAR(state.bond_force[5], 0., 1e-6);
+    }
     EXPECT_NEAR(state.slip[0], before.slip[0], 1e-12);
   }
   law.anchor_stiffness = 0.;
@@ -131,18 +133,17 @@ TEST(BarChain, PretensionIsThatOfThePlate)
   EXPECT_FALSE(pretension(law, bar, 100e3, state));
 }
 
-/** A random walk through slip, yield, loss of the plate and rupture. */
+/** A random walk through slip, yield and rupture. */
 TEST(BarChain, WorkIsStoredOrDissipated)
 {
   BarLaw law           = grouted();
-  law.plate_stiffness  = 5e8;
-  law.plate_strength   = 90e3;
   law.bond_strength    = 200e3;
   law.anchor_stiffness = 1e8;
   law.anchor_strength  = 30e3;
   law.yield            = 100e3;
   law.rupture_strain   = 0.02;
-  const BarChain bar   = chain_of(8, 0.8);
+  BarChain bar         = chain_of(8, 0.8);
+  bar.bond[0]          = 0.5;
   BarState state       = at_rest(bar);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> change(-1., 1.);
@@ -171,7 +172,7 @@ TEST(BarChain, WorkIsStoredOrDissipated)
     tensile = std::max(tensile, state.force[3]);
   }
   EXPECT_GT(tensile, 50e3);
-  EXPECT_TRUE(state.broken[0]);
+  EXPECT_GT(std::count(state.broken.begin(), state.broken.end(), 1), 0);
   EXPECT_NEAR(work, stored_energy(law, bar, state) + lost, 1e-9 * lost);
 }
 
