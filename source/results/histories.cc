@@ -376,7 +376,7 @@ namespace quoin
     case HistoryQuantity::block_displacement: // see BlockHistories
     case HistoryQuantity::block_velocity:
     case HistoryQuantity::block_force:
-    case HistoryQuantity::cable: // see Reinforcement::value()
+    case HistoryQuantity::cable:                 // see Reinforcement::value()
     case HistoryQuantity::boundary_displacement: // see BoundaryHistories
     case HistoryQuantity::boundary_velocity:
     case HistoryQuantity::boundary_traction:
