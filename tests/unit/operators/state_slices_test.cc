@@ -107,11 +107,11 @@ TEST(EnergyAccounts, ColumnsKeepTheirOrder)
   std::vector<std::string> names;
   for (const EnergyAccount &account : energy_accounts)
     names.push_back(account.name);
-  EXPECT_EQ(names, (std::vector<std::string>{
-                       "kinetic", "strain", "joint", "reinforcement",
-                       "friction", "fracture", "crushing", "plastic", "damping",
-                       "viscous", "contact", "radiated", "far field",
-                       "external" }));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{
+                "kinetic", "strain", "joint", "reinforcement", "friction",
+                "fracture", "crushing", "plastic", "damping", "viscous",
+                "contact", "radiated", "far field", "external" }));
 }
 
 TEST(EnergyAccounts, AllCountInTheBalance)
