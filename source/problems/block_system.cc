@@ -238,8 +238,10 @@ namespace quoin
     {
       if constexpr (dim == 2)
       {
+        const double power = model->reinforcement().end_stage(state);
         construction->begin_stage(index, *solver, state);
-        model->reinforcement().begin_stage(stage.name, index == 0, state);
+        model->reinforcement().begin_stage(stage.name, index == 0, power,
+                                           state);
         if (implicit_solver)
           implicit_solver->begin_stage(stage, previous, state);
       }

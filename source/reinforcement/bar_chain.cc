@@ -294,10 +294,10 @@ namespace quoin
 
   BarDissipation update(const BarLaw &law, const BarChain &chain,
                         const std::vector<double> &stretch, BarState &state,
-                        std::vector<double> *tangent)
+                        std::vector<double> *tangent, const bool again)
   {
     BarDissipation lost;
-    if (has_broken(state))
+    if (again || has_broken(state))
     {
       // At the last stretch: what the bar stores less than before is lost, but
       // for what its bond dissipates.

@@ -297,14 +297,25 @@ namespace quoin
     }
   } // namespace
 
+  double Reinforcement::end_stage(State<2> &state) const
+  {
+    if (bars.empty() || !state.find<ReinforcementState>())
+      return 0.;
+    auto &states = state.get<ReinforcementState>().bars;
+    for (unsigned int b = 0; b < bars.size(); ++b)
+      book(update_bar(bars[b], state.nodes.data(), states[b], false, false),
+           state);
+    return power(state);
+  }
+
   void Reinforcement::begin_stage(const std::string &name, const bool first,
+                                  const double power_before,
                                   State<2> &state) const
   {
     if (bars.empty())
       return;
     prepare(state);
-    const double power_before = power(state);
-    auto &states              = state.get<ReinforcementState>().bars;
+    auto &states = state.get<ReinforcementState>().bars;
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
       const Bar &bar         = bars[b];
@@ -379,7 +390,7 @@ namespace quoin
     double result = 0.;
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
-      update_bar(bars[b], state.nodes.data(), states[b], false);
+      update_bar(bars[b], state.nodes.data(), states[b], false, false);
       for (unsigned int i = 0; i < bars[b].nodes.size(); ++i)
         if (const unsigned int node = bars[b].nodes[i];
             node < node_map->n_owned())
@@ -449,6 +460,7 @@ namespace quoin
   BarDissipation Reinforcement::update_bar(const Bar &bar,
                                            const NodeRecord<2> *nodes,
                                            BarState &state,
+                                           const bool is_static,
                                            const bool with_stiffness) const
   {
     const std::size_t n = 2 * bar.nodes.size(), m = bar.chain.n_elements();
@@ -478,7 +490,8 @@ namespace quoin
     }
     BarDissipation lost
         = quoin::update(bar.law, bar.chain, work.stretch, state,
-                        with_stiffness ? &work.tangent : nullptr);
+                        with_stiffness ? &work.tangent : nullptr,
+                        is_static && bar.law.bond_friction > 0.);
     for (unsigned int e = 0; e < m; ++e)
       add_pair_force(bar.hosts[e], bar.hosts[e + 1],
                      { { state.force[e] * work.axis[e][0],
@@ -589,7 +602,8 @@ namespace quoin
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
       const auto &nodes = bars[b].nodes;
-      book(update_bar(bars[b], state.nodes.data(), states[b], false), state);
+      book(update_bar(bars[b], state.nodes.data(), states[b], false, false),
+           state);
       for (unsigned int i = 0; i < nodes.size(); ++i)
         if (nodes[i] < node_map->n_owned())
           for (unsigned int d = 0; d < 2; ++d)
@@ -606,7 +620,8 @@ namespace quoin
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
       const auto &nodes = bars[b].nodes;
-      book(update_bar(bars[b], state.nodes.data(), states[b], with_stiffness),
+      book(update_bar(bars[b], state.nodes.data(), states[b], true,
+                      with_stiffness),
            state);
       // Each rank adds the forces on its own nodes.
       for (unsigned int i = 0; i < nodes.size(); ++i)

@@ -137,11 +137,14 @@ namespace quoin
    *
    * @p tangent: derivatives of the element forces by the stretches, row by row
    * [N/m]; null: not wanted. Elements whose strain exceeds that of rupture
-   * break at the next call, at the stretch of this one.
+   * break at the next call, at the stretch of this one. @p again: whether the
+   * bar finds a new equilibrium at the last stretch first, because the pressure
+   * on its bond is another one.
    */
   BarDissipation update(const BarLaw &law, const BarChain &chain,
                         const std::vector<double> &stretch, BarState &state,
-                        std::vector<double> *tangent = nullptr);
+                        std::vector<double> *tangent = nullptr,
+                        bool again                   = false);
 
   /**
    * Tensions a new bar against its face plate to @p force [N]. An anchor, if

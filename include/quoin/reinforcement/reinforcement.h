@@ -95,12 +95,18 @@ namespace quoin
     }
     void prepare(State<2> &state) const override;
 
+    /** Updates bars for the positions at the end of a stage, before blocks are
+        excavated; returns the power of their forces on this rank's nodes [W],
+        for begin_stage(). */
+    double end_stage(State<2> &state) const;
+
     /**
      * Installs the bars of the stage @p name at the positions of @p state, in
      * the @p first one also those that name none, and takes bars out of blocks
-     * that are absent. The energy of pretension is external work. Collective.
+     * that are absent. The energy of pretension is external work. @p power: of
+     * end_stage(). Collective.
      */
-    void begin_stage(const std::string &name, bool first,
+    void begin_stage(const std::string &name, bool first, double power,
                      State<2> &state) const;
 
     void add_forces(const StepContext &step, State<2> &state,
@@ -167,9 +173,11 @@ namespace quoin
                  const Thickness &thickness);
     Host make_host(const std::array<double, 2> &point,
                    const CrossedCell &cell) const;
-    /** Updates a bar and finds its forces in work. */
+    /** Updates a bar and finds its forces in work; @p is_static: from the
+        equilibrium at the last positions with the pressure of now. */
     BarDissipation update_bar(const Bar &bar, const NodeRecord<2> *nodes,
-                              BarState &state, bool with_stiffness) const;
+                              BarState &state, bool is_static,
+                              bool with_stiffness) const;
     void add_dowels(const Bar &bar, const NodeRecord<2> *nodes, BarState &state,
                     bool with_stiffness, BarDissipation &lost) const;
     /** Adds a spring @p k along @p axis between two points to the stiffness. */

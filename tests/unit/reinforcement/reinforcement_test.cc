@@ -55,7 +55,7 @@ namespace
                        { { { 0.3, 3.7 }, { 1.6, 0.2 } } } });
       model = std::make_unique<Model<2>>(*nodes, parameters);
       state = model->initial_state();
-      model->reinforcement().begin_stage("first", true, state);
+      model->reinforcement().begin_stage("first", true, 0., state);
     }
 
     std::vector<double> forces(State<2> &at,
