@@ -294,21 +294,25 @@ namespace quoin
 
   BarDissipation update(const BarLaw &law, const BarChain &chain,
                         const std::vector<double> &stretch, BarState &state,
-                        std::vector<double> *tangent, const bool again)
+                        std::vector<double> *tangent, const bool is_static)
   {
     BarDissipation lost;
-    if (again || has_broken(state))
+    if ((is_static && law.bond_friction > 0.) || has_broken(state))
     {
       // At the last stretch: what the bar stores less than before is lost, but
       // for what its bond dissipates.
       const double before = stored_energy(law, chain, state);
-      const auto at       = state.stretch;
+      const auto at = state.stretch, force = state.force;
       Balance balance(law, chain, at, state);
       auto slip = state.slip;
       balance.solve(slip);
       lost          = take_over(balance, slip, state);
       lost.fracture = before - stored_energy(law, chain, state) - lost.plastic
                       - lost.friction;
+      for (std::size_t e = 0; !is_static && e < force.size(); ++e)
+        if (!state.lost[e] && !state.lost[e + 1])
+          lost.fracture
+              += 0.5 * (force[e] - state.force[e]) * (stretch[e] - at[e]);
     }
     Balance balance(law, chain, stretch, state);
     auto slip = state.slip;

@@ -297,6 +297,31 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    /** Takes a bar out of blocks that are absent: all of it where its far end
+        is. */
+    template <typename Bar>
+    void lose_absent(const Bar &bar, const State<2> &state, BarState &now)
+    {
+      const std::size_t last = bar.hosts.size() - 1;
+      const bool is_gone     = state.is_absent(bar.hosts[last].block);
+      for (std::size_t i = 0; i <= last; ++i)
+        if (is_gone || state.is_absent(bar.hosts[i].block))
+        {
+          now.lost[i] = 1;
+          if (i > 0)
+            now.broken[i - 1] = 1;
+          if (i < last)
+            now.broken[i] = 1;
+        }
+      for (std::size_t d = 0; d < bar.dowels.size(); ++d)
+        if (is_gone || state.is_absent(bar.dowels[d].near.block)
+            || state.is_absent(bar.dowels[d].far.block))
+          now.dowel_broken[d] = 1;
+    }
+  } // namespace
+
   double Reinforcement::end_stage(State<2> &state) const
   {
     if (bars.empty() || !state.find<ReinforcementState>())
@@ -322,26 +347,11 @@ namespace quoin
       BarState &now          = states[b];
       const auto &given      = cables[bar.cable];
       const std::size_t last = bar.hosts.size() - 1;
-      const bool is_gone     = state.is_absent(bar.hosts[last].block);
       const bool is_new
           = !now.installed
             && (given.stage.empty() ? first : given.stage == name);
       if (is_new || now.installed)
-      {
-        for (unsigned int i = 0; i <= last; ++i)
-          if (is_gone || state.is_absent(bar.hosts[i].block))
-          {
-            now.lost[i] = 1;
-            if (i > 0)
-              now.broken[i - 1] = 1;
-            if (i < last)
-              now.broken[i] = 1;
-          }
-        for (unsigned int d = 0; d < bar.dowels.size(); ++d)
-          if (is_gone || state.is_absent(bar.dowels[d].near.block)
-              || state.is_absent(bar.dowels[d].far.block))
-            now.dowel_broken[d] = 1;
-      }
+        lose_absent(bar, state, now);
       if (!is_new)
         continue;
       now.installed = 1;
@@ -490,8 +500,7 @@ namespace quoin
     }
     BarDissipation lost
         = quoin::update(bar.law, bar.chain, work.stretch, state,
-                        with_stiffness ? &work.tangent : nullptr,
-                        is_static && bar.law.bond_friction > 0.);
+                        with_stiffness ? &work.tangent : nullptr, is_static);
     for (unsigned int e = 0; e < m; ++e)
       add_pair_force(bar.hosts[e], bar.hosts[e + 1],
                      { { state.force[e] * work.axis[e][0],
@@ -602,6 +611,9 @@ namespace quoin
     for (unsigned int b = 0; b < bars.size(); ++b)
     {
       const auto &nodes = bars[b].nodes;
+      // Blocks may have been deleted outside of the box.
+      if (!state.block_marks.empty() && states[b].installed)
+        lose_absent(bars[b], state, states[b]);
       book(update_bar(bars[b], state.nodes.data(), states[b], false, false),
            state);
       for (unsigned int i = 0; i < nodes.size(); ++i)

@@ -137,14 +137,15 @@ namespace quoin
    *
    * @p tangent: derivatives of the element forces by the stretches, row by row
    * [N/m]; null: not wanted. Elements whose strain exceeds that of rupture
-   * break at the next call, at the stretch of this one. @p again: whether the
-   * bar finds a new equilibrium at the last stretch first, because the pressure
-   * on its bond is another one.
+   * break at the next call, at the stretch of this one. If @p is_static, so
+   * does the bond find a new equilibrium if the pressure on it has changed; if
+   * not, the forces before a rupture have acted on the rock in the first half
+   * of the step from the last stretch.
    */
   BarDissipation update(const BarLaw &law, const BarChain &chain,
                         const std::vector<double> &stretch, BarState &state,
                         std::vector<double> *tangent = nullptr,
-                        bool again                   = false);
+                        bool is_static               = true);
 
   /**
    * Tensions a new bar against its face plate to @p force [N]. An anchor, if
