@@ -11,6 +11,7 @@ without its yellow, which is lost on white.
 
 ORANGE, RED, VIOLET, YELLOW = "#e05c00", "#8b0a1a", "#3f2a96", "#f5c400"
 INTACT = "#9e9e9e"
+BAR = "#000000"
 COMPRESSION, TENSION = "#1f4e9c", "#c0282d"
 CURVES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
           "#000000")

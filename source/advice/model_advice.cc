@@ -32,6 +32,24 @@ namespace quoin
                    "all processes share.");
     }
 
+    /** Warns of elements of bars that are too long for the forces in them. */
+    void check_bars(const Parameters &parameters, Advice &advice)
+    {
+      for (const CableParameters &cable : parameters.model.cables)
+      {
+        const double decay
+            = std::sqrt(cable.law.stiffness / cable.law.bond_stiffness);
+        Checks(advice, "reinforcement " + cable.name + ": ")
+            .warn_if(cable.law.bond_stiffness > 0.
+                         && cable.element_length > decay,
+                     "its force falls by the factor e over ", decay,
+                     " m of bond, sqrt(E A / bond stiffness), and its elements "
+                     "are up to ",
+                     cable.element_length,
+                     " m long: lower 'Element length' to a third of that.");
+      }
+    }
+
     /** Warns of joints that the initial stress takes beyond their strength. */
     void check_initial_joints(const Parameters &parameters,
                               const Model<2> &model, const State<2> &state,
@@ -364,6 +382,7 @@ namespace quoin
     Advice advice = report.warnings();
     check_ranks(report, model.nodes(), advice);
     check_laws(parameters, advice);
+    check_bars(parameters, advice);
     if constexpr (dim == 2)
     {
       check_initial_joints(parameters, model, state, advice);

@@ -236,6 +236,14 @@ namespace quoin
                                 state.template get<JointHistory>(),
                                 state.energy, unused.data());
     }
+    if constexpr (dim == 2)
+      if (!model.reinforcement().empty())
+      {
+        AlignedArray<NodeVector<2>> unused(state.nodes.size(),
+                                           NodeVector<2>{ { 0., 0. } });
+        model.reinforcement().add_forces(step_context(state, stage, time_step),
+                                         state, { unused.data(), nullptr });
+      }
     state.energy.plastic += model.blocks().update(
         state.nodes.data(), state.template get<PlasticHistory>());
     model.nodes().exchange().update_ghosts(state.velocity.data());

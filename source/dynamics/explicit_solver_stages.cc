@@ -107,6 +107,8 @@ namespace quoin
       if (block_contacts)
         forces.push_back(block_contacts);
       forces.push_back(&model.joints());
+      if (!model.reinforcement().empty())
+        forces.push_back(&model.reinforcement());
     }
     for (NodalLoad<dim> &load : all_loads)
       if (names_load(stage, load.name()))

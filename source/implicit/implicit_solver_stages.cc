@@ -155,6 +155,8 @@ namespace quoin
       const std::vector<const NodalLoad<2> *> &loads) const
   {
     Equilibrium::Operators result{ &model.joints(), &model.blocks() };
+    if (!model.reinforcement().empty())
+      result.push_back(&model.reinforcement());
     result.insert(result.end(), loads.begin(), loads.end());
     if (water && water->acts())
       result.push_back(water);

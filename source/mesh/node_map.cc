@@ -6,8 +6,13 @@
 #include <deal.II/base/mpi_consensus_algorithms.h>
 #include <deal.II/fe/fe_simplex_p.h>
 
+#include <boost/serialization/array.hpp>
+
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 namespace quoin
 {
@@ -50,6 +55,39 @@ namespace quoin
       return result;
     }
 
+    /** Sets begin and end of the part of @p segment in @p cell; returns whether
+        there is one. */
+    bool clip(const std::array<dealii::Point<2>, 2> &segment, CrossedCell &cell)
+    {
+      constexpr double least = 1e-9; // share of the segment, or of the cell
+      const auto &c          = cell.corners;
+      const auto twice_area  = [](const auto &p, const auto &q, const auto &r)
+      { return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]); };
+      cell.begin         = 0.;
+      cell.end           = 1.;
+      const double whole = twice_area(c[0], c[1], c[2]);
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        // Barycentric coordinates at both ends.
+        const auto &p  = c[(k + 1) % 3];
+        const auto &q  = c[(k + 2) % 3];
+        const double a = twice_area(p, q, segment[0]) / whole;
+        const double b = twice_area(p, q, segment[1]) / whole;
+        if (std::abs(a - b) < least)
+        {
+          if (a < -least)
+            return false;
+          continue;
+        }
+        const double zero = a / (a - b);
+        if (a < b)
+          cell.begin = std::max(cell.begin, zero);
+        else
+          cell.end = std::min(cell.end, zero);
+      }
+      return cell.end - cell.begin > least;
+    }
+
     constexpr unsigned int linear_cells_of(const bool is_quadratic)
     {
       return is_quadratic ? 4 : 1;
@@ -57,7 +95,8 @@ namespace quoin
   } // namespace
 
   template <int dim>
-  NodeMap<dim>::NodeMap(const BlockTriangulation<dim> &mesh)
+  NodeMap<dim>::NodeMap(const BlockTriangulation<dim> &mesh,
+                        const std::vector<Segment> &segments)
     : mesh(mesh), dofs(mesh.triangulation())
   {
     AssertThrow(dim == 2 || !table().is_quadratic,
@@ -65,6 +104,8 @@ namespace quoin
     dofs.distribute_dofs(
         dealii::FE_SimplexP<dim>(table().is_quadratic ? 2 : 1));
     number_nodes();
+    if constexpr (dim == 2)
+      find_crossed_cells(segments);
     const Partners partners_of = nodes_of_joints();
     find_ghosts(partners_of);
     const std::vector<unsigned int> cell_place = order_cells();
@@ -195,6 +236,56 @@ namespace quoin
     return result;
   }
 
+  template <>
+  void NodeMap<2>::find_crossed_cells(const std::vector<Segment> &segments)
+  {
+    if (segments.empty())
+      return;
+    const unsigned int n_parts = linear_cells_of(table().is_quadratic);
+    std::vector<CrossedCell> own;
+    std::vector<Dof> nodes(dofs.get_fe().n_dofs_per_cell());
+    std::map<unsigned int, dealii::Point<2>> place;
+    for (const auto &cell : dofs.active_cell_iterators())
+    {
+      if (!cell->is_locally_owned())
+        continue;
+      cell->get_dof_indices(nodes);
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        place[nodes[k]] = cell->vertex(k);
+        if (nodes.size() == 6)
+          place[nodes[3 + k]] = dealii::Point<2>(
+              0.5 * (cell->vertex(k) + cell->vertex((k + 1) % 3)));
+      }
+      const auto number = cell->id().get_coarse_cell_id();
+      CrossedCell found{};
+      found.block  = table().block_of_cell(number);
+      found.group  = cell->material_id();
+      found.number = n_parts * std::uint64_t(number);
+      for (const auto &part : linear_cells<2>(nodes))
+      {
+        found.nodes = part;
+        for (unsigned int k = 0; k < 3; ++k)
+          found.corners[k] = { { place[part[k]][0], place[part[k]][1] } };
+        for (found.segment = 0; found.segment < segments.size();
+             ++found.segment)
+          if (clip(segments[found.segment], found))
+            own.push_back(found);
+        ++found.number;
+      }
+      place.clear();
+    }
+    for (const auto &part :
+         dealii::Utilities::MPI::all_gather(communicator(), own))
+      crossed.insert(crossed.end(), part.begin(), part.end());
+    std::sort(crossed.begin(), crossed.end(),
+              [](const CrossedCell &a, const CrossedCell &b)
+              {
+                return std::tie(a.segment, a.begin, a.end, a.number)
+                       < std::tie(b.segment, b.begin, b.end, b.number);
+              });
+  }
+
   template <int dim>
   void NodeMap<dim>::find_ghosts(const Partners &partners_of)
   {
@@ -224,6 +315,10 @@ namespace quoin
         if (mesh.joints()[p].ranks[side] != rank)
           partners.insert(partners.end(), partners_of[p][side].begin(),
                           partners_of[p][side].end());
+    for (const CrossedCell &cell : crossed)
+      for (const unsigned int node : cell.nodes)
+        if (!owned.is_element(node))
+          partners.push_back(node);
     sort(partners);
 
     const Dof first = owned.n_elements() > 0 ? owned.nth_index_in_set(0) : 0;

@@ -38,6 +38,7 @@ namespace quoin
     if constexpr (dim == 2)
     {
       matched_joints.prepare(nodes, now.joints, group_thickness);
+      bars.prepare(nodes, given.cables, group_thickness, block_forces);
       make_contacts();
     }
     if (!table.is_quadratic)
@@ -175,6 +176,8 @@ namespace quoin
         operators.push_back(block_contacts.get());
       else
         operators.push_back(&matched_joints);
+      if (!bars.empty())
+        operators.push_back(&bars);
     }
     return operators;
   }
@@ -312,6 +315,7 @@ namespace quoin
     if constexpr (dim == 2)
     {
       matched_joints.prepare(state);
+      bars.prepare(state);
       if (!face_stress.empty())
         initialise_joints(matched_joints, face_stress, state);
     }

@@ -168,6 +168,43 @@ namespace quoin
       }
     }
 
+    /** Checks the names of stages that cables give. */
+    void check_cables(const ParameterSection &top, const Parameters &parameters)
+    {
+      const ParameterSection section(top, "Reinforcement");
+      for (const CableParameters &cable : parameters.model.cables)
+      {
+        const auto stage
+            = std::find_if(parameters.stages.begin(), parameters.stages.end(),
+                           [&](const StageParameters &candidate)
+                           { return candidate.name == cable.stage; });
+        if (!cable.stage.empty() && stage == parameters.stages.end())
+          ParameterSection(section, cable.name)
+              .fail("Stage",
+                    "must be a stage or empty. There are: "
+                        + known_names_like(cable.stage, parameters.stages,
+                                           &StageParameters::name)
+                        + ".");
+      }
+    }
+
+    /** Checks the names of cables that histories give. */
+    void check_cable_histories(const ParameterSection &top,
+                               const Parameters &parameters)
+    {
+      const auto &cables = parameters.model.cables;
+      const ParameterSection section(top, "Histories");
+      for (const HistoryParameters &history : parameters.histories)
+        if (history.quantity == HistoryQuantity::cable
+            && !find_named(cables, history.cable))
+          ParameterSection(section, history.name)
+              .fail("Cable", "must be one of section 'Reinforcement'. There "
+                             "are: "
+                                 + known_names_like(history.cable, cables,
+                                                    &CableParameters::name)
+                                 + ".");
+    }
+
     /** Checks the conditions on histories by which stages end. */
     void check_end_conditions(const ParameterSection &top,
                               const Parameters &parameters)
@@ -267,7 +304,8 @@ namespace quoin
         = ContactParameters::read(ParameterSection(top, "Contact"));
     parameters.model.large_displacements
         = parameters.model.contact.large_displacements;
-    parameters.loads = read_named<LoadParameters>(top, "Loads");
+    parameters.model.cables = read_named<CableParameters>(top, "Reinforcement");
+    parameters.loads        = read_named<LoadParameters>(top, "Loads");
     for (const LoadParameters &load : parameters.loads)
       if (load.type == LoadType::initial_stress)
         parameters.model.initial_stresses.push_back(load);
@@ -282,6 +320,8 @@ namespace quoin
     warn_of_idle_loads(parameters);
     check_coupled_histories(top, parameters);
     check_block_histories(top, parameters);
+    check_cables(top, parameters);
+    check_cable_histories(top, parameters);
     check_end_conditions(top, parameters);
     parameters.implicit
         = ImplicitParameters::read(ParameterSection(top, "Implicit"));
@@ -305,8 +345,9 @@ namespace quoin
 
   void read_boundary_model(const ParameterSection &top, Parameters &parameters)
   {
-    for (const std::string name : { "Joints", "Loads", "Stages", "Blocks",
-                                    "Water joints", "Water boundaries" })
+    for (const std::string name :
+         { "Joints", "Reinforcement", "Loads", "Stages", "Blocks",
+           "Water joints", "Water boundaries" })
       refuse_names(top, name, "boundary elements");
     for (const std::string name : { "Displacement", "Velocity" })
       if (const ParameterSection section(top, "Initial motion");

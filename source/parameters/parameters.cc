@@ -27,6 +27,7 @@ namespace quoin
             { "Rock joints", RockJoints::declare },
             { "Materials", MaterialParameters::declare },
             { "Joints", JointSetParameters::declare },
+            { "Reinforcement", CableParameters::declare },
             { "Loads", LoadParameters::declare },
             { "Water joints", HydraulicAperture::declare },
             { "Water boundaries", WaterBoundary::declare },

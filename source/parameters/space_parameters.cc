@@ -99,6 +99,8 @@ namespace quoin
                        "joints.");
     refusals.refuse_if(parameters.water.flow != FlowKind::none,
                        "section 'Water': 'Flow'", "Take 'none'.");
+    refusals.refuse_if(!parameters.model.cables.empty(),
+                       "section 'Reinforcement': 'Names'", "Leave it empty.");
     refusals.refuse_if(!parameters.named_blocks.empty(),
                        "section 'Blocks': 'Names'", "Leave it empty.");
     refusals.refuse_if(parameters.measure_bandwidth,

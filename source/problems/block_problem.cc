@@ -137,6 +137,8 @@ namespace quoin
         run.log.messages(face_lines(parameters, *system.nodes));
         if (system.water)
           run.log.messages(water_lines(*system.water));
+        if (!system.model->reinforcement().empty())
+          run.log.message(system.model->reinforcement().text());
       }
     run.log.warnings(
         model_advice(parameters, system.mesh_report, *system.model, state));

@@ -121,7 +121,11 @@ namespace quoin
     mesh_report = broadcast(communicator, mesh_report);
     blocks      = std::make_unique<BlockTriangulation<dim>>(mesh, rank_of_cell,
                                                        is_rigid, communicator);
-    nodes       = std::make_unique<NodeMap<dim>>(*blocks);
+    std::vector<typename NodeMap<dim>::Segment> segments;
+    if constexpr (dim == 2)
+      for (const auto &[a, b] : all_bars(parameters.model.cables))
+        segments.push_back({ { { a[0], a[1] }, { b[0], b[1] } } });
+    nodes = std::make_unique<NodeMap<dim>>(*blocks, segments);
   }
 
   template <int dim>
@@ -242,7 +246,10 @@ namespace quoin
     {
       if constexpr (dim == 2)
       {
+        const double power = model->reinforcement().end_stage(state);
         construction->begin_stage(index, *solver, state);
+        model->reinforcement().begin_stage(stage.name, index == 0, power,
+                                           state);
         if (implicit_solver)
           implicit_solver->begin_stage(stage, previous, state);
       }

@@ -376,6 +376,7 @@ namespace quoin
     case HistoryQuantity::block_displacement: // see BlockHistories
     case HistoryQuantity::block_velocity:
     case HistoryQuantity::block_force:
+    case HistoryQuantity::cable:                 // see Reinforcement::value()
     case HistoryQuantity::boundary_displacement: // see BoundaryHistories
     case HistoryQuantity::boundary_velocity:
     case HistoryQuantity::boundary_traction:
@@ -515,6 +516,17 @@ namespace quoin
       default:
         break;
       }
+    return 0.;
+  }
+
+  template <int dim>
+  double Histories<dim>::cable_value(const HistoryParameters &wanted,
+                                     const State<dim> &state) const
+  {
+    if constexpr (dim == 2)
+      return model.reinforcement().value(
+          state, wanted.cable, static_cast<CableQuantity>(wanted.component),
+          wanted.point);
     return 0.;
   }
 
@@ -823,6 +835,8 @@ namespace quoin
                         / std::max(solver.energies().throughput(), 1e-300);
       else if (wanted.quantity == HistoryQuantity::blocks_outside)
         result[1 + i] = n_outside;
+      else if (wanted.quantity == HistoryQuantity::cable)
+        result[1 + i] = cable_value(wanted, state);
       else if (wanted.is_of_two_points())
         result[1 + i] = value_of_two(probes[i], result.data() + 1);
     }

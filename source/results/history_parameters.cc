@@ -91,6 +91,13 @@ namespace quoin
         { "block force x", { Q::block_force, 0, "N" } },
         { "block force y", { Q::block_force, 1, "N" } },
         { "block force moment", { Q::block_force, 2, "N m" } },
+        { "cable axial force", { Q::cable, 0, "N" } },
+        { "cable largest force", { Q::cable, 1, "N" } },
+        { "cable head force", { Q::cable, 2, "N" } },
+        { "cable bond slip", { Q::cable, 3, "m" } },
+        { "cable shear force", { Q::cable, 4, "N" } },
+        { "cable shear displacement", { Q::cable, 5, "m" } },
+        { "cable breaks", { Q::cable, 6, "-" } },
         { "boundary displacement x", { Q::boundary_displacement, 0, "m" } },
         { "boundary displacement y", { Q::boundary_displacement, 1, "m" } },
         { "boundary velocity x", { Q::boundary_velocity, 0, "m/s" } },
@@ -147,7 +154,11 @@ namespace quoin
           "or of the nearest cell, from -180 to 180, anticlockwise. The stress "
           "of rigid blocks is written as 0. In a block that has been deleted "
           "all quantities are 'nan', in one that is excavated or not placed "
-          "yet 0. Quantities of a 'boundary' belong to boundary elements: "
+          "yet 0. 'cable axial force' and the like are of one bolt of 'Cable': "
+          "at the element, head, node or dowel nearest to 'Point', 'cable "
+          "largest force' of all of its elements, 'cable breaks' the number of "
+          "elements that have broken. Quantities of a 'boundary' belong to "
+          "boundary elements: "
           "velocities and tractions are the means over their last completed "
           "step, and 0 before the first stage with 'End = time' in which they "
           "act. With 'Model = boundary elements', displacements and velocities "
@@ -214,6 +225,10 @@ namespace quoin
         entries.text("Second block", history.other_block,
                      "Named block whose force on 'Block' is recorded; empty: "
                      "the force of all other blocks together.");
+      if (entries.reads_if(history.quantity == HistoryQuantity::cable))
+        entries.text("Cable", history.cable,
+                     "Bolts whose quantities are recorded, one of the 'Names' "
+                     "of section 'Reinforcement'.");
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;

@@ -12,8 +12,10 @@ history and points the ranks share. A block that is distributed over several ran
 without and with joints inside. A static far field, which every rank has as a
 whole, and dashpots that hold what it carried. Blocks placed and excavated, whole
 and divided. A divided block that slides along another one, from a joint that slipped
-on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra. A wall in equilibrium, cracking, to what its iterations leave, by both
-linear solvers; water in a joint by both solvers; a block that is distributed over 2 and 3 ranks in equilibrium, without
+on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra. Bars
+through divided blocks, by both solvers. A wall in equilibrium, cracking, to what its
+iterations leave, by both linear solvers; water in a joint by both solvers; a block that
+is distributed over 2 and 3 ranks in equilibrium, without
 and with joints inside. A stack of blocks under a load pattern, by both solvers.
 """
 import json
@@ -62,6 +64,7 @@ COLLAPSING = ["Materials/block/Law=linear elastic",
               "Histories/factor/Load=base",
               "Histories/moved/Quantity=displacement x",
               "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
+BARS = os.path.join(common.ROOT, "tests", "cases", "bars.prm")
 VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "rigid": (PATCH_TEST, SETS + ["Materials/rock/Law=rigid",
                                           "Loads/base/Type=traction"]),
@@ -162,6 +165,10 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                    "s.prm"),
                       ["Stages/wave/Damping=Rayleigh",
                        "Stages/wave/Rayleigh stiffness coefficient=1e-6"]),
+            # bars through blocks that several ranks share, in a second stage,
+            # with pretension, slip of a bond under pressure, and dowels
+            "bars": (BARS, ["Solver=explicit"]),
+            "implicit, bars": (BARS, []),
             # a load pattern on divided blocks
             "pattern": (COLLAPSE, COLLAPSING),
             "pattern, named": (

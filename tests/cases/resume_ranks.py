@@ -66,6 +66,8 @@ CASES = {
     "hybrid": of_ranks("hybrid", ALL),
     "contacts, divided": of_ranks("contacts, divided", ALL),
     "space": of_ranks("space", ALL),
+    "bars": of_ranks("bars", ALL),
+    "implicit, bars": of_ranks("implicit, bars", UP),
     "static far field": of_ranks("static far field", ALL),
     "construction": of_ranks("construction", ALL),
     "construction, divided": of_ranks("construction, divided", ALL),

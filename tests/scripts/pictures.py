@@ -215,7 +215,7 @@ class Places(unittest.TestCase):
         grid = blocks(width, height)
         grid.point_data["displacement"] += [shift, 0., 0.]
         frame = types.SimpleNamespace(
-            blocks=grid, joints=None, contacts=None, time=0., label=None,
+            blocks=grid, joints=None, contacts=None, cables=None, time=0., label=None,
             shared=shared_motion.shared_motion(grid))
         frame.position = types.MethodType(block_figure.Frame.position, frame)
         words = dict(scale=1., view=None, colour="velocity", joints="state",

@@ -110,6 +110,25 @@ namespace quoin
     std::array<unsigned int, 2> groups;
   };
 
+  /** The part of a straight segment that lies in a linear cell of any rank, in
+      two dimensions. */
+  struct CrossedCell
+  {
+    unsigned int segment;      /**< number of the segment */
+    double begin, end;         /**< of the part, as shares of its length [-] */
+    unsigned int block, group; /**< of the cell */
+    std::uint64_t number;      /**< of the cell in the whole mesh */
+    std::array<unsigned int, 3> nodes; /**< global */
+    /** Corners x, y of the cell [m]. */
+    std::array<std::array<double, 2>, 3> corners;
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive &segment &begin &end &block &group &number &nodes &corners;
+    }
+  };
+
   /** The faces at the boundaries of blocks that a rank has. */
   template <int dim>
   struct LocalFaces

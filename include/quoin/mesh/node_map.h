@@ -41,8 +41,15 @@ namespace quoin
     /** No node. */
     static constexpr unsigned int none = -1;
 
-    /** Collective; keeps a reference to @p mesh. */
-    explicit NodeMap(const BlockTriangulation<dim> &mesh);
+    /** A straight line between two points [m]. */
+    using Segment = std::array<dealii::Point<dim>, 2>;
+
+    /**
+     * Collective; keeps a reference to @p mesh. All ranks have the nodes of the
+     * cells that @p segments cross, as partners if they are not their own.
+     */
+    explicit NodeMap(const BlockTriangulation<dim> &mesh,
+                     const std::vector<Segment> &segments = {});
 
     const BlockTable<dim> &table() const
     {
@@ -104,6 +111,13 @@ namespace quoin
       return !midside.empty() && midside[node];
     }
 
+    /** The cells of all ranks that the segments cross, in the order of the
+        segments and along each: the same on all ranks. */
+    const std::vector<CrossedCell> &crossed_cells() const
+    {
+      return crossed;
+    }
+
     const LocalBlocks &blocks() const
     {
       return local_blocks;
@@ -123,6 +137,8 @@ namespace quoin
 
     void number_nodes();
     Partners nodes_of_joints() const;
+    /** Finds crossed_cells(). */
+    void find_crossed_cells(const std::vector<Segment> &segments);
     void find_ghosts(const Partners &partners_of);
     /** Finds the parts of blocks. Returns the place of each owned cell of the
         triangulation among those. */
@@ -144,11 +160,16 @@ namespace quoin
     std::vector<unsigned int> node_block;
     std::vector<std::uint64_t> node_numbers;
     std::vector<bool> midside;
+    std::vector<CrossedCell> crossed;
     LocalBlocks local_blocks;
     LocalCells<dim> local_cells;
     LocalFaces<dim> local_faces;
     unsigned int shared_nodes_begin = 0, deformable_nodes = 0;
   };
+
+  // A member that exists in two dimensions only.
+  template <>
+  void NodeMap<2>::find_crossed_cells(const std::vector<Segment> &segments);
 
   /**
    * The share of a face on which local @p node stands for if a constant

@@ -17,6 +17,7 @@
 #include <quoin/materials/material_parameters.h>
 #include <quoin/materials/plane_assumption.h>
 #include <quoin/mesh/node_map.h>
+#include <quoin/reinforcement/reinforcement.h>
 
 #include <memory>
 #include <vector>
@@ -31,6 +32,7 @@ namespace quoin
     std::vector<MaterialParameters> materials;
     std::vector<JointSetParameters> joints;
     std::vector<LoadParameters> initial_stresses;
+    std::vector<CableParameters> cables;
     /** Physical surfaces that are absent until a stage fills them. */
     std::vector<std::string> absent_groups;
 
@@ -131,6 +133,15 @@ namespace quoin
     {
       return matched_joints;
     }
+    /** Bolts and cables of two dimensions. */
+    const Reinforcement &reinforcement() const
+    {
+      return bars;
+    }
+    Reinforcement &reinforcement()
+    {
+      return bars;
+    }
     /** Null if displacements are small. */
     const BlockContacts *contacts() const
     {
@@ -199,6 +210,7 @@ namespace quoin
     BlockForces<dim> block_forces;
     RigidBlocks rigid;
     MatchedJoints matched_joints;
+    Reinforcement bars;
     std::unique_ptr<BlockContacts> block_contacts;
     std::unique_ptr<StableTimeStep<dim>> stable_step;
   };

@@ -23,6 +23,7 @@ namespace quoin
   account(kinetic, stored, "kinetic"),        /* nodes and rigid blocks */     \
   account(strain, stored, "strain"),          /* deformable blocks */          \
   account(joint, stored, "joint"),            /* joints and contacts */        \
+  account(reinforcement, stored, "reinforcement"), /* bars and their bond */   \
   account(friction, dissipated, "friction"),  /* slip, dilation of joints */   \
   account(fracture, dissipated, "fracture"),  /* joints that break */          \
   account(crushing, dissipated, "crushing"),  /* crushed joints */             \

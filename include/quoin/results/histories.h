@@ -114,6 +114,8 @@ namespace quoin
     /** The blocks at the point of @p probe, which is on this rank. */
     std::vector<unsigned int> blocks_of(const Probe &probe) const;
     double joint_value(const Probe &probe, const State<2> &state) const;
+    double cable_value(const HistoryParameters &wanted,
+                       const State<dim> &state) const;
     double yield_value(const Probe &probe, const State<2> &state) const;
     /** Adds the columns of boundary elements. */
     void add_boundary_values(const State<dim> &state,

@@ -6,14 +6,15 @@
 
 #include <quoin/dynamics/solver.h>
 #include <quoin/results/block_output.h>
+#include <quoin/results/cable_output.h>
 #include <quoin/results/joint_output.h>
 
 #include <string>
 
 namespace quoin
 {
-  /** The series blocks, in two dimensions, joints and, of general contacts,
-      contacts. Members are collective. */
+  /** The series blocks, in two dimensions, joints and, if there are any,
+      contacts of general contacts and cables. Members are collective. */
   template <int dim>
   class ModelOutput
   {
@@ -31,7 +32,7 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &blocks &joints &contacts;
+      archive &blocks &joints &contacts &cables;
     }
 
   private:
@@ -39,6 +40,7 @@ namespace quoin
     Solver<dim> &solver;
     BlockOutput blocks;
     JointOutput joints, contacts;
+    CableOutput cables;
   };
 } // namespace quoin
 

@@ -13,6 +13,7 @@ import numpy as np
 from quoin import run_parameters, vtu
 from quoin.colours import MATERIALS, STONES
 from quoin.csv_table import scale_for
+from quoin.figures.cable_figure import axial_forces, draw_cables
 from quoin.figures.figure_style import MAGNITUDES
 from quoin.figures.joint_figure import (CrackJoints, DamageJoints, SlipJoints,
                                         StateJoints, block_size,
@@ -40,6 +41,7 @@ class Frame:
         self.blocks = series("blocks.pvd")
         self.joints = series("joints.pvd")
         self.contacts = series("contacts.pvd")
+        self.cables = series("cables.pvd")
         if self.blocks is None:
             raise ValueError(f"no blocks are listed in "
                              f"{os.path.join(output, 'blocks.pvd')}; was a "
@@ -51,7 +53,7 @@ class Frame:
         if os.path.basename(os.path.abspath(output)) == "mechanism":
             # the series of a factor of safety lists its fields by it
             self.label = f"factor {self.blocks.time:.4g}"
-        for name in ("joints", "contacts"):
+        for name in ("joints", "contacts", "cables"):
             # a series that ended earlier says nothing of this moment
             grid = getattr(self, name)
             if grid is not None and grid.time != self.blocks.time:
@@ -208,6 +210,9 @@ class Picture:
         self.joints = None if options.blocks_only else self.joint_style(frames)
         forces = [contact_forces(f.contacts) for f in frames if f.contacts]
         self.force = max([np.quantile(f, 0.99) for f in forces], default=0.0)
+        self.axial_force = max([axial_forces(f.cables).max() for f in frames
+                                if f.cables and len(f.cables.cells)],
+                               default=0.0)
 
     def joint_style(self, frames):
         if self.options.joints == "mode":
@@ -235,6 +240,10 @@ class Picture:
                 axes, frame.joints, drawn_position(
                     frame.joints, self.scale, frame.shared), with_count)
         handles += contacts
+        if frame.cables and len(frame.cables.cells) and self.joints:
+            handles += draw_cables(
+                axes, frame.cables, drawn_position(
+                    frame.cables, self.scale, frame.shared), self.axial_force)
         margin = 0.0 if self.options.view else 0.02 * self.extent.max()
         below = margin
         if self.crosses:

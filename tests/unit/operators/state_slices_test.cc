@@ -107,10 +107,11 @@ TEST(EnergyAccounts, ColumnsKeepTheirOrder)
   std::vector<std::string> names;
   for (const EnergyAccount &account : energy_accounts)
     names.push_back(account.name);
-  EXPECT_EQ(names, (std::vector<std::string>{
-                       "kinetic", "strain", "joint", "friction", "fracture",
-                       "crushing", "plastic", "damping", "viscous", "contact",
-                       "radiated", "far field", "external" }));
+  EXPECT_EQ(names,
+            (std::vector<std::string>{
+                "kinetic", "strain", "joint", "reinforcement", "friction",
+                "fracture", "crushing", "plastic", "damping", "viscous",
+                "contact", "radiated", "far field", "external" }));
 }
 
 TEST(EnergyAccounts, AllCountInTheBalance)
@@ -122,5 +123,5 @@ TEST(EnergyAccounts, AllCountInTheBalance)
     EXPECT_EQ(accounts.*account.value += 1., 1.) << account.name;
   EXPECT_EQ(accounts.sum(EnergyKind::given), 1.);
   EXPECT_EQ(accounts.sum(EnergyKind::dissipated), 8.);
-  EXPECT_EQ(accounts.sum(EnergyKind::stored), 4.);
+  EXPECT_EQ(accounts.sum(EnergyKind::stored), 5.);
 }

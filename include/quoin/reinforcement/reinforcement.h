@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_reinforcement_reinforcement_h
+#define quoin_reinforcement_reinforcement_h
+
+#include <quoin/base/thickness.h>
+#include <quoin/blocks/block_forces.h>
+#include <quoin/mesh/node_map.h>
+#include <quoin/operators/force_operator.h>
+#include <quoin/reinforcement/bar_chain.h>
+#include <quoin/reinforcement/cable_parameters.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace quoin
+{
+  /** Internal variables of all bars, the same on all ranks. */
+  struct ReinforcementState
+  {
+    static constexpr const char *slice_name = "reinforcement";
+
+    std::vector<BarState> bars;
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.each(bars);
+    }
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive_members(archive, *this);
+    }
+  };
+
+  /** What histories record of bars, forces of one bar [N]. */
+  enum class CableQuantity : unsigned int
+  {
+    axial_force,   /**< of the element nearest to a point */
+    largest_force, /**< of all elements of a section */
+    head_force,    /**< at the head nearest to a point */
+    bond_slip,     /**< of the node nearest to a point [m] */
+    shear_force,   /**< of the dowel nearest to a point */
+    shear_motion,  /**< of that dowel [m] */
+    n_broken       /**< elements that have broken */
+  };
+
+  /** Fields of bars for cables.pvd. */
+  struct CableFields
+  {
+    // Of points, two for each element.
+    std::vector<std::array<double, 2>> position, displacement;
+    std::vector<double> slip;       /**< of the bond [m] */
+    std::vector<double> bond_force; /**< by length, of one bar [N/m] */
+    // Of elements.
+    std::vector<double> axial_force;  /**< of one bar [N] */
+    std::vector<double> axial_strain; /**< [-] */
+    std::vector<double> shear_force;  /**< of its dowel [N] */
+    std::vector<std::uint8_t> state;  /**< 0 elastic, 1 yielded, 2 broken */
+    std::vector<std::int32_t> cable;  /**< number of the section */
+  };
+
+  /**
+   * Bolts and cables: bars without mass in the blocks of a plane model. Their
+   * nodes are points of cells, with constant weights on the cell's nodes; the
+   * bar moves along itself relative to them (BarLaw), in equilibrium at any
+   * motion of the rock, and an element pulls its two points towards each other
+   * along their present line. Dowels resist the relative motion of the two
+   * sides of a joint that a bar crosses.
+   *
+   * All ranks have the nodes of these cells (NodeMap::crossed_cells()) and
+   * compute all bars; each adds the forces on its own nodes. The first rank
+   * adds derivatives and energies.
+   */
+  class Reinforcement : public ForceOperator<2>
+  {
+  public:
+    /** Keeps references. Throws an InputError about bars that do not lie in
+        blocks. */
+    void prepare(const NodeMap<2> &nodes,
+                 const std::vector<CableParameters> &cables,
+                 const Thickness &thickness, const BlockForces<2> &blocks);
+
+    bool empty() const
+    {
+      return bars.empty();
+    }
+
+    const char *kind() const override
+    {
+      return "reinforcement";
+    }
+    void prepare(State<2> &state) const override;
+
+    /** Updates bars for the positions at the end of a stage, before blocks are
+        excavated; returns the power of their forces on this rank's nodes [W],
+        for begin_stage(). */
+    double end_stage(State<2> &state) const;
+
+    /**
+     * Installs the bars of the stage @p name at the positions of @p state, in
+     * the @p first one also those that name none, and takes bars out of blocks
+     * that are absent. The energy of pretension is external work. @p power: of
+     * end_stage(). Collective.
+     */
+    void begin_stage(const std::string &name, bool first, double power,
+                     State<2> &state) const;
+
+    void add_forces(const StepContext &step, State<2> &state,
+                    const NodeForces<2> &forces) override;
+    void linearise(State<2> &state, bool with_stiffness,
+                   const TakeElement<2> &take) const override;
+    void add_stiffness_bound(
+        const State<2> &state, const NodeRatio &ratio,
+        std::vector<NodeStiffness<2>> &stiffness) const override;
+    void add_stored_energy(const State<2> &state,
+                           EnergyAccounts &energies) const override;
+
+    /** Value for histories of the bars of section @p cable; @p point: where
+        [m]. */
+    double value(const State<2> &state, const std::string &cable,
+                 CableQuantity quantity,
+                 const std::array<double, 3> &point) const;
+
+    /** Fields of all bars that are installed. */
+    CableFields fields(const State<2> &state) const;
+
+    /** Lines about the bars for --check. */
+    std::string text() const;
+
+  private:
+    /** A point of a cell. */
+    struct Host
+    {
+      std::array<unsigned int, 3> nodes;  /**< local */
+      std::array<unsigned int, 3> places; /**< of the nodes in Bar::nodes */
+      std::array<double, 3> weights;      /**< [-] */
+      unsigned int block;
+      unsigned int cell;       /**< own deformable cell, or NodeMap::none */
+      std::array<double, 2> X; /**< [m] */
+    };
+    /** Both sides of a joint where a bar crosses it. */
+    struct Dowel
+    {
+      Host near, far;
+      unsigned int element;
+    };
+    struct Bar
+    {
+      unsigned int cable; /**< number of its section */
+      BarLaw law;         /**< in the thickness of the model */
+      double number;      /**< of bars in that thickness [-] */
+      std::array<double, 2> direction;
+      BarChain chain;
+      std::vector<Host> hosts;
+      std::vector<Dowel> dowels;
+      /** Local nodes of all hosts, those of the far end first. */
+      std::vector<unsigned int> nodes;
+    };
+    /** Forces of a bar on Bar::nodes [N], and their derivatives. */
+    struct Work
+    {
+      std::vector<double> stretch, tangent, force, stiffness;
+      std::vector<std::array<double, 2>> axis; /**< of elements, present */
+      std::vector<double> span;                /**< present length [m] */
+    };
+
+    void add_bar(const BarEnds &ends, unsigned int cable,
+                 const std::vector<CrossedCell> &cells,
+                 const Thickness &thickness);
+    Host make_host(const std::array<double, 2> &point,
+                   const CrossedCell &cell) const;
+    /** Updates a bar and finds its forces in work; @p is_static: from the
+        equilibrium at the last positions with the pressure of now. */
+    BarDissipation update_bar(const Bar &bar, const NodeRecord<2> *nodes,
+                              BarState &state, bool is_static,
+                              bool with_stiffness) const;
+    void add_dowels(const Bar &bar, const NodeRecord<2> *nodes, BarState &state,
+                    bool with_stiffness, BarDissipation &lost) const;
+    /** Adds a spring @p k along @p axis between two points to the stiffness. */
+    void add_spring(const Bar &bar, const Host &near, const Host &far,
+                    const std::array<double, 2> &axis, double k) const;
+    void add_pair_force(const Host &near, const Host &far,
+                        const std::array<double, 2> &force) const;
+    /** Updates the pressure on the bond of all bars. Collective. */
+    void update_pressure(State<2> &state) const;
+    void book(const BarDissipation &lost, State<2> &state) const;
+    /** Power of the forces of bars on this rank's nodes [W]. */
+    double power(const State<2> &state) const;
+
+    const NodeMap<2> *node_map  = nullptr;
+    const BlockForces<2> *cells = nullptr;
+    std::vector<CableParameters> cables;
+    std::vector<Bar> bars;
+    bool has_friction = false;
+    bool is_first     = true; /**< rank */
+    mutable Work work;
+  };
+} // namespace quoin
+
+#endif

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_results_cable_output_h
+#define quoin_results_cable_output_h
+
+#include <quoin/output/field_series.h>
+#include <quoin/reinforcement/reinforcement.h>
+
+#include <string>
+
+namespace quoin
+{
+  /** The series cables: elements of bars as lines, written by the first rank.
+      Members are collective. */
+  class CableOutput : public FieldSeries
+  {
+  public:
+    CableOutput(const std::string &output_directory, MPI_Comm communicator,
+                FieldFormat format);
+
+    /** @p fields: the same on all ranks. */
+    void write(double time, const CableFields &fields);
+
+  private:
+    bool is_first; /**< rank */
+  };
+} // namespace quoin
+
+#endif

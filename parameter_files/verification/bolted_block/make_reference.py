@@ -1,0 +1,26 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""A block of weight W on a plane inclined by a, with a bolt that yields at T and
+whose direction from its head has the components -t down the plane and -n off it:
+
+  F = (W cos a + T n) tan phi/(W sin a - T t) ."""
+import os
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+WEIGHT = 2700 * 0.4 * 10
+SLOPE, FRICTION = np.radians(35), np.radians(40)
+YIELD = 3e3
+LENGTH = np.hypot(0.3, 0.7)
+
+
+def factor(force):
+    return ((WEIGHT * np.cos(SLOPE) + force * 0.7 / LENGTH) * np.tan(FRICTION)
+            / (WEIGHT * np.sin(SLOPE) - force * 0.3 / LENGTH))
+
+
+with open(os.path.join(HERE, "factors.csv"), "w") as stream:
+    stream.write("bolted [-],without [-]\n%.9g,%.9g\n"
+                 % (factor(YIELD), factor(0)))

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+// Bars in the cells of two blocks: resultants and derivatives of their forces.
+
+#include "../model/test_models.h"
+
+#include <quoin/reinforcement/reinforcement.h>
+
+#include <random>
+
+using namespace quoin;
+using namespace quoin::test;
+
+namespace
+{
+  /** A bar through two blocks of 2 x 2 m, and a dowel in their joint. */
+  struct BarInBlocks
+  {
+    BlockMesh<2> mesh;
+    std::unique_ptr<BlockTriangulation<2>> blocks;
+    std::unique_ptr<NodeMap<2>> nodes;
+    std::unique_ptr<Model<2>> model;
+    State<2> state;
+
+    BarInBlocks()
+    {
+      make_stack(mesh, 2, 2);
+      CableParameters cable;
+      cable.name                = "bar";
+      cable.bars                = { { { { 0.3, 3.7 }, { 1.6, 0.2 } } } };
+      BarLaw &law               = cable.law;
+      law.stiffness             = 1e8;
+      law.yield                 = 2e5;
+      law.bond_stiffness        = 1e9;
+      law.bond_strength         = 3e5;
+      law.plate_stiffness       = 1e8;
+      law.dowel_stiffness       = 1e8;
+      law.dowel_axial_stiffness = 2e8;
+      law.active_length         = 0.1;
+      cable.pretension          = 5e4;
+      cable.free_length         = 1.;
+      ModelParameters parameters;
+      parameters.materials = { material("lower"), material("upper") };
+      JointSetParameters set;
+      set.name          = "joint";
+      set.curves        = { "joint" };
+      parameters.joints = { set };
+      parameters.cables = { cable };
+      blocks            = std::make_unique<BlockTriangulation<2>>(
+          mesh, std::vector<unsigned int>(mesh.n_cells(), 0),
+          std::vector<bool>(mesh.n_blocks(), false), MPI_COMM_SELF);
+      nodes = std::make_unique<NodeMap<2>>(
+          *blocks, std::vector<NodeMap<2>::Segment>{
+                       { { { 0.3, 3.7 }, { 1.6, 0.2 } } } });
+      model = std::make_unique<Model<2>>(*nodes, parameters);
+      state = model->initial_state();
+      model->reinforcement().begin_stage("first", true, 0., state);
+    }
+
+    std::vector<double> forces(State<2> &at,
+                               std::vector<double> *stiffness = nullptr) const
+    {
+      const std::size_t n = 2 * nodes->n_local();
+      std::vector<double> result(n, 0.);
+      if (stiffness)
+        stiffness->assign(n * n, 0.);
+      model->reinforcement().linearise(
+          at, stiffness,
+          [&](const ElementLinearisation<2> &element)
+          {
+            for (unsigned int i = 0; i < 2 * element.n_nodes; ++i)
+            {
+              const unsigned int row = 2 * element.nodes[i / 2] + i % 2;
+              result[row] += element.force[i];
+              for (unsigned int j = 0; stiffness && j < 2 * element.n_nodes;
+                   ++j)
+                (*stiffness)[row * n + 2 * element.nodes[j / 2] + j % 2]
+                    += element.stiffness[i * element.row_length + j];
+            }
+          });
+      return result;
+    }
+  };
+} // namespace
+
+TEST(Reinforcement, ForcesHaveNoResultant)
+{
+  BarInBlocks bar;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> change(-1e-3, 1e-3);
+  for (NodeRecord<2> &node : bar.state.nodes)
+    for (double &u : node.u)
+      u += change(random);
+  const auto force = bar.forces(bar.state);
+  double sum[3] = { 0., 0., 0. }, size = 0.;
+  for (unsigned int i = 0; i < bar.state.nodes.size(); ++i)
+  {
+    const NodeRecord<2> &node = bar.state.nodes[i];
+    const double x = node.X[0] + node.u[0], y = node.X[1] + node.u[1];
+    sum[0] += force[2 * i];
+    sum[1] += force[2 * i + 1];
+    sum[2] += x * force[2 * i + 1] - y * force[2 * i];
+    size += std::hypot(force[2 * i], force[2 * i + 1]);
+  }
+  EXPECT_GT(size, 1e5);
+  EXPECT_NEAR(sum[0], 0., 1e-12 * size);
+  EXPECT_NEAR(sum[1], 0., 1e-12 * size);
+  // The two sides of the joint have moved apart by a millimetre.
+  EXPECT_NEAR(sum[2], 0., 2e-3 * size);
+}
+
+TEST(Reinforcement, StiffnessIsTheDerivative)
+{
+  BarInBlocks bar;
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> change(-1e-4, 1e-4);
+  for (unsigned int step = 0; step < 3; ++step)
+  {
+    for (NodeRecord<2> &node : bar.state.nodes)
+      for (double &u : node.u)
+        u += change(random);
+    std::vector<double> stiffness;
+    State<2> at = bar.state;
+    bar.forces(at, &stiffness);
+    const std::size_t n = 2 * bar.state.nodes.size();
+    constexpr double h  = 1e-8;
+    for (unsigned int j = 0; j < n; ++j)
+    {
+      State<2> up = bar.state, down = bar.state;
+      up.nodes[j / 2].u[j % 2] += h;
+      down.nodes[j / 2].u[j % 2] -= h;
+      const auto a = bar.forces(up), b = bar.forces(down);
+      for (unsigned int i = 0; i < n; ++i)
+        EXPECT_NEAR(stiffness[i * n + j], (b[i] - a[i]) / (2. * h), 2e3);
+    }
+    bar.state = at;
+  }
+}
+
+TEST(Reinforcement, PretensionInPlace)
+{
+  BarInBlocks bar;
+  // Plate, free length, and a long bond as a spring.
+  const double softness = 1. / 1e8 + 1. / 1e8 + 1. / std::sqrt(1e8 * 1e9);
+  EXPECT_NEAR(bar.state.energy.external, 0.5 * 5e4 * 5e4 * softness, 0.6);
+  EXPECT_NEAR(bar.model->reinforcement().value(bar.state, "bar",
+                                               CableQuantity::head_force, {}),
+              5e4, 1e-6);
+}
