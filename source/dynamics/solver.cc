@@ -240,6 +240,9 @@ namespace quoin
   {
     for (const auto &constraint : all_constraints)
       constraint->prepare(state);
+    if constexpr (dim == 2)
+      if (all_beams)
+        all_beams->prepare(state);
     state.template add<LoadPatternState>();
   }
 

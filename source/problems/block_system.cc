@@ -71,6 +71,11 @@ namespace quoin
                construction
                    = std::make_unique<Construction>(*model, parameters.stages);
              make_solver(curves);
+             if constexpr (dim == 2)
+               if (!parameters.beams.empty())
+                 solver->set_beams(std::make_unique<Beams>(
+                     parameters.beams, *nodes, parameters.model.joints,
+                     parameters.model.thickness, model->thickness()));
            });
   }
 

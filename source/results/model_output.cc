@@ -13,7 +13,8 @@ namespace quoin
     : model(model), solver(solver),
       blocks(folder, model.nodes().communicator(), format),
       joints(folder, model.nodes().communicator(), "joints", format),
-      contacts(folder, model.nodes().communicator(), "contacts", format)
+      contacts(folder, model.nodes().communicator(), "contacts", format),
+      beams(folder, model.nodes().communicator(), format)
   {
   }
 
@@ -25,6 +26,8 @@ namespace quoin
       joints.start();
     if (solver.contacts())
       contacts.start();
+    if (solver.beams())
+      beams.start();
   }
 
   template <int dim>
@@ -39,6 +42,8 @@ namespace quoin
       joints.write(time, joint_fields(model, now));
       if (const BlockContacts *all = solver.contacts())
         contacts.write(time, contact_fields(model.joints(), *all, now));
+      if (const Beams *all = solver.beams())
+        beams.write(time, *all, now);
     }
   }
 

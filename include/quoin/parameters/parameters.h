@@ -15,6 +15,7 @@
 #include <quoin/implicit/implicit_parameters.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/structures/beam_parameters.h>
 
 #include <string>
 #include <vector>
@@ -52,6 +53,7 @@ namespace quoin
     std::vector<StageParameters> stages;
     InitialMotion initial_motion;
     std::vector<NamedBlock> named_blocks;
+    std::vector<BeamParameters> beams;
 
     /** Whether the implicit solver is used. */
     bool is_implicit = false;

@@ -38,6 +38,7 @@ namespace quoin
     block_displacement, /**< motion of a named block: x, y, rotation */
     block_velocity,
     block_force, /**< force between a block and others: x, y, moment */
+    beam,        /**< of a beam: see BeamHistory */
     boundary_displacement,
     boundary_traction,
     boundary_velocity,
@@ -61,6 +62,7 @@ namespace quoin
     std::string load;
     std::string curve;
     std::string block, other_block; /**< named ones; the second may be empty */
+    std::string beam;
 
     /** Whether it is on boundary elements, alone or beyond blocks. */
     bool is_of_boundary() const

@@ -5,6 +5,7 @@
 #define quoin_results_model_output_h
 
 #include <quoin/dynamics/solver.h>
+#include <quoin/results/beam_output.h>
 #include <quoin/results/block_output.h>
 #include <quoin/results/joint_output.h>
 
@@ -13,7 +14,7 @@
 namespace quoin
 {
   /** The series blocks, in two dimensions, joints and, of general contacts,
-      contacts. Members are collective. */
+      contacts, of beams beams. Members are collective. */
   template <int dim>
   class ModelOutput
   {
@@ -32,6 +33,8 @@ namespace quoin
     void serialize(Archive &archive, const unsigned int)
     {
       archive &blocks &joints &contacts;
+      if (solver.beams())
+        archive &beams;
     }
 
   private:
@@ -39,6 +42,7 @@ namespace quoin
     Solver<dim> &solver;
     BlockOutput blocks;
     JointOutput joints, contacts;
+    BeamOutput beams;
   };
 } // namespace quoin
 
