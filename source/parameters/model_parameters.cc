@@ -173,10 +173,6 @@ namespace quoin
     {
       const auto &beams = parameters.beams;
       const ParameterSection section(top, "Beams");
-      if (parameters.is_implicit && !beams.empty())
-        section.fail("Names", "needs 'Solver = explicit': the implicit solver "
-                              "has no beams. Take that, with stages of 'End = "
-                              "static ratio', or remove the beams.");
       for (const BeamParameters &beam : beams)
         if (!beam.stage.empty() && !find_named(parameters.stages, beam.stage))
           ParameterSection(section, beam.name)

@@ -40,7 +40,12 @@ namespace quoin
                  b.X[1] - a.X[1] + now * (b.u[1] - a.u[1]) } };
     }
 
-    /** Edges between places in one line, from the first place on. */
+    /** Least turning angle of both neighbours where a line is curved, by that
+        of a node [-]. */
+    constexpr double least_share = 0.5;
+
+    /** Edges between places in one line: anticlockwise if it is closed, or else
+        from the left, from the lower end if both are one above the other. */
     struct Chain
     {
       std::vector<Place> places;
@@ -91,6 +96,19 @@ namespace quoin
       } while (at != chain.places.front());
       if (chain.places.size() != neighbours.size())
         throw "has several parts." + where;
+      double area = 0.;
+      for (unsigned int i = 0; i < chain.places.size(); ++i)
+      {
+        const Place &a = chain.places[i],
+                    &b = chain.places[(i + 1) % chain.places.size()];
+        area += a[0] * b[1] - a[1] * b[0];
+      }
+      const Place &first = chain.places.front(), &last = chain.places.back();
+      const double x = last[0] - first[0], y = last[1] - first[1];
+      if (chain.is_closed                    ? area < 0.
+          : std::abs(x) > 1e-9 * std::abs(y) ? x < 0.
+                                             : y < 0.)
+        std::reverse(chain.places.begin(), chain.places.end());
       return chain;
     }
   } // namespace
@@ -137,8 +155,12 @@ namespace quoin
     }
     mass.assign(rest.size(), 0.);
     inverse_mass.assign(rest.size(), 0.);
+    for (auto *values :
+         { &rest_segment, &rest_length, &rest_angle, &curvature })
+      values->assign(rest.size(), 0.);
     force.assign(rest.size(), NodeVector<2>{});
     viscous = velocity_before = force;
+    point_force.assign(points.size(), NodeVector<2>{});
   }
 
   void Beams::add_free_line(const BeamParameters &beam)
@@ -247,6 +269,8 @@ namespace quoin
     beams.attached.resize(points.size(), 0);
     beams.offset.resize(points.size(), NodeVector<2>{});
     beams.interface.resize(points.size(), n_internal_variables);
+    beams.block_position.resize(2 * points.size(), 0.);
+    beams.load.resize(rest.size(), NodeVector<2>{});
   }
 
   // -- a stage ---------------------------------------------------------------
@@ -258,6 +282,7 @@ namespace quoin
       const std::string &stage = lines[b].given.stage;
       if (!is_placed(b, state) && (stage.empty() || stage == name))
         place(lines[b], b, state);
+      find_rest(lines[b], state.get<BeamState>());
     }
     velocity_before = state.get<BeamState>().velocity;
   }
@@ -265,8 +290,9 @@ namespace quoin
   void Beams::place(const Line &line, const unsigned int beam,
                     State<2> &state) const
   {
-    BeamState &beams               = state.get<BeamState>();
-    const std::vector<double> here = block_positions(state);
+    BeamState &beams     = state.get<BeamState>();
+    const auto here      = block_positions(state);
+    beams.block_position = here;
     std::vector<unsigned int> n_here(line.end - line.begin, 0);
     std::vector<Place> sum(line.end - line.begin, Place{});
     double side = 0.;
@@ -316,27 +342,48 @@ namespace quoin
     beams.placed[beam] = 1;
   }
 
-  double Beams::tributary(const Line &line, const unsigned int node,
-                          const BeamState &beams) const
+  void Beams::find_rest(const Line &line, const BeamState &beams)
   {
-    double length = 0.;
-    if (node + 1 < line.end || line.is_closed)
-      length += 0.5 * segment(line, node, beams).rest;
-    if (node > line.begin || line.is_closed)
-      length += 0.5
-                * segment(line, node == line.begin ? line.end - 1 : node - 1,
-                          beams)
-                      .rest;
-    return length;
+    const auto &nodes = beams.nodes;
+    for (unsigned int i = line.begin; i < line.end; ++i)
+    {
+      rest_segment[i] = 0.;
+      if (!has_after(line, i))
+        continue;
+      const Place way = along(nodes[i], nodes[next(line, i)], true);
+      rest_segment[i] = std::hypot(way[0], way[1]);
+    }
+    for (unsigned int i = line.begin; i < line.end; ++i)
+    {
+      rest_length[i] = rest_angle[i] = curvature[i] = 0.;
+      if (has_after(line, i))
+        rest_length[i] += 0.5 * rest_segment[i];
+      if (has_before(line, i))
+        rest_length[i] += 0.5 * rest_segment[previous(line, i)];
+      if (has_before(line, i) && has_after(line, i))
+        rest_angle[i] = turn(along(nodes[previous(line, i)], nodes[i], true),
+                             along(nodes[i], nodes[next(line, i)], true));
+    }
+    // A line is curved where its neighbours turn as well; elsewhere there is
+    // a corner.
+    for (unsigned int i = line.begin; i < line.end; ++i)
+    {
+      bool is_curved = has_before(line, i) && has_after(line, i);
+      for (const unsigned int other : { previous(line, i), next(line, i) })
+        is_curved = is_curved
+                    && (rest_angle[other] / rest_angle[i] > least_share
+                        || !has_before(line, other) || !has_after(line, other));
+      if (is_curved)
+        curvature[i] = rest_angle[i] / rest_length[i];
+    }
   }
 
   void Beams::find_masses(const double scaled_step, const State<2> &state)
   {
-    const BeamState &beams = state.get<BeamState>();
     for (const Line &line : lines)
       for (unsigned int i = line.begin; i < line.end; ++i)
         mass[i] = line.share * line.given.density * line.given.area
-                  * tributary(line, i, beams);
+                  * rest_length[i];
     if (scaled_step > 0.)
     {
       const auto bound = stiffness_bound_of(state);
@@ -397,8 +444,8 @@ namespace quoin
       // and (b . u)^2 <= sum_j |b_j| sum_j (b_j . u_j)^2 / |b_j|.
       for (unsigned int i = line.begin; i < line.end; ++i)
       {
-        double angle, length;
-        if (!turning(line, i, beams, angle, length))
+        double angle;
+        if (!turning(line, i, beams, angle))
           continue;
         std::map<unsigned int, Place> b;
         const auto part = [&](const unsigned int s, const double sign)
@@ -408,8 +455,10 @@ namespace quoin
           const unsigned int from = line.begin + s, to = next(line, from);
           for (unsigned int d = 0; d < 2; ++d)
           {
-            b[to][d] += sign * n[d];
-            b[from][d] -= sign * n[d];
+            const double slope
+                = sign * n[d] - 0.5 * curvature[i] * all[s].direction[d];
+            b[to][d] += slope;
+            b[from][d] -= slope;
           }
         };
         const unsigned int s = i - line.begin;
@@ -423,7 +472,7 @@ namespace quoin
         for (const auto &[node, direction] : b)
           if (const double size = std::hypot(direction[0], direction[1]);
               size > 0.)
-            add(node, line.bending / length * sum / size, direction);
+            add(node, line.bending / rest_length[i] * sum / size, direction);
       }
       const auto [kn, ks] = quoin::stiffness_bound(line.law);
       for (unsigned int p = line.first_point; p < line.last_point; ++p)
@@ -455,50 +504,62 @@ namespace quoin
   Beams::Segment Beams::segment(const Line &line, const unsigned int first,
                                 const BeamState &beams) const
   {
-    const auto &a = beams.nodes[first], &b = beams.nodes[next(line, first)];
-    const Place now = along(a, b, false), start = along(a, b, true);
+    const Place now
+        = along(beams.nodes[first], beams.nodes[next(line, first)], false);
     const double size = std::hypot(now[0], now[1]);
-    return { { now[0] / size, now[1] / size },
-             size,
-             std::hypot(start[0], start[1]) };
+    return { { now[0] / size, now[1] / size }, size, rest_segment[first] };
   }
 
   bool Beams::turning(const Line &line, const unsigned int node,
-                      const BeamState &beams, double &angle,
-                      double &length) const
+                      const BeamState &beams, double &angle) const
   {
-    const bool is_start = !line.is_closed && node == line.begin;
-    const bool is_end   = !line.is_closed && node + 1 == line.end;
+    const bool is_start = !has_before(line, node);
+    const bool is_end   = !has_after(line, node);
     if ((is_start && !line.given.supports[0].holds_rotation)
         || (is_end && !line.given.supports[1].holds_rotation))
       return false;
-    const auto &nodes         = beams.nodes;
-    const unsigned int before = node == line.begin ? line.end - 1 : node - 1;
-    const unsigned int after  = next(line, node);
-    const auto &a = nodes[is_start ? node : before], &b = nodes[node],
-               &c = nodes[is_end ? node : after];
-    length        = tributary(line, node, beams);
+    const auto &nodes = beams.nodes;
+    const auto &a = nodes[previous(line, node)], &b = nodes[node],
+               &c = nodes[next(line, node)];
     // The direction of a fixed end is that at rest.
     if (is_start)
       angle = turn(along(b, c, true), along(b, c, false));
     else if (is_end)
       angle = turn(along(a, b, false), along(a, b, true));
     else
-      angle = turn(along(a, b, false), along(b, c, false))
-              - turn(along(a, b, true), along(b, c, true));
+    {
+      const Place before = along(a, b, false), after = along(b, c, false);
+      angle = turn(before, after) - rest_angle[node];
+      if (curvature[node] != 0.)
+        angle -= curvature[node]
+                 * (0.5
+                        * (std::hypot(before[0], before[1])
+                           + std::hypot(after[0], after[1]))
+                    - rest_length[node]);
+    }
     return true;
   }
 
-  double Beams::moment(const Line &line, const double angle,
-                       const double length, double &plastic) const
+  double Beams::moment(const Line &line, const unsigned int node,
+                       const double angle, double &plastic) const
   {
-    const double k     = line.bending / length;
+    const double k     = line.bending / rest_length[node];
     const double trial = k * (angle - plastic);
     if (std::abs(trial) <= line.hinge)
       return trial;
     const double limit = std::copysign(line.hinge, trial);
     plastic += (trial - limit) / k;
     return limit;
+  }
+
+  double Beams::axial_force(const Line &line, const unsigned int first,
+                            const Segment &s, const BeamState &beams) const
+  {
+    const unsigned int last = next(line, first);
+    return line.axial * (s.length - s.rest) / s.rest
+           - 0.5
+                 * (curvature[first] * beams.moment[first]
+                    + curvature[last] * beams.moment[last]);
   }
 
   bool Beams::held(const Line &line, const unsigned int node,
@@ -530,16 +591,17 @@ namespace quoin
     return { { sum[0] / size, sum[1] / size } };
   }
 
-  std::vector<double> Beams::block_positions(const State<2> &state) const
+  AlignedArray<double> Beams::block_positions(const State<2> &state) const
   {
-    std::vector<double> result(2 * points.size(), 0.);
+    AlignedArray<double> result(2 * points.size(), 0.);
     for (unsigned int p = 0; p < points.size(); ++p)
       if (points[p].node != NodeMap<2>::none)
         for (unsigned int d = 0; d < 2; ++d)
           result[2 * p + d] = state.nodes[points[p].node].X[d]
                               + state.nodes[points[p].node].u[d];
     if (!points.empty())
-      dealii::Utilities::MPI::sum(result, node_map.communicator(), result);
+      MPI_Allreduce(MPI_IN_PLACE, result.data(), result.size(), MPI_DOUBLE,
+                    MPI_SUM, node_map.communicator());
     return result;
   }
 
@@ -564,106 +626,141 @@ namespace quoin
   {
     BeamState &beams = state.get<BeamState>();
     std::fill(force.begin(), force.end(), NodeVector<2>{});
-    stored_strain = stored_joint = 0.;
-    position                     = block_positions(state);
+    std::fill(point_force.begin(), point_force.end(), NodeVector<2>{});
+    beams.stored_strain = beams.stored_joint = 0.;
+    beams.block_position                     = block_positions(state);
     EnergyAccounts lost;
     for (unsigned int b = 0; b < lines.size(); ++b)
       if (beams.placed[b])
       {
-        add_internal_forces(lines[b], beams, lost);
-        add_interface_forces(lines[b], state, beams, lost, forces.force);
+        add_internal_forces(lines[b], beams, lost, force.data());
+        add_interface_forces(lines[b], state, beams, lost, force.data(),
+                             point_force.data());
         for (unsigned int i = lines[b].begin; i < lines[b].end; ++i)
         {
-          const auto f = load(lines[b], i, beams, step.begin);
+          const auto f = load(lines[b], i, step.begin);
           for (unsigned int d = 0; d < 2; ++d)
             force[i].v[d] += f[d];
         }
       }
+    for (unsigned int p = 0; p < points.size(); ++p)
+      if (points[p].node != NodeMap<2>::none)
+        for (unsigned int d = 0; d < 2; ++d)
+          forces.force[points[p].node].v[d] -= point_force[p].v[d];
     if (is_first_rank)
       state.energy += lost;
   }
 
-  void Beams::add_internal_forces(const Line &line, BeamState &beams,
-                                  EnergyAccounts &energy)
+  double Beams::add_internal_forces(const Line &line, BeamState &beams,
+                                    EnergyAccounts &energy,
+                                    NodeVector<2> *sum) const
   {
+    double size = 0.;
     for (unsigned int i = line.begin; i < line.end; ++i)
     {
-      double angle, length;
-      if (!turning(line, i, beams, angle, length))
+      double angle;
+      if (!turning(line, i, beams, angle))
         continue;
       const double before = beams.plastic[i], moment_before = beams.moment[i];
-      beams.moment[i] = moment(line, angle, length, beams.plastic[i]);
+      beams.moment[i] = moment(line, i, angle, beams.plastic[i]);
       energy.plastic += 0.5 * (moment_before + beams.moment[i])
                         * (beams.plastic[i] - before);
-      stored_strain
-          += 0.5 * beams.moment[i] * beams.moment[i] * length / line.bending;
+      beams.stored_strain += 0.5 * beams.moment[i] * beams.moment[i]
+                             * rest_length[i] / line.bending;
+      size += std::abs(beams.moment[i]) / rest_length[i];
     }
     for (unsigned int k = 0; k < n_segments(line); ++k)
     {
       const unsigned int a = line.begin + k, b = next(line, a);
-      const Segment s    = segment(line, a, beams);
-      const double axial = line.axial * (s.length - s.rest) / s.rest;
-      const double shear = (beams.moment[b] - beams.moment[a]) / s.length;
-      stored_strain += 0.5 * axial * axial * s.rest / line.axial;
+      const Segment s      = segment(line, a, beams);
+      const double axial   = axial_force(line, a, s, beams);
+      const double shear   = (beams.moment[b] - beams.moment[a]) / s.length;
+      const double stretch = s.length - s.rest;
+      beams.stored_strain += 0.5 * line.axial / s.rest * stretch * stretch;
+      size += std::abs(axial);
       const double f[2] = { axial * s.direction[0] + shear * s.direction[1],
                             axial * s.direction[1] - shear * s.direction[0] };
       for (unsigned int d = 0; d < 2; ++d)
       {
-        force[a].v[d] += f[d];
-        force[b].v[d] -= f[d];
+        sum[a].v[d] += f[d];
+        sum[b].v[d] -= f[d];
       }
     }
+    return size;
   }
 
-  void Beams::add_interface_forces(const Line &line, const State<2> &state,
-                                   BeamState &beams, EnergyAccounts &energy,
-                                   NodeVector<2> *block_force)
+  double Beams::add_interface_forces(const Line &line, const State<2> &state,
+                                     BeamState &beams, EnergyAccounts &energy,
+                                     NodeVector<2> *sum,
+                                     NodeVector<2> *by_point) const
   {
-    std::visit(
-        [&](const auto &law)
+    double size      = 0.;
+    const auto visit = [&](const auto &law)
+    {
+      for (unsigned int p = line.first_point; p < line.last_point; ++p)
+      {
+        if (!beams.attached[p] || state.is_absent(points[p].block))
+          continue;
+        Place n;
+        const auto [opening, slip]
+            = gap(line, p, beams, beams.block_position.data() + 2 * p, n);
+        auto point = read_point(law, beams.interface, p);
+        if (!law.update_elastic(point, opening, slip))
         {
-          for (unsigned int p = line.first_point; p < line.last_point; ++p)
-          {
-            if (!beams.attached[p] || state.is_absent(points[p].block))
-              continue;
-            Place n;
-            const auto [opening, slip]
-                = gap(line, p, beams, position.data() + 2 * p, n);
-            auto point = read_point(law, beams.interface, p);
-            if (!law.update_elastic(point, opening, slip))
-            {
-              const JointDissipation lost
-                  = law.update_failing(point, opening, slip);
-              energy.friction += points[p].area * lost.friction;
-              energy.fracture += points[p].area * lost.fracture;
-              energy.crushing += points[p].area * lost.crushing;
-            }
-            write_point(point, beams.interface, p);
-            stored_joint += points[p].area * law.stored_energy(point, opening);
-            const Place t{ { points[p].side * n[1], -points[p].side * n[0] } };
-            for (unsigned int d = 0; d < 2; ++d)
-            {
-              const double f = points[p].area
-                               * (point.normal_traction * n[d]
-                                  + point.shear_traction * t[d]);
-              force[points[p].at].v[d] += f;
-              if (points[p].node != NodeMap<2>::none)
-                block_force[points[p].node].v[d] -= f;
-            }
-          }
-        },
-        line.law);
+          const JointDissipation lost
+              = law.update_failing(point, opening, slip);
+          energy.friction += points[p].area * lost.friction;
+          energy.fracture += points[p].area * lost.fracture;
+          energy.crushing += points[p].area * lost.crushing;
+        }
+        write_point(point, beams.interface, p);
+        beams.stored_joint
+            += points[p].area * law.stored_energy(point, opening);
+        const Place t{ { points[p].side * n[1], -points[p].side * n[0] } };
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double f
+              = points[p].area
+                * (point.normal_traction * n[d] + point.shear_traction * t[d]);
+          sum[points[p].at].v[d] += f;
+          by_point[p].v[d] = f;
+          size += std::abs(f);
+        }
+        // The frame turns with the segments at the node, by the mean of their
+        // angles: what keeps the balance of moments and energy over a gap.
+        const double couple
+            = points[p].area * points[p].side
+              * (point.normal_traction * (slip + beams.offset[p].v[1])
+                 - point.shear_traction * (opening + beams.offset[p].v[0]));
+        const unsigned int at = points[p].at;
+        const bool before = has_before(line, at), after = has_after(line, at);
+        const auto turn_segment = [&](const unsigned int first)
+        {
+          const Segment s = segment(line, first, beams);
+          const double f  = couple / (before && after ? 2. : 1.) / s.length;
+          const unsigned int last = next(line, first);
+          sum[first].v[0] += f * s.direction[1];
+          sum[first].v[1] -= f * s.direction[0];
+          sum[last].v[0] -= f * s.direction[1];
+          sum[last].v[1] += f * s.direction[0];
+        };
+        if (before)
+          turn_segment(previous(line, at));
+        if (after)
+          turn_segment(at);
+      }
+    };
+    std::visit(visit, line.law);
+    return size;
   }
 
   std::array<double, 2> Beams::load(const Line &line, const unsigned int node,
-                                    const BeamState &beams,
                                     const TimePoint &time) const
   {
-    const double length = tributary(line, node, beams);
     Place result;
     for (unsigned int d = 0; d < 2; ++d)
     {
-      result[d] = length * line.given.distributed[d](time);
+      result[d] = rest_length[node] * line.given.distributed[d](time);
       if (!line.is_closed && node == line.begin)
         result[d] += line.given.forces[0][d](time);
       if (!line.is_closed && node + 1 == line.end)
@@ -673,13 +770,13 @@ namespace quoin
     return result;
   }
 
-  void Beams::add_stored_energy(const State<2> &,
+  void Beams::add_stored_energy(const State<2> &state,
                                 EnergyAccounts &energies) const
   {
     if (!is_first_rank)
       return;
-    energies.strain += stored_strain;
-    energies.joint += stored_joint;
+    energies.strain += state.get<BeamState>().stored_strain;
+    energies.joint += state.get<BeamState>().stored_joint;
   }
 
   Beams::Work Beams::advance(const StepContext &step, const bool damped,
@@ -697,7 +794,7 @@ namespace quoin
       std::vector<Place> loads;
       for (unsigned int i = line.begin; i < line.end; ++i)
       {
-        loads.push_back(load(line, i, beams, step.begin));
+        loads.push_back(load(line, i, step.begin));
         work.applied += std::hypot(loads.back()[0], loads.back()[1]);
         for (unsigned int d = 0; d < 2; ++d)
         {
@@ -824,6 +921,7 @@ namespace quoin
     const unsigned int n   = line.end - line.begin;
     BeamFields result;
     result.is_closed = line.is_closed;
+    BeamState now    = beams; // with the moments of the present angles
     std::vector<double> shares(n, 0.);
     for (auto *values :
          { &result.axial, &result.shear, &result.moment, &result.plastic,
@@ -836,18 +934,19 @@ namespace quoin
       result.position.push_back(
           { { node.X[0] + node.u[0], node.X[1] + node.u[1] } });
       result.displacement.push_back({ { node.u[0], node.u[1] } });
-      double angle, length;
-      result.plastic[i] = beams.plastic[line.begin + i];
-      if (turning(line, line.begin + i, beams, angle, length))
-        result.moment[i]
-            = moment(line, angle, length, result.plastic[i]) / line.share;
+      const unsigned int at = line.begin + i;
+      double angle;
+      if (turning(line, at, beams, angle))
+        now.moment[at] = moment(line, at, angle, now.plastic[at]);
+      result.plastic[i] = now.plastic[at];
+      result.moment[i]  = now.moment[at] / line.share;
     }
     for (unsigned int k = 0; k < n_segments(line); ++k)
     {
       const unsigned int a = k, b = next(line, line.begin + k) - line.begin;
       const Segment s = segment(line, line.begin + k, beams);
       const double axial
-          = line.axial / line.share * (s.length - s.rest) / s.rest;
+          = axial_force(line, line.begin + k, s, now) / line.share;
       const double shear = (result.moment[b] - result.moment[a]) / s.length;
       for (const unsigned int i : { a, b })
       {
@@ -863,12 +962,12 @@ namespace quoin
     }
     // The first of several points at a node, as where a joint ends.
     for (unsigned int p = line.last_point; p-- > line.first_point;)
-      if (beams.attached[p] && p < position.size() / 2)
+      if (beams.attached[p])
       {
         const unsigned int i = points[p].at - line.begin;
         Place normal;
         const auto [opening, slip]
-            = gap(line, p, beams, position.data() + 2 * p, normal);
+            = gap(line, p, beams, beams.block_position.data() + 2 * p, normal);
         result.normal_traction[i] = beams.interface.normal_traction[p];
         result.shear_traction[i]  = beams.interface.shear_traction[p];
         result.opening[i]         = opening;

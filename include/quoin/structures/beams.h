@@ -12,6 +12,8 @@
 #include <quoin/operators/force_operator.h>
 #include <quoin/structures/beam_parameters.h>
 
+#include <Eigen/Dense>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -32,11 +34,16 @@ namespace quoin
     /** Opening and slip at placement [m]. */
     AlignedArray<NodeVector<2>> offset;
     JointHistory interface; /**< of the interface points */
+    // Of the last step.
+    AlignedArray<double> block_position; /**< x, y of these points [m] */
+    AlignedArray<NodeVector<2>> load;    /**< of equilibrium [N] */
+    double stored_strain = 0., stored_joint = 0.; /**< [J] */
 
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
-      visitor.same(placed, nodes, velocity, plastic, moment, attached, offset);
+      visitor.same(placed, nodes, velocity, plastic, moment, attached, offset,
+                   block_position, load, stored_strain, stored_joint);
       visitor.same(interface.normal_traction, interface.shear_traction,
                    interface.plastic_slip, interface.plastic_opening,
                    interface.state);
@@ -65,9 +72,10 @@ namespace quoin
   /**
    * Euler-Bernoulli beams as discrete elastic rods: nodes with two
    * displacements each, straight segments with the axial force
-   * N = E A (l - l0) / l0 and at nodes the moment M = E I (phi - phi0) / l,
+   * N = E A (l - l0) / l0 and at nodes the moment M = E I (phi - phi0) / l0,
    * with the turning angle phi from one segment to the next and the mean length
-   * l of both, which never is above the hinge moment. Forces are the exact
+   * l of both, which never is above the hinge moment. Of a line that is curved
+   * at rest M = E I (phi / l0 - phi0 l / l0^2). Forces are the exact
    * derivatives of the stored energy, whatever the rotations. A liner's nodes
    * are at those of a boundary and connected to them by a joint law.
    *
@@ -108,6 +116,39 @@ namespace quoin
                     const NodeForces<2> &forces) override;
     void add_stored_energy(const State<2> &state,
                            EnergyAccounts &energies) const override;
+
+    /** Stiffness of blocks at the interface points of each beam, x and y of
+       each point from first_point() on: minus the derivative of the forces on
+       them where the beam stays in equilibrium [N/m]. */
+    using Condensed = std::vector<Eigen::MatrixXd>;
+
+    /**
+     * Finds the nodes of beams in equilibrium with the blocks of @p state at
+     * @p time, from @p committed, the last equilibrium; adds forces to owned
+     * nodes of blocks, updates BeamState and books dissipation and the work of
+     * loads in State::energy. @p stiffness: null, or filled. Returns false if
+     * there is no equilibrium. Collective.
+     */
+    bool settle(const TimePoint &time, const State<2> &committed,
+                State<2> &state, NodeVector<2> *block_force,
+                Condensed *stiffness) const;
+    unsigned int n_points() const
+    {
+      return points.size();
+    }
+    /** Local owned node of an interface point, or NodeMap::none. */
+    unsigned int node_of_point(const unsigned int p) const
+    {
+      return points[p].node;
+    }
+    unsigned int first_point(const unsigned int beam) const
+    {
+      return lines[beam].first_point;
+    }
+    unsigned int last_point(const unsigned int beam) const
+    {
+      return lines[beam].last_point;
+    }
 
     /** What all beams add to the sums of a step, on the first rank. */
     struct Work
@@ -187,37 +228,66 @@ namespace quoin
     }
     Segment segment(const Line &line, unsigned int first,
                     const BeamState &beams) const;
-    /** Directions before and after @p node, of the support where it is an end;
-        false if there is no moment. @p length: of the hinge at rest. */
+    /** Whether there is a moment at @p node, and the @p angle that it bends:
+        phi - phi0, of a curved line phi - phi0 l/l0 [rad]. */
     bool turning(const Line &line, unsigned int node, const BeamState &beams,
-                 double &angle, double &length) const;
+                 double &angle) const;
     /** Moment at @p node [N m] for the elastic and plastic angles; @p plastic
         is updated. */
-    double moment(const Line &line, double angle, double length,
+    double moment(const Line &line, unsigned int node, double angle,
                   double &plastic) const;
+    /** Axial force of a segment [N]. */
+    double axial_force(const Line &line, unsigned int first, const Segment &s,
+                       const BeamState &beams) const;
     bool held(const Line &line, unsigned int node, unsigned int d) const;
     /** Unit tangent of a liner at @p node. */
     std::array<double, 2> tangent(const Line &line, unsigned int node,
                                   const BeamState &beams) const;
     /** Positions of the interface points in blocks; collective. */
-    std::vector<double> block_positions(const State<2> &state) const;
+    AlignedArray<double> block_positions(const State<2> &state) const;
     /** Opening and slip of point @p p at the positions of blocks. */
     std::array<double, 2> gap(const Line &line, unsigned int p,
                               const BeamState &beams, const double *position,
                               std::array<double, 2> &normal) const;
     void place(const Line &line, unsigned int beam, State<2> &state) const;
-    void add_internal_forces(const Line &line, BeamState &beams,
-                             EnergyAccounts &energy);
-    void add_interface_forces(const Line &line, const State<2> &state,
-                              BeamState &beams, EnergyAccounts &energy,
-                              NodeVector<2> *block_force);
+    /** Finds what follows from the places at rest. */
+    void find_rest(const Line &line, const BeamState &beams);
+    /** Updates plastic angles and moments; adds forces to the nodes and
+        returns the sum of their sizes [N]. */
+    double add_internal_forces(const Line &line, BeamState &beams,
+                               EnergyAccounts &energy,
+                               NodeVector<2> *force) const;
+    /** Updates the interface, @p state tells which blocks are absent; the
+        forces on blocks are the opposite of @p by_point, of each point [N]. */
+    double add_interface_forces(const Line &line, const State<2> &state,
+                                BeamState &beams, EnergyAccounts &energy,
+                                NodeVector<2> *force,
+                                NodeVector<2> *by_point) const;
+    /** Minus the derivative of the forces on the nodes of @p line by their
+        displacements [N/m], which went from @p before to @p now, and that of
+        each of its interface points by its gap. */
+    Eigen::MatrixXd stiffness(const Line &line, const State<2> &state,
+                              const BeamState &before, const BeamState &now,
+                              std::vector<Eigen::Matrix2d> &by_point) const;
+    /** Equilibrium of one beam, see settle(). */
+    bool settle(const Line &line, const TimePoint &time, const State<2> &marks,
+                BeamState &beams, EnergyAccounts &energy,
+                NodeVector<2> *by_point, Eigen::MatrixXd *condensed) const;
     /** Load at @p node at @p time [N]. */
     std::array<double, 2> load(const Line &line, unsigned int node,
-                               const BeamState &beams,
                                const TimePoint &time) const;
-    /** Length of the segments that meet at @p node, halved [m]. */
-    double tributary(const Line &line, unsigned int node,
-                     const BeamState &beams) const;
+    unsigned int previous(const Line &line, const unsigned int node) const
+    {
+      return (node == line.begin ? line.end : node) - 1;
+    }
+    bool has_before(const Line &line, const unsigned int node) const
+    {
+      return node > line.begin || line.is_closed;
+    }
+    bool has_after(const Line &line, const unsigned int node) const
+    {
+      return node + 1 < line.end || line.is_closed;
+    }
     /** Stiffness bound xx, yy, xy of each node [N/m]. */
     std::vector<NodeStiffness<2>> stiffness_bound_of(const State<2> &) const;
 
@@ -229,10 +299,12 @@ namespace quoin
     std::vector<std::array<double, 2>> rest; /**< of all nodes [m] */
     unsigned int n_internal_variables = 0;
 
+    // Of placed beams at rest, by nodes: length of the segment that begins
+    // there, mean length at the node [m], turning angle [rad], curvature where
+    // the line is curved [1/m].
+    std::vector<double> rest_segment, rest_length, rest_angle, curvature;
     std::vector<double> mass, inverse_mass; /**< [kg], [1/kg] */
-    AlignedArray<NodeVector<2>> force, viscous, velocity_before;
-    std::vector<double> position; /**< of block_positions(), last step */
-    double stored_strain = 0., stored_joint = 0.; /**< of add_forces() [J] */
+    AlignedArray<NodeVector<2>> force, viscous, velocity_before, point_force;
   };
 } // namespace quoin
 
