@@ -183,6 +183,7 @@ namespace quoin
       if (names_load(stage, load.name()))
         acting.nodal.push_back(&load);
 
+    acting.beams = all_beams.get();
     acting.pattern.reset();
     if (stage.pattern)
     {

@@ -183,19 +183,15 @@ namespace quoin
 
   void Equilibrium::add_beams(const State<2> &committed,
                               const Configuration &configuration,
-                              State<2> &trial, const bool slopes)
+                              Balance &balance, const bool slopes)
   {
     Beams::Condensed stiffness;
-    if (!beams->settle(
-            { configuration.load_time, stage_start + configuration.load_time },
-            committed, trial, applied_force.data(),
-            slopes ? &stiffness : nullptr))
-    {
-      // The step fails and is cut.
-      for (unsigned int i = 0; i < model.nodes().n_owned(); ++i)
-        applied_force[i].v[0] = std::numeric_limits<double>::quiet_NaN();
+    balance.beams_stand = beams->settle(
+        { configuration.load_time, stage_start + configuration.load_time },
+        committed, balance.state, applied_force.data(),
+        slopes ? &stiffness : nullptr);
+    if (!balance.beams_stand)
       return;
-    }
     for (unsigned int b = 0; b < stiffness.size(); ++b)
       for (Eigen::Index i = 0; i < stiffness[b].rows(); ++i)
       {
@@ -430,7 +426,7 @@ namespace quoin
                       });
     }
     if (beams)
-      add_beams(committed, configuration, trial, slopes != nullptr);
+      add_beams(committed, configuration, balance, slopes != nullptr);
     balance.path
         = path_area > 0.
               ? dealii::Utilities::MPI::sum(path, communicator) / path_area
@@ -521,7 +517,9 @@ namespace quoin
                      / (d == 2 ? size : 1.);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
-    balance.unbalanced = sums[0];
+    balance.unbalanced = balance.beams_stand
+                             ? sums[0]
+                             : std::numeric_limits<double>::infinity();
     balance.applied    = std::max(sums[1], least_applied);
     balance.dragged    = sums[2];
   }

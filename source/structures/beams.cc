@@ -889,6 +889,43 @@ namespace quoin
 
   // -- results ---------------------------------------------------------------
 
+  std::vector<double> Beams::loads(const TimePoint &time) const
+  {
+    std::vector<double> result;
+    for (const Line &line : lines)
+      for (const auto *parts : { &line.given.forces[0], &line.given.forces[1],
+                                 &line.given.distributed })
+        for (const TimeFunction &part : *parts)
+          result.push_back(part(time));
+    return result;
+  }
+
+  std::vector<std::string> Beams::text() const
+  {
+    std::vector<std::string> result;
+    for (const Line &line : lines)
+    {
+      const BeamParameters &beam = line.given;
+      double length              = 0.;
+      for (unsigned int k = 0; k < n_segments(line); ++k)
+      {
+        const Place &a = rest[line.begin + k],
+                    &b = rest[next(line, line.begin + k)];
+        length += std::hypot(b[0] - a[0], b[1] - a[1]);
+      }
+      result.push_back(text_of(
+          "beam ", beam.name, ": ", n_segments(line), " segments, ", length,
+          " m", line.is_closed ? ", closed" : "", ", EA ",
+          beam.modulus * beam.area, " N, EI ",
+          beam.modulus * beam.second_moment, " N m^2, ",
+          beam.density * beam.area, " kg/m",
+          beam.spacing != 1. ? text_of(", every ", beam.spacing, " m") : "",
+          beam.is_liner() ? ", on " + beam.boundary + " by " + beam.interface : "",
+          beam.stage.empty() ? "" : ", placed in stage " + beam.stage));
+    }
+    return result;
+  }
+
   unsigned int Beams::find(const std::string &name) const
   {
     return std::find_if(lines.begin(), lines.end(),

@@ -40,6 +40,10 @@ namespace quoin
         origin [N m], of this rank. */
     std::array<double, 3> far_field_force{ { 0., 0., 0. } };
 
+    /** Whether beams are in equilibrium with the blocks; if not, the
+        unbalanced force is infinite. */
+    bool beams_stand = true;
+
     /** What the controlled displacement of a load pattern lacks [m]. */
     double lacking = 0.;
 
@@ -183,7 +187,7 @@ namespace quoin
     /** Adds forces of beams to applied_force and, where @p slopes are wanted,
         their derivatives to the matrix. */
     void add_beams(const State<2> &committed,
-                   const Configuration &configuration, State<2> &trial,
+                   const Configuration &configuration, Balance &balance,
                    bool slopes);
     void add_far_field(const State<2> &committed,
                        const Configuration &configuration, Balance &balance,

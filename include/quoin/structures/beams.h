@@ -169,6 +169,11 @@ namespace quoin
     /** Throws a RunError if the motion is not finite. */
     void check_finite(const State<2> &state) const;
 
+    /** Loads at @p time, numbers that change when they do. */
+    std::vector<double> loads(const TimePoint &time) const;
+    /** A line on each beam for the log. */
+    std::vector<std::string> text() const;
+
     unsigned int n_beams() const
     {
       return lines.size();

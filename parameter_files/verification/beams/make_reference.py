@@ -16,6 +16,10 @@ Strut: a half sine w0 grows to w0 / (1 - P/P_E), P_E = pi^2 EI/L^2.
 Elastica: EI theta'' = -P cos theta; with the slope beta at the end and
 q = theta, s(q) = integral of dq / sqrt(2 P/EI (sin beta - sin q)).
 
+Hinges: fixed at both ends, under the load w by length beyond w1 = 12 M_p/L^2, with
+M_p at the ends and w L^2/8 - M_p in the middle, which goes down by
+w1 L^4/(384 EI) + 5 (w - w1) L^4/(384 EI).
+
 Pulse: a plate of mass m on springs k on rock of the impedance Z without lateral
 strain, which waves leave for good, under the pressure p, all by area:
 
@@ -118,6 +122,14 @@ def elastica(load):
             -load * BENDING / LENGTH * along)
 
 
+def hinges(load=937.5, most=1000.0):
+    """Displacement of the middle [m] and moments at end and middle [N m]: the
+    line turns to the right at the ends, to the left in the middle."""
+    first = 12 * most / LENGTH ** 2
+    sag = (first + 5 * (load - first)) * LENGTH ** 4 / (384 * BENDING)
+    return -sag, -most, load * LENGTH ** 2 / 8 - most
+
+
 def pulse(times):
     """Displacements of plate and rock [m], by Runge and Kutta."""
     mass, spring = 2400 * 0.2, 1e10
@@ -160,6 +172,9 @@ def main():
     write("strut.csv", "time [s],middle [m],moment [N m]", [(1.0, *strut())])
     write("elastica.csv", "time [s],end_x [m],end_y [m],moment [N m]",
           [(1.0, *elastica(5.0))])
+    write("hinges.csv",
+          "time [s],middle [m],end_moment [N m],middle_moment [N m]",
+          [(1.0, *hinges())])
     write("pulse.csv", "time [s],plate [m],rock [m]",
           pulse(np.arange(0, 0.0039, 4e-5)))
 
