@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace quoin
 {
@@ -19,6 +21,45 @@ namespace quoin
     /** Stiffness of a plastic hinge by that of an elastic one [-]. */
     constexpr double hinge_stiffness     = 1e-6;
     constexpr unsigned int most_halvings = 8;
+
+    /** Derivative of the angle of a frame by degrees of freedom [1/m]. */
+    using Turning = std::vector<std::pair<unsigned int, double>>;
+
+    /** Adds @p share of the angle of the segment of @p length along @p
+       direction from node @p a to @p b. */
+    void add_turning(const unsigned int a, const unsigned int b,
+                     const double (&direction)[2], const double length,
+                     const double share, Turning &turning)
+    {
+      const double f = share / length;
+      turning.insert(turning.end(), { { 2 * b, -f * direction[1] },
+                                      { 2 * b + 1, f * direction[0] },
+                                      { 2 * a, f * direction[1] },
+                                      { 2 * a + 1, -f * direction[0] } });
+    }
+
+    /** An interface point whose energy depends on the gap g, as a law with the
+        derivative @p D, and on the angle of its frame. */
+    struct FrameTerms
+    {
+      Eigen::Vector2d by_gap; /**< second derivative by g and the angle [N] */
+      double by_angle;        /**< by the angle, twice [N m] */
+      double couple;          /**< first derivative by the angle [N m] */
+
+      FrameTerms(const Eigen::Vector2d &n, const Eigen::Vector2d &t,
+                 const double side, const Eigen::Vector2d &g,
+                 const double normal_force, const double shear_force,
+                 const Eigen::Matrix2d &D)
+      {
+        // n turns by -side t, t by side n.
+        const double opening = -side * t.dot(g), slip = side * n.dot(g);
+        const Eigen::Vector2d way = opening * n + slip * t;
+        by_gap   = D * way + side * (shear_force * n - normal_force * t);
+        by_angle = way.dot(D * way) - normal_force * n.dot(g)
+                   - shear_force * t.dot(g);
+        couple = normal_force * opening + shear_force * slip;
+      }
+    };
   } // namespace
 
   Eigen::MatrixXd Beams::stiffness(const Line &line, const State<2> &state,
@@ -103,9 +144,47 @@ namespace quoin
             slopes.shear_opening, slopes.shear_slip;
         Eigen::Matrix2d &part = by_point[p - line.first_point];
         part = points[p].area * frame * local * frame.transpose();
-        sum.block<2, 2>(2 * (points[p].at - line.begin),
-                        2 * (points[p].at - line.begin))
-            += part;
+        const unsigned int at = points[p].at, local_at = at - line.begin;
+        sum.block<2, 2>(2 * local_at, 2 * local_at) += part;
+        const Eigen::Vector2d n(frame.col(0)), t(frame.col(1));
+        const FrameTerms terms(
+            n, t, points[p].side,
+            (opening + now.offset[p].v[0]) * n
+                + (slip + now.offset[p].v[1]) * t,
+            points[p].area * now.interface.normal_traction[p],
+            points[p].area * now.interface.shear_traction[p], part);
+        Turning turning;
+        const double share
+            = has_before(line, at) && has_after(line, at) ? 0.5 : 1.;
+        for (const unsigned int first : { previous(line, at), at })
+        {
+          if (first == at ? !has_after(line, at) : !has_before(line, at))
+            continue;
+          const Segment s      = segment(line, first, now);
+          const unsigned int a = first - line.begin,
+                             b = next(line, first) - line.begin;
+          add_turning(a, b, s.direction, s.length, share, turning);
+          // The angle of a segment has second derivatives, too.
+          const Eigen::Vector2d along(s.direction[0], s.direction[1]),
+              across(-s.direction[1], s.direction[0]);
+          const Eigen::Matrix2d curved
+              = -terms.couple * share / (s.length * s.length)
+                * (along * across.transpose() + across * along.transpose());
+          sum.block<2, 2>(2 * a, 2 * a) += curved;
+          sum.block<2, 2>(2 * b, 2 * b) += curved;
+          sum.block<2, 2>(2 * a, 2 * b) -= curved;
+          sum.block<2, 2>(2 * b, 2 * a) -= curved;
+        }
+        for (const auto &[q, w] : turning)
+        {
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            sum(q, 2 * local_at + d) -= w * terms.by_gap[d];
+            sum(2 * local_at + d, q) -= w * terms.by_gap[d];
+          }
+          for (const auto &[r, v] : turning)
+            sum(q, r) += w * v * terms.by_angle;
+        }
       }
     };
     std::visit(visit, line.law);
@@ -204,23 +283,48 @@ namespace quoin
         return true;
       const Eigen::MatrixXd own = stiffness(line, marks, before, now, part);
       Eigen::MatrixXd coupling  = Eigen::MatrixXd::Zero(n, m);
-      for (unsigned int p = 0; p < m / 2; ++p)
+      for (unsigned int k = 0; k < m / 2; ++k)
       {
-        const unsigned int at = points[line.first_point + p].at - line.begin;
-        coupling.block<2, 2>(2 * at, 2 * p)  = part[p];
-        condensed->block<2, 2>(2 * p, 2 * p) = part[p];
-        for (unsigned int d = 0; d < 2; ++d)
-          if (held(line, line.begin + at, d))
-            coupling.row(2 * at + d).setZero();
+        const unsigned int p = line.first_point + k, at = points[p].at;
+        condensed->block<2, 2>(2 * k, 2 * k)               = part[k];
+        coupling.block<2, 2>(2 * (at - line.begin), 2 * k) = part[k];
+        if (!now.attached[p] || marks.is_absent(points[p].block))
+          continue;
+        std::array<double, 2> normal;
+        const auto [opening, slip]
+            = gap(line, p, now, now.block_position.data() + 2 * p, normal);
+        const Eigen::Vector2d n(normal[0], normal[1]),
+            t(points[p].side * normal[1], -points[p].side * normal[0]);
+        const FrameTerms terms(
+            n, t, points[p].side,
+            (opening + now.offset[p].v[0]) * n
+                + (slip + now.offset[p].v[1]) * t,
+            points[p].area * now.interface.normal_traction[p],
+            points[p].area * now.interface.shear_traction[p], part[k]);
+        Turning turning;
+        const double share
+            = has_before(line, at) && has_after(line, at) ? 0.5 : 1.;
+        for (const unsigned int first : { previous(line, at), at })
+        {
+          if (first == at ? !has_after(line, at) : !has_before(line, at))
+            continue;
+          const Segment s = segment(line, first, now);
+          add_turning(first - line.begin, next(line, first) - line.begin,
+                      s.direction, s.length, share, turning);
+        }
+        for (const auto &[q, w] : turning)
+          for (unsigned int d = 0; d < 2; ++d)
+            coupling(q, 2 * k + d) -= w * terms.by_gap[d];
       }
-      const Eigen::MatrixXd follows = own.partialPivLu().solve(coupling);
-      // Forces on blocks by the motion of the beam's nodes.
-      for (unsigned int p = 0; p < m / 2; ++p)
-      {
-        const unsigned int at = points[line.first_point + p].at - line.begin;
-        condensed->middleRows<2>(2 * p)
-            -= part[p] * follows.middleRows<2>(2 * at);
-      }
+      Eigen::MatrixXd forces = coupling.transpose();
+      for (unsigned int i = 0; i < n; ++i)
+        if (held(line, line.begin + i / 2, i % 2))
+        {
+          coupling.row(i).setZero();
+          forces.col(i).setZero();
+        }
+      // The nodes of the beam follow the points.
+      *condensed -= forces * own.partialPivLu().solve(coupling);
     }
     return true;
   }
