@@ -168,7 +168,7 @@ namespace quoin
       }
     }
 
-    /** Checks the beams and the names of beams that histories give. */
+    /** Checks the stages that place beams. */
     void check_beams(const ParameterSection &top, const Parameters &parameters)
     {
       const auto &beams = parameters.beams;
@@ -181,6 +181,13 @@ namespace quoin
                         + known_names_like(beam.stage, parameters.stages,
                                            &StageParameters::name)
                         + ".");
+    }
+
+    /** Checks the names of beams that histories give. */
+    void check_beam_histories(const ParameterSection &top,
+                              const Parameters &parameters)
+    {
+      const auto &beams = parameters.beams;
       const ParameterSection histories(top, "Histories");
       for (const HistoryParameters &history : parameters.histories)
         if (history.quantity == HistoryQuantity::beam
@@ -262,6 +269,7 @@ namespace quoin
     check_coupled_histories(top, parameters);
     check_block_histories(top, parameters);
     check_beams(top, parameters);
+    check_beam_histories(top, parameters);
     check_end_conditions(top, parameters);
     parameters.implicit
         = ImplicitParameters::read(ParameterSection(top, "Implicit"));
