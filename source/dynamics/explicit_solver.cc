@@ -51,8 +51,9 @@ namespace quoin
     stepper.advance_tiles(state, context, requests.balance, sums);
     // 4. Motion of nodes that several processes share.
     stepper.advance_shared_nodes(state, context, requests.balance, sums);
-    // 5. Rigid blocks.
+    // 5. Rigid blocks and beams.
     advance_rigid_blocks(state, context, sums);
+    advance_beams(state, context, sums);
     // 6. Constrained nodes.
     move_constrained_nodes(state, context);
     // 7. Work and energies; exchange of ghost positions.
@@ -119,6 +120,25 @@ namespace quoin
   }
 
   template <int dim>
+  void ExplicitSolver<dim>::advance_beams(State<dim> &state,
+                                          const StepContext &context,
+                                          StepSums &sums)
+  {
+    if constexpr (dim == 2)
+    {
+      if (!all_beams)
+        return;
+      const Beams::Work work
+          = all_beams->advance(context, stage.damping != DampingType::none,
+                               stage.damping == DampingType::adaptive, state);
+      sums.damping += work.damping;
+      sums.unbalanced += work.unbalanced;
+      sums.applied += work.applied;
+      time_shares.lap(beam_phase);
+    }
+  }
+
+  template <int dim>
   void ExplicitSolver<dim>::move_constrained_nodes(State<dim> &state,
                                                    const StepContext &context)
   {
@@ -159,6 +179,9 @@ namespace quoin
             + model.rigid_blocks().kinetic_energy(
                 rigid_stage, rigid_before,
                 state.template get<RigidBlockStates>(), share);
+      if constexpr (dim == 2)
+        if (all_beams)
+          stored_before.kinetic += all_beams->kinetic_energy(state, share);
       this->find_energies(state, stored_before);
     }
     if (context.dt_before != context.dt)
@@ -169,7 +192,11 @@ namespace quoin
       this->check_finite(state);
       check_cells(model, state, stage.loads);
       if constexpr (dim == 2)
+      {
         check_time_step(state);
+        if (all_beams)
+          all_beams->check_finite(state);
+      }
     }
     time_shares.lap(energy_phase);
   }
@@ -185,12 +212,15 @@ namespace quoin
     const double factor
         = (context.dt_before * context.dt_before - context.dt * context.dt)
           / (8. * context.dt_velocity * context.dt_velocity);
-    state.pending.external += factor
-                              * (squared_change(model.nodes(), node_mass,
-                                                velocity_before, state.velocity)
-                                 + model.rigid_blocks().squared_change(
-                                     rigid_stage, rigid_before,
-                                     state.template get<RigidBlockStates>()));
+    double change = squared_change(model.nodes(), node_mass, velocity_before,
+                                   state.velocity)
+                    + model.rigid_blocks().squared_change(
+                        rigid_stage, rigid_before,
+                        state.template get<RigidBlockStates>());
+    if constexpr (dim == 2)
+      if (all_beams)
+        change += all_beams->squared_change(state);
+    state.pending.external += factor * change;
   }
 
   template <int dim>
@@ -235,6 +265,9 @@ namespace quoin
       model.joints().add_forces(state.nodes.data(),
                                 state.template get<JointHistory>(),
                                 state.energy, unused.data());
+      if (all_beams)
+        all_beams->add_forces(step_context(state, stage, time_step), state,
+                              { unused.data(), nullptr });
     }
     if constexpr (dim == 2)
       if (!model.reinforcement().empty())

@@ -29,6 +29,9 @@ namespace quoin
   {
     const RigidBlocks &rigid = model.rigid_blocks();
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
+    if constexpr (dim == 2)
+      if (all_beams)
+        all_beams->begin_stage(stage.name, state);
     const auto kinetic = [&]()
     {
       double energy = rigid.kinetic_energy(
@@ -37,6 +40,9 @@ namespace quoin
       for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
         for (const double v : state.velocity[i].v)
           energy += 0.5 * node_mass[i] * v * v;
+      if constexpr (dim == 2)
+        if (all_beams)
+          energy += all_beams->kinetic_energy(state);
       return energy;
     };
 
@@ -60,12 +66,13 @@ namespace quoin
       added = find_added_mass(model, mass, rigid_stage.mass_factor,
                               stage.scaled_time_step);
     }
-    node_mass = mass;
+    double eigenvalue = find_beam_masses(stage, state, mass);
+    node_mass         = mass;
     // A change of the mass of moving nodes is external work.
     state.energy.external += kinetic() - before;
 
-    double eigenvalue
-        = model.stability().largest_eigenvalue(mass, rigid_stage.mass_factor);
+    eigenvalue = std::max(eigenvalue, model.stability().largest_eigenvalue(
+                                          mass, rigid_stage.mass_factor));
     for (const MotionConstraint<dim> *constraint : acting.constraints)
       eigenvalue = std::max(eigenvalue, constraint->largest_eigenvalue());
     if constexpr (dim == 2)
@@ -98,6 +105,39 @@ namespace quoin
       }
   }
 
+  template <>
+  double ExplicitSolver<2>::find_beam_masses(const StageParameters &stage,
+                                             const State<2> &state,
+                                             std::vector<double> &mass) const
+  {
+    if (!all_beams)
+      return 0.;
+    all_beams->find_masses(stage.scaled_time_step, state);
+    double eigenvalue                 = all_beams->largest_eigenvalue(state);
+    const double dt                   = stage.scaled_time_step;
+    const std::vector<double> springs = all_beams->interface_bound(state);
+    for (unsigned int i = 0; i < springs.size(); ++i)
+    {
+      if (springs[i] == 0.)
+        continue;
+      if (dt > 0.)
+        mass[i] = std::max(mass[i], model.stability().mass_for(i, dt)
+                                        + 0.25 * dt * dt * springs[i]);
+      eigenvalue
+          = std::max(eigenvalue, model.stability().squared_frequency(i, mass[i])
+                                     + springs[i] / mass[i]);
+    }
+    return eigenvalue;
+  }
+
+  template <>
+  double ExplicitSolver<3>::find_beam_masses(const StageParameters &,
+                                             const State<3> &,
+                                             std::vector<double> &) const
+  {
+    return 0.;
+  }
+
   template <int dim>
   void ExplicitSolver<dim>::collect_operators(const StageParameters *previous)
   {
@@ -109,6 +149,8 @@ namespace quoin
       forces.push_back(&model.joints());
       if (!model.reinforcement().empty())
         forces.push_back(&model.reinforcement());
+      if (all_beams)
+        forces.push_back(all_beams.get());
     }
     for (NodalLoad<dim> &load : all_loads)
       if (names_load(stage, load.name()))

@@ -184,6 +184,7 @@ namespace quoin
       if (names_load(stage, load.name()))
         acting.nodal.push_back(&load);
 
+    acting.beams = all_beams.get();
     acting.pattern.reset();
     if (stage.pattern)
     {
@@ -241,6 +242,9 @@ namespace quoin
   {
     for (const auto &constraint : all_constraints)
       constraint->prepare(state);
+    if constexpr (dim == 2)
+      if (all_beams)
+        all_beams->prepare(state);
     state.template add<LoadPatternState>();
     if constexpr (dim == 2)
       if (water)

@@ -36,6 +36,9 @@ namespace quoin
       const auto [x, y, rotation] = values_of(*constraint, time);
       result.push_back({ x, y, rotation, 0., 0. });
     }
+    if (beams)
+      for (const double load : beams->loads(time))
+        result.push_back({ load, 0., 0., 0., 0. });
     return result;
   }
 

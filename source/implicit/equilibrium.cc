@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace quoin
 {
@@ -31,11 +32,11 @@ namespace quoin
                            const std::vector<bool> &path_sets,
                            const double stage_start,
                            const StaticFarField *far_field,
-                           const LoadPattern<2> *pattern)
+                           const LoadPattern<2> *pattern, const Beams *beams)
     : model(model), dof_map(dof_map), operators(operators),
       path_sets(path_sets), stage_start(stage_start),
       communicator(model.nodes().communicator()), pattern(pattern),
-      far_field(far_field)
+      far_field(far_field), beams(beams)
   {
     make_pattern();
   }
@@ -80,6 +81,8 @@ namespace quoin
       for (const Index row : far_rows)
         entries.add_entries(row, far_columns.begin(), far_columns.end());
     }
+    if (beams)
+      add_beam_entries(entries);
     for (const Index row : dof_map.owned())
     {
       entries.add(row, row);
@@ -150,6 +153,64 @@ namespace quoin
         far_columns.push_back(dofs[j] - 1);
       }
     far_stiffness = stiffness.rows(rows, columns);
+  }
+
+  void Equilibrium::add_beam_entries(
+      dealii::TrilinosWrappers::SparsityPattern &entries)
+  {
+    std::vector<Index> dofs(2 * beams->n_points(), 0); // one more; 0: held
+    for (unsigned int p = 0; p < beams->n_points(); ++p)
+      for (unsigned int d = 0; d < 2; ++d)
+        if (const unsigned int node = beams->node_of_point(p);
+            node != NodeMap<2>::none && dof_map.is_free(node, d))
+          dofs[2 * p + d] = 1 + dof_map.dof(node, d);
+    dealii::Utilities::MPI::sum(dofs, communicator, dofs);
+    for (const Index dof : dofs)
+      beam_dofs.push_back(dof - 1); // numbers::invalid_dof_index of 0
+    for (unsigned int b = 0; b < beams->n_beams(); ++b)
+    {
+      std::vector<Index> columns;
+      for (unsigned int k = 2 * beams->first_point(b);
+           k < 2 * beams->last_point(b); ++k)
+        if (dofs[k] > 0)
+          columns.push_back(beam_dofs[k]);
+      std::sort(columns.begin(), columns.end());
+      for (const Index row : columns)
+        if (dof_map.owned().is_element(row))
+          entries.add_entries(row, columns.begin(), columns.end());
+    }
+  }
+
+  void Equilibrium::add_beams(const State<2> &committed,
+                              const Configuration &configuration,
+                              Balance &balance, const bool slopes)
+  {
+    Beams::Condensed stiffness;
+    balance.beams_stand = beams->settle(
+        { configuration.load_time, stage_start + configuration.load_time },
+        committed, balance.state, applied_force.data(),
+        slopes ? &stiffness : nullptr);
+    if (!balance.beams_stand)
+      return;
+    for (unsigned int b = 0; b < stiffness.size(); ++b)
+      for (Eigen::Index i = 0; i < stiffness[b].rows(); ++i)
+      {
+        const unsigned int first = 2 * beams->first_point(b);
+        const Index row          = beam_dofs[first + i];
+        if (row == dealii::numbers::invalid_dof_index
+            || !dof_map.owned().is_element(row))
+          continue;
+        std::vector<Index> columns;
+        std::vector<double> values;
+        for (Eigen::Index j = 0; j < stiffness[b].cols(); ++j)
+          if (beam_dofs[first + j] != dealii::numbers::invalid_dof_index)
+          {
+            columns.push_back(beam_dofs[first + j]);
+            values.push_back(stiffness[b](i, j));
+          }
+        matrix.add(row, columns.size(), columns.data(), values.data(), false,
+                   false);
+      }
   }
 
   double Equilibrium::joint_stiffness() const
@@ -346,6 +407,8 @@ namespace quoin
     trial.energy    = EnergyAccounts();
     for (const ForceOperator<2> *each : operators)
       each->prepare(trial);
+    if (beams)
+      beams->prepare(trial);
     trial.copy_slices(committed);
     trial.add<BreakingJoints>().points = broken;
     balance.force.assign(model.nodes().n_local(), no_force);
@@ -362,6 +425,8 @@ namespace quoin
                           add_element(element, force, path, on_path, slopes);
                       });
     }
+    if (beams)
+      add_beams(committed, configuration, balance, slopes != nullptr);
     balance.path
         = path_area > 0.
               ? dealii::Utilities::MPI::sum(path, communicator) / path_area
@@ -452,7 +517,9 @@ namespace quoin
                      / (d == 2 ? size : 1.);
     }
     MPI_Allreduce(MPI_IN_PLACE, sums, 3, MPI_DOUBLE, MPI_SUM, communicator);
-    balance.unbalanced = sums[0];
+    balance.unbalanced = balance.beams_stand
+                             ? sums[0]
+                             : std::numeric_limits<double>::infinity();
     balance.applied    = std::max(sums[1], least_applied);
     balance.dragged    = sums[2];
   }

@@ -141,7 +141,7 @@ namespace quoin
     equilibrium = std::make_unique<Equilibrium>(
         model, *dof_map, operators_with(acting.nodal), path_sets, stage_start,
         far.elastostatic_acts ? far.elastostatic : nullptr,
-        acting.pattern.get());
+        acting.pattern.get(), all_beams.get());
     // Multigrid gives no factor.
     linear_solver = std::make_unique<LinearSolver>(
         acting.pattern ? LinearSolverType::direct : parameters.linear_solver,
@@ -187,6 +187,8 @@ namespace quoin
     prepare(state);
     if (water)
       water->begin_stage(stage.name, state);
+    if (all_beams)
+      all_beams->begin_stage(stage.name, state);
     for (const auto &constraint : all_constraints)
       if (!acts_in(*constraint, stage))
         constraint->rest(state);
@@ -319,6 +321,8 @@ namespace quoin
     EnergyAccounts stored;
     for (const ForceOperator<2> *each : operators_with(acting.nodal))
       each->add_stored_energy(state, stored);
+    if (all_beams)
+      all_beams->add_stored_energy(state, stored);
     find_energies(state, stored);
   }
 

@@ -205,6 +205,37 @@ namespace quoin
                                  + ".");
     }
 
+    /** Checks the stages that place beams. */
+    void check_beams(const ParameterSection &top, const Parameters &parameters)
+    {
+      const auto &beams = parameters.beams;
+      const ParameterSection section(top, "Beams");
+      for (const BeamParameters &beam : beams)
+        if (!beam.stage.empty() && !find_named(parameters.stages, beam.stage))
+          ParameterSection(section, beam.name)
+              .fail("Stage",
+                    "must be the name of a stage or empty. There are: "
+                        + known_names_like(beam.stage, parameters.stages,
+                                           &StageParameters::name)
+                        + ".");
+    }
+
+    /** Checks the names of beams that histories give. */
+    void check_beam_histories(const ParameterSection &top,
+                              const Parameters &parameters)
+    {
+      const auto &beams = parameters.beams;
+      const ParameterSection histories(top, "Histories");
+      for (const HistoryParameters &history : parameters.histories)
+        if (history.quantity == HistoryQuantity::beam
+            && !find_named(beams, history.beam))
+          ParameterSection(histories, history.name)
+              .fail("Beam", "must name a beam. There are: "
+                                + known_names_like(history.beam, beams,
+                                                   &BeamParameters::name)
+                                + ".");
+    }
+
     /** Checks the conditions on histories by which stages end. */
     void check_end_conditions(const ParameterSection &top,
                               const Parameters &parameters)
@@ -316,12 +347,15 @@ namespace quoin
         = read_stages(top, parameters.loads, parameters.is_implicit);
     parameters.model.absent_groups = groups_placed_later(parameters.stages);
     parameters.named_blocks        = read_named<NamedBlock>(top, "Blocks");
+    parameters.beams               = read_named<BeamParameters>(top, "Beams");
     read_water(top, parameters);
     warn_of_idle_loads(parameters);
     check_coupled_histories(top, parameters);
     check_block_histories(top, parameters);
     check_cables(top, parameters);
     check_cable_histories(top, parameters);
+    check_beams(top, parameters);
+    check_beam_histories(top, parameters);
     check_end_conditions(top, parameters);
     parameters.implicit
         = ImplicitParameters::read(ParameterSection(top, "Implicit"));
@@ -346,7 +380,7 @@ namespace quoin
   void read_boundary_model(const ParameterSection &top, Parameters &parameters)
   {
     for (const std::string name :
-         { "Joints", "Reinforcement", "Loads", "Stages", "Blocks",
+         { "Joints", "Reinforcement", "Loads", "Stages", "Blocks", "Beams",
            "Water joints", "Water boundaries" })
       refuse_names(top, name, "boundary elements");
     for (const std::string name : { "Displacement", "Velocity" })

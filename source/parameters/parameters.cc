@@ -35,6 +35,7 @@ namespace quoin
             { "Boundary elements", BoundaryCurveParameters::declare },
             { "Incident waves", IncidentWaveParameters::declare },
             { "Blocks", NamedBlock::declare },
+            { "Beams", BeamParameters::declare },
             { "Histories", HistoryParameters::declare } };
 
     void enter_top(ParameterEntries &entries, Parameters &parameters)

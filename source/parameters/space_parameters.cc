@@ -103,6 +103,8 @@ namespace quoin
                        "section 'Reinforcement': 'Names'", "Leave it empty.");
     refusals.refuse_if(!parameters.named_blocks.empty(),
                        "section 'Blocks': 'Names'", "Leave it empty.");
+    refusals.refuse_if(!parameters.beams.empty(), "section 'Beams': 'Names'",
+                       "Leave it empty.");
     refusals.refuse_if(parameters.measure_bandwidth,
                        "section 'Output': 'Measure bandwidth = yes'",
                        "Take 'no'.");

@@ -119,6 +119,8 @@ namespace quoin
       run.log.message("static boundary elements: the stiffness of the rock "
                       "beyond the blocks was made symmetric; it differed by ",
                       far->asymmetry(), " of its largest entry");
+    if (const Beams *beams = system.solver->beams())
+      run.log.messages(beams->text());
     if (run.options.check)
       for (const auto &lines :
            { material_lines(parameters, *system.nodes,

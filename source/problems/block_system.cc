@@ -72,6 +72,7 @@ namespace quoin
                    = std::make_unique<Construction>(*model, parameters.stages);
              make_solver(curves);
              if constexpr (dim == 2)
+             {
                if (parameters.water.flow != FlowKind::none)
                {
                  water = std::make_unique<JointFlow>(
@@ -79,6 +80,11 @@ namespace quoin
                      parameters.model.joints, model->thickness());
                  solver->set_flow(water.get());
                }
+               if (!parameters.beams.empty())
+                 solver->set_beams(std::make_unique<Beams>(
+                     parameters.beams, *nodes, parameters.model.joints,
+                     parameters.model.thickness, model->thickness()));
+             }
            });
   }
 

@@ -377,6 +377,7 @@ namespace quoin
     case HistoryQuantity::block_velocity:
     case HistoryQuantity::block_force:
     case HistoryQuantity::cable:                 // see Reinforcement::value()
+    case HistoryQuantity::beam:                  // see add_beam_values()
     case HistoryQuantity::boundary_displacement: // see BoundaryHistories
     case HistoryQuantity::boundary_velocity:
     case HistoryQuantity::boundary_traction:
@@ -709,8 +710,11 @@ namespace quoin
       }
     }
     if constexpr (dim == 2)
+    {
+      add_beam_values(state);
       if (of_blocks)
         of_blocks->before_step(state);
+    }
   }
 
   template <int dim>
@@ -848,6 +852,26 @@ namespace quoin
       if (of_boundary && state.template get<FarFieldState>().active)
         add_boundary_values(state, result);
     return result;
+  }
+
+  template <>
+  void Histories<2>::add_beam_values(const State<2> &state)
+  {
+    const Beams *beams = solver.beams();
+    if (!beams || dealii::Utilities::MPI::this_mpi_process(communicator) != 0)
+      return;
+    for (unsigned int i = 0; i < n_columns; ++i)
+    {
+      const HistoryParameters &wanted = probes[i].parameters;
+      if (wanted.quantity != HistoryQuantity::beam)
+        continue;
+      const unsigned int beam = beams->find(wanted.beam);
+      if (beams->is_placed(beam, state))
+        row[1 + i] = beam_value(
+            beams->fields(beam, state),
+            beams->nearest_node(beam, { { wanted.point[0], wanted.point[1] } }),
+            wanted.component);
+    }
   }
 
   template <>

@@ -98,6 +98,15 @@ namespace quoin
         { "cable shear force", { Q::cable, 4, "N" } },
         { "cable shear displacement", { Q::cable, 5, "m" } },
         { "cable breaks", { Q::cable, 6, "-" } },
+        { "beam displacement x", { Q::beam, 0, "m" } },
+        { "beam displacement y", { Q::beam, 1, "m" } },
+        { "beam axial force", { Q::beam, 2, "N" } },
+        { "beam shear force", { Q::beam, 3, "N" } },
+        { "beam moment", { Q::beam, 4, "N m" } },
+        { "beam largest displacement", { Q::beam, 5, "m" } },
+        { "beam largest axial force", { Q::beam, 6, "N" } },
+        { "beam largest shear force", { Q::beam, 7, "N" } },
+        { "beam largest moment", { Q::beam, 8, "N m" } },
         { "boundary displacement x", { Q::boundary_displacement, 0, "m" } },
         { "boundary displacement y", { Q::boundary_displacement, 1, "m" } },
         { "boundary velocity x", { Q::boundary_velocity, 0, "m/s" } },
@@ -150,6 +159,9 @@ namespace quoin
           "force x' and 'block force y' are the force on 'Block' by 'Second "
           "block', or by all others, over joints and contacts, 'block force "
           "moment' its moment about the current centroid of 'Block'. "
+          "'beam moment' and the like belong to 'Beam', at its node nearest to "
+          "'Point', and are 0 before it is placed; its 'largest' values are "
+          "the largest magnitudes along it. "
           "'rotation' is that of the nearest rigid block, full turns counted, "
           "or of the nearest cell, from -180 to 180, anticlockwise. The stress "
           "of rigid blocks is written as 0. In a block that has been deleted "
@@ -229,6 +241,10 @@ namespace quoin
         entries.text("Cable", history.cable,
                      "Bolts whose quantities are recorded, one of the 'Names' "
                      "of section 'Reinforcement'.");
+      if (entries.reads_if(history.quantity == HistoryQuantity::beam))
+        entries.text("Beam", history.beam,
+                     "Beam whose quantities are recorded, one of the 'Names' "
+                     "of section 'Beams'.");
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;

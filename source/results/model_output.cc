@@ -14,7 +14,8 @@ namespace quoin
       blocks(folder, model.nodes().communicator(), format),
       joints(folder, model.nodes().communicator(), "joints", format),
       contacts(folder, model.nodes().communicator(), "contacts", format),
-      cables(folder, model.nodes().communicator(), format)
+      cables(folder, model.nodes().communicator(), format),
+      beams(folder, model.nodes().communicator(), format)
   {
   }
 
@@ -28,6 +29,8 @@ namespace quoin
       contacts.start();
     if (!model.reinforcement().empty())
       cables.start();
+    if (solver.beams())
+      beams.start();
   }
 
   template <int dim>
@@ -44,6 +47,8 @@ namespace quoin
         contacts.write(time, contact_fields(model.joints(), *all, now));
       if (!model.reinforcement().empty())
         cables.write(time, model.reinforcement().fields(now));
+      if (const Beams *all = solver.beams())
+        beams.write(time, *all, now);
     }
   }
 

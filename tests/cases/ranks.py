@@ -65,6 +65,10 @@ COLLAPSING = ["Materials/block/Law=linear elastic",
               "Histories/moved/Quantity=displacement x",
               "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
 BARS = os.path.join(common.ROOT, "tests", "cases", "bars.prm")
+# A bonded liner with hinges; one that slips multiplies rounding.
+LINER = ["Loads/in_situ/Stress=-10e6, -5e6, 0",
+         "Beams/shotcrete/Hinge moment=3e3", "Stages/excavation/End=time",
+         "Stages/excavation/Duration=2e-3", "Histories/Interval=5e-5"]
 VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "rigid": (PATCH_TEST, SETS + ["Materials/rock/Law=rigid",
                                           "Loads/base/Type=traction"]),
@@ -178,6 +182,13 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                 COLLAPSE, COLLAPSING + ["Solver=implicit",
                                         "Implicit/Force ratio=1e-12",
                                         "Implicit/Largest step=0.1"]),
+            # a liner of a divided block
+            "liner": (os.path.join(common.VERIFICATION, "liner", "case.prm"),
+                      LINER),
+            "implicit, liner": (
+                os.path.join(common.VERIFICATION, "liner", "case.prm"),
+                LINER + ["Solver=implicit", "Implicit/Force ratio=1e-12",
+                         "Implicit/Largest step=0.2"]),
             "implicit, divided": (
                 os.path.join(common.VERIFICATION, "kirsch", "case.prm"),
                 ["Solver=implicit"]),
@@ -208,7 +219,10 @@ TOLERANCE = 1e-10
 LOOSE = {"implicit": 1e-6, "implicit, iterative": 1e-6}
 # The rounding of a controlled displacement, by the square of the time step, is
 # an acceleration, which the factor of a load pattern brings about.
-ROUNDED = {"pattern": 1e-8, "pattern, named": 1e-8}
+# Moments of a liner are differences of directions: those of positions that are
+# rounded to 1e-16 m, by EI/l^2 = 1e9 N/m, a few 1e-10 of their peak.
+ROUNDED = {"pattern": 1e-8, "pattern, named": 1e-8, "liner": 1e-8,
+           "implicit, liner": 1e-8}
 
 
 def tables(folder):

@@ -54,6 +54,13 @@ CASES = {
                         "Stages/push/Duration=0.4",
                         "Stages/push/Controlled displacement=top",
                         "Output/Checkpoint interval=0.05"], 1, 2),
+    # a liner that slips and yields
+    "liner": (os.path.join(common.VERIFICATION, "liner", "case.prm"),
+              ["Loads/in_situ/Stress=-10e6, -5e6, 0",
+               "Joints/bond/Law=no tension", "Joints/bond/Friction angle=20",
+               "Beams/shotcrete/Hinge moment=5e3",
+               "Stages/excavation/End=time", "Stages/excavation/Duration=0.01",
+               "Output/Checkpoint interval=0.1"], 1, 2),
     # cells that yield
     "salencon": (os.path.join(common.VERIFICATION, "salencon", "case.prm"),
                  ["Output/Checkpoint interval=0.05",

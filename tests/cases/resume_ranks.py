@@ -71,6 +71,8 @@ CASES = {
     "static far field": of_ranks("static far field", ALL),
     "construction": of_ranks("construction", ALL),
     "construction, divided": of_ranks("construction, divided", ALL),
+    "liner": of_ranks("liner", ALL),
+    "implicit, liner": of_ranks("implicit, liner", UP),
     "dashpots": of_ranks("dashpots", DOWN, ["Stages/impact/Duration=0.03"]),
     "dashpots, divided": of_ranks("dashpots, divided", UP,
                                   ["Stages/slide/Duration=0.02"]),

@@ -5,7 +5,7 @@
 
 base < mesh, layout, materials, joints, elastodynamics
      < operators, rock, tdbem < joint_elements, output, signals
-     < blocks, contact, loads, water < farfield, stages, reinforcement < model < dynamics
+     < blocks, contact, loads, water < farfield, stages, reinforcement, structures < model < dynamics
      < implicit, results < parameters < advice < problems < application
 
 Modules between the same two signs do not know each other.
@@ -18,7 +18,7 @@ TIERS = [["base"],
          ["mesh", "layout", "materials", "joints", "elastodynamics"],
          ["operators", "rock", "tdbem"],
          ["joint_elements", "output", "signals"],
-         ["blocks", "contact", "loads", "water"], ["farfield", "stages", "reinforcement"], ["model"], ["dynamics"], ["implicit", "results"], ["parameters"],
+         ["blocks", "contact", "loads", "water"], ["farfield", "stages", "reinforcement", "structures"], ["model"], ["dynamics"], ["implicit", "results"], ["parameters"],
          ["advice"], ["problems"], ["application"]]
 RANK = {name: rank for rank, tier in enumerate(TIERS) for name in tier}
 # boundary elements stand alone: a boundary polyline, nothing of the blocks

@@ -134,6 +134,7 @@ namespace quoin
     using Solver<dim>::communicator;
     using Solver<dim>::all_constraints;
     using Solver<dim>::all_loads;
+    using Solver<dim>::all_beams;
     using Solver<dim>::stage;
     using Solver<dim>::acting;
     using Solver<dim>::water;
@@ -142,6 +143,12 @@ namespace quoin
     using Solver<dim>::sum;
 
     void scale_masses(const StageParameters &stage, State<dim> &state);
+    /** Finds the masses of beams, gives nodes of blocks at liners the @p mass
+        [kg] that the scaled step of @p stage needs, and returns a bound of the
+        omega^2 of both [1/s^2]. */
+    double find_beam_masses(const StageParameters &stage,
+                            const State<dim> &state,
+                            std::vector<double> &mass) const;
     /** Collects what acts in the stage; @p previous: stage before, or null. */
     void collect_operators(const StageParameters *previous);
     void collect_constrained_nodes(const State<dim> &state);
@@ -179,6 +186,8 @@ namespace quoin
     void find_stored_energies(const State<dim> &state);
     void advance_rigid_blocks(State<dim> &state, const StepContext &context,
                               StepSums &sums);
+    void advance_beams(State<dim> &state, const StepContext &context,
+                       StepSums &sums);
     /** Moves nodes by constraints, and then all by the load pattern. */
     void move_constrained_nodes(State<dim> &state, const StepContext &context);
     void end_step(State<dim> &state, const StepContext &context,
@@ -197,7 +206,7 @@ namespace quoin
     std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
     double critical_step = 0.;
     AddedMass added;
-    double time_step     = 0.;
+    double time_step = 0.;
 
     RigidBlockStage rigid_stage;
 
@@ -215,8 +224,18 @@ namespace quoin
 
     const unsigned int energy_phase = time_shares.phase("energies"),
                        rigid_phase  = time_shares.phase("rigid blocks"),
+                       beam_phase   = time_shares.phase("beams"),
                        load_phase   = time_shares.phase("loads");
   };
+
+  template <>
+  double ExplicitSolver<2>::find_beam_masses(const StageParameters &stage,
+                                             const State<2> &state,
+                                             std::vector<double> &mass) const;
+  template <>
+  double ExplicitSolver<3>::find_beam_masses(const StageParameters &stage,
+                                             const State<3> &state,
+                                             std::vector<double> &mass) const;
 
   // Members that exist in two dimensions only.
   template <>

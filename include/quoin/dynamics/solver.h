@@ -15,10 +15,12 @@
 #include <quoin/loads/nodal_load.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/platen.h>
+#include <quoin/structures/beams.h>
 
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace quoin
@@ -142,6 +144,17 @@ namespace quoin
     /** Force x, y [N] and moment [N m] of a load; collective. */
     virtual std::array<double, 3> resultant(const std::string &load) const;
 
+    /** Takes the beams of the run, before prepare(). */
+    void set_beams(std::unique_ptr<Beams> beams)
+    {
+      all_beams = std::move(beams);
+    }
+    /** Null: there are none. */
+    Beams *beams() const
+    {
+      return all_beams.get();
+    }
+
     const FarFields &far_fields() const
     {
       return far;
@@ -211,7 +224,8 @@ namespace quoin
     std::vector<std::unique_ptr<MotionConstraint<dim>>> all_constraints;
     FarFields far; /**< two of them */
     std::vector<NodalLoad<dim>> all_loads;
-    JointFlow *water = nullptr; /**< null: no water flows in joints */
+    JointFlow *water = nullptr;       /**< null: no water flows in joints */
+    std::unique_ptr<Beams> all_beams; /**< in two dimensions, or null */
     std::vector<std::string> known_loads;
 
     StageParameters stage;

@@ -10,6 +10,7 @@
 #include <quoin/stages/stage_parameters.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/loads/nodal_load.h>
+#include <quoin/structures/beams.h>
 
 #include <array>
 #include <memory>
@@ -25,6 +26,7 @@ namespace quoin
     /** Constraints in order of action. */
     std::vector<MotionConstraint<dim> *> constraints;
     std::vector<const NodalLoad<dim> *> nodal;
+    const Beams *beams = nullptr; /**< with loads of their own; null: none */
     Release<dim> release; /**< release of the forces of excavated blocks */
     /** Loads that one factor scales, beside 'nodal'; null: none. */
     std::shared_ptr<LoadPattern<dim>> pattern;

@@ -8,7 +8,9 @@
 #include <quoin/dynamics/load_pattern.h>
 #include <quoin/implicit/dof_map.h>
 #include <quoin/operators/force_operator.h>
+#include <quoin/structures/beams.h>
 
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <array>
@@ -37,6 +39,10 @@ namespace quoin
     /** Force x, y [N] of the far field on free nodes and its moment about the
         origin [N m], of this rank. */
     std::array<double, 3> far_field_force{ { 0., 0., 0. } };
+
+    /** Whether beams are in equilibrium with the blocks; if not, the
+        unbalanced force is infinite. */
+    bool beams_stand = true;
 
     /** What the controlled displacement of a load pattern lacks [m]. */
     double lacking = 0.;
@@ -91,12 +97,13 @@ namespace quoin
      * Keeps references. @p path_sets: whether the inelastic motion of each
      * joint set measures the path; @p far_field: boundary elements, or null;
      * @p pattern: loads that a factor scales, or null; it needs a DofMap with
-     * factor().
+     * factor(). @p beams: those of the run, or null.
      */
     Equilibrium(const Model<2> &model, DofMap &dof_map,
                 const Operators &operators, const std::vector<bool> &path_sets,
                 double stage_start, const StaticFarField *far_field,
-                const LoadPattern<2> *pattern = nullptr);
+                const LoadPattern<2> *pattern = nullptr,
+                const Beams *beams            = nullptr);
 
     /**
      * Sets the drag on nodes: @p drag times a typical stiffness, distributed by
@@ -175,6 +182,13 @@ namespace quoin
     void add_element(const ElementLinearisation<2> &element,
                      AlignedArray<NodeVector<2>> &force, double &path,
                      bool on_path, Slopes *slopes);
+    /** Numbers the interface points of beams and adds their entries. */
+    void add_beam_entries(dealii::TrilinosWrappers::SparsityPattern &entries);
+    /** Adds forces of beams to applied_force and, where @p slopes are wanted,
+        their derivatives to the matrix. */
+    void add_beams(const State<2> &committed,
+                   const Configuration &configuration, Balance &balance,
+                   bool slopes);
     void add_far_field(const State<2> &committed,
                        const Configuration &configuration, Balance &balance,
                        const Slopes *slopes);
@@ -194,6 +208,9 @@ namespace quoin
 
     const LoadPattern<2> *pattern;
     const StaticFarField *far_field;
+    const Beams *beams;
+    /** Degrees of freedom of the interface points of beams; invalid: held. */
+    std::vector<DofMap::Index> beam_dofs;
     /** Minus the derivative of its forces on free degrees of freedom. */
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>
         far_stiffness;

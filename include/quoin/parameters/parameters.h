@@ -16,6 +16,7 @@
 #include <quoin/implicit/implicit_parameters.h>
 #include <quoin/mesh/block_splitter.h>
 #include <quoin/mesh/gmsh_reader.h>
+#include <quoin/structures/beam_parameters.h>
 #include <quoin/water/water_parameters.h>
 
 #include <string>
@@ -56,6 +57,7 @@ namespace quoin
     std::vector<StageParameters> stages;
     InitialMotion initial_motion;
     std::vector<NamedBlock> named_blocks;
+    std::vector<BeamParameters> beams;
 
     /** Whether the implicit solver is used. */
     bool is_implicit = false;

@@ -4,6 +4,7 @@
 #ifndef quoin_results_histories_h
 #define quoin_results_histories_h
 
+#include <quoin/results/beam_output.h>
 #include <quoin/results/block_histories.h>
 #include <quoin/results/boundary_histories.h>
 #include <quoin/results/history_parameters.h>
@@ -120,6 +121,8 @@ namespace quoin
     /** Adds the columns of boundary elements. */
     void add_boundary_values(const State<dim> &state,
                              std::vector<double> &result) const;
+    /** Sets the columns of beams, on the first rank. */
+    void add_beam_values(const State<dim> &state);
     /** Adds the columns of named blocks; collective. */
     void add_block_values(const State<dim> &state, std::vector<double> &result);
     /** Rotation of a local cell [rad]. */
@@ -157,6 +160,8 @@ namespace quoin
                                    const State<2> &state) const;
   template <>
   double Histories<2>::rotation(unsigned int cell, const State<2> &state) const;
+  template <>
+  void Histories<2>::add_beam_values(const State<2> &state);
   template <>
   void Histories<2>::add_block_values(const State<2> &state,
                                       std::vector<double> &result);

@@ -39,6 +39,7 @@ namespace quoin
     block_velocity,
     block_force, /**< force between a block and others: x, y, moment */
     cable,       /**< of a bar: see CableQuantity */
+    beam,        /**< of a beam: see BeamHistory */
     boundary_displacement,
     boundary_traction,
     boundary_velocity,
@@ -63,6 +64,7 @@ namespace quoin
     std::string curve;
     std::string block, other_block; /**< named ones; the second may be empty */
     std::string cable;              /**< one of section 'Reinforcement' */
+    std::string beam;
 
     /** Whether it is on boundary elements, alone or beyond blocks. */
     bool is_of_boundary() const

@@ -5,6 +5,7 @@
 #define quoin_results_model_output_h
 
 #include <quoin/dynamics/solver.h>
+#include <quoin/results/beam_output.h>
 #include <quoin/results/block_output.h>
 #include <quoin/results/cable_output.h>
 #include <quoin/results/joint_output.h>
@@ -14,7 +15,7 @@
 namespace quoin
 {
   /** The series blocks, in two dimensions, joints and, if there are any,
-      contacts of general contacts and cables. Members are collective. */
+      contacts of general contacts, cables and beams. Members are collective. */
   template <int dim>
   class ModelOutput
   {
@@ -32,7 +33,7 @@ namespace quoin
     template <typename Archive>
     void serialize(Archive &archive, const unsigned int)
     {
-      archive &blocks &joints &contacts &cables;
+      archive &blocks &joints &contacts &cables &beams;
     }
 
   private:
@@ -41,6 +42,7 @@ namespace quoin
     BlockOutput blocks;
     JointOutput joints, contacts;
     CableOutput cables;
+    BeamOutput beams;
   };
 } // namespace quoin
 

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include "../mesh/test_nodes.h"
+
+#include <quoin/structures/beams.h>
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+using namespace quoin;
+using quoin::test::TestNodes;
+
+namespace
+{
+  /** A square of 1 m, the block above the liner, whose curve is "wall". */
+  BlockMesh<2> block()
+  {
+    BlockMesh<2> result;
+    result.vertices   = { { 0., 0. }, { 1., 0. }, { 1., 1. }, { 0., 1. } };
+    result.cells      = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
+    result.cell_group = { 0, 0 };
+    result.block_first_cell   = { 0, 2 };
+    result.block_first_vertex = { 0, 4 };
+    result.group_names        = { "rock" };
+    result.face_names         = { "", "wall", "other" };
+    for (const unsigned int k : { 0U, 1U, 2U, 3U })
+      result.boundary_faces.push_back(
+          { { { k, (k + 1) % 4 } }, k < 2 ? 0U : 1U, k < 3 ? 1U : 2U });
+    return result;
+  }
+
+  BeamParameters section()
+  {
+    BeamParameters beam;
+    beam.name          = "beam";
+    beam.modulus       = 2e9;
+    beam.area          = 0.03;
+    beam.second_moment = 4e-5;
+    beam.density       = 2000.;
+    return beam;
+  }
+
+  struct Model
+  {
+    const BlockMesh<2> mesh = block();
+    const TestNodes nodes{ mesh };
+    std::vector<JointSetParameters> sets;
+    State<2> state;
+    std::unique_ptr<Beams> beams;
+
+    explicit Model(const BeamParameters &beam)
+    {
+      CoulombLaw law;
+      law.normal_stiffness = 3e9;
+      law.shear_stiffness  = 1e9;
+      law.peak = law.residual = { 1e30, 1e30, 0. };
+      JointSetParameters set;
+      set.name = "bond";
+      set.law  = law;
+      sets.push_back(set);
+      const NodeMap<2> &map = nodes;
+      state.nodes.resize(map.n_local());
+      for (unsigned int i = 0; i < map.n_local(); ++i)
+        state.nodes[i] = { { map.point(i)[0], map.point(i)[1] }, { 0., 0. } };
+      beams = std::make_unique<Beams>(std::vector<BeamParameters>{ beam }, map,
+                                      sets, 1., Thickness(1.));
+      beams->prepare(state);
+      beams->begin_stage("first", state);
+      beams->find_masses(0., state);
+    }
+
+    BeamState &now()
+    {
+      return state.get<BeamState>();
+    }
+
+    /** Stored energy with the forces at the present positions. */
+    double energy(AlignedArray<NodeVector<2>> &force)
+    {
+      force.assign(state.nodes.size(), NodeVector<2>{});
+      const StepContext step{};
+      beams->add_forces(step, state, { force.data(), nullptr });
+      EnergyAccounts stored;
+      beams->add_stored_energy(state, stored);
+      return stored.strain + stored.joint;
+    }
+    double energy()
+    {
+      AlignedArray<NodeVector<2>> force;
+      return energy(force);
+    }
+
+    /** Eigenvalues omega^2 of the beam [1/s^2], ascending, by differences of
+        the energy. */
+    Eigen::VectorXd eigenvalues()
+    {
+      const unsigned int n = 2 * now().nodes.size();
+      const double h       = 1e-5;
+      const auto at        = [&](const unsigned int i) -> double &
+      { return now().nodes[i / 2].u[i % 2]; };
+      Eigen::MatrixXd K(n, n);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j <= i; ++j)
+        {
+          double sum = 0.;
+          for (const double a : { -h, h })
+            for (const double b : { -h, h })
+            {
+              at(i) += a;
+              at(j) += b;
+              sum += (a > 0.) == (b > 0.) ? energy() : -energy();
+              at(i) -= a;
+              at(j) -= b;
+            }
+          K(i, j) = K(j, i) = sum / (4. * h * h);
+        }
+      // Masses by the kinetic energy of unit velocities.
+      Eigen::VectorXd root(n);
+      for (unsigned int i = 0; i < n; ++i)
+      {
+        now().velocity[i / 2].v[i % 2] = 1.;
+        root[i] = 1. / std::sqrt(2. * beams->kinetic_energy(state));
+        now().velocity[i / 2].v[i % 2] = 0.;
+      }
+      for (unsigned int i = 0; i < 2; ++i) // a fixed start
+        if (is_fixed)
+          root[i] = 0.;
+      return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
+                 root.asDiagonal() * K * root.asDiagonal())
+          .eigenvalues();
+    }
+    bool is_fixed = false;
+  };
+} // namespace
+
+TEST(Beams, ModesOfCantilever)
+{
+  BeamParameters beam = section();
+  beam.points         = { { { 2., 0. } }, { { 5., 0. } } };
+  beam.n_segments     = 24;
+  beam.supports[0]    = { true, true, true };
+  Model model(beam);
+  model.is_fixed  = true;
+  const auto all  = model.eigenvalues();
+  const double by = std::sqrt(beam.modulus * beam.second_moment
+                              / (beam.density * beam.area));
+  // Two zeros are those of the fixed node.
+  EXPECT_NEAR(std::sqrt(all[2]), by * std::pow(1.8751041 / 3., 2),
+              0.005 * by * std::pow(1.8751041 / 3., 2));
+  EXPECT_NEAR(std::sqrt(all[3]), by * std::pow(4.6940911 / 3., 2),
+              0.005 * by * std::pow(4.6940911 / 3., 2));
+  // The bound of the stable step is not below the largest one.
+  EXPECT_GE(model.beams->largest_eigenvalue(model.state) * (1. + 1e-6),
+            all[all.size() - 1]);
+}
+
+TEST(Beams, ModesWithoutSupport)
+{
+  BeamParameters beam = section();
+  beam.points         = { { { 2., 0. } }, { { 5., 0. } } };
+  beam.n_segments     = 30;
+  Model model(beam);
+  const auto all     = model.eigenvalues();
+  const double by    = std::sqrt(beam.modulus * beam.second_moment
+                                 / (beam.density * beam.area));
+  const double first = by * std::pow(4.7300407 / 3., 2);
+  for (unsigned int i = 0; i < 3; ++i)
+    EXPECT_LT(std::abs(all[i]), 1e-4 * first * first);
+  EXPECT_NEAR(std::sqrt(all[3]), first, 0.005 * first);
+}
+
+TEST(Beams, ForcesAreTheDerivativeOfTheEnergy)
+{
+  BeamParameters beam = section();
+  beam.boundary       = "wall";
+  beam.interface      = "bond";
+  Model model(beam);
+  ASSERT_EQ(model.now().nodes.size(), 4);
+  const double shift[4][2]
+      = { { 0.01, 0.02 }, { -0.03, 0.01 }, { 0.02, -0.015 }, { 0.005, 0.03 } };
+  for (unsigned int i = 0; i < 4; ++i)
+    for (unsigned int d = 0; d < 2; ++d)
+      model.now().nodes[i].u[d] = 1e-4 * shift[i][d];
+  AlignedArray<NodeVector<2>> force;
+  model.energy(force);
+  for (unsigned int i = 0; i < 4; ++i)
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      double &u          = model.state.nodes[i].u[d];
+      const double h     = 1e-8;
+      u                  = h;
+      const double above = model.energy();
+      u                  = -h;
+      const double below = model.energy();
+      u                  = 0.;
+      EXPECT_NEAR(force[i].v[d], -(above - below) / (2. * h),
+                  1e-3 * 3e9 * 1e-6);
+    }
+}
+
+TEST(Beams, CondensedStiffnessIsThatOfTheForces)
+{
+  BeamParameters beam = section();
+  beam.boundary       = "wall";
+  beam.interface      = "bond";
+  Model model(beam);
+  const State<2> start = model.state;
+  const auto settled   = [&](State<2> &now, Beams::Condensed *stiffness)
+  {
+    AlignedArray<NodeVector<2>> force(4, NodeVector<2>{});
+    EXPECT_TRUE(
+        model.beams->settle({ 0., 0. }, start, now, force.data(), stiffness));
+    return force;
+  };
+  State<2> now      = start;
+  now.nodes[1].u[0] = 2e-4;
+  Beams::Condensed stiffness;
+  State<2> moved = now;
+  settled(moved, &stiffness);
+  for (unsigned int q = 0; q < 4; ++q)
+    for (unsigned int e = 0; e < 2; ++e)
+    {
+      const double h = 1e-8;
+      State<2> a = now, b = now;
+      a.nodes[model.beams->node_of_point(q)].u[e] += h;
+      b.nodes[model.beams->node_of_point(q)].u[e] -= h;
+      const auto above = settled(a, nullptr), below = settled(b, nullptr);
+      for (unsigned int p = 0; p < 4; ++p)
+        for (unsigned int d = 0; d < 2; ++d)
+        {
+          const unsigned int node = model.beams->node_of_point(p);
+          EXPECT_NEAR(stiffness[0](2 * p + d, 2 * q + e),
+                      -(above[node].v[d] - below[node].v[d]) / (2. * h),
+                      1e-3 * 3e9);
+        }
+    }
+}
+
+TEST(Beams, HingeKeepsItsMoment)
+{
+  BeamParameters beam = section();
+  beam.points         = { { { 2., 0. } }, { { 4., 0. } } };
+  beam.n_segments     = 2;
+  beam.hinge_moment   = 100.;
+  Model model(beam);
+  model.now().nodes[1].u[1] = -0.01;
+  const double stored       = model.energy();
+  const BeamFields fields   = model.beams->fields(0, model.state);
+  EXPECT_NEAR(fields.moment[1], 100., 1e-9);
+  const double k = beam.modulus * beam.second_moment / 1.;
+  EXPECT_NEAR(fields.plastic[1], 2. * std::atan(0.01) - 100. / k, 1e-12);
+  // By the trapezoidal rule from no moment.
+  EXPECT_NEAR(model.state.energy.plastic, 50. * fields.plastic[1], 1e-9);
+  EXPECT_GT(stored, 0.5 * 100. * 100. / k);
+}
