@@ -220,10 +220,8 @@ namespace quoin
   template <int dim>
   void ExplicitSolver<dim>::update_histories(State<dim> &state)
   {
+    AlignedArray<NodeVector<dim>> unused(state.nodes.size(), NodeVector<dim>{});
     if constexpr (dim == 2)
-    {
-      AlignedArray<NodeVector<2>> unused(state.nodes.size(),
-                                         NodeVector<2>{ { 0., 0. } });
       if (block_contacts)
       {
         state.template get<ContactState>().next_check
@@ -232,10 +230,9 @@ namespace quoin
         block_contacts->update(context, state);
         block_contacts->add_forces(context, state, { unused.data(), nullptr });
       }
-      model.joints().add_forces(state.nodes.data(),
-                                state.template get<JointHistory>(),
-                                state.energy, unused.data());
-    }
+    model.joints().add_forces(state.nodes.data(),
+                              state.template get<JointHistoryOf<dim>>(),
+                              state.energy, unused.data());
     state.energy.plastic += model.blocks().update(
         state.nodes.data(), state.template get<PlasticHistory>());
     model.nodes().exchange().update_ghosts(state.velocity.data());

@@ -104,11 +104,9 @@ namespace quoin
   {
     std::vector<ForceOperator<dim> *> forces, begun;
     if constexpr (dim == 2)
-    {
       if (block_contacts)
         forces.push_back(block_contacts);
-      forces.push_back(&model.joints());
-    }
+    forces.push_back(&model.joints());
     for (NodalLoad<dim> &load : all_loads)
       if (names_load(stage, load.name()))
       {

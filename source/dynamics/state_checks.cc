@@ -99,6 +99,34 @@ namespace quoin
     return motion;
   }
 
+  JointMotion joint_motion(const Model<3> &model, const State<3> &state)
+  {
+    const NodeMap<3> &nodes          = model.nodes();
+    const SpaceJoints &joints        = model.joints();
+    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    JointMotion motion;
+    for (unsigned int i = 0; i < joints.faces().size(); ++i)
+    {
+      const auto &[a, b, c] = joints.faces()[i].lower;
+      const double length
+          = std::max({ nodes.point(a).distance(nodes.point(b)),
+                       nodes.point(b).distance(nodes.point(c)),
+                       nodes.point(c).distance(nodes.point(a)) });
+      const auto gaps = joint_gaps(joints.faces()[i], state.nodes.data());
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const double slip = std::hypot(gaps[k][1], gaps[k][2]);
+        motion.distance
+            = std::max(motion.distance, std::hypot(gaps[k][0], slip));
+        if (history.normal_traction[3 * i + k] < 0.)
+          motion.slip = std::max(motion.slip, slip / length);
+      }
+    }
+    for (double *value : { &motion.slip, &motion.distance })
+      *value = dealii::Utilities::MPI::max(*value, nodes.communicator());
+    return motion;
+  }
+
   namespace
   {
     /** Height of a cell by its longest edge below which its shape is a likely

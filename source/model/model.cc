@@ -20,13 +20,6 @@ namespace quoin
       given(parameters), now{ parameters.materials, {}, parameters.joints }
   {
     const BlockTable<dim> &table = nodes.table();
-    if (dim == 3 && table.n_joint_faces > 0)
-      throw InputError(
-          "section 'Mesh': the mesh has " + std::to_string(table.n_joint_faces)
-          + " joint faces between its blocks, but blocks in three "
-            "dimensions have no joints. Make them one piece: leave "
-            "'Joints along' and 'Joints between' empty, and let "
-            "volumes that touch share their surface.");
     find_materials();
     find_thickness();
     absent_group
@@ -40,6 +33,8 @@ namespace quoin
       matched_joints.prepare(nodes, now.joints, group_thickness);
       make_contacts();
     }
+    else
+      matched_joints.prepare(nodes, now.joints);
     if (!table.is_quadratic)
       find_stable_step();
   }
@@ -168,14 +163,14 @@ namespace quoin
   std::vector<const ForceOperator<dim> *> Model<dim>::stiff_operators() const
   {
     std::vector<const ForceOperator<dim> *> operators = { &block_forces };
+    // Contacts stand for joints, too, which may become contacts.
     if constexpr (dim == 2)
-    {
-      // Contacts stand for joints, too, which may become contacts.
       if (block_contacts)
+      {
         operators.push_back(block_contacts.get());
-      else
-        operators.push_back(&matched_joints);
-    }
+        return operators;
+      }
+    operators.push_back(&matched_joints);
     return operators;
   }
 
@@ -185,9 +180,7 @@ namespace quoin
   {
     std::vector<NodeStiffness<dim>> bound(node_map.n_local(),
                                           NodeStiffness<dim>{});
-    NodeRatio ratio;
-    if constexpr (dim == 2)
-      ratio = spring_ratio(state);
+    const NodeRatio ratio = spring_ratio(state);
     for (const ForceOperator<dim> *each : stiff_operators())
       if (with_springs || each->is_internal())
         each->add_stiffness_bound(state, ratio, bound);
@@ -213,6 +206,13 @@ namespace quoin
   {
     stable_step
         = std::make_unique<StableTimeStep<dim>>(stability_at(initial_state()));
+  }
+
+  template <>
+  NodeRatio Model<3>::spring_ratio(const State<3> &) const
+  {
+    return [this](const unsigned int a, const unsigned int b)
+    { return node_mass[a] / node_mass[b]; };
   }
 
   template <>
@@ -309,12 +309,10 @@ namespace quoin
     }
     state.velocity.assign(node_map.n_local(), NodeVector<dim>{});
     block_forces.prepare(state);
+    matched_joints.prepare(state);
     if constexpr (dim == 2)
-    {
-      matched_joints.prepare(state);
       if (!face_stress.empty())
         initialise_joints(matched_joints, face_stress, state);
-    }
     if (std::find(absent_group.begin(), absent_group.end(), true)
         == absent_group.end())
       return state;

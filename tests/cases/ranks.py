@@ -12,7 +12,8 @@ history and points the ranks share. A block that is distributed over several ran
 without and with joints inside. A static far field, which every rank has as a
 whole, and dashpots that hold what it carried. Blocks placed and excavated, whole
 and divided. A divided block that slides along another one, from a joint that slipped
-on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra. A wall in equilibrium, cracking, to what its iterations leave, by both
+on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra, without and
+with joints. A wall in equilibrium, cracking, to what its iterations leave, by both
 linear solvers; a block that is distributed over 2 and 3 ranks in equilibrium, without
 and with joints inside. A stack of blocks under a load pattern, by both solvers.
 """
@@ -158,6 +159,13 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                    "s.prm"),
                       ["Stages/wave/Damping=Rayleigh",
                        "Stages/wave/Rayleigh stiffness coefficient=1e-6"]),
+            # joints between them that slip, damped
+            "space, joints": (os.path.join(common.VERIFICATION,
+                                           "space_incline", "case.prm"),
+                              ["Stages/slide/Damping=Rayleigh",
+                               "Stages/slide/Rayleigh stiffness "
+                               "coefficient=1e-6",
+                               "Output/Field interval=0.1"]),
             # a load pattern on divided blocks
             "pattern": (COLLAPSE, COLLAPSING),
             "pattern, named": (

@@ -66,6 +66,7 @@ CASES = {
     "hybrid": of_ranks("hybrid", ALL),
     "contacts, divided": of_ranks("contacts, divided", ALL),
     "space": of_ranks("space", ALL),
+    "space, joints": of_ranks("space, joints", ALL),
     "static far field": of_ranks("static far field", ALL),
     "construction": of_ranks("construction", ALL),
     "construction, divided": of_ranks("construction, divided", ALL),

@@ -12,8 +12,8 @@
 
 namespace quoin
 {
-  /** The series blocks, in two dimensions, joints and, of general contacts,
-      contacts. Members are collective. */
+  /** The series blocks, joints and, of general contacts, contacts. Members are
+   * collective. */
   template <int dim>
   class ModelOutput
   {
