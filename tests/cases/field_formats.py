@@ -30,6 +30,7 @@ from quoin import results, vtu  # noqa: E402
 FILL = os.path.join(common.VERIFICATION, "fill", "case.prm")
 CAVITY = os.path.join(common.VERIFICATION, "cavity_step", "case.prm")
 SPACE = os.path.join(common.VERIFICATION, "space_waves", "s.prm")
+INCLINE = os.path.join(common.VERIFICATION, "space_incline", "case.prm")
 # name: parameter file, overrides, ranks, series
 CASES = {
     "sled": (common.SLED, ["Output/Field interval=5e-3"], 1,
@@ -46,6 +47,8 @@ CASES = {
                         "Boundary elements/Passivity frequencies=0"], 1,
                ("boundary", "field")),
     "space on 2 ranks": (SPACE, [], 2, ("blocks",)),
+    "joints in space on 2 ranks": (INCLINE, ["Output/Field interval=0.1"], 2,
+                                   ("blocks", "joints")),
 }
 KINDS = {("Float", "8"): "<f8", ("Int", "4"): "<i4", ("UChar", "1"): "u1"}
 

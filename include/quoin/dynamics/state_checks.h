@@ -63,7 +63,6 @@ namespace quoin
 
   /** Joints of absent blocks do not count. Collective. */
   JointMotion joint_motion(const Model<2> &model, const State<2> &state);
-  /** Without the turn, which is not looked for. */
   JointMotion joint_motion(const Model<3> &model, const State<3> &state);
 } // namespace quoin
 

@@ -22,10 +22,27 @@ def normal(dip, direction):
 a, b = normal(40, 130), normal(60, 220)
 line = np.cross(a, b)
 line *= -np.sign(line[2]) / np.linalg.norm(line)
-on_a, on_b, along = np.linalg.solve(np.transpose([a, b, -line]), [0, 0, 1])
-friction = np.degrees(np.arctan(along / (on_a + on_b)))
-np.savetxt(os.path.join(HERE, "reference.csv"), [[friction, on_a, on_b]],
+
+
+def on_both(weight):
+    """Friction angle [deg] and the normal forces, of a weight that is a vector.
+    """
+    on_a, on_b, along = np.linalg.solve(np.transpose([a, b, -line]), -weight)
+    return np.degrees(np.arctan(along / (on_a + on_b))), on_a, on_b
+
+
+def on_one(weight, plane):
+    across = -weight @ plane
+    return np.degrees(np.arctan(np.linalg.norm(weight + across * plane)
+                                / across))
+
+
+friction, on_a, on_b = on_both(np.array([0, 0, -1.0]))
+# pushed off plane b, which would have to pull
+PUSHED = np.array([-0.3, -0.35, -1.0])
+assert on_both(PUSHED)[2] < 0
+one = on_one(PUSHED, a)
+np.savetxt(os.path.join(HERE, "reference.csv"), [[friction, on_a, on_b, one]],
            delimiter=",", fmt="%.6g", comments="",
            header="friction angle [deg],normal force on a [-],"
-           "normal force on b [-]")
-print("line of intersection, upwards:", -2 * line)
+           "normal force on b [-],pushed off b [deg]")
