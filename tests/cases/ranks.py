@@ -13,7 +13,7 @@ without and with joints inside. A static far field, which every rank has as a
 whole, and dashpots that hold what it carried. Blocks placed and excavated, whole
 and divided. A divided block that slides along another one, from a joint that slipped
 on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra, without and
-with joints. A wall in equilibrium, cracking, to what its iterations leave, by both
+with joints, and with a crack. A wall in equilibrium, cracking, to what its iterations leave, by both
 linear solvers; a block that is distributed over 2 and 3 ranks in equilibrium, without
 and with joints inside. A stack of blocks under a load pattern, by both solvers.
 """
@@ -166,6 +166,11 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                                "Stages/slide/Rayleigh stiffness "
                                "coefficient=1e-6",
                                "Output/Field interval=0.1"]),
+            # a crack inside a block of tetrahedra in several ranks
+            "space, crack": (os.path.join(common.VERIFICATION, "space_crack",
+                                          "case.prm"),
+                             ["Stages/pull/End=time",
+                              "Stages/pull/Duration=0.01"]),
             # a load pattern on divided blocks
             "pattern": (COLLAPSE, COLLAPSING),
             "pattern, named": (

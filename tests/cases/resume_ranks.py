@@ -67,6 +67,7 @@ CASES = {
     "contacts, divided": of_ranks("contacts, divided", ALL),
     "space": of_ranks("space", ALL),
     "space, joints": of_ranks("space, joints", ALL),
+    "space, crack": of_ranks("space, crack", UP),
     "static far field": of_ranks("static far field", ALL),
     "construction": of_ranks("construction", ALL),
     "construction, divided": of_ranks("construction, divided", ALL),
