@@ -67,8 +67,9 @@ namespace quoin
                    "and the strength of these joints.");
     }
 
-    bool is_in_set(const JointNodes<2> &face, const JointSetParameters &set,
-                   const BlockTable<2> &table)
+    template <int dim>
+    bool is_in_set(const JointNodes<dim> &face, const JointSetParameters &set,
+                   const BlockTable<dim> &table)
     {
       return is_among(face.name == 0 ? "unnamed" : table.face_names[face.name],
                       set.curves);
@@ -89,23 +90,29 @@ namespace quoin
     }
 
     /** Diagonal of the box around each block [m]. Collective. */
-    std::vector<double> block_sizes(const NodeMap<2> &nodes)
+    template <int dim>
+    std::vector<double> block_sizes(const NodeMap<dim> &nodes)
     {
       // Upper corners have the other sign, so that one minimum finds both.
       const unsigned int n_blocks = nodes.table().n_blocks();
-      std::vector<double> box(4 * n_blocks, infinity);
+      std::vector<double> box(2 * dim * n_blocks, infinity);
       for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-        for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int d = 0; d < dim; ++d)
         {
-          double *corners = &box[4 * nodes.block_of_node(i) + d];
+          double *corners = &box[2 * dim * nodes.block_of_node(i) + d];
           corners[0]      = std::min(corners[0], nodes.point(i)[d]);
-          corners[2]      = std::min(corners[2], -nodes.point(i)[d]);
+          corners[dim]    = std::min(corners[dim], -nodes.point(i)[d]);
         }
       dealii::Utilities::MPI::min(box, nodes.communicator(), box);
       std::vector<double> sizes;
       for (unsigned int b = 0; b < n_blocks; ++b)
-        sizes.push_back(std::hypot(box[4 * b] + box[4 * b + 2],
-                                   box[4 * b + 1] + box[4 * b + 3]));
+      {
+        double square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square
+              += std::pow(box[2 * dim * b + d] + box[2 * dim * b + dim + d], 2);
+        sizes.push_back(std::sqrt(square));
+      }
       return sizes;
     }
 
@@ -129,17 +136,18 @@ namespace quoin
     };
 
     /** Collective. */
+    template <int dim>
     Neighbours neighbours(const JointSetParameters &set,
                           const std::vector<MaterialParameters> &materials,
-                          const Model<2> &model)
+                          const Model<dim> &model)
     {
       namespace MPI = dealii::Utilities::MPI;
       // Boxes of blocks include the parts on all ranks.
-      const NodeMap<2> &nodes = model.nodes();
-      const auto sizes        = block_sizes(nodes);
+      const NodeMap<dim> &nodes = model.nodes();
+      const auto sizes          = block_sizes(nodes);
       Neighbours result;
       std::vector<double> softest(materials.size(), infinity);
-      for (const JointNodes<2> &face : nodes.faces().joints)
+      for (const JointNodes<dim> &face : nodes.faces().joints)
       {
         if (!is_in_set(face, set, model.nodes().table()))
           continue;
@@ -154,10 +162,11 @@ namespace quoin
           const double young          = materials[material].elastic.young;
           const auto &corners         = nodes.cells().nodes[cell];
           double shortest             = infinity;
-          for (unsigned int k = 0; k < 3; ++k)
-            shortest = std::min(
-                shortest, nodes.point(corners[k])
-                              .distance(nodes.point(corners[(k + 1) % 3])));
+          for (unsigned int k = 0; k <= dim; ++k)
+            for (unsigned int l = 0; l < k; ++l)
+              shortest = std::min(
+                  shortest,
+                  nodes.point(corners[k]).distance(nodes.point(corners[l])));
           result.softest = std::min(result.softest, young);
           result.stiffest_cell
               = std::max(result.stiffest_cell, young / shortest);
@@ -201,7 +210,8 @@ namespace quoin
       return is_soft;
     }
 
-    void check_joints(const Parameters &parameters, const Model<2> &model,
+    template <int dim>
+    void check_joints(const Parameters &parameters, const Model<dim> &model,
                       Advice &advice)
     {
       /** Normal stiffness of joints by E/h of the cells beside. */
@@ -222,24 +232,27 @@ namespace quoin
             = neighbours(set, parameters.model.materials, model);
         checks.warn_if(!beside.exist && !set.curves.empty()
                            && !is_for_later(set, parameters.stages),
-                       "there are none on its curves: they act on nothing. "
-                       "Name the curves in 'Joints along' of section 'Mesh', "
-                       "or remove the set.");
+                       "there are none on its ",
+                       dim == 2 ? "curves: they act on nothing. Name the curves"
+                                : "surfaces: they act on nothing. Name these",
+                       " in 'Joints along' of section 'Mesh', or remove the "
+                       "set.");
         // Where a block is in doubt it is said of the block.
         if (!beside.exist || beside.softest < softest_modulus)
           continue;
         const double kn      = stiffness_bound(set.law)[0];
         const double by_cell = kn / beside.stiffest_cell;
         // For rock joints it is a bound that few of them approach.
-        checks.warn_if(
-            !parameters.is_implicit && !stiffens(set.law)
-                && beside.stiffest_cell > 0. && by_cell > stiff,
-            "the normal stiffness ", kn, " Pa/m is ", by_cell,
-            " times E/h of the smallest triangles beside them: the joints, not "
-            "the blocks, make the time step short, by a factor of about ",
-            std::sqrt(by_cell),
-            ". Unless it was measured take some ten times E/h, ",
-            10. * beside.stiffest_cell, " Pa/m.");
+        checks.warn_if(!parameters.is_implicit && !stiffens(set.law)
+                           && beside.stiffest_cell > 0. && by_cell > stiff,
+                       "the normal stiffness ", kn, " Pa/m is ", by_cell,
+                       " times E/h of the smallest ",
+                       dim == 2 ? "triangles" : "tetrahedra",
+                       " beside them: the joints, not the blocks, make the "
+                       "time step short, by a factor of about ",
+                       std::sqrt(by_cell),
+                       ". Unless it was measured take some ten times E/h, ",
+                       10. * beside.stiffest_cell, " Pa/m.");
         const double by_block = kn / beside.softest_block;
         const double limit    = is_brittle(set.law) ? slow_if_brittle : slow;
         const bool is_block
@@ -271,9 +284,10 @@ namespace quoin
             "the normal stiffness ", kn,
             " Pa/m is less than a thousandth of E/L of the blocks beside "
             "them, ",
-            beside.softest_block,
-            " Pa/m: blocks hardly deform. Check its unit, or make the blocks "
-            "rigid, which takes far fewer steps.");
+            beside.softest_block, " Pa/m: blocks hardly deform. Check its unit",
+            dim == 2
+                ? ", or make the blocks rigid, which takes far fewer steps."
+                : ".");
       }
     }
 
@@ -389,9 +403,9 @@ namespace quoin
       check_initial_stress(model, advice);
     }
     check_materials(parameters, model, advice);
+    check_joints(parameters, model, advice);
     if constexpr (dim == 2)
     {
-      check_joints(parameters, model, advice);
       if (!parameters.is_implicit)
         check_contacts(model, advice);
       check_rigid_blocks(model, largest_gravity(parameters), advice);

@@ -250,33 +250,26 @@ namespace quoin
   template <int dim>
   void ExplicitSolver<dim>::update_histories(State<dim> &state)
   {
+    AlignedArray<NodeVector<dim>> unused(state.nodes.size(), NodeVector<dim>{});
     if constexpr (dim == 2)
     {
-      AlignedArray<NodeVector<2>> unused(state.nodes.size(),
-                                         NodeVector<2>{ { 0., 0. } });
+      const StepContext context = step_context(state, stage, time_step);
+      const NodeForces<2> forces{ unused.data(), nullptr };
       if (block_contacts)
       {
         state.template get<ContactState>().next_check
             = -1; // search nothing to look
-        const StepContext context = step_context(state, stage, time_step);
         block_contacts->update(context, state);
-        block_contacts->add_forces(context, state, { unused.data(), nullptr });
+        block_contacts->add_forces(context, state, forces);
       }
-      model.joints().add_forces(state.nodes.data(),
-                                state.template get<JointHistory>(),
-                                state.energy, unused.data());
       if (all_beams)
-        all_beams->add_forces(step_context(state, stage, time_step), state,
-                              { unused.data(), nullptr });
-    }
-    if constexpr (dim == 2)
+        all_beams->add_forces(context, state, forces);
       if (!model.reinforcement().empty())
-      {
-        AlignedArray<NodeVector<2>> unused(state.nodes.size(),
-                                           NodeVector<2>{ { 0., 0. } });
-        model.reinforcement().add_forces(step_context(state, stage, time_step),
-                                         state, { unused.data(), nullptr });
-      }
+        model.reinforcement().add_forces(context, state, forces);
+    }
+    model.joints().add_forces(state.nodes.data(),
+                              state.template get<JointHistoryOf<dim>>(),
+                              state.energy, unused.data());
     state.energy.plastic += model.blocks().update(
         state.nodes.data(), state.template get<PlasticHistory>());
     model.nodes().exchange().update_ghosts(state.velocity.data());

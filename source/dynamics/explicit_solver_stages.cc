@@ -143,10 +143,11 @@ namespace quoin
   {
     std::vector<ForceOperator<dim> *> forces, begun;
     if constexpr (dim == 2)
-    {
       if (block_contacts)
         forces.push_back(block_contacts);
-      forces.push_back(&model.joints());
+    forces.push_back(&model.joints());
+    if constexpr (dim == 2)
+    {
       if (!model.reinforcement().empty())
         forces.push_back(&model.reinforcement());
       if (all_beams)

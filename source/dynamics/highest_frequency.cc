@@ -106,10 +106,9 @@ namespace quoin
         for (unsigned int tile = 0; tile < model.blocks().n_tiles(); ++tile)
           model.blocks().add_viscous_forces(tile, state.nodes.data(),
                                             velocity.data(), 1., force.data());
-        if constexpr (dim == 2)
-          if (contacts.empty())
-            model.joints().add_elastic_forces(state.nodes.data(),
-                                              velocity.data(), force.data());
+        if (contacts.empty())
+          model.joints().add_elastic_forces(state.nodes.data(), velocity.data(),
+                                            force.data());
         nodes.exchange().add_to_owners(force.data());
         if constexpr (dim == 2)
           for (unsigned int i = 0; i < nodes.n_owned() && !contacts.empty();

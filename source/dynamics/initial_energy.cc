@@ -38,21 +38,13 @@ namespace quoin
     EnergyAccounts lost;
     lost.plastic      = model.blocks().update(moving.nodes.data(),
                                               moving.template get<PlasticHistory>());
-    const auto stored = [&](const State<dim> &s)
-    {
-      double energy = model.blocks().stored_energy(s);
-      if constexpr (dim == 2)
-        energy += model.joints().stored_energy(s);
-      return energy;
+    const auto stored = [&](const State<dim> &s) {
+      return model.blocks().stored_energy(s) + model.joints().stored_energy(s);
     };
-    if constexpr (dim == 2)
-    {
-      AlignedArray<NodeVector<2>> unused(state.nodes.size(),
-                                         NodeVector<2>{ { 0., 0. } });
-      model.joints().add_forces(moving.nodes.data(),
-                                moving.template get<JointHistory>(), lost,
-                                unused.data());
-    }
+    AlignedArray<NodeVector<dim>> unused(state.nodes.size(), NodeVector<dim>{});
+    model.joints().add_forces(moving.nodes.data(),
+                              moving.template get<JointHistoryOf<dim>>(), lost,
+                              unused.data());
     double energy = stored(moving) - stored(rest) + lost.friction
                     + lost.fracture + lost.crushing + lost.plastic;
     for (unsigned int i = 0; i < nodes.n_deformable_nodes(); ++i)

@@ -79,8 +79,7 @@ namespace quoin
 
     const State<dim> rest = model.initial_state();
     model.blocks().add_stored_energy(rest, stored_at_start);
-    if constexpr (dim == 2)
-      model.joints().add_stored_energy(rest, stored_at_start);
+    model.joints().add_stored_energy(rest, stored_at_start);
     sum_accounts(stored_at_start);
   }
 

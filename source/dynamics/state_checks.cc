@@ -101,6 +101,81 @@ namespace quoin
 
   namespace
   {
+    /** Mean rotation of each block of the whole mesh: the orthogonal part of
+        the sum of x X^T over its nodes, about their centres. Collective. */
+    std::vector<dealii::Tensor<2, 3>> block_turns(const NodeMap<3> &nodes,
+                                                  const State<3> &state)
+    {
+      // A block has 16 sums: of 1, X, x and x X^T over its nodes.
+      constexpr unsigned int n = 16;
+      std::vector<double> sums(n * nodes.table().n_blocks(), 0.);
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      {
+        const auto &[X, u] = state.nodes[i];
+        double *sum        = &sums[n * nodes.block_of_node(i)];
+        ++sum[0];
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          sum[1 + d] += X[d];
+          sum[4 + d] += X[d] + u[d];
+          for (unsigned int e = 0; e < 3; ++e)
+            sum[7 + 3 * d + e] += (X[d] + u[d]) * X[e];
+        }
+      }
+      dealii::Utilities::MPI::sum(sums, nodes.communicator(), sums);
+      std::vector<dealii::Tensor<2, 3>> turns(nodes.table().n_blocks());
+      for (unsigned int b = 0; b < turns.size(); ++b)
+      {
+        const double *sum = &sums[n * b];
+        dealii::Tensor<2, 3> moment;
+        for (unsigned int d = 0; d < 3; ++d)
+          for (unsigned int e = 0; e < 3; ++e)
+            moment[d][e]
+                = sum[7 + 3 * d + e] - sum[4 + d] * sum[1 + e] / sum[0];
+        turns[b] = project_onto_orthogonal_tensors(moment);
+      }
+      return turns;
+    }
+  } // namespace
+
+  JointMotion joint_motion(const Model<3> &model, const State<3> &state)
+  {
+    const auto turns                 = block_turns(model.nodes(), state);
+    const NodeMap<3> &nodes          = model.nodes();
+    const SpaceJoints &joints        = model.joints();
+    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    JointMotion motion;
+    for (unsigned int i = 0; i < joints.faces().size(); ++i)
+    {
+      const auto &sides = nodes.faces().joints[joints.faces()[i].face].blocks;
+      // The skew part of the relative rotation has the sine of its angle.
+      const auto turn = turns[sides[1]] * transpose(turns[sides[0]]);
+      motion.turn
+          = std::max(motion.turn,
+                     std::atan2((turn - transpose(turn)).norm() / std::sqrt(2.),
+                                trace(turn) - 1.));
+      const auto &[a, b, c] = joints.faces()[i].lower;
+      const double length
+          = std::max({ nodes.point(a).distance(nodes.point(b)),
+                       nodes.point(b).distance(nodes.point(c)),
+                       nodes.point(c).distance(nodes.point(a)) });
+      const auto gaps = joint_gaps(joints.faces()[i], state.nodes.data());
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const double slip = std::hypot(gaps[k][1], gaps[k][2]);
+        motion.distance
+            = std::max(motion.distance, std::hypot(gaps[k][0], slip));
+        if (history.normal_traction[3 * i + k] < 0.)
+          motion.slip = std::max(motion.slip, slip / length);
+      }
+    }
+    for (double *value : { &motion.slip, &motion.distance, &motion.turn })
+      *value = dealii::Utilities::MPI::max(*value, nodes.communicator());
+    return motion;
+  }
+
+  namespace
+  {
     /** Height of a cell by its longest edge below which its shape is a likely
         reason that it fails [-]; 0.87 of an equilateral triangle. */
     constexpr double thin = 0.1;

@@ -2,8 +2,6 @@
 // Copyright (C) 2026 The quoin authors
 
 #include <quoin/operators/archive.h>
-#include <quoin/base/exceptions.h>
-#include <quoin/base/nearest_name.h>
 #include <quoin/joint_elements/matched_joints.h>
 #include <quoin/joints/composite_lanes.h>
 #include <quoin/joints/coulomb_lanes.h>
@@ -11,66 +9,12 @@
 #include <algorithm>
 
 #include "joint_frame.h"
+#include "joint_sets.h"
 #include <quoin/joint_elements/joint_points.h>
 #include "segment_lanes.h"
 
 namespace quoin
 {
-  namespace
-  {
-    constexpr unsigned int no_set = -1;
-
-    /** The joint set of each line name of the mesh. */
-    std::vector<unsigned int>
-    sets_of_lines(const std::vector<std::string> &names,
-                  const std::vector<JointSetParameters> &sets)
-    {
-      std::vector<unsigned int> set_of_line(names.size(), no_set);
-      for (unsigned int s = 0; s < sets.size(); ++s)
-        for (const std::string &curve : sets[s].curves)
-        {
-          const std::string name = curve == "unnamed" ? "" : curve;
-          const auto line        = std::find(names.begin(), names.end(), name);
-          if (line == names.end())
-            throw InputError("section 'Joints/" + sets[s].name
-                             + "': the mesh has no physical curve '" + curve
-                             + "'. It has: " + known_names_like(curve, names)
-                             + ". Correct 'Curves'.");
-          auto &set = set_of_line[line - names.begin()];
-          if (set != no_set)
-            throw InputError("section 'Joints/" + sets[s].name + "': curve '"
-                             + curve + "' belongs to the set '" + sets[set].name
-                             + "' already. Name it once.");
-          set = s;
-        }
-      return set_of_line;
-    }
-
-    /** Throws an InputError if a joint face is on a line without set; @p
-       number: the first of this rank. Collective. */
-    void refuse_without_set(const NodeMap<2> &nodes, const unsigned int number)
-    {
-      const unsigned int first
-          = dealii::Utilities::MPI::min(number, nodes.communicator());
-      if (first == nodes.faces().n_global_joints)
-        return;
-      // Both ranks of a face know the same of it.
-      std::vector<unsigned int> known(3, 0);
-      for (const JointNodes<2> &face : nodes.faces().joints)
-        if (face.number == first)
-          known = { face.name, face.groups[0], face.groups[1] };
-      dealii::Utilities::MPI::max(known, nodes.communicator(), known);
-      const auto &groups     = nodes.table().group_names;
-      const std::string line = "'" + nodes.table().face_names[known[0]] + "'";
-      throw InputError((known[0] == 0 ? std::string("a joint on no named curve")
-                                      : "the joint on curve " + line)
-                       + " between groups '" + groups[known[1]] + "' and '"
-                       + groups[known[2]] + "' belongs to no joint set. Add "
-                       + (known[0] == 0 ? "'unnamed'" : line)
-                       + " to the 'Curves' of a set in section 'Joints'.");
-    }
-  } // namespace
-
   void MatchedJoints::prepare(const NodeMap<2> &nodes,
                               const std::vector<JointSetParameters> &sets,
                               const Thickness &group_thickness)
@@ -80,14 +24,14 @@ namespace quoin
     set_laws(sets);
     all_segments.clear();
     const BlockTable<2> &table = nodes.table();
-    const auto set_of_line     = sets_of_lines(table.face_names, sets);
+    const auto set_of_name     = sets_of_names<2>(table.face_names, sets);
     // The first face without set of all ranks is the one that is named.
     unsigned int without_set = nodes.faces().n_global_joints;
     for (unsigned int f = 0; f < nodes.faces().joints.size(); ++f)
     {
       const JointNodes<2> &face = nodes.faces().joints[f];
-      const unsigned int set    = set_of_line[face.name];
-      if (set == no_set)
+      const unsigned int set    = set_of_name[face.name];
+      if (set == no_joint_set)
       {
         without_set = std::min(without_set, face.number);
         continue;

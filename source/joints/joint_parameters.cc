@@ -54,7 +54,8 @@ namespace quoin
     void enter_places(ParameterEntries &entries, JointSetParameters &set)
     {
       entries.list("Curves", set.curves,
-                   "Physical curves of the mesh whose joints form this set; "
+                   "Physical curves of the mesh, in three dimensions surfaces, "
+                   "whose joints form this set; "
                    "empty: the curve that bears the set's name; 'unnamed': "
                    "joints on no named curve; 'none': no joint at the start "
                    "of the run, for sets that only stages assign.");

@@ -20,13 +20,6 @@ namespace quoin
       given(parameters), now{ parameters.materials, {}, parameters.joints }
   {
     const BlockTable<dim> &table = nodes.table();
-    if (dim == 3 && table.n_joint_faces > 0)
-      throw InputError(
-          "section 'Mesh': the mesh has " + std::to_string(table.n_joint_faces)
-          + " joint faces between its blocks, but blocks in three "
-            "dimensions have no joints. Make them one piece: leave "
-            "'Joints along' and 'Joints between' empty, and let "
-            "volumes that touch share their surface.");
     find_materials();
     find_thickness();
     absent_group
@@ -41,6 +34,8 @@ namespace quoin
       bars.prepare(nodes, given.cables, group_thickness, block_forces);
       make_contacts();
     }
+    else
+      matched_joints.prepare(nodes, now.joints);
     if (!table.is_quadratic)
       find_stable_step();
   }
@@ -179,6 +174,8 @@ namespace quoin
       if (!bars.empty())
         operators.push_back(&bars);
     }
+    else
+      operators.push_back(&matched_joints);
     return operators;
   }
 
@@ -188,9 +185,7 @@ namespace quoin
   {
     std::vector<NodeStiffness<dim>> bound(node_map.n_local(),
                                           NodeStiffness<dim>{});
-    NodeRatio ratio;
-    if constexpr (dim == 2)
-      ratio = spring_ratio(state);
+    const NodeRatio ratio = spring_ratio(state);
     for (const ForceOperator<dim> *each : stiff_operators())
       if (with_springs || each->is_internal())
         each->add_stiffness_bound(state, ratio, bound);
@@ -216,6 +211,13 @@ namespace quoin
   {
     stable_step
         = std::make_unique<StableTimeStep<dim>>(stability_at(initial_state()));
+  }
+
+  template <>
+  NodeRatio Model<3>::spring_ratio(const State<3> &) const
+  {
+    return [this](const unsigned int a, const unsigned int b)
+    { return node_mass[a] / node_mass[b]; };
   }
 
   template <>
@@ -312,9 +314,9 @@ namespace quoin
     }
     state.velocity.assign(node_map.n_local(), NodeVector<dim>{});
     block_forces.prepare(state);
+    matched_joints.prepare(state);
     if constexpr (dim == 2)
     {
-      matched_joints.prepare(state);
       bars.prepare(state);
       if (!face_stress.empty())
         initialise_joints(matched_joints, face_stress, state);

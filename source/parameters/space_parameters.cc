@@ -47,6 +47,24 @@ namespace quoin
       }
     }
 
+    void check_joints(const Parameters &parameters, const Refusals &refusals)
+    {
+      for (const JointSetParameters &set : parameters.model.joints)
+      {
+        const std::string section = "section 'Joints/" + set.name + "': ";
+        refusals.refuse_if(!works_in_space(set.law), section + "this 'Law'",
+                           "Take 'Coulomb', 'elastic', 'no tension', "
+                           "'composite' or 'slip weakening'.");
+        refusals.refuse_if(set.damping.acts(), section + "a dashpot",
+                           "Leave the damping of joints out, or damp the stage "
+                           "by 'Damping = Rayleigh' with a stiffness "
+                           "coefficient.");
+        refusals.refuse_if(set.all_new_contacts || !set.new_contacts.empty(),
+                           section + "'New contacts between'",
+                           "Leave it empty.");
+      }
+    }
+
     void check_loads(const Parameters &parameters, const Refusals &refusals)
     {
       for (const LoadParameters &load : parameters.loads)
@@ -74,6 +92,9 @@ namespace quoin
                            "Leave them empty.");
         refusals.refuse_if(stage.strength_factor != 1.,
                            section + "'Strength factor'", "Leave it at 1.");
+        refusals.refuse_if(stage.reset.slips || stage.reset.joint_states,
+                           section + "'Reset' of slips or joint states",
+                           "Reset 'displacements' alone.");
         refusals.refuse_if(bool(stage.safety), section + "a factor of safety",
                            "Take another 'End'.");
       }
@@ -93,10 +114,6 @@ namespace quoin
     refusals.refuse_if(parameters.model.large_displacements,
                        "section 'Contact': 'Displacements = large'",
                        "Take 'small'.");
-    refusals.refuse_if(!parameters.model.joints.empty(),
-                       "section 'Joints': 'Names'",
-                       "Leave it empty: blocks in three dimensions have no "
-                       "joints.");
     refusals.refuse_if(parameters.water.flow != FlowKind::none,
                        "section 'Water': 'Flow'", "Take 'none'.");
     refusals.refuse_if(!parameters.model.cables.empty(),
@@ -109,6 +126,7 @@ namespace quoin
                        "section 'Output': 'Measure bandwidth = yes'",
                        "Take 'no'.");
     check_materials(parameters, refusals);
+    check_joints(parameters, refusals);
     check_loads(parameters, refusals);
     check_stages(parameters, refusals);
   }

@@ -194,28 +194,26 @@ namespace quoin
   {
     /** Turn of blocks at which small displacements tell nothing [rad]. */
     constexpr double absurd = dealii::numbers::PI / 4.;
-    if constexpr (dim == 2)
-    {
-      if (system.model->parameters().large_displacements)
-        return;
-      const JointMotion now = joint_motion(*system.model, state);
-      context.joint_motion.take_larger(now);
-      const double diagonal = system.nodes->table().diagonal();
-      if (now.turn <= absurd && now.distance <= diagonal)
-        return;
-      fail(text_of(
-          now.turn > absurd
-              ? text_of("blocks that share a joint have turned by ",
-                        degrees(now.turn), " degrees against each other")
-              : text_of("joints have moved apart by ", now.distance,
-                        " m, more than the diagonal of the model, ", diagonal,
-                        " m"),
-          ", found at time ", state.time, " s, step ", state.step,
-          ": small displacements leave blocks where they are, so that nothing "
-          "after the first degrees means anything. Take 'Displacements = "
-          "large' in section 'Contact', or end the stage before by 'End "
-          "conditions'."));
-    }
+    if (system.model->parameters().large_displacements)
+      return;
+    const JointMotion now = joint_motion(*system.model, state);
+    context.joint_motion.take_larger(now);
+    const double diagonal = system.nodes->table().diagonal();
+    if (now.turn <= absurd && now.distance <= diagonal)
+      return;
+    fail(text_of(
+        now.turn > absurd
+            ? text_of("blocks that share a joint have turned by ",
+                      degrees(now.turn), " degrees against each other")
+            : text_of("joints have moved apart by ", now.distance,
+                      " m, more than the diagonal of the model, ", diagonal,
+                      " m"),
+        ", found at time ", state.time, " s, step ", state.step,
+        ": small displacements leave blocks where they are, so that nothing "
+        "after the first degrees means anything. ",
+        dim == 2 ? "Take 'Displacements = large' in section 'Contact', or end "
+                 : "End ",
+        "the stage before by 'End conditions'."));
   }
 
   template <int dim>
@@ -228,11 +226,13 @@ namespace quoin
     constexpr double most_turn = 5. * dealii::numbers::PI / 180.;
     const JointMotion &motion  = context.joint_motion;
     if (motion.slip > most_slip)
-      log.warning("stage ", stage.name, ": joints have slipped by up to ",
-                  100. * motion.slip,
-                  " % of the edges that touch, but small displacements leave "
-                  "blocks where they are: areas and neighbours no longer hold. "
-                  "Take 'Displacements = large' in section 'Contact'.");
+      log.warning(
+          "stage ", stage.name, ": joints have slipped by up to ",
+          100. * motion.slip,
+          " % of the edges that touch, but small displacements leave "
+          "blocks where they are: areas and neighbours no longer hold. ",
+          dim == 2 ? "Take 'Displacements = large' in section 'Contact'."
+                   : "End the stage before by 'End conditions'.");
     if (motion.turn > most_turn)
       log.warning("stage ", stage.name,
                   ": blocks that share a joint have "

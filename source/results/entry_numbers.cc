@@ -39,11 +39,16 @@ namespace quoin
         for (const ContactEdge &edge : contacts->contact_edges().own())
           edges.push_back(edge.number);
       }
+    }
 
-      List &segments = result.own[JointHistory::slice_name];
-      for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
-        segments.push_back(
-            nodes.faces().joints[model.joints().segments()[i].face].number);
+    /** Numbers of the faces @p joints of this rank, in their order. */
+    template <int dim, typename Joints>
+    List numbers_of(const NodeMap<dim> &nodes, const Joints &joints)
+    {
+      List result;
+      for (const auto &joint : joints)
+        result.push_back(nodes.faces().joints[joint.face].number);
+      return result;
     }
   } // namespace
 
@@ -67,7 +72,14 @@ namespace quoin
          part < nodes.blocks().parts.size(); ++part)
       blocks.push_back(nodes.blocks().parts[part].number);
     if constexpr (dim == 2)
+    {
       number_plane_entries(model, solver, result);
+      result.own[JointHistory::slice_name]
+          = numbers_of(nodes, model.joints().segments());
+    }
+    else
+      result.own[SpaceJointHistory::slice_name]
+          = numbers_of(nodes, model.joints().faces());
     return result;
   }
 

@@ -166,6 +166,65 @@ namespace quoin
     return fields;
   }
 
+  SpaceJointFields joint_fields(const Model<3> &model, const State<3> &state)
+  {
+    SpaceJointFields fields;
+    const SpaceJoints &joints        = model.joints();
+    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    const auto *origin               = state.find<ResultOrigin<3>>();
+    const bool is_moved              = origin && !origin->displacement.empty();
+    for (const std::string &name : joints.law_field_names())
+      fields.of_laws.push_back({ name, {} });
+    for (unsigned int i = 0; i < joints.faces().size(); ++i)
+    {
+      const SpaceJointFace &face = joints.faces()[i];
+      // A joint between two ranks is written by the rank of its lower side.
+      if (!model.nodes().faces().joints[face.face].is_own[0])
+        continue;
+      const SpaceJointFrame frame = joint_frame(face, state.nodes.data());
+      const auto gaps             = joint_gaps(face, state.nodes.data());
+      const auto in_plane         = [&](const double s, const double t)
+      {
+        SpaceJointFields::Vector result;
+        for (unsigned int d = 0; d < 3; ++d)
+          result[d] = s * frame.s[d] + t * frame.t[d];
+        return result;
+      };
+      fields.joint_set.push_back(face.set);
+      fields.normal.push_back({ { frame.n[0], frame.n[1], frame.n[2] } });
+      fields.area.push_back(3. * face.area);
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const unsigned int p   = 3 * i + k;
+        const NodeRecord<3> &a = state.nodes[face.lower[k]];
+        const NodeRecord<3> &b = state.nodes[face.upper[k]];
+        SpaceJointFields::Vector X, u, earlier{};
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          if (is_moved)
+            earlier[d] = 0.5
+                         * (origin->displacement[face.lower[k]].v[d]
+                            + origin->displacement[face.upper[k]].v[d]);
+          X[d] = 0.5 * (a.X[d] + b.X[d]) + earlier[d];
+          u[d] = 0.5 * (a.u[d] + b.u[d]) - earlier[d];
+        }
+        fields.position.push_back(X);
+        fields.displacement.push_back(u);
+        if (is_moved)
+          fields.earlier_displacement.push_back(earlier);
+        fields.opening.push_back(gaps[k][0]);
+        fields.slip.push_back(in_plane(gaps[k][1], gaps[k][2]));
+        fields.normal_traction.push_back(history.normal_traction[p]);
+        fields.shear_traction.push_back(in_plane(
+            history.shear_traction[2 * p], history.shear_traction[2 * p + 1]));
+        for (auto &[name, values] : fields.of_laws)
+          values.push_back(joints.law_field(name, p, history));
+        fields.state.push_back(history.state[p]);
+      }
+    }
+    return fields;
+  }
+
   JointFields contact_fields(const MatchedJoints &joints,
                              const BlockContacts &contacts,
                              const State<2> &state)
@@ -259,6 +318,17 @@ namespace quoin
       for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
         if (faces[model.joints().segments()[i].face].is_own[0])
           bytes += of_joint + 2. * of_joint_point;
+    }
+    else
+    {
+      const double of_joint_point
+          = (2 + 1 + 3 + 1 + 3) * 8 + 8 * 3 + 1
+            + 8 * model.joints().law_field_names().size();
+      constexpr double of_joint = 1 + 4 + 4 * 8 + 3 * 4 + 4 + 1;
+      const auto &faces         = model.nodes().faces().joints;
+      for (const SpaceJointFace &face : model.joints().faces())
+        if (faces[face.face].is_own[0])
+          bytes += of_joint + 3. * of_joint_point;
     }
     return dealii::Utilities::MPI::sum(bytes, model.nodes().communicator());
   }

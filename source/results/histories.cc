@@ -199,6 +199,26 @@ namespace quoin
       }
     }
 
+    /** Considers joint points on surface @p name; on all if it is empty. */
+    void consider_joint_points(const Model<3> &model, const std::string &name,
+                               Nearest<3> &nearest)
+    {
+      const NodeMap<3> &nodes = model.nodes();
+      const auto &faces       = model.joints().faces();
+      for (unsigned int i = 0; i < faces.size(); ++i)
+      {
+        const JointNodes<3> &face = nodes.faces().joints[faces[i].face];
+        if (!name.empty() && nodes.table().face_names[face.name] != name)
+          continue;
+        dealii::Point<3> centroid;
+        for (const unsigned int node : face.lower)
+          centroid += nodes.point(node) / 3.;
+        for (unsigned int k = 0; k < 3; ++k)
+          nearest.consider(nodes.point(face.lower[k]), 3 * i + k,
+                           [&] { return Nearest<3>::place(0., centroid); });
+      }
+    }
+
     /** Considers joint points on @p curve; on all curves if it is empty. */
     void consider_joint_points(const Model<2> &model, const std::string &curve,
                                Nearest<2> &nearest)
@@ -355,9 +375,10 @@ namespace quoin
       consider_cells(model, nearest);
       break;
     case HistoryQuantity::joint:
-      if constexpr (dim == 2)
-        consider_joint_points(model, wanted.curve, nearest);
+      consider_joint_points(model, wanted.curve, nearest);
       break;
+    case HistoryQuantity::joint_force:
+      return find_surface(probe);
     case HistoryQuantity::reaction:
     case HistoryQuantity::platen_displacement:
     case HistoryQuantity::platen_force:
@@ -394,6 +415,21 @@ namespace quoin
     }
     probe.entity = nearest.entity;
     find_owner(probe, nearest.key);
+  }
+
+  template <int dim>
+  void Histories<dim>::find_surface(const Probe &probe) const
+  {
+    const std::string &name = probe.parameters.curve;
+    unsigned int n          = 0;
+    for (const JointNodes<dim> &face : model.nodes().faces().joints)
+      if (name.empty() || model.nodes().table().face_names[face.name] == name)
+        n = 1;
+    if (dealii::Utilities::MPI::max(n, communicator) == 0)
+      throw InputError("section 'Histories/" + probe.parameters.name
+                       + "': there is no joint"
+                       + (name.empty() ? "" : " on a surface '" + name + "'")
+                       + " in the model. Correct 'Curve' or 'Quantity'.");
   }
 
   template <int dim>
@@ -505,6 +541,8 @@ namespace quoin
     default:
       break;
     }
+    if (wanted.quantity == HistoryQuantity::joint)
+      return joint_value(probe, state);
     if constexpr (dim == 2)
       switch (wanted.quantity)
       {
@@ -512,8 +550,6 @@ namespace quoin
         return rotation(probe.entity, state) / constants::degree;
       case HistoryQuantity::yielding:
         return yield_value(probe, state);
-      case HistoryQuantity::joint:
-        return joint_value(probe, state);
       default:
         break;
       }
@@ -570,6 +606,59 @@ namespace quoin
   }
 
   template <>
+  double Histories<3>::joint_value(const Probe &probe,
+                                   const State<3> &state) const
+  {
+    const unsigned int p             = probe.entity;
+    const unsigned int component     = probe.parameters.component;
+    const SpaceJoints &joints        = model.joints();
+    const SpaceJointFace &face       = joints.faces()[p / 3];
+    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    const SpaceJointGap gap = joint_gaps(face, state.nodes.data())[p % 3];
+    switch (component)
+    {
+    case 0:
+      return gap[0];
+    case 1:
+      return std::hypot(gap[1], gap[2]);
+    case 2:
+      return history.normal_traction[p];
+    case 3:
+      return std::hypot(history.shear_traction[2 * p],
+                        history.shear_traction[2 * p + 1]);
+    case 4:
+      return static_cast<double>(history.state[p]);
+    case 5:
+    case 6:
+      return joints.law_field(component == 5 ? "damage" : "crushing", p,
+                              history);
+    default:
+    {
+      const SpaceJointFrame frame = joint_frame(face, state.nodes.data());
+      return gap[1] * frame.s[component - 7] + gap[2] * frame.t[component - 7];
+    }
+    }
+  }
+
+  template <>
+  double Histories<3>::joint_force(const Probe &probe,
+                                   const State<3> &state) const
+  {
+    const SpaceJoints &joints = model.joints();
+    const std::string &name   = probe.parameters.curve;
+    double force              = 0.;
+    for (unsigned int i = 0; i < joints.faces().size(); ++i)
+    {
+      const SpaceJointFace &face = joints.faces()[i];
+      const auto &joint          = model.nodes().faces().joints[face.face];
+      if (name.empty() || model.nodes().table().face_names[joint.name] == name)
+        force += face.share
+                 * joints.force_on_upper(i, state)[probe.parameters.component];
+    }
+    return force;
+  }
+
+  template <>
   double Histories<2>::open_length(const State<2> &state) const
   {
     const auto &segments        = model.joints().segments();
@@ -604,13 +693,15 @@ namespace quoin
     case HistoryQuantity::rotation:
       return { model.nodes().blocks().block_of_cell(probe.entity) };
     case HistoryQuantity::joint:
+    {
+      unsigned int face;
       if constexpr (dim == 2)
-      {
-        const auto &segment = model.joints().segments()[probe.entity / 2];
-        const auto &blocks  = model.nodes().faces().joints[segment.face].blocks;
-        return { blocks.begin(), blocks.end() };
-      }
-      return {};
+        face = model.joints().segments()[probe.entity / 2].face;
+      else
+        face = model.joints().faces()[probe.entity / 3].face;
+      const auto &blocks = model.nodes().faces().joints[face].blocks;
+      return { blocks.begin(), blocks.end() };
+    }
     default:
       return {};
     }
@@ -794,7 +885,7 @@ namespace quoin
       if (probe.here && probe.parameters.quantity == HistoryQuantity::velocity)
         row[1 + i] = 0.5 * (row[1 + i] + point_value(probe, state));
       if (probe.here && probe.parameters.quantity == HistoryQuantity::joint
-          && probe.parameters.component >= 2)
+          && probe.parameters.component >= 2 && probe.parameters.component < 7)
         row[1 + i] = point_value(probe, state);
     }
     for (unsigned int i = 0; i < n_columns; ++i)
@@ -806,6 +897,10 @@ namespace quoin
       for (unsigned int i = 0; i < n_columns; ++i)
         if (probes[i].parameters.quantity == HistoryQuantity::open_joints)
           row[1 + i] = open_length(state);
+    if constexpr (dim == 3)
+      for (unsigned int i = 0; i < n_columns; ++i)
+        if (probes[i].parameters.quantity == HistoryQuantity::joint_force)
+          row[1 + i] = joint_force(probes[i], state);
     const double time          = row[0];
     std::vector<double> result = row;
     // All ranks have platen displacements, one rank has a point.

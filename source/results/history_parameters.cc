@@ -50,13 +50,19 @@ namespace quoin
         { "yielding", { Q::yielding, 0, "-" } },
         { "plastic shear strain", { Q::yielding, 1, "-" } },
         { "rotation", { Q::rotation, 0, "deg" } },
-        { "joint opening", { Q::joint, 0, "m" } },
-        { "joint slip", { Q::joint, 1, "m" } },
-        { "joint normal traction", { Q::joint, 2, "Pa" } },
-        { "joint shear traction", { Q::joint, 3, "Pa" } },
-        { "joint state", { Q::joint, 4, "-" } },
-        { "joint damage", { Q::joint, 5, "-" } },
-        { "joint crushing", { Q::joint, 6, "m" } },
+        { "joint opening", { Q::joint, 0, "m", 0 } },
+        { "joint slip", { Q::joint, 1, "m", 0 } },
+        { "joint normal traction", { Q::joint, 2, "Pa", 0 } },
+        { "joint shear traction", { Q::joint, 3, "Pa", 0 } },
+        { "joint state", { Q::joint, 4, "-", 0 } },
+        { "joint damage", { Q::joint, 5, "-", 0 } },
+        { "joint crushing", { Q::joint, 6, "m", 0 } },
+        { "joint slip x", { Q::joint, 7, "m", 3 } },
+        { "joint slip y", { Q::joint, 8, "m", 3 } },
+        { "joint slip z", { Q::joint, 9, "m", 3 } },
+        { "joint force x", { Q::joint_force, 0, "N", 3 } },
+        { "joint force y", { Q::joint_force, 1, "N", 3 } },
+        { "joint force z", { Q::joint_force, 2, "N", 3 } },
         { "joint water pressure", { Q::joint, 7, "Pa" } },
         { "joint hydraulic aperture", { Q::joint, 8, "m" } },
         { "joint flow", { Q::joint, 9, "m^3/s" } },
@@ -138,7 +144,12 @@ namespace quoin
           "energy share' is the kinetic energy divided by the energy "
           "throughput. 'joint damage' is the fraction of tensile strength and "
           "cohesion that a composite law has lost, 'joint crushing' the "
-          "plastic displacement on its cap. 'joint flow' is the flow of water "
+          "plastic displacement on its cap. In three dimensions 'joint slip' "
+          "and "
+          "'joint shear traction' are magnitudes, 'joint slip x' and the like "
+          "components of the slip of the upper side, and 'joint force x' and "
+          "the like the force on the upper sides of all joints on 'Curve'. "
+          "'joint flow' is the flow of water "
           "along the face of a joint, positive to the right, or upwards in a "
           "vertical one, 'joint flow velocity' its mean over the aperture. "
           "'contacts' is the number of "
@@ -227,7 +238,9 @@ namespace quoin
       entries.text(
           "Curve", history.curve,
           "Physical curve on which the nearest joint point of joint quantities "
-          "is searched, with empty for all curves; or the name of the boundary "
+          "is searched, or over which joint forces are summed, with empty for "
+          "all; a physical surface in three dimensions; or the name of the "
+          "boundary "
           "in 'Boundary elements' of boundary forces and moments.");
       if (entries.reads_if(history.is_of_block()))
         entries.text("Block", history.block,

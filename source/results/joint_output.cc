@@ -89,4 +89,42 @@ namespace quoin
                        { "length", 1, length } };
     write_grid(std::move(grid));
   }
+
+  void JointOutput::write(const double time, const SpaceJointFields &fields)
+  {
+    const std::size_t n_points = fields.position.size();
+    VtuGrid grid;
+    grid.time      = time;
+    grid.dimension = 3;
+    grid.cell_type = VtuCellType::triangle;
+    grid.points    = flat(fields.position);
+    std::vector<std::uint8_t> point_state(n_points), face_state;
+    for (std::size_t i = 0; i < n_points; ++i)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        grid.points[3 * i + d] += fields.displacement[i][d];
+      grid.cells.push_back(static_cast<std::int32_t>(i));
+      point_state[i] = static_cast<std::uint8_t>(fields.state[i]);
+    }
+    for (std::size_t p = 0; p < n_points; p += 3)
+      face_state.push_back(static_cast<std::uint8_t>(worst(
+          worst(fields.state[p], fields.state[p + 1]), fields.state[p + 2])));
+
+    grid.point_data = { { "displacement", 3, flat(fields.displacement) },
+                        { "opening", 1, fields.opening },
+                        { "slip", 3, flat(fields.slip) },
+                        { "normal traction", 1, fields.normal_traction },
+                        { "shear traction", 3, flat(fields.shear_traction) },
+                        { "point state", 1, point_state } };
+    if (!fields.earlier_displacement.empty())
+      grid.point_data.push_back(
+          { "earlier displacement", 3, flat(fields.earlier_displacement) });
+    for (const auto &[name, values] : fields.of_laws)
+      grid.point_data.push_back({ name, 1, values });
+    grid.cell_data = { { "state", 1, face_state },
+                       { "joint set", 1, fields.joint_set },
+                       { "normal", 3, flat(fields.normal) },
+                       { "area", 1, fields.area } };
+    write_grid(std::move(grid));
+  }
 } // namespace quoin

@@ -23,8 +23,7 @@ namespace quoin
   void ModelOutput<dim>::start()
   {
     blocks.start();
-    if constexpr (dim == 2)
-      joints.start();
+    joints.start();
     if (solver.contacts())
       contacts.start();
     if (!model.reinforcement().empty())
@@ -40,9 +39,9 @@ namespace quoin
     State<dim> now = state;
     solver.update_histories(now);
     blocks.write(time, block_fields(model, now));
+    joints.write(time, joint_fields(model, now));
     if constexpr (dim == 2)
     {
-      joints.write(time, joint_fields(model, now));
       if (const BlockContacts *all = solver.contacts())
         contacts.write(time, contact_fields(model.joints(), *all, now));
       if (!model.reinforcement().empty())

@@ -79,6 +79,43 @@ def water_balance(case, folder, output, histories):
                          for name, values in flows.items())}
 
 
+def space_joint_fields(case, folder, output, histories):
+    """joints.pvd of a joint of tetrahedra in uniform stress: all points have the
+    opening, slip and tractions of the reference, all faces its normal, and
+    their areas add up to the resultant."""
+    table, _ = read_table(os.path.join(folder, "reference.csv"))
+    force = np.array([table["force_" + c][-1] for c in "xyz"])
+    slip = np.array([table["slip_" + c][-1] for c in "xyz"])
+    normal = np.array([-0.2, -1 / 16, 1])
+    normal /= np.linalg.norm(normal)
+    shear = table["shear"][-1] / table["slip"][-1] * slip
+    grid = vtu.read_at(os.path.join(output, "joints.pvd"))
+    if grid.cells.shape[1] != 3 or len(grid.points) != 3 * len(grid.cells):
+        raise Failure("joints.pvd has no triangles of three points each")
+    corners = grid.points[grid.cells]
+    across = np.cross(corners[:, 1] - corners[:, 0],
+                      corners[:, 2] - corners[:, 0])
+    data, faces = grid.point_data, grid.cell_data
+    tractions = (data["normal traction"][:, None] * normal
+                 + data["shear traction"]).reshape(-1, 3, 3).mean(axis=1)
+    resultant = -(faces["area"][:, None] * tractions).sum(axis=0)
+
+    def error(values, wanted):
+        return float(np.max(np.abs(values - wanted))
+                     / np.max(np.abs(wanted)))
+
+    if np.any(faces["state"]) or np.any(data["point state"]):
+        raise Failure("joints.pvd has joints that are not intact")
+    return {"joint fields": max(
+        error(data["opening"], table["opening"][-1]),
+        error(data["slip"], slip),
+        error(data["normal traction"], table["normal"][-1]),
+        error(data["shear traction"], shear),
+        error(faces["normal"], normal),
+        error(across / 2, faces["area"][:, None] * normal),
+        error(resultant, force))}
+
+
 def reset_results(case, folder, output, histories):
     """The run once more without 'Reset': all columns but those that it resets
     ("reset"), and energies, are the same bit by bit. And the residual of the

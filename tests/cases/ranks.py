@@ -12,8 +12,9 @@ history and points the ranks share. A block that is distributed over several ran
 without and with joints inside. A static far field, which every rank has as a
 whole, and dashpots that hold what it carried. Blocks placed and excavated, whole
 and divided. A divided block that slides along another one, from a joint that slipped
-on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra. Bars
-through divided blocks, by both solvers. A wall in equilibrium, cracking, to what its
+on, without and with dashpots; impacts of whole blocks on dashpots. Tetrahedra, without and
+with joints, and with a crack. Bars through
+divided blocks, by both solvers. A wall in equilibrium, cracking, to what its
 iterations leave, by both linear solvers; water in a joint by both solvers; a block that
 is distributed over 2 and 3 ranks in equilibrium, without
 and with joints inside. A stack of blocks under a load pattern, by both solvers.
@@ -173,6 +174,18 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             # with pretension, slip of a bond under pressure, and dowels
             "bars": (BARS, ["Solver=explicit"]),
             "implicit, bars": (BARS, []),
+            # joints between them that slip, damped
+            "space, joints": (os.path.join(common.VERIFICATION,
+                                           "space_incline", "case.prm"),
+                              ["Stages/slide/Damping=Rayleigh",
+                               "Stages/slide/Rayleigh stiffness "
+                               "coefficient=1e-6",
+                               "Output/Field interval=0.1"]),
+            # a crack inside a block of tetrahedra in several ranks
+            "space, crack": (os.path.join(common.VERIFICATION, "space_crack",
+                                          "case.prm"),
+                             ["Stages/pull/End=time",
+                              "Stages/pull/Duration=0.01"]),
             # a load pattern on divided blocks
             "pattern": (COLLAPSE, COLLAPSING),
             "pattern, named": (

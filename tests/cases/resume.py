@@ -43,6 +43,10 @@ CASES = {
     # tetrahedra and dashpots
     "space": (os.path.join(common.VERIFICATION, "space_waves", "s.prm"),
               ["Output/Checkpoint interval=0.02"], 2, 2),
+    "space, joints": (os.path.join(common.VERIFICATION, "space_incline",
+                                   "case.prm"),
+                      ["Output/Checkpoint interval=0.02",
+                       "Output/Field interval=0.1"], 2, 2),
     # the factor of a load pattern, past its peak
     "pattern": (os.path.join(common.VERIFICATION, "collapse_load",
                              "softening.prm"),

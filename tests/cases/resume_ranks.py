@@ -68,6 +68,8 @@ CASES = {
     "space": of_ranks("space", ALL),
     "bars": of_ranks("bars", ALL),
     "implicit, bars": of_ranks("implicit, bars", UP),
+    "space, joints": of_ranks("space, joints", ALL),
+    "space, crack": of_ranks("space, crack", UP),
     "static far field": of_ranks("static far field", ALL),
     "construction": of_ranks("construction", ALL),
     "construction, divided": of_ranks("construction, divided", ALL),

@@ -108,6 +108,8 @@ def failed_run(quoin, case, folder):
     """A run that fails in its second stage: the tables are whole, and from the
     checkpoint it fails in the same way."""
     prm = prepare(folder, case.get("edit"))
+    if "prm" in case:
+        prm = os.path.join(folder, case["prm"])
     output = os.path.join(folder, "output")
     words = [quoin, prm, "--quiet", "--output", output] + settings(case)
     status, printed = run(words)

@@ -63,6 +63,7 @@ namespace quoin
 
   /** Joints of absent blocks do not count. Collective. */
   JointMotion joint_motion(const Model<2> &model, const State<2> &state);
+  JointMotion joint_motion(const Model<3> &model, const State<3> &state);
 } // namespace quoin
 
 #endif

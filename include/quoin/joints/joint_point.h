@@ -156,6 +156,8 @@ namespace quoin
     static constexpr bool is_brittle = false;
     /** Whether stiffnesses grow with the pressure, from less than the bound. */
     static constexpr bool stiffens = false;
+    /** Whether it has points of three dimensions, whose slip is a vector. */
+    static constexpr bool has_slip_vector = true;
     /** Whether a joint that is open may bear tension. */
     static constexpr bool bridges = false;
 

@@ -198,8 +198,9 @@ namespace quoin
     template <int dim>
     using Point = typename PlanePoint<dim>::type;
 
-    static constexpr const char *kind = "a law of rock joints";
-    static constexpr bool stiffens    = true;
+    static constexpr const char *kind     = "a law of rock joints";
+    static constexpr bool stiffens        = true;
+    static constexpr bool has_slip_vector = false;
 
     /** Updates @p point for @p opening and @p slip [m]. */
     JointDissipation update(RockPoint &point, const double opening,

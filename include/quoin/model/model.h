@@ -9,6 +9,7 @@
 #include <quoin/operators/state.h>
 #include <quoin/contact/block_contacts.h>
 #include <quoin/joint_elements/joint_changes.h>
+#include <quoin/joint_elements/space_joints.h>
 #include <quoin/blocks/block_cells.h>
 #include <quoin/blocks/stable_time_step.h>
 #include <quoin/blocks/rigid_blocks.h>
@@ -63,9 +64,9 @@ namespace quoin
    * for what set_properties() changes. Nodes and cells have the local numbers
    * of a NodeMap.
    *
-   * In three dimensions blocks are deformable and linear elastic and have no
-   * joints: joints(), rigid_blocks() and what deals with contacts, stages of
-   * construction and initial stress belong to two dimensions.
+   * In three dimensions blocks are deformable and linear elastic:
+   * rigid_blocks() and what deals with contacts, stages of construction and
+   * initial stress belong to two dimensions.
    */
   template <int dim>
   class Model
@@ -125,11 +126,11 @@ namespace quoin
     {
       return rigid;
     }
-    const MatchedJoints &joints() const
+    const JointsOf<dim> &joints() const
     {
       return matched_joints;
     }
-    MatchedJoints &joints()
+    JointsOf<dim> &joints()
     {
       return matched_joints;
     }
@@ -209,17 +210,20 @@ namespace quoin
     std::vector<JointFaceStress> face_stress;
     BlockForces<dim> block_forces;
     RigidBlocks rigid;
-    MatchedJoints matched_joints;
+    JointsOf<dim> matched_joints;
     Reinforcement bars;
     std::unique_ptr<BlockContacts> block_contacts;
     std::unique_ptr<StableTimeStep<dim>> stable_step;
   };
 
+  template <>
+  NodeRatio Model<2>::spring_ratio(const State<2> &state) const;
+  template <>
+  NodeRatio Model<3>::spring_ratio(const State<3> &state) const;
+
   // Members that exist in two dimensions only.
   template <>
   void Model<2>::make_contacts();
-  template <>
-  NodeRatio Model<2>::spring_ratio(const State<2> &state) const;
   template <>
   void Model<2>::add_dashpot_bound(std::vector<NodeStiffness<2>> &bound,
                                    std::vector<double> &rigid_bound) const;

@@ -35,6 +35,7 @@ namespace quoin
    * after Solver::update_histories().
    */
   JointFields joint_fields(const Model<2> &model, const State<2> &state);
+  SpaceJointFields joint_fields(const Model<3> &model, const State<3> &state);
 
   /** Fields of the general contacts of this rank, for the same state. */
   JointFields contact_fields(const MatchedJoints &joints,

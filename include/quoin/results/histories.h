@@ -103,6 +103,9 @@ namespace quoin
     double value_of_two(const Probe &probe, const double *values) const;
     /** Length of open joints that this rank counts [m]. */
     double open_length(const State<2> &state) const;
+    /** Throws an InputError if no joint is where @p probe sums forces;
+        collective. */
+    void find_surface(const Probe &probe) const;
     /** Finds the load whose reaction or motion @p probe records. */
     void find_load(Probe &probe) const;
     /** Finds the rank of the nearest point; @p key: that of this rank. */
@@ -114,9 +117,11 @@ namespace quoin
     std::vector<unsigned int> about_absent(const State<dim> &state) const;
     /** The blocks at the point of @p probe, which is on this rank. */
     std::vector<unsigned int> blocks_of(const Probe &probe) const;
-    double joint_value(const Probe &probe, const State<2> &state) const;
     double cable_value(const HistoryParameters &wanted,
                        const State<dim> &state) const;
+    double joint_value(const Probe &probe, const State<dim> &state) const;
+    /** Share of this rank of the force on the upper sides of joints [N]. */
+    double joint_force(const Probe &probe, const State<3> &state) const;
     double yield_value(const Probe &probe, const State<2> &state) const;
     /** Adds the columns of boundary elements. */
     void add_boundary_values(const State<dim> &state,
@@ -149,10 +154,17 @@ namespace quoin
     std::vector<double> origin;
   };
 
-  // Members that exist in two dimensions only.
   template <>
   double Histories<2>::joint_value(const Probe &probe,
                                    const State<2> &state) const;
+  template <>
+  double Histories<3>::joint_value(const Probe &probe,
+                                   const State<3> &state) const;
+  template <>
+  double Histories<3>::joint_force(const Probe &probe,
+                                   const State<3> &state) const;
+
+  // Members that exist in two dimensions only.
   template <>
   double Histories<2>::open_length(const State<2> &state) const;
   template <>

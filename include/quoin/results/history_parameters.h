@@ -23,6 +23,7 @@ namespace quoin
     yielding,
     rotation,
     joint,
+    joint_force, /**< of all joints on a surface, in three dimensions */
     reaction,
     platen_displacement,
     platen_force,

@@ -42,6 +42,30 @@ namespace quoin
     std::vector<std::uint8_t> handed_over;
   };
 
+  /** JointFields of faces in three dimensions: face f has the points 3 f to
+      3 f + 2, slips and shear tractions are vectors in the fixed axes. */
+  struct SpaceJointFields
+  {
+    using Vector = std::array<double, 3>;
+
+    std::vector<Vector> position; /**< reference [m] */
+    /** mean displacement of both sides [m] */
+    std::vector<Vector> displacement;
+    /** Displacement before the last reset; may be empty [m]. */
+    std::vector<Vector> earlier_displacement;
+    std::vector<double> opening; /**< [m] */
+    std::vector<Vector> slip;    /**< of the upper by the lower side [m] */
+    std::vector<double> normal_traction; /**< [Pa] */
+    std::vector<Vector> shear_traction;  /**< on the lower side [Pa] */
+    /** Fields of the joint laws, by name: JointField. */
+    std::vector<std::pair<std::string, std::vector<double>>> of_laws;
+    std::vector<JointState> state;
+    // One entry for each face.
+    std::vector<std::int32_t> joint_set;
+    std::vector<Vector> normal; /**< from the lower to the upper side */
+    std::vector<double> area;   /**< in the mesh [m^2] */
+  };
+
   /**
    * The state shown for a face whose points are in the states @p a and @p b:
    * open before slipping before slipped before intact.
@@ -49,9 +73,9 @@ namespace quoin
   JointState worst(const JointState a, const JointState b);
 
   /**
-   * The series joints.pvd: a line for each joint face, in the middle of the
-   * current positions of its two sides. The displacement of that middle is
-   * point data and gives the reference position, see BlockOutput.
+   * The series joints.pvd: a line, or triangle, for each joint face, in the
+   * middle of the current positions of its two sides. The displacement of that
+   * middle is point data and gives the reference position, see BlockOutput.
    */
   class JointOutput : public FieldSeries
   {
@@ -63,6 +87,7 @@ namespace quoin
 
     /** Collective. Writes the fields of the time @p time [s]. */
     void write(const double time, const JointFields &fields);
+    void write(const double time, const SpaceJointFields &fields);
   };
 } // namespace quoin
 

@@ -14,8 +14,8 @@
 
 namespace quoin
 {
-  /** The series blocks, in two dimensions, joints and, if there are any,
-      contacts of general contacts, cables and beams. Members are collective. */
+  /** The series blocks, joints and, if there are any, contacts of general
+      contacts, cables and beams. Members are collective. */
   template <int dim>
   class ModelOutput
   {

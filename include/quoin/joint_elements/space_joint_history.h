@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joint_elements_space_joint_history_h
+#define quoin_joint_elements_space_joint_history_h
+
+#include <quoin/joints/joint_history.h>
+#include <quoin/joints/joint_point.h>
+
+#include <array>
+#include <type_traits>
+
+namespace quoin
+{
+  /**
+   * What JointHistory is in two dimensions: histories of the points of
+   * SpaceJoints, three of each face. Shear tractions and slips have two
+   * components, along the tangents of the face.
+   */
+  struct SpaceJointHistory
+  {
+    static constexpr const char *slice_name = "joints in space";
+
+    AlignedArray<double> normal_traction; /**< [Pa] */
+    AlignedArray<double> shear_traction;  /**< two of each point [Pa] */
+    AlignedArray<double> plastic_slip;    /**< two of each point [m] */
+    AlignedArray<double> plastic_opening; /**< dilation, offsets [m] */
+    /** Internal variables of the laws; those that none has are empty. */
+    std::array<AlignedArray<double>, JointHistory::most_internal> internal;
+    AlignedArray<JointState> state;
+
+    /** For @p n points with @p n_internal internal variables. */
+    void resize(const std::size_t n, const unsigned int n_internal = 0)
+    {
+      for (unsigned int i = 0; i < n_internal; ++i)
+        internal[i].resize(n, 0.);
+      normal_traction.resize(n, 0.);
+      shear_traction.resize(2 * n, 0.);
+      plastic_slip.resize(2 * n, 0.);
+      plastic_opening.resize(n, 0.);
+      state.resize(n, JointState::intact);
+    }
+
+    template <typename Visitor>
+    void visit(Visitor &visitor)
+    {
+      visitor.own(normal_traction, 3);
+      visitor.own(shear_traction, 6);
+      visitor.own(plastic_slip, 6);
+      visitor.own(plastic_opening, 3);
+      for (AlignedArray<double> &variable : internal)
+        visitor.own(variable, 3);
+      visitor.own(state, 3);
+    }
+
+    template <typename Archive>
+    void serialize(Archive &archive, const unsigned int)
+    {
+      archive_members(archive, *this);
+    }
+  };
+
+  template <typename Law>
+  using SpacePointOf = typename std::decay_t<Law>::template Point<3>;
+
+  template <typename Law>
+  SpacePointOf<Law> read_point(const Law &, const SpaceJointHistory &history,
+                               const unsigned int p)
+  {
+    using Point = SpacePointOf<Law>;
+    Point point;
+    point.normal_traction = history.normal_traction[p];
+    point.plastic_opening = history.plastic_opening[p];
+    point.state           = history.state[p];
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      point.shear_traction[d] = history.shear_traction[2 * p + d];
+      point.plastic_slip[d]   = history.plastic_slip[2 * p + d];
+    }
+    for (unsigned int i = 0; i < Point::internal.size(); ++i)
+      point.*Point::internal[i] = history.internal[i][p];
+    return point;
+  }
+
+  template <typename Point>
+  void write_point(const Point &point, SpaceJointHistory &history,
+                   const unsigned int p)
+  {
+    history.normal_traction[p] = point.normal_traction;
+    history.plastic_opening[p] = point.plastic_opening;
+    history.state[p]           = point.state;
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      history.shear_traction[2 * p + d] = point.shear_traction[d];
+      history.plastic_slip[2 * p + d]   = point.plastic_slip[d];
+    }
+    for (unsigned int i = 0; i < Point::internal.size(); ++i)
+      history.internal[i][p] = point.*Point::internal[i];
+  }
+} // namespace quoin
+
+#endif

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#ifndef quoin_joint_elements_space_joints_h
+#define quoin_joint_elements_space_joints_h
+
+#include <quoin/joint_elements/matched_joints.h>
+#include <quoin/joint_elements/space_joint_history.h>
+
+#include <deal.II/base/tensor.h>
+
+#include <array>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace quoin
+{
+  /** A joint face of this rank in three dimensions. */
+  struct SpaceJointFace
+  {
+    std::array<unsigned int, 3> lower, upper; /**< local nodes */
+    double area; /**< area of each of its points, a third of its own [m^2] */
+    float share; /**< fraction of the energy that this rank counts */
+    unsigned int set;
+    unsigned int face; /**< index into LocalFaces::joints */
+  };
+
+  /**
+   * The frame of a joint face and how it turns. Its plane is that of the mean
+   * of both sides, with the edges E1 and E2 from its first vertex:
+   * normal n along E1 x E2, from the lower to the upper side, tangents s along
+   * E1 and t = n x s.
+   */
+  struct SpaceJointFrame
+  {
+    dealii::Tensor<1, 3> n, s, t;
+    double length;       /**< of E1 [m] */
+    double along, above; /**< E2 = along s + above t [m] */
+  };
+
+  SpaceJointFrame joint_frame(const SpaceJointFace &face,
+                              const NodeRecord<3> *nodes);
+
+  /** Opening, and slip along s and t [m]. */
+  using SpaceJointGap = std::array<double, 3>;
+
+  /** Opening and slip of the three points of @p face. */
+  std::array<SpaceJointGap, 3> joint_gaps(const SpaceJointFace &face,
+                                          const NodeRecord<3> *nodes);
+
+  /**
+   * The zero-thickness joints of MatchedJoints in three dimensions: between
+   * coincident faces of two blocks, or of the two lips of a crack.
+   *
+   * Each joint face is a triangle with a contact point at each vertex, which
+   * has a third of the area of the mesh (nodal quadrature, as in two
+   * dimensions). Opening and the two components of slip are those of the upper
+   * vertex's displacement relative to the lower one in the frame of the face,
+   * which turns with it: see SpaceJointFrame. Forces are minus the derivative
+   * of the energy, the rotation of the frame included. Point k of face i has
+   * history entry 3 i + k.
+   *
+   * A face between blocks of two ranks is computed by both, from the same
+   * numbers; each then counts half of its energy.
+   */
+  class SpaceJoints : public ForceOperator<3>
+  {
+  public:
+    /**
+     * Takes the joint faces of @p nodes. Throws an InputError about a joint
+     * face that belongs to no set, or a surface named by two sets.
+     */
+    void prepare(const NodeMap<3> &nodes,
+                 const std::vector<JointSetParameters> &sets);
+
+    const char *kind() const override
+    {
+      return "joints";
+    }
+
+    /** Intact points, free of traction. */
+    void prepare(State<3> &state) const override;
+
+    void add_forces(const StepContext &step, State<3> &state,
+                    const NodeForces<3> &forces) override;
+
+    /** Recoverable energy [J] of this rank's share of the joints. */
+    double stored_energy(const State<3> &state) const;
+    void add_stored_energy(const State<3> &state,
+                           EnergyAccounts &energies) const override
+    {
+      energies.joint += stored_energy(state);
+    }
+
+    void add_stiffness_bound(
+        const State<3> &state, const NodeRatio &ratio,
+        std::vector<NodeStiffness<3>> &stiffness) const override;
+
+    const std::vector<SpaceJointFace> &faces() const
+    {
+      return all_faces;
+    }
+    unsigned int n_points() const
+    {
+      return 3 * all_faces.size();
+    }
+    /** The law of each set. */
+    const std::vector<JointLaw> &laws() const
+    {
+      return all_laws;
+    }
+
+    /**
+     * Updates the internal variables for the positions in @p nodes, adds the
+     * joint forces to @p force and the dissipation to @p energy.
+     */
+    void add_forces(const NodeRecord<3> *nodes, SpaceJointHistory &history,
+                    EnergyAccounts &energy, NodeVector<3> *force) const;
+
+    /** Adds the stiffness-proportional damping forces of points that neither
+        slip nor are open: beta kn, beta ks times the rates [Pa]. */
+    void add_viscous_forces(const NodeRecord<3> *nodes,
+                            const SpaceJointHistory &history,
+                            const NodeVector<3> *velocity, double beta,
+                            NodeVector<3> *force) const;
+
+    /**
+     * Adds the forces [N] of intact joints that are as stiff as they can become
+     * to @p force, for nodes displaced by @p displacement [m] from @p nodes.
+     */
+    void add_elastic_forces(const NodeRecord<3> *nodes,
+                            const NodeVector<3> *displacement,
+                            NodeVector<3> *force) const;
+
+    /** Adds the forces [N] on the upper side by the tractions of face @p i. */
+    dealii::Tensor<1, 3> force_on_upper(unsigned int i,
+                                        const State<3> &state) const;
+
+    /** Names of the quantities of the laws for results; see JointField. */
+    std::vector<std::string> law_field_names() const;
+    /** The quantity @p name of point @p p; 0 if its law has none. */
+    double law_field(const std::string &name, unsigned int p,
+                     const SpaceJointHistory &history) const;
+
+  private:
+    /** add_forces() of a set. */
+    template <typename Law>
+    void add_set_forces(unsigned int set, const Law &law,
+                        const NodeRecord<3> *nodes, SpaceJointHistory &history,
+                        EnergyAccounts &energy, NodeVector<3> *force) const;
+
+    std::vector<SpaceJointFace> all_faces; /**< sorted by set */
+    std::vector<JointLaw> all_laws;
+    std::vector<unsigned int> set_begin; /**< first face of each set */
+  };
+
+  /** The joints of a model, and their history. */
+  template <int dim>
+  using JointsOf = std::conditional_t<dim == 2, MatchedJoints, SpaceJoints>;
+  template <int dim>
+  using JointHistoryOf
+      = std::conditional_t<dim == 2, JointHistory, SpaceJointHistory>;
+} // namespace quoin
+
+#endif

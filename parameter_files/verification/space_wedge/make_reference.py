@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Copyright (C) 2026 The quoin authors
+"""Limit equilibrium of a wedge on two planes without cohesion.
+
+R_A n_A + R_B n_B - T l = W z with the upward normals and the line of
+intersection l, downwards; it slides where T = (R_A + R_B) tan(phi).
+"""
+import os
+
+import numpy as np
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+def normal(dip, direction):
+    dip, direction = np.radians([dip, direction])
+    return np.array([np.sin(dip) * np.sin(direction),
+                     np.sin(dip) * np.cos(direction), np.cos(dip)])
+
+
+a, b = normal(40, 130), normal(60, 220)
+line = np.cross(a, b)
+line *= -np.sign(line[2]) / np.linalg.norm(line)
+
+
+def on_both(weight):
+    """Friction angle [deg] and the normal forces, of a weight that is a vector.
+    """
+    on_a, on_b, along = np.linalg.solve(np.transpose([a, b, -line]), -weight)
+    return np.degrees(np.arctan(along / (on_a + on_b))), on_a, on_b
+
+
+def on_one(weight, plane):
+    across = -weight @ plane
+    return np.degrees(np.arctan(np.linalg.norm(weight + across * plane)
+                                / across))
+
+
+friction, on_a, on_b = on_both(np.array([0, 0, -1.0]))
+# pushed off plane b, which would have to pull
+PUSHED = np.array([-0.3, -0.35, -1.0])
+assert on_both(PUSHED)[2] < 0
+one = on_one(PUSHED, a)
+np.savetxt(os.path.join(HERE, "reference.csv"), [[friction, on_a, on_b, one]],
+           delimiter=",", fmt="%.6g", comments="",
+           header="friction angle [deg],normal force on a [-],"
+           "normal force on b [-],pushed off b [deg]")

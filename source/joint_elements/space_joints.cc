@@ -1,0 +1,437 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 The quoin authors
+
+#include <quoin/joint_elements/joint_points.h>
+#include <quoin/joint_elements/space_joints.h>
+#include <quoin/operators/archive.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "joint_sets.h"
+
+namespace quoin
+{
+  namespace
+  {
+    using Vector = dealii::Tensor<1, 3>;
+
+    /** Calls @p use with the law of its own type, which works in space. */
+    template <typename Use>
+    void visit_law(const Use &use, const JointLaw &law)
+    {
+      std::visit(
+          [&](const auto &own)
+          {
+            if constexpr (std::decay_t<decltype(own)>::has_slip_vector)
+              use(own);
+          },
+          law);
+    }
+
+    Vector vector_of(const NodeVector<3> &node)
+    {
+      return Vector({ node.v[0], node.v[1], node.v[2] });
+    }
+
+    /** From the position of @p a to that of @p b. Differences of X and of u
+        are taken apart, so that small displacements keep their digits. */
+    Vector between(const NodeRecord<3> &a, const NodeRecord<3> &b)
+    {
+      Vector result;
+      for (unsigned int d = 0; d < 3; ++d)
+        result[d] = (b.X[d] - a.X[d]) + (b.u[d] - a.u[d]);
+      return result;
+    }
+
+    Vector gap_vector(const SpaceJointFace &face, const NodeRecord<3> *nodes,
+                      const unsigned int k)
+    {
+      return between(nodes[face.lower[k]], nodes[face.upper[k]]);
+    }
+
+    SpaceJointGap components(const SpaceJointFrame &frame, const Vector &gap)
+    {
+      return { { gap * frame.n, gap * frame.s, gap * frame.t } };
+    }
+
+    Vector traction_vector(const SpaceJointFrame &frame, const double normal,
+                           const Slip<3> &shear)
+    {
+      return normal * frame.n + shear[0] * frame.s + shear[1] * frame.t;
+    }
+
+    /** How fast @p frame turns as its nodes move with @p velocity [1/s]. */
+    Vector rotation_rate(const SpaceJointFace &face,
+                         const SpaceJointFrame &frame,
+                         const NodeVector<3> *velocity)
+    {
+      const auto edge = [&](const unsigned int k)
+      {
+        return 0.5
+               * (vector_of(velocity[face.lower[k]])
+                  - vector_of(velocity[face.lower[0]])
+                  + vector_of(velocity[face.upper[k]])
+                  - vector_of(velocity[face.upper[0]]));
+      };
+      const Vector v1 = edge(1), v2 = edge(2);
+      const double about_t = -(v1 * frame.n) / frame.length;
+      return (v2 * frame.n + about_t * frame.along) / frame.above * frame.s
+             + about_t * frame.t + v1 * frame.t / frame.length * frame.n;
+    }
+
+    void add(const Vector &f, NodeVector<3> &node)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        node.v[d] += f[d];
+    }
+
+    /**
+     * Subtracts from the nodes of both sides what the rotation of the frame
+     * adds to the derivative of the energy: @p couple [N m], the derivative by
+     * the rotation, times that of the rotation by the nodes, which is that of
+     * rotation_rate().
+     */
+    void subtract_couple(const SpaceJointFace &face,
+                         const SpaceJointFrame &frame, const Vector &couple,
+                         NodeVector<3> *force)
+    {
+      const double lift = couple * frame.s / frame.above;
+      const Vector f2   = -0.5 * lift * frame.n;
+      const Vector f1   = 0.5 / frame.length
+                        * ((couple * frame.t + lift * frame.along) * frame.n
+                           - couple * frame.n * frame.t);
+      for (const auto &side : { face.lower, face.upper })
+      {
+        add(-f1 - f2, force[side[0]]);
+        add(f1, force[side[1]]);
+        add(f2, force[side[2]]);
+      }
+    }
+
+    /** Adds the forces of @p face whose points k have the force f(k, gap), on
+        the lower side, and the couple of the frame. */
+    template <typename Force>
+    void add_face_forces(const SpaceJointFace &face,
+                         const SpaceJointFrame &frame,
+                         const NodeRecord<3> *nodes, const Force &f,
+                         NodeVector<3> *force)
+    {
+      Vector couple;
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const Vector gap = gap_vector(face, nodes, k);
+        const Vector own = f(k, gap);
+        couple += cross_product_3d(own, gap);
+        add(own, force[face.lower[k]]);
+        add(-own, force[face.upper[k]]);
+      }
+      subtract_couple(face, frame, couple, force);
+    }
+
+    /** add_face_forces() of springs @p stiffness (k), normal and shear, per
+        area [Pa s/m] on rates. */
+    template <typename Stiffness>
+    void add_rate_forces(const SpaceJointFace &face, const NodeRecord<3> *nodes,
+                         const NodeVector<3> *velocity,
+                         const Stiffness &stiffness, NodeVector<3> *force)
+    {
+      const SpaceJointFrame frame = joint_frame(face, nodes);
+      const Vector turn           = rotation_rate(face, frame, velocity);
+      add_face_forces(
+          face, frame, nodes,
+          [&](const unsigned int k, const Vector &gap)
+          {
+            const auto [kn, ks] = stiffness(k);
+            const Vector rate   = vector_of(velocity[face.upper[k]])
+                                - vector_of(velocity[face.lower[k]])
+                                - cross_product_3d(turn, gap);
+            const double opening = rate * frame.n;
+            return face.area * ((kn - ks) * opening * frame.n + ks * rate);
+          },
+          force);
+    }
+  } // namespace
+
+  SpaceJointFrame joint_frame(const SpaceJointFace &face,
+                              const NodeRecord<3> *nodes)
+  {
+    const auto edge = [&](const unsigned int k)
+    {
+      return 0.5
+             * (between(nodes[face.lower[0]], nodes[face.lower[k]])
+                + between(nodes[face.upper[0]], nodes[face.upper[k]]));
+    };
+    const Vector e1 = edge(1), e2 = edge(2);
+    SpaceJointFrame frame;
+    frame.length = e1.norm();
+    frame.s      = e1 / frame.length;
+    frame.n      = cross_product_3d(e1, e2);
+    frame.n /= frame.n.norm();
+    frame.t     = cross_product_3d(frame.n, frame.s);
+    frame.along = e2 * frame.s;
+    frame.above = e2 * frame.t;
+    return frame;
+  }
+
+  std::array<SpaceJointGap, 3> joint_gaps(const SpaceJointFace &face,
+                                          const NodeRecord<3> *nodes)
+  {
+    const SpaceJointFrame frame = joint_frame(face, nodes);
+    std::array<SpaceJointGap, 3> gaps;
+    for (unsigned int k = 0; k < 3; ++k)
+      gaps[k] = components(frame, gap_vector(face, nodes, k));
+    return gaps;
+  }
+
+  void SpaceJoints::prepare(const NodeMap<3> &nodes,
+                            const std::vector<JointSetParameters> &sets)
+  {
+    all_laws.clear();
+    for (const JointSetParameters &set : sets)
+      all_laws.push_back(set.law);
+    all_faces.clear();
+    const auto set_of_name = sets_of_names<3>(nodes.table().face_names, sets);
+    // The first face without set of all ranks is the one that is named.
+    unsigned int without_set = nodes.faces().n_global_joints;
+    for (unsigned int f = 0; f < nodes.faces().joints.size(); ++f)
+    {
+      const JointNodes<3> &joint = nodes.faces().joints[f];
+      const unsigned int set     = set_of_name[joint.name];
+      if (set == no_joint_set)
+      {
+        without_set = std::min(without_set, joint.number);
+        continue;
+      }
+      const auto edge = [&](const unsigned int k)
+      { return nodes.point(joint.lower[k]) - nodes.point(joint.lower[0]); };
+      SpaceJointFace face;
+      face.lower = joint.lower;
+      face.upper = joint.upper;
+      face.area  = cross_product_3d(edge(1), edge(2)).norm() / 6.;
+      face.share = 0.5f * (joint.is_own[0] + joint.is_own[1]);
+      face.set   = set;
+      face.face  = f;
+      all_faces.push_back(face);
+    }
+    refuse_without_set(nodes, without_set);
+    std::stable_sort(all_faces.begin(), all_faces.end(),
+                     [](const SpaceJointFace &a, const SpaceJointFace &b)
+                     { return a.set < b.set; });
+    set_begin.assign(1, 0);
+    for (unsigned int s = 0; s < sets.size(); ++s)
+      set_begin.push_back(std::partition_point(all_faces.begin(),
+                                               all_faces.end(),
+                                               [s](const SpaceJointFace &a)
+                                               { return a.set <= s; })
+                          - all_faces.begin());
+  }
+
+  void SpaceJoints::prepare(State<3> &state) const
+  {
+    if (state.find<SpaceJointHistory>())
+      return;
+    unsigned int most = 0;
+    for (const JointLaw &law : all_laws)
+      most = std::max(most, n_internal(law));
+    SpaceJointHistory &history = state.add<SpaceJointHistory>();
+    history.resize(n_points(), most);
+    for (unsigned int p = 0; p < n_points(); ++p)
+      visit_law([&](const auto &law)
+                { write_point(SpacePointOf<decltype(law)>(), history, p); },
+                all_laws[all_faces[p / 3].set]);
+  }
+
+  void SpaceJoints::add_forces(const StepContext &step, State<3> &state,
+                               const NodeForces<3> &forces)
+  {
+    SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    add_forces(state.nodes.data(), history, state.energy, forces.force);
+    if (forces.viscous && step.stiffness_damping > 0.)
+      add_viscous_forces(state.nodes.data(), history, state.velocity.data(),
+                         step.stiffness_damping, forces.viscous);
+  }
+
+  template <typename Law>
+  void SpaceJoints::add_set_forces(const unsigned int set, const Law &law,
+                                   const NodeRecord<3> *nodes,
+                                   SpaceJointHistory &history,
+                                   EnergyAccounts &energy,
+                                   NodeVector<3> *force) const
+  {
+    for (unsigned int i = set_begin[set]; i < set_begin[set + 1]; ++i)
+    {
+      const SpaceJointFace &face  = all_faces[i];
+      const SpaceJointFrame frame = joint_frame(face, nodes);
+      add_face_forces(
+          face, frame, nodes,
+          [&](const unsigned int k, const Vector &vector)
+          {
+            const SpaceJointGap gap = components(frame, vector);
+            Slip<3> slip;
+            slip[0]    = gap[1];
+            slip[1]    = gap[2];
+            auto point = read_point(law, history, 3 * i + k);
+            if (!law.update_elastic(point, gap[0], slip))
+              book(law.update_failing(point, gap[0], slip),
+                   face.area * face.share, energy);
+            write_point(point, history, 3 * i + k);
+            return face.area
+                   * traction_vector(frame, point.normal_traction,
+                                     point.shear_traction);
+          },
+          force);
+    }
+  }
+
+  void SpaceJoints::add_forces(const NodeRecord<3> *nodes,
+                               SpaceJointHistory &history,
+                               EnergyAccounts &energy,
+                               NodeVector<3> *force) const
+  {
+    // Summed apart: a step's share is small beside the account.
+    EnergyAccounts lost;
+    for (unsigned int set = 0; set < all_laws.size(); ++set)
+      visit_law([&](const auto &law)
+                { add_set_forces(set, law, nodes, history, lost, force); },
+                all_laws[set]);
+    energy += lost;
+  }
+
+  void SpaceJoints::add_viscous_forces(const NodeRecord<3> *nodes,
+                                       const SpaceJointHistory &history,
+                                       const NodeVector<3> *velocity,
+                                       const double beta,
+                                       NodeVector<3> *force) const
+  {
+    for (unsigned int i = 0; i < all_faces.size(); ++i)
+      visit_law(
+          [&](const auto &law)
+          {
+            add_rate_forces(
+                all_faces[i], nodes, velocity,
+                [&](const unsigned int k) -> std::array<double, 2>
+                {
+                  const unsigned int p = 3 * i + k;
+                  if (history.state[p] == JointState::slipping
+                      || history.state[p] == JointState::open)
+                    return {};
+                  const auto [kn, ks]
+                      = law.stiffness_at(history.normal_traction[p]);
+                  return { { beta * kn, beta * ks } };
+                },
+                force);
+          },
+          all_laws[all_faces[i].set]);
+  }
+
+  void SpaceJoints::add_elastic_forces(const NodeRecord<3> *nodes,
+                                       const NodeVector<3> *displacement,
+                                       NodeVector<3> *force) const
+  {
+    for (const SpaceJointFace &face : all_faces)
+      add_rate_forces(
+          face, nodes, displacement,
+          [stiffness = stiffness_bound(all_laws[face.set])](unsigned int)
+          { return stiffness; },
+          force);
+  }
+
+  Vector SpaceJoints::force_on_upper(const unsigned int i,
+                                     const State<3> &state) const
+  {
+    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    const SpaceJointFrame frame = joint_frame(all_faces[i], state.nodes.data());
+    Vector result;
+    for (unsigned int p = 3 * i; p < 3 * i + 3; ++p)
+    {
+      Slip<3> shear;
+      shear[0] = history.shear_traction[2 * p];
+      shear[1] = history.shear_traction[2 * p + 1];
+      result -= all_faces[i].area
+                * traction_vector(frame, history.normal_traction[p], shear);
+    }
+    return result;
+  }
+
+  double SpaceJoints::stored_energy(const State<3> &state) const
+  {
+    const SpaceJointHistory &history = state.get<SpaceJointHistory>();
+    double energy                    = 0.;
+    for (unsigned int i = 0; i < all_faces.size(); ++i)
+    {
+      const SpaceJointFace &face = all_faces[i];
+      const auto gaps            = joint_gaps(face, state.nodes.data());
+      visit_law(
+          [&](const auto &law)
+          {
+            for (unsigned int k = 0; k < 3; ++k)
+              energy += face.area * face.share
+                        * law.stored_energy(read_point(law, history, 3 * i + k),
+                                            gaps[k][0]);
+          },
+          all_laws[face.set]);
+    }
+    return energy;
+  }
+
+  void SpaceJoints::add_stiffness_bound(
+      const State<3> &state, const NodeRatio &ratio,
+      std::vector<NodeStiffness<3>> &stiffness) const
+  {
+    for (const SpaceJointFace &face : all_faces)
+    {
+      const Vector n             = joint_frame(face, state.nodes.data()).n;
+      const auto [normal, shear] = stiffness_bound(all_laws[face.set]);
+      const double kn = face.area * normal, ks = face.area * shear;
+      // ks in all directions, and the rest along the normal.
+      const NodeStiffness<3> spring
+          = { { ks + (kn - ks) * n[0] * n[0], ks + (kn - ks) * n[1] * n[1],
+                ks + (kn - ks) * n[2] * n[2], (kn - ks) * n[0] * n[1],
+                (kn - ks) * n[0] * n[2], (kn - ks) * n[1] * n[2] } };
+      for (unsigned int k = 0; k < 3; ++k)
+      {
+        const unsigned int a = face.lower[k], b = face.upper[k];
+        if (a == b) // the front of a crack
+          continue;
+        const double ab = ratio(a, b), ba = ratio(b, a);
+        for (unsigned int c = 0; c < spring.size(); ++c)
+        {
+          stiffness[a][c] += (1. + ab) * spring[c];
+          stiffness[b][c] += (1. + ba) * spring[c];
+        }
+      }
+    }
+  }
+
+  std::vector<std::string> SpaceJoints::law_field_names() const
+  {
+    std::vector<std::string> names;
+    for (const JointLaw &law : all_laws)
+      visit_law(
+          [&](const auto &own)
+          {
+            for (const auto &field : own.template fields<3>())
+              if (std::find(names.begin(), names.end(), field.name)
+                  == names.end())
+                names.push_back(field.name);
+          },
+          law);
+    return names;
+  }
+
+  double SpaceJoints::law_field(const std::string &name, const unsigned int p,
+                                const SpaceJointHistory &history) const
+  {
+    double value = 0.;
+    visit_law(
+        [&](const auto &law)
+        {
+          for (const auto &field : law.template fields<3>())
+            if (field.name == name)
+              value = field.value(read_point(law, history, p));
+        },
+        all_laws[all_faces[p / 3].set]);
+    return value;
+  }
+} // namespace quoin
