@@ -200,8 +200,7 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                       LINER),
             "implicit, liner": (
                 os.path.join(common.VERIFICATION, "liner", "case.prm"),
-                LINER + ["Solver=implicit", "Implicit/Force ratio=1e-12",
-                         "Implicit/Largest step=0.2"]),
+                LINER + ["Solver=implicit", "Implicit/Largest step=0.2"]),
             "implicit, divided": (
                 os.path.join(common.VERIFICATION, "kirsch", "case.prm"),
                 ["Solver=implicit"]),

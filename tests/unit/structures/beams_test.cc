@@ -141,7 +141,7 @@ TEST(Beams, ModesOfCantilever)
 {
   BeamParameters beam = section();
   beam.points         = { { { 2., 0. } }, { { 5., 0. } } };
-  beam.n_segments     = 24;
+  beam.n_segments     = 40;
   beam.supports[0]    = { true, true, true };
   Model model(beam);
   model.is_fixed  = true;
@@ -224,7 +224,7 @@ TEST(Beams, CondensedStiffnessIsThatOfTheForces)
   for (unsigned int q = 0; q < 4; ++q)
     for (unsigned int e = 0; e < 2; ++e)
     {
-      const double h = 1e-8;
+      const double h = 1e-7;
       State<2> a = now, b = now;
       a.nodes[model.beams->node_of_point(q)].u[e] += h;
       b.nodes[model.beams->node_of_point(q)].u[e] -= h;
@@ -234,8 +234,7 @@ TEST(Beams, CondensedStiffnessIsThatOfTheForces)
         {
           const unsigned int node = model.beams->node_of_point(p);
           EXPECT_NEAR(stiffness[0](2 * p + d, 2 * q + e),
-                      -(above[node].v[d] - below[node].v[d]) / (2. * h),
-                      1e-3 * 3e9);
+                      -(above[node].v[d] - below[node].v[d]) / (2. * h), 1e4);
         }
     }
 }
