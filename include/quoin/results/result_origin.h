@@ -36,7 +36,7 @@ namespace quoin
     void visit(Visitor &visitor)
     {
       visitor.nodes(displacement);
-      if constexpr (dim == 2) // There are no joints in three dimensions.
+      if constexpr (dim == 2) // Those of three dimensions are not reset.
       {
         visitor.own(slip, 2, JointHistory::slice_name);
         visitor.own(has_failed, 2, JointHistory::slice_name);
