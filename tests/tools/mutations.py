@@ -268,6 +268,13 @@ class Build:
             elif line.startswith("    " + ROOT):
                 self.deps[line.strip()].add(obj)
         self.objects = {self.object_of(file): file for file in self.compile}
+        # modules that are compiled as one file: that of each of their sources
+        self.unity = {}
+        for file in self.compile:
+            if file.startswith(self.folder) and "/Unity/" in file:
+                with open(file) as stream:
+                    for source in re.findall('#include "(.*)"', stream.read()):
+                        self.unity[source] = file
 
     @staticmethod
     def call(words):
@@ -285,7 +292,9 @@ class Build:
         """The files to compile anew."""
         file = os.path.join(ROOT, fault["file"])
         if "compile" in fault:
-            return [os.path.join(ROOT, name) for name in fault["compile"]]
+            files = [os.path.join(ROOT, name) for name in fault["compile"]]
+            return sorted({self.unity.get(name, name) for name in files})
+        file = self.unity.get(file, file)
         if file in self.compile:
             return [file]
         if file.endswith((".h", ".cc")):
@@ -299,7 +308,8 @@ class Build:
         """Compile files of the copy in place and link the program there."""
         replaced = {}
         for file in files:
-            name = os.path.relpath(file, ROOT)
+            is_unity = file in self.unity.values()
+            name = os.path.relpath(file, self.folder if is_unity else ROOT)
             words = list(self.compile[file])
             old = self.object_of(file)
             # objects of another program are none of ours
@@ -311,7 +321,15 @@ class Build:
             replaced[old] = new
             tree = os.path.join(place, "tree")
             words[words.index("-o") + 1] = new
-            words[words.index("-c") + 1] = os.path.join(tree, name)
+            source = os.path.join(tree, name)
+            if is_unity:
+                # it includes the sources of the copy
+                source = os.path.join(place, name)
+                os.makedirs(os.path.dirname(source), exist_ok=True)
+                with open(file) as stream, open(source, "w") as copy:
+                    copy.write(stream.read().replace(
+                        '"%s/source/' % ROOT, '"%s/source/' % tree))
+            words[words.index("-c") + 1] = source
             words = ["-I" + os.path.join(tree, "include")
                      if word == "-I" + os.path.join(ROOT, "include") else word
                      for word in words]
