@@ -133,13 +133,15 @@ namespace quoin
       return parsed;
 
     prepare_lone_process();
+    // Until MPI has ended, too: a signal must not end a run that has finished.
+    const Interruption interruption;
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     // A rank uses one core: matrix products must not start threads.
     openblas_set_num_threads(1);
     const Errors errors;
     const bool first
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    const Interruption interruption(first);
+    Interruption::speak_if(first);
     Parameters parameters;
     const auto report = [&](const std::string &what, const int status)
     {

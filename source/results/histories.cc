@@ -885,7 +885,8 @@ namespace quoin
       if (probe.here && probe.parameters.quantity == HistoryQuantity::velocity)
         row[1 + i] = 0.5 * (row[1 + i] + point_value(probe, state));
       if (probe.here && probe.parameters.quantity == HistoryQuantity::joint
-          && probe.parameters.component >= 2 && probe.parameters.component < 7)
+          && probe.parameters.component >= 2
+          && (dim == 2 || probe.parameters.component < 7)) // else a slip
         row[1 + i] = point_value(probe, state);
     }
     for (unsigned int i = 0; i < n_columns; ++i)

@@ -61,9 +61,9 @@ def start(words, output):
     """A run that is about to step."""
     used = os.path.join(output, "used_parameters.prm")
     before = os.stat(used).st_mtime_ns if has_begun(output) else 0
-    process = subprocess.Popen(words, env=common.environment(),
-                               stdout=subprocess.DEVNULL,
-                               stderr=subprocess.DEVNULL)
+    with open(output + ".err", "w") as stream:
+        process = subprocess.Popen(words, env=common.environment(),
+                                   stdout=subprocess.DEVNULL, stderr=stream)
     deadline = time.monotonic() + 60
     while process.poll() is None and (
             not has_begun(output) or os.stat(used).st_mtime_ns == before):
@@ -74,8 +74,15 @@ def start(words, output):
     return process
 
 
-def interrupt(process, number, name, ranks):
-    """Sends the signal; False if the run has finished before.
+def came_too_early(output):
+    """Whether the last signal came before the first step."""
+    with open(output + ".err") as stream:
+        return "before the first step: nothing was computed" in stream.read()
+
+
+def interrupt(process, output, number, name, ranks):
+    """Sends the signal; False if the run has finished before, None if it has
+    not begun to step.
 
     mpirun passes signals on while its processes run; one that comes after they
     have ended, while it clears up, ends mpirun itself.
@@ -87,6 +94,8 @@ def interrupt(process, number, name, ranks):
         resume.kill_all(process)
         raise Failure("%s: it goes on %d s after the signal"
                       % (name, PATIENCE))
+    if came_too_early(output):
+        return None
     if ranks > 1 and status == -number:
         return False
     if status not in (0, 128 + number):
@@ -123,7 +132,10 @@ def interrupt_and_resume(options, name):
                                    ["--resume"] if done else [])
             process = start(words, broken)
             time.sleep(0.5 * chance.random() * lasting)
-            if not interrupt(process, number, name, ranks):
+            ended = interrupt(process, broken, number, name, ranks)
+            if ended is None:
+                continue
+            if not ended:
                 lasting /= 2
                 done = 0
                 shutil.rmtree(broken)
