@@ -74,9 +74,9 @@ namespace quoin
     }
   } // namespace
 
-  Interruption::Interruption()
+  Interruption::Interruption(const bool is_first_rank)
   {
-    speaks       = 0;
+    speaks       = is_first_rank;
     steps_begun  = 0;
     first_signal = 0;
     struct sigaction action
@@ -95,11 +95,6 @@ namespace quoin
   {
     for (const int number : signals)
       std::signal(number, SIG_DFL);
-  }
-
-  void Interruption::speak_if(const bool is_first_rank)
-  {
-    speaks = is_first_rank;
   }
 
   void Interruption::begin_steps()

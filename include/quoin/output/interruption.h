@@ -20,14 +20,10 @@ namespace quoin
   class Interruption
   {
   public:
-    Interruption();
+    explicit Interruption(bool is_first_rank);
     ~Interruption();
     Interruption(const Interruption &)            = delete;
     Interruption &operator=(const Interruption &) = delete;
-
-    /** Whether this process, the first rank, says that it was interrupted
-        before the first step. */
-    static void speak_if(bool is_first_rank);
 
     /** Begins the part of the run that ends itself when it has received() a
      * signal. */

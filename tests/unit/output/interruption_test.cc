@@ -13,8 +13,8 @@ using namespace quoin;
 
 TEST(Interruption, TakesTheFirstSignal)
 {
-  EXPECT_EQ(Interruption().received(), 0);
-  const Interruption interruption;
+  EXPECT_EQ(Interruption(true).received(), 0);
+  const Interruption interruption(true);
   Interruption::begin_steps();
   std::raise(SIGTERM);
   EXPECT_EQ(Interruption::received(), SIGTERM);
@@ -28,7 +28,7 @@ TEST(Interruption, SecondSignalEndsTheProcess)
 {
   const auto interrupt_twice = []()
   {
-    const Interruption interruption;
+    const Interruption interruption(true);
     Interruption::begin_steps();
     std::raise(SIGTERM);
     // mpirun may take as long to pass the first one on once more.
@@ -44,8 +44,7 @@ TEST(Interruption, BeforeTheStepsTheFirstRankSaysThatTheProcessEnds)
 {
   const auto interrupt = [](const bool is_first_rank)
   {
-    const Interruption interruption;
-    Interruption::speak_if(is_first_rank);
+    const Interruption interruption(is_first_rank);
     std::raise(SIGINT);
   };
   EXPECT_EXIT(interrupt(true), testing::KilledBySignal(SIGINT),
@@ -59,7 +58,7 @@ TEST(Interruption, SignalsEndTheProcessAfterwards)
   EXPECT_EXIT(
       {
         {
-          const Interruption interruption;
+          const Interruption interruption(true);
           Interruption::begin_steps();
         }
         std::raise(SIGTERM);
