@@ -17,7 +17,6 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
-#include <optional>
 #include <thread>
 
 /** Function of OpenBLAS, whose header has different names. */
@@ -134,16 +133,14 @@ namespace quoin
       return parsed;
 
     prepare_lone_process();
-    // It begins after MPI, which sets handlers of its own, and ends after it: a
-    // signal must not end a run that has finished.
-    std::optional<Interruption> interruption;
     const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     // A rank uses one core: matrix products must not start threads.
     openblas_set_num_threads(1);
     const Errors errors;
     const bool first
         = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-    interruption.emplace(first);
+    // After MPI, which sets handlers of its own.
+    Interruption::begin(first);
     Parameters parameters;
     const auto report = [&](const std::string &what, const int status)
     {

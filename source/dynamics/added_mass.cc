@@ -13,10 +13,10 @@ namespace quoin
 {
   namespace
   {
-    /** Added share of its mass that a block feels. */
+    /** Share of its mass by which a block becomes noticeably slower. */
     constexpr double felt = 0.05;
-    /** Share of such blocks in the model, and frequencies by the highest one of
-        the loads, of which a warning is given. */
+    /** A warning is given from this share of such blocks in the model on, and
+        if frequencies up to this multiple of the loads' highest are lowered. */
     constexpr double most_slow = 0.01, least_frequency = 4.;
     /** Added share of the mass of the model from which on histories change by a
         hundredth; verification/bar. */
@@ -28,7 +28,7 @@ namespace quoin
     return text_of("mass scaling adds ", 100. * share, " % of mass, on ",
                    100. * bodies, " % of the nodes and rigid blocks, up to ",
                    factor, " times theirs; it lowers frequencies above ",
-                   frequency, " Hz, and ", n_slow, " blocks, ",
+                   frequency, " Hz, and ", n_slow, " blocks and beams, ",
                    100. * slow_share,
                    " % of the mass, become heavier by 5 % or more");
   }
@@ -41,7 +41,8 @@ namespace quoin
                      "histories by up to four times as much. Take a shorter "
                      "'Scaled time step'.");
     if (slow_share > most_slow)
-      return text_of("mass scaling makes blocks with ", 100. * slow_share,
+      return text_of("mass scaling makes blocks and beams with ",
+                     100. * slow_share,
                      " % of the mass heavier by 5 % or more, so that they move "
                      "too slowly. Take a shorter 'Scaled time step', or larger "
                      "elements where the log says that the step is limited.");
@@ -55,9 +56,10 @@ namespace quoin
   }
 
   template <int dim>
-  AddedMass
-  find_added_mass(const Model<dim> &model, const std::vector<double> &mass,
-                  const std::vector<double> &factors, const double time_step)
+  AddedMass find_added_mass(const Model<dim> &model,
+                            const std::vector<double> &mass,
+                            const std::vector<double> &factors,
+                            const BeamMasses &beams, const double time_step)
   {
     using dealii::Utilities::MPI::max;
     using dealii::Utilities::MPI::sum;
@@ -92,8 +94,18 @@ namespace quoin
     }
     sum(own, all, own);
     sum(added, all, added);
+    n_bodies  = sum(n_bodies, all);
+    n_heavier = sum(n_heavier, all);
+    // All ranks have all beams.
+    for (const auto &beam : beams)
+    {
+      own.push_back(0.);
+      added.push_back(0.);
+      for (const auto &[has, scaled] : beam)
+        add_body(own.size() - 1, has, scaled / has);
+    }
     double all_own = 0., all_added = 0.;
-    for (std::size_t b = 0; b < n_blocks; ++b)
+    for (std::size_t b = 0; b < own.size(); ++b)
     {
       all_own += own[b];
       all_added += added[b];
@@ -105,15 +117,17 @@ namespace quoin
     }
     result.slow_share /= all_own;
     result.share  = all_added / all_own;
-    result.bodies = sum(n_heavier, all) / sum(n_bodies, all);
+    result.bodies = n_heavier / n_bodies;
     result.factor = max(result.factor, all);
     return result;
   }
 
   template AddedMass find_added_mass(const Model<2> &,
                                      const std::vector<double> &,
-                                     const std::vector<double> &, double);
+                                     const std::vector<double> &,
+                                     const BeamMasses &, double);
   template AddedMass find_added_mass(const Model<3> &,
                                      const std::vector<double> &,
-                                     const std::vector<double> &, double);
+                                     const std::vector<double> &,
+                                     const BeamMasses &, double);
 } // namespace quoin

@@ -57,17 +57,22 @@ namespace quoin
       for (unsigned int i = rigid.block(b).begin; i < rigid.block(b).end; ++i)
         mass[i] *= factor;
     }
-    added = {};
     if (stage.scaled_time_step > 0.)
-    {
       for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
         mass[i] = std::max(
             mass[i], model.stability().mass_for(i, stage.scaled_time_step));
-      added = find_added_mass(model, mass, rigid_stage.mass_factor,
+    double eigenvalue = find_beam_masses(stage, state, mass);
+    added             = {};
+    if (stage.scaled_time_step > 0.)
+    {
+      BeamMasses beams;
+      if constexpr (dim == 2)
+        if (all_beams)
+          beams = all_beams->masses(state);
+      added = find_added_mass(model, mass, rigid_stage.mass_factor, beams,
                               stage.scaled_time_step);
     }
-    double eigenvalue = find_beam_masses(stage, state, mass);
-    node_mass         = mass;
+    node_mass = mass;
     // A change of the mass of moving nodes is external work.
     state.energy.external += kinetic() - before;
 

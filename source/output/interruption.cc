@@ -19,7 +19,7 @@ namespace quoin
     constexpr double one_request = 0.5;
 
     // A handler of signals can reach nothing else than variables like these.
-    volatile std::sig_atomic_t speaks       = 0; // this rank
+    volatile std::sig_atomic_t is_first     = 0; // this rank
     volatile std::sig_atomic_t steps_begun  = 0;
     volatile std::sig_atomic_t first_signal = 0;
     timespec time_of_first{};
@@ -47,14 +47,11 @@ namespace quoin
 
     extern "C" void take_signal(const int number)
     {
-      if (steps_begun == 0)
+      if (steps_begun == 0 && is_first != 0)
       {
-        if (speaks != 0)
-        {
-          say("interrupted by ");
-          say(name_of(number));
-          say(" before the first step: nothing was computed\n");
-        }
+        say("interrupted by ");
+        say(name_of(number));
+        say(" before the first step: nothing was computed\n");
         end_process(number);
         return;
       }
@@ -74,9 +71,9 @@ namespace quoin
     }
   } // namespace
 
-  Interruption::Interruption(const bool is_first_rank)
+  void Interruption::begin(const bool is_first_rank)
   {
-    speaks       = is_first_rank;
+    is_first     = is_first_rank;
     steps_begun  = 0;
     first_signal = 0;
     struct sigaction action
@@ -89,12 +86,6 @@ namespace quoin
       sigaddset(&action.sa_mask, number);
     for (const int number : signals)
       sigaction(number, &action, nullptr);
-  }
-
-  Interruption::~Interruption()
-  {
-    for (const int number : signals)
-      std::signal(number, SIG_DFL);
   }
 
   void Interruption::begin_steps()

@@ -168,72 +168,59 @@ namespace quoin
       }
     }
 
-    /** Checks the names of stages that cables give. */
-    void check_cables(const ParameterSection &top, const Parameters &parameters)
+    /** Checks the stages that @p items of the section @p name are placed in. */
+    template <typename Item>
+    void check_stages_of(const ParameterSection &top, const std::string &name,
+                         const std::vector<Item> &items,
+                         const Parameters &parameters)
     {
-      const ParameterSection section(top, "Reinforcement");
-      for (const CableParameters &cable : parameters.model.cables)
-      {
-        const auto stage
-            = std::find_if(parameters.stages.begin(), parameters.stages.end(),
-                           [&](const StageParameters &candidate)
-                           { return candidate.name == cable.stage; });
-        if (!cable.stage.empty() && stage == parameters.stages.end())
-          ParameterSection(section, cable.name)
+      const ParameterSection section(top, name);
+      for (const Item &item : items)
+        if (!item.stage.empty() && !find_named(parameters.stages, item.stage))
+          ParameterSection(section, item.name)
               .fail("Stage",
                     "must be a stage or empty. There are: "
-                        + known_names_like(cable.stage, parameters.stages,
+                        + known_names_like(item.stage, parameters.stages,
                                            &StageParameters::name)
                         + ".");
-      }
     }
 
-    /** Checks the names of cables that histories give. */
-    void check_cable_histories(const ParameterSection &top,
-                               const Parameters &parameters)
+    /** Checks that histories of @p quantity name one of @p items of the section
+        @p name by @p entry, which is read into @p member. */
+    template <typename Item>
+    void
+    check_histories_of(const ParameterSection &top, const std::string &name,
+                       const std::vector<Item> &items,
+                       const HistoryQuantity quantity, const std::string &entry,
+                       std::string HistoryParameters::*const member,
+                       const Parameters &parameters)
     {
-      const auto &cables = parameters.model.cables;
       const ParameterSection section(top, "Histories");
       for (const HistoryParameters &history : parameters.histories)
-        if (history.quantity == HistoryQuantity::cable
-            && !find_named(cables, history.cable))
+        if (history.quantity == quantity && !find_named(items, history.*member))
           ParameterSection(section, history.name)
-              .fail("Cable", "must be one of section 'Reinforcement'. There "
-                             "are: "
-                                 + known_names_like(history.cable, cables,
-                                                    &CableParameters::name)
-                                 + ".");
-    }
-
-    /** Checks the stages that place beams. */
-    void check_beams(const ParameterSection &top, const Parameters &parameters)
-    {
-      const auto &beams = parameters.beams;
-      const ParameterSection section(top, "Beams");
-      for (const BeamParameters &beam : beams)
-        if (!beam.stage.empty() && !find_named(parameters.stages, beam.stage))
-          ParameterSection(section, beam.name)
-              .fail("Stage",
-                    "must be the name of a stage or empty. There are: "
-                        + known_names_like(beam.stage, parameters.stages,
-                                           &StageParameters::name)
+              .fail(entry,
+                    "must be one of section '" + name + "'. There are: "
+                        + known_names_like(history.*member, items, &Item::name)
                         + ".");
     }
 
-    /** Checks the names of beams that histories give. */
-    void check_beam_histories(const ParameterSection &top,
-                              const Parameters &parameters)
+    /** Checks that no stage changes the law of a liner's interface, which
+        follows the set as it is read. */
+    void check_interfaces(const ParameterSection &top,
+                          const Parameters &parameters)
     {
-      const auto &beams = parameters.beams;
-      const ParameterSection histories(top, "Histories");
-      for (const HistoryParameters &history : parameters.histories)
-        if (history.quantity == HistoryQuantity::beam
-            && !find_named(beams, history.beam))
-          ParameterSection(histories, history.name)
-              .fail("Beam", "must name a beam. There are: "
-                                + known_names_like(history.beam, beams,
-                                                   &BeamParameters::name)
-                                + ".");
+      const ParameterSection section(top, "Stages");
+      for (const StageParameters &stage : parameters.stages)
+        for (const auto &[set, other] : stage.joint_properties)
+          for (const BeamParameters &beam : parameters.beams)
+            if (beam.is_liner() && beam.interface == set)
+              ParameterSection(section, stage.name)
+                  .fail("Joint properties",
+                        "changes '" + set + "', the interface of the liner '"
+                            + beam.name
+                            + "', which keeps its law. Give the liner a set of "
+                              "its own, with 'Curves = none'.");
     }
 
     /** Checks the conditions on histories by which stages end. */
@@ -352,10 +339,14 @@ namespace quoin
     warn_of_idle_loads(parameters);
     check_coupled_histories(top, parameters);
     check_block_histories(top, parameters);
-    check_cables(top, parameters);
-    check_cable_histories(top, parameters);
-    check_beams(top, parameters);
-    check_beam_histories(top, parameters);
+    const auto &cables = parameters.model.cables;
+    check_stages_of(top, "Reinforcement", cables, parameters);
+    check_histories_of(top, "Reinforcement", cables, HistoryQuantity::cable,
+                       "Cable", &HistoryParameters::cable, parameters);
+    check_stages_of(top, "Beams", parameters.beams, parameters);
+    check_histories_of(top, "Beams", parameters.beams, HistoryQuantity::beam,
+                       "Beam", &HistoryParameters::beam, parameters);
+    check_interfaces(top, parameters);
     check_end_conditions(top, parameters);
     parameters.implicit
         = ImplicitParameters::read(ParameterSection(top, "Implicit"));

@@ -382,8 +382,7 @@ namespace quoin
   {
     for (const Line &line : lines)
       for (unsigned int i = line.begin; i < line.end; ++i)
-        mass[i] = line.share * line.given.density * line.given.area
-                  * rest_length[i];
+        mass[i] = own_mass(line, i);
     if (scaled_step > 0.)
     {
       const auto bound = stiffness_bound_of(state);
@@ -396,6 +395,19 @@ namespace quoin
     }
     for (unsigned int i = 0; i < mass.size(); ++i)
       inverse_mass[i] = 1. / mass[i];
+  }
+
+  BeamMasses Beams::masses(const State<2> &state) const
+  {
+    BeamMasses result;
+    for (unsigned int b = 0; b < lines.size(); ++b)
+      if (is_placed(b, state))
+      {
+        result.emplace_back();
+        for (unsigned int i = lines[b].begin; i < lines[b].end; ++i)
+          result.back().push_back({ own_mass(lines[b], i), mass[i] });
+      }
+    return result;
   }
 
   std::vector<double> Beams::interface_bound(const State<2> &state) const

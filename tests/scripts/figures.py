@@ -401,6 +401,19 @@ class Pictures(unittest.TestCase):
         self.refuses("no joint set 'head'; there are mortar", "joint_damage",
                      "--sets", "head")
 
+    def test_beam_figure(self):
+        self.refuses("the run has no beams", "beam_figure")
+        lined = os.path.join(self.folder.name, "lined")
+        done = subprocess.run(
+            [quoin, os.path.join(ROOT, "parameter_files", "rock",
+                                 "lined_tunnel", "case.prm"),
+             "--quiet", "--output", lined], stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT, text=True)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.output = lined
+        self.has(self.draws("beam_figure"), "black")
+        self.refuses("no beam is placed", "beam_figure", "--time", "0")
+
     def test_wall_figure(self):
         self.draws("wall_figure", "--spec",
                    os.path.join(SMALL_WALL, "plot.json"),

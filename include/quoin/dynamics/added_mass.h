@@ -6,6 +6,7 @@
 
 #include <quoin/blocks/rigid_blocks.h>
 #include <quoin/model/model.h>
+#include <quoin/structures/beams.h>
 
 #include <string>
 #include <vector>
@@ -16,11 +17,11 @@ namespace quoin
   struct AddedMass
   {
     double share  = 0.; /**< added mass by the mass of the model [-] */
-    double bodies = 0.; /**< share of nodes and rigid blocks made heavier */
+    double bodies = 0.; /**< share of nodes and rigid blocks made heavier [-] */
     double factor = 1.; /**< largest one of the mass of any of them [-] */
-    /** Blocks made heavier by more than a twentieth, so that their own motions
-        are slower by 2.5 % or more: their number, and their share of the mass
-        of the model [-]. */
+    /** Blocks and beams made heavier by more than a twentieth, so that their
+        own motions are slower by 2.5 % or more: their number, and their share
+        of the mass of the model [-]. */
     unsigned int n_slow = 0;
     double slow_share   = 0.;
     double frequency    = 0.; /**< above it frequencies are lowered [Hz] */
@@ -29,24 +30,25 @@ namespace quoin
     std::string text() const;
 
     /**
-     * What to do if a stage that follows motion feels it: it adds more than a
-     * quarter of a hundredth of mass, more than a hundredth of the model is in
-     * blocks that move more slowly, or frequencies up to
-     * four times @p highest, that of the loads [Hz], are lowered, which waves
-     * need that the mesh resolves. Empty: it does not.
+     * A sentence for a stage that follows motion, if mass scaling changes it:
+     * there is more than 0.25 % of added mass, or blocks and beams with more
+     * than 1 % of the mass move more slowly, or frequencies up to four times
+     * @p highest, that of the loads [Hz], are lowered, which waves need that
+     * the mesh resolves. Otherwise empty.
      */
     std::string warning(double highest) const;
   };
 
   /**
-   * Of the masses @p mass of the local nodes of @p model and the mass @p
-   * factors of its rigid blocks, with which the critical step is @p time_step
-   * [s]. Collective.
+   * What it changes if the local nodes of @p model have the masses @p mass
+   * [kg] and its rigid blocks the mass @p factors [-], so that the critical
+   * step is @p time_step [s]; @p beams: see Beams::masses(). Collective.
    */
   template <int dim>
-  AddedMass
-  find_added_mass(const Model<dim> &model, const std::vector<double> &mass,
-                  const std::vector<double> &factors, double time_step);
+  AddedMass find_added_mass(const Model<dim> &model,
+                            const std::vector<double> &mass,
+                            const std::vector<double> &factors,
+                            const BeamMasses &beams, double time_step);
 } // namespace quoin
 
 #endif

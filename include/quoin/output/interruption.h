@@ -9,28 +9,26 @@
 namespace quoin
 {
   /**
-   * While one of these lives, it answers SIGINT, SIGTERM and SIGUSR1, which
-   * mpirun passes on. Before the steps they end the process, with a line of the
-   * first rank: there is nothing to keep. From then on they ask the run to end
-   * where it can be resumed. A second signal ends it at once, unless it comes
-   * within half a second: shells and batch systems send the first one to a
-   * process and to its group, and mpirun passes it on several times. There is
-   * one of these at a time.
+   * Answers SIGINT, SIGTERM and SIGUSR1, which mpirun passes on, until the
+   * process ends. Before the steps the first rank ends itself, with a line, and
+   * so the others: there is nothing to keep. From then on the run is asked to
+   * end where it can be resumed. A second signal ends the process at once,
+   * unless it comes within half a second: shells and batch systems send the
+   * first one to a process and to its group, and mpirun passes it on several
+   * times.
    */
-  class Interruption
+  struct Interruption
   {
-  public:
-    explicit Interruption(bool is_first_rank);
-    ~Interruption();
-    Interruption(const Interruption &)            = delete;
-    Interruption &operator=(const Interruption &) = delete;
+    /** From now on signals are answered. */
+    static void begin(bool is_first_rank);
 
     /** Begins the part of the run that ends itself when it has received() a
-     * signal. */
+        signal. The other ranks note signals before it as well: they reach it
+        later than the first one, which may have begun to step by then. */
     static void begin_steps();
 
-    /** The number of the signal that this process has received since the steps
-        began; 0: none. */
+    /** The number of the signal that this process is to end by where it can be
+        resumed; 0: none. */
     static int received();
   };
 

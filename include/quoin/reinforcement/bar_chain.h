@@ -76,7 +76,8 @@ namespace quoin
     /** Displacement x, y of the far end of each element relative to its near
         one, and of the far side of each dowel, at installation [m]. */
     std::vector<double> start, dowel_start;
-    /** Of each dowel along and across the bar. */
+    /** Plastic motion [m] and force [N] of each dowel along and across the
+        bar. */
     std::vector<double> dowel_plastic, dowel_force;
     std::vector<double> dowel_motion; /**< last one, along and across [m] */
     std::vector<std::uint8_t> dowel_broken;

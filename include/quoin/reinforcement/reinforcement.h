@@ -51,11 +51,11 @@ namespace quoin
   /** Fields of bars for cables.pvd. */
   struct CableFields
   {
-    // Of points, two for each element.
+    // Each element has two points.
     std::vector<std::array<double, 2>> position, displacement;
     std::vector<double> slip;       /**< of the bond [m] */
     std::vector<double> bond_force; /**< by length, of one bar [N/m] */
-    // Of elements.
+    // Each element has one of these.
     std::vector<double> axial_force;  /**< of one bar [N] */
     std::vector<double> axial_strain; /**< [-] */
     std::vector<double> shear_force;  /**< of its dowel [N] */

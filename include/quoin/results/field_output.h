@@ -22,9 +22,9 @@ namespace quoin
   BlockFields<dim> block_fields(const Model<dim> &model,
                                 const State<dim> &state);
 
-  /** Of the water at @p point of the joints of this rank: pressure [Pa],
-      hydraulic aperture [m], flow [m^3/s] or its velocity [m/s], positive to
-     the right or, in vertical joints, upwards. */
+  /** Component @p component of the water at @p point of the joints of this
+      rank: pressure [Pa], hydraulic aperture [m], flow [m^3/s] or its velocity
+      [m/s], both positive to the right or, in vertical joints, upwards. */
   double flow_value(const Model<2> &model, const JointFlowState &water,
                     unsigned int point, unsigned int component);
 

@@ -38,7 +38,7 @@ namespace quoin
     std::string interface;        /**< set of joints between it and blocks */
     std::string stage;            /**< stage that places it; empty: first */
 
-    // Of one beam.
+    // Values of one beam, whatever the spacing.
     double modulus       = 0.; /**< E, in plane strain E / (1 - nu^2) [Pa] */
     double area          = 0.; /**< [m^2] */
     double second_moment = 0.; /**< [m^4] */

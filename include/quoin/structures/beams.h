@@ -34,7 +34,7 @@ namespace quoin
     /** Opening and slip at placement [m]. */
     AlignedArray<NodeVector<2>> offset;
     JointHistory interface; /**< of the interface points */
-    // Of the last step.
+    // What the last step leaves behind.
     AlignedArray<double> block_position; /**< x, y of these points [m] */
     AlignedArray<NodeVector<2>> load;    /**< of equilibrium [N] */
     double stored_strain = 0., stored_joint = 0.; /**< [J] */
@@ -57,6 +57,10 @@ namespace quoin
       archive_members(archive, *this);
     }
   };
+
+  /** Mass of each node of each placed beam, without and with that of a scaled
+      step [kg]. */
+  using BeamMasses = std::vector<std::vector<std::array<double, 2>>>;
 
   /** Results of one beam at its nodes, of one beam of the spacing. */
   struct BeamFields
@@ -106,6 +110,8 @@ namespace quoin
     /** Finds masses of nodes so that @p scaled_step [s] is stable; 0: those of
         the beams. */
     void find_masses(double scaled_step, const State<2> &state);
+    /** The same on all ranks. */
+    BeamMasses masses(const State<2> &state) const;
     /** Stiffness of interfaces at each local node of blocks, as
         add_stiffness_bound() with r = 1 [N/m]; empty: there is none. */
     std::vector<double> interface_bound(const State<2> &state) const;
@@ -220,6 +226,12 @@ namespace quoin
       double length, rest;
     };
 
+    /** Mass of a node without that of a scaled step [kg]. */
+    double own_mass(const Line &line, const unsigned int node) const
+    {
+      return line.share * line.given.density * line.given.area
+             * rest_length[node];
+    }
     void add_free_line(const BeamParameters &parameters);
     void add_liner(const BeamParameters &parameters,
                    const Thickness &group_thickness);
@@ -304,9 +316,9 @@ namespace quoin
     std::vector<std::array<double, 2>> rest; /**< of all nodes [m] */
     unsigned int n_internal_variables = 0;
 
-    // Of placed beams at rest, by nodes: length of the segment that begins
-    // there, mean length at the node [m], turning angle [rad], curvature where
-    // the line is curved [1/m].
+    // Each node of a placed beam at rest has the length of the segment that
+    // begins there, the mean length [m], the turning angle [rad] and, where the
+    // line is curved, the curvature [1/m].
     std::vector<double> rest_segment, rest_length, rest_angle, curvature;
     std::vector<double> mass, inverse_mass; /**< [kg], [1/kg] */
     AlignedArray<NodeVector<2>> force, viscous, velocity_before, point_force;

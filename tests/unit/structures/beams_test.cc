@@ -173,6 +173,31 @@ TEST(Beams, ModesWithoutSupport)
   EXPECT_NEAR(std::sqrt(all[3]), first, 0.005 * first);
 }
 
+TEST(Beams, ScaledStepAddsMass)
+{
+  BeamParameters beam = section();
+  beam.points         = { { 0., 2. }, { 1., 2. } };
+  beam.n_segments     = 4;
+  Model model(beam);
+  const auto own = model.beams->masses(model.state);
+  ASSERT_EQ(own.size(), 1u);
+  double sum = 0.;
+  for (const auto &[mass, scaled] : own[0])
+  {
+    EXPECT_EQ(scaled, mass);
+    sum += mass;
+  }
+  EXPECT_NEAR(sum, 2000. * 0.03 * 1., 1e-12);
+
+  // Whatever the step is, it becomes a stable one.
+  const double step = 1e-2;
+  model.beams->find_masses(step, model.state);
+  for (const auto &[mass, scaled] : model.beams->masses(model.state)[0])
+    EXPECT_GT(scaled, mass);
+  EXPECT_LE(model.beams->largest_eigenvalue(model.state),
+            4. / (step * step) * (1. + 1e-12));
+}
+
 TEST(Beams, ForcesAreTheDerivativeOfTheEnergy)
 {
   BeamParameters beam = section();
