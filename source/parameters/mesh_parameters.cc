@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/number_text.h>
 #include <quoin/base/parameter_entries.h>
 #include <quoin/layout/arch_layout.h>
 #include <quoin/rock/rock_layout.h>
@@ -21,7 +22,8 @@ namespace quoin
     {
       const WallLayout layout     = lay_wall(wall);
       const GmshGeometry geometry = wall_geometry(wall, layout);
-      parameters.generated = { "wall", geometry.text, wall_report(layout), "" };
+      parameters.generated
+          = { "wall", geometry.text, wall_report(layout), "", "" };
       parameters.split.joints_along = geometry.joint_curves;
     }
 
@@ -29,8 +31,13 @@ namespace quoin
     {
       const RockLayout layout     = lay_rock(rock);
       const GmshGeometry geometry = rock_geometry(rock, layout);
-      parameters.generated = { "rock", geometry.text, rock_report(rock, layout),
-                               rock_statistics(rock, layout) };
+      parameters.generated
+          = { "rock", geometry.text, rock_report(rock, layout),
+              rock_statistics(rock, layout),
+              text_of("'Shortest edge' of section 'Rock', ", rock.shortest_edge,
+                      " m now, leaves out small pieces of the "
+                      "network of joints: a larger one makes "
+                      "the time step longer") };
       parameters.split.joints_along = geometry.joint_curves;
     }
 
@@ -38,7 +45,8 @@ namespace quoin
     {
       const ArchLayout layout     = lay_arch(arch);
       const GmshGeometry geometry = arch_geometry(arch, layout);
-      parameters.generated = { "arch", geometry.text, arch_report(layout), "" };
+      parameters.generated
+          = { "arch", geometry.text, arch_report(layout), "", "" };
       parameters.split.joints_along = geometry.joint_curves;
     }
 

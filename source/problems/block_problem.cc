@@ -190,7 +190,11 @@ namespace quoin
       if (i == 0)
         if (const StepLimit<dim> limit = find_step_limit(*system.model, state);
             limit.critical > 0.)
+        {
           run.log.message(limit.text());
+          if (limit.is_of_few() && !parameters.generated.cleaning.empty())
+            run.log.message(parameters.generated.cleaning);
+        }
       if (run.options.check && i == 0)
         report_highest_frequency();
       advise_about_stage(i, begun);

@@ -866,6 +866,76 @@ def blocks_that_overlap(quoin, folder):
     return printed
 
 
+def small_pieces_of_rock(quoin, folder):
+    """Where few small pieces limit the step --check offers to leave them out,
+    and the step is longer then."""
+    prm = os.path.join(folder, "rock.prm")
+    with open(prm, "w") as stream:
+        stream.write("""
+subsection Rock
+  set Outline      = 0, 0; 10, 0; 10, 5; 0, 5
+  set Element size = 0.5
+end
+subsection Rock joints
+  set Names = bedding, cross
+  subsection bedding
+    set Dip     = Fisher 10, 10
+    set Spacing = log-normal 1, .4
+  end
+  subsection cross
+    set Dip     = Fisher 80, 10
+    set Spacing = log-normal 1, .4
+  end
+end
+subsection Materials
+  set Names = rock
+  subsection rock
+    set Density         = 2600
+    set Young's modulus = 10e9
+    set Poisson's ratio = 0.25
+  end
+end
+subsection Joints
+  set Names = joints
+  subsection joints
+    set Curves           = bedding, cross
+    set Law              = elastic
+    set Normal stiffness = 1e9
+    set Shear stiffness  = 1e9
+  end
+end
+subsection Loads
+  set Names = gravity
+  subsection gravity
+    set Type     = gravity
+    set Vertical = -9.81
+  end
+end
+subsection Stages
+  set Names = fall
+  subsection fall
+    set Loads    = gravity
+    set Duration = 1e-3
+  end
+end
+""")
+    offer = "'Shortest edge' of section 'Rock', "
+    steps = []
+    for shortest in (0.005, 0.25):
+        status, printed = run([quoin, prm, "--check", "--set",
+                               "Rock/Shortest edge=%g" % shortest])
+        expect(status, printed, 0, ["without the stiffest 0.1 %"])
+        if (offer in printed) != (shortest < 0.1):
+            raise Failure("'Shortest edge' of %g m is %soffered:\n%s"
+                          % (shortest, "" if offer in printed else "not ",
+                             printed))
+        steps.append(float(re.search("mass scaling, (.*?) s,", printed)[1]))
+    if not steps[1] > 2. * steps[0]:
+        raise Failure("the critical step grows from %g to %g s only"
+                      % tuple(steps))
+    return printed
+
+
 def gmsh_comes_to_its_end(quoin, folder):
     """A command that ends gmsh; a file that crashes it; quoin without gmsh."""
     prm = prepare(folder)
@@ -1020,8 +1090,8 @@ FUNCTIONS = [base_case_runs, quiet_run, boundary_case_runs,
              safety_changes_nothing, last_allowed_step, implicit_checkpoints,
              implicit_limit_load, interrupted_before_the_steps,
              two_runs_at_once, odd_names, file_of_another_system,
-             far_from_the_origin, blocks_that_overlap, gmsh_comes_to_its_end,
-             output_is_a_file, old_results, changed_inputs,
+             far_from_the_origin, blocks_that_overlap, small_pieces_of_rock,
+             gmsh_comes_to_its_end, output_is_a_file, old_results, changed_inputs,
              damaged_checkpoints, full_disk_on_two_ranks]
 
 

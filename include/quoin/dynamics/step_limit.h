@@ -32,6 +32,13 @@ namespace quoin
         of the bodies whose frequencies are highest [-]. */
     std::array<double, shares.size()> longer{};
 
+    /** Whether without a tenth of the nodes the step would be four times as
+        long. */
+    bool is_of_few() const
+    {
+      return !is_rigid && longer[2] > 4.;
+    }
+
     /** Sentences for the log. */
     std::string text() const;
   };

@@ -31,6 +31,8 @@ namespace quoin
     std::string geometry;   /**< text of a .geo file; empty: there is none */
     std::string report;     /**< lines for the log */
     std::string statistics; /**< a table (CSV), or empty */
+    /** How to leave out small pieces, which shorten the time step; or empty. */
+    std::string cleaning;
   };
 
   /** All values of a parameter file. */
