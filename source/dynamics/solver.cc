@@ -183,6 +183,9 @@ namespace quoin
       if (names_load(stage, load.name()))
         acting.nodal.push_back(&load);
 
+    if constexpr (dim == 2)
+      if (all_beams)
+        all_beams->set_gravity(acting.nodal);
     acting.beams = all_beams.get();
     acting.pattern.reset();
     if (stage.pattern)

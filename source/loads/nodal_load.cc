@@ -139,6 +139,8 @@ namespace quoin
                             const Thickness &thickness)
     : load_name(parameters.name),
       is_gravity(parameters.type == LoadType::gravity),
+      acts_everywhere(is_gravity && parameters.groups.empty()
+                      && !parameters.distribution),
       components(parameters.components), pressure(parameters.pressure),
       given_ramp(is_gravity ? parameters.ramp_duration : 0.)
   {

@@ -205,6 +205,31 @@ namespace quoin
                         + ".");
     }
 
+    /** Checks what histories of the flow of water name. */
+    void check_water_histories(const ParameterSection &top,
+                               const Parameters &parameters)
+    {
+      const ParameterSection section(top, "Histories");
+      const auto &places = parameters.water.boundaries;
+      for (const HistoryParameters &history : parameters.histories)
+      {
+        if (history.quantity != HistoryQuantity::water)
+          continue;
+        const ParameterSection subsection(section, history.name);
+        if (parameters.water.flow == FlowKind::none)
+          subsection.fail("Quantity", "is one of water that flows in joints. "
+                                      "Give 'Flow' in section 'Water', or "
+                                      "remove the history.");
+        if (!history.water.empty() && !find_named(places, history.water))
+          subsection.fail("Water boundary",
+                          "must be one of section 'Water boundaries'. There "
+                          "are: "
+                              + known_names_like(history.water, places,
+                                                 &WaterBoundary::name)
+                              + ".");
+      }
+    }
+
     /** Checks that no stage changes the law of a liner's interface, which
         follows the set as it is read. */
     void check_interfaces(const ParameterSection &top,
@@ -346,6 +371,7 @@ namespace quoin
     check_stages_of(top, "Beams", parameters.beams, parameters);
     check_histories_of(top, "Beams", parameters.beams, HistoryQuantity::beam,
                        "Beam", &HistoryParameters::beam, parameters);
+    check_water_histories(top, parameters);
     check_interfaces(top, parameters);
     check_end_conditions(top, parameters);
     parameters.implicit

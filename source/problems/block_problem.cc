@@ -100,7 +100,7 @@ namespace quoin
                     boundary.quantity == WaterQuantity::pressure ? "pressure"
                     : boundary.quantity == WaterQuantity::head   ? "head"
                                                                  : "flow",
-                    " at ", water.n_nodes_at(b), " of them"));
+                    " at ", water.nodes_at(b).size(), " of them"));
       }
       return lines;
     }

@@ -236,6 +236,10 @@ namespace quoin
                          * (found.bonds[i].plastic - state.bond_plastic[i]);
         state.bond_force[i]   = found.bonds[i].force;
         state.bond_plastic[i] = found.bonds[i].plastic;
+        if (found.bonds[i].tangent == 0. && found.bonds[i].force != 0.)
+          state.bond[i] = bond_state::slips;
+        else if (state.bond[i] == bond_state::slips)
+          state.bond[i] = bond_state::has_slipped;
       }
       lost.plastic += mean(state.plate_force, found.plate.force)
                       * (found.plate.plastic - state.plate_plastic);
@@ -282,6 +286,7 @@ namespace quoin
     for (auto *of_nodes : { &slip, &bond_plastic, &bond_force, &pressure })
       of_nodes->resize(chain.n_nodes(), 0.);
     lost.resize(chain.n_nodes(), 0);
+    bond.resize(chain.n_nodes(), bond_state::elastic);
     for (auto *of_elements : { &stretch, &plastic, &force })
       of_elements->resize(chain.n_elements(), 0.);
     broken.resize(chain.n_elements(), 0);

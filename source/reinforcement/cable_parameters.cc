@@ -150,8 +150,17 @@ namespace quoin
       entries.positive("Active length", law.active_length,
                        "Length of the bar across a joint that has no bond and "
                        "turns with the motion of the joint [m]");
-      entries.positive("Element length", cable.element_length,
-                       "Largest length of the elements of a bonded bar [m]");
+      constexpr double automatic = 0.;
+      entries.number_or(
+          "automatic", automatic, "Element length", cable.element_length,
+          "Largest length of the elements of a bonded bar, or 'automatic': a "
+          "quarter of the length sqrt(E A / k_b) over which the bond takes the "
+          "force of the bar over, with which it is pulled out within 0.8 % of "
+          "the exact stiffness [m]");
+      if (const ParameterSection *section = entries.read_section();
+          section && section->text("Element length") != "automatic"
+          && !(cable.element_length > 0.))
+        section->fail("Element length", "must be positive, or 'automatic'.");
     }
 
     std::vector<BarEnds> bars_of(const Places &places,
@@ -194,6 +203,20 @@ namespace quoin
           result.push_back(ends);
         }
       return result;
+    }
+
+    /** Length of elements that make the pull-out too stiff by h^2 k_b/8 E A =
+        0.8 %; of bars with more bond than most_elements of these, longer. */
+    double automatic_length(const CableParameters &cable)
+    {
+      constexpr double share = 0.25, most_elements = 1000.;
+      const BarLaw &law  = cable.law;
+      const auto &[a, b] = cable.bars[0];
+      const double whole = std::hypot(b[0] - a[0], b[1] - a[1]);
+      if (law.bond_stiffness == 0.)
+        return whole;
+      return std::max(share * std::sqrt(law.stiffness / law.bond_stiffness),
+                      whole / most_elements);
     }
 
     void check(const CableParameters &cable, const ParameterSection &section)
@@ -253,6 +276,8 @@ namespace quoin
                           * entries.diameter / 4.;
     cable.law.bond_friction
         = std::tan(entries.friction) * constants::pi * entries.diameter;
+    if (cable.element_length == 0.)
+      cable.element_length = automatic_length(cable);
     check(cable, section);
     return cable;
   }

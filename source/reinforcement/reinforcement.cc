@@ -720,6 +720,7 @@ namespace quoin
   {
     const auto &states = state.get<ReinforcementState>().bars;
     double nearest = std::numeric_limits<double>::max(), result = 0.;
+    double bonded = 0., slipped = 0.; // [m]
     const auto consider
         = [&](const double x, const double y, const double value)
     {
@@ -746,12 +747,21 @@ namespace quoin
           result = std::max(result, force);
         else if (quantity == CableQuantity::n_broken)
           result += now.broken[e];
+        else if (quantity == CableQuantity::n_yielded)
+          result += now.broken[e] || now.plastic[e] != 0.;
         else if (quantity == CableQuantity::head_force && e == 0)
           consider(p[0], p[1], now.plate_force / bar.number);
       }
       if (quantity == CableQuantity::bond_slip)
         for (unsigned int i = 0; i < now.slip.size(); ++i)
           consider(bar.hosts[i].X[0], bar.hosts[i].X[1], now.slip[i]);
+      for (unsigned int i = 0; i < now.bond.size(); ++i)
+        if (now.installed && !now.lost[i])
+        {
+          bonded += bar.chain.bond[i];
+          if (now.bond[i] != bond_state::elastic)
+            slipped += bar.chain.bond[i];
+        }
       for (unsigned int d = 0; d < bar.dowels.size(); ++d)
       {
         const Vector &p = bar.dowels[d].near.X;
@@ -761,6 +771,10 @@ namespace quoin
           consider(p[0], p[1], now.dowel_motion[2 * d + 1]);
       }
     }
+    if (quantity == CableQuantity::slipped_length)
+      return slipped;
+    if (quantity == CableQuantity::slipped_share)
+      return bonded > 0. ? slipped / bonded : 0.;
     return result;
   }
 
@@ -788,6 +802,7 @@ namespace quoin
               bar.chain.bond[i] > 0.
                   ? now.bond_force[i] / (bar.chain.bond[i] * bar.number)
                   : 0.);
+          fields.bond.push_back(bar.chain.bond[i] > 0. ? now.bond[i] : 3);
         }
         fields.axial_force.push_back(now.force[e] / bar.number);
         fields.axial_strain.push_back(now.force[e] / bar.law.stiffness
@@ -821,8 +836,12 @@ namespace quoin
         }
       lines << (c > 0 ? "\n" : "") << "reinforcement " << cables[c].name << ": "
             << count_text(n_bars, "bar") << ", "
-            << count_text(n_elements, "element") << ", "
-            << count_text(n_dowels, "dowel")
+            << count_text(n_elements, "element")
+            << (cables[c].law.bond_stiffness > 0.
+                    ? " of at most " + number_text(cables[c].element_length)
+                          + " m"
+                    : "")
+            << ", " << count_text(n_dowels, "dowel")
             << (cables[c].stage.empty() ? ""
                                         : ", from stage " + cables[c].stage);
     }

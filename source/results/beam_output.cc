@@ -24,8 +24,8 @@ namespace quoin
     VtuGrid grid;
     grid.time      = time;
     grid.cell_type = VtuCellType::line;
-    std::vector<double> displacement, axial, shear, moment, plastic, normal,
-        tangential, opening, slip, states;
+    std::vector<double> displacement, axial, shear, moment, plastic, least,
+        largest, used, normal, tangential, opening, slip, states;
     std::vector<std::int32_t> numbers;
     const auto append
         = [](std::vector<double> &to, const std::vector<double> &from)
@@ -44,6 +44,9 @@ namespace quoin
       append(shear, fields.shear);
       append(moment, fields.moment);
       append(plastic, fields.plastic);
+      append(least, fields.least_stress);
+      append(largest, fields.largest_stress);
+      append(used, fields.utilisation);
       append(normal, fields.normal_traction);
       append(tangential, fields.shear_traction);
       append(opening, fields.opening);
@@ -61,6 +64,9 @@ namespace quoin
                         { "shear force", 1, shear },
                         { "moment", 1, moment },
                         { "plastic rotation", 1, plastic },
+                        { "least stress", 1, least },
+                        { "largest stress", 1, largest },
+                        { "utilisation", 1, used },
                         { "normal traction", 1, normal },
                         { "shear traction", 1, tangential },
                         { "opening", 1, opening },
@@ -102,8 +108,12 @@ namespace quoin
       return largest(fields.axial);
     case 7:
       return largest(fields.shear);
-    default:
+    case 8:
       return largest(fields.moment);
+    case 9:
+      return fields.utilisation[node];
+    default:
+      return largest(fields.utilisation);
     }
   }
 } // namespace quoin

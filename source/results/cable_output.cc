@@ -32,7 +32,8 @@ namespace quoin
     std::iota(grid.cells.begin(), grid.cells.end(), 0);
     grid.point_data = { { "displacement", 2, flat(fields.displacement) },
                         { "bond slip", 1, fields.slip },
-                        { "bond force", 1, fields.bond_force } };
+                        { "bond force", 1, fields.bond_force },
+                        { "bond state", 1, fields.bond } };
     grid.cell_data  = { { "axial force", 1, fields.axial_force },
                         { "axial strain", 1, fields.axial_strain },
                         { "shear force", 1, fields.shear_force },

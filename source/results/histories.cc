@@ -13,6 +13,7 @@
 #include <quoin/model/block_placement.h>
 #include <quoin/results/block_output.h>
 #include <quoin/results/result_origin.h>
+#include <quoin/water/joint_flow.h>
 
 #include <algorithm>
 #include <cmath>
@@ -379,6 +380,8 @@ namespace quoin
       break;
     case HistoryQuantity::joint_force:
       return find_surface(probe);
+    case HistoryQuantity::water:
+      return find_water(probe);
     case HistoryQuantity::reaction:
     case HistoryQuantity::platen_displacement:
     case HistoryQuantity::platen_force:
@@ -565,6 +568,41 @@ namespace quoin
           state, wanted.cable, static_cast<CableQuantity>(wanted.component),
           wanted.point);
     return 0.;
+  }
+
+  template <int dim>
+  void Histories<dim>::find_water(Probe &probe) const
+  {
+    if constexpr (dim == 2)
+    {
+      const HistoryParameters &wanted = probe.parameters;
+      const JointFlow &flow           = *solver.flow();
+      const auto &places              = flow.parameters().boundaries;
+      if (const auto *place = find_named(places, wanted.water))
+        probe.water_nodes = flow.nodes_at(place - places.data());
+      else if (!wanted.curve.empty())
+        probe.water_nodes = flow.nodes_on(
+            { wanted.curve },
+            "section 'Histories/" + wanted.name + "': ", "Curve");
+    }
+  }
+
+  template <int dim>
+  double Histories<dim>::water_value(const Probe &probe,
+                                     const State<dim> &state) const
+  {
+    const double sign = probe.parameters.component == 0 ? 1. : -1.;
+    double sum        = 0.;
+    if constexpr (dim == 2)
+    {
+      const auto &inflow = state.template get<JointFlowState>().node_inflow;
+      for (const unsigned int node : probe.water_nodes)
+        sum += sign * inflow[node];
+      if (probe.water_nodes.empty())
+        for (const double flow : inflow)
+          sum += std::max(0., sign * flow);
+    }
+    return sum;
   }
 
   template <>
@@ -937,6 +975,8 @@ namespace quoin
         result[1 + i] = n_outside;
       else if (wanted.quantity == HistoryQuantity::cable)
         result[1 + i] = cable_value(wanted, state);
+      else if (wanted.quantity == HistoryQuantity::water)
+        result[1 + i] = water_value(probes[i], state);
       else if (wanted.is_of_two_points())
         result[1 + i] = value_of_two(probes[i], result.data() + 1);
     }

@@ -67,6 +67,8 @@ namespace quoin
         { "joint hydraulic aperture", { Q::joint, 8, "m" } },
         { "joint flow", { Q::joint, 9, "m^3/s" } },
         { "joint flow velocity", { Q::joint, 10, "m/s" } },
+        { "water inflow", { Q::water, 0, "m^3/s" } },
+        { "water outflow", { Q::water, 1, "m^3/s" } },
         { "reaction x", { Q::reaction, 0, "N", 0 } },
         { "reaction y", { Q::reaction, 1, "N", 0 } },
         { "reaction z", { Q::reaction, 2, "N", 3 } },
@@ -104,6 +106,9 @@ namespace quoin
         { "cable shear force", { Q::cable, 4, "N" } },
         { "cable shear displacement", { Q::cable, 5, "m" } },
         { "cable breaks", { Q::cable, 6, "-" } },
+        { "cable yields", { Q::cable, 7, "-" } },
+        { "cable slipped length", { Q::cable, 8, "m" } },
+        { "cable slipped share", { Q::cable, 9, "-" } },
         { "beam displacement x", { Q::beam, 0, "m" } },
         { "beam displacement y", { Q::beam, 1, "m" } },
         { "beam axial force", { Q::beam, 2, "N" } },
@@ -113,6 +118,8 @@ namespace quoin
         { "beam largest axial force", { Q::beam, 6, "N" } },
         { "beam largest shear force", { Q::beam, 7, "N" } },
         { "beam largest moment", { Q::beam, 8, "N m" } },
+        { "beam utilisation", { Q::beam, 9, "-" } },
+        { "beam largest utilisation", { Q::beam, 10, "-" } },
         { "boundary displacement x", { Q::boundary_displacement, 0, "m" } },
         { "boundary displacement y", { Q::boundary_displacement, 1, "m" } },
         { "boundary velocity x", { Q::boundary_velocity, 0, "m/s" } },
@@ -152,6 +159,9 @@ namespace quoin
           "'joint flow' is the flow of water "
           "along the face of a joint, positive to the right, or upwards in a "
           "vertical one, 'joint flow velocity' its mean over the aperture. "
+          "'water inflow' is the flow into the joints at 'Water boundary', or "
+          "where they end on or cross 'Curve', 'water outflow' that out of "
+          "them; without either, all that comes in or goes out anywhere. "
           "'contacts' is the number of "
           "contact points in compression, without matched joints; 'open "
           "joints' is the length of matched joints that have failed in tension "
@@ -172,7 +182,8 @@ namespace quoin
           "moment' its moment about the current centroid of 'Block'. "
           "'beam moment' and the like belong to 'Beam', at its node nearest to "
           "'Point', and are 0 before it is placed; its 'largest' values are "
-          "the largest magnitudes along it. "
+          "the largest magnitudes along it; 'beam utilisation' is the larger "
+          "one of both stresses of the outer fibres by its strength. "
           "'rotation' is that of the nearest rigid block, full turns counted, "
           "or of the nearest cell, from -180 to 180, anticlockwise. The stress "
           "of rigid blocks is written as 0. In a block that has been deleted "
@@ -180,7 +191,11 @@ namespace quoin
           "yet 0. 'cable axial force' and the like are of one bolt of 'Cable': "
           "at the element, head, node or dowel nearest to 'Point', 'cable "
           "largest force' of all of its elements, 'cable breaks' the number of "
-          "elements that have broken. Quantities of a 'boundary' belong to "
+          "elements that have broken, 'cable yields' of those that have "
+          "yielded or broken, 'cable slipped length' the length of bond that "
+          "slips or has slipped, of all bars of 'Cable', 'cable slipped share' "
+          "the same by the length of all their bond. Quantities of a "
+          "'boundary' belong to "
           "boundary elements: "
           "velocities and tractions are the means over their last completed "
           "step, and 0 before the first stage with 'End = time' in which they "
@@ -239,7 +254,8 @@ namespace quoin
           "Curve", history.curve,
           "Physical curve on which the nearest joint point of joint quantities "
           "is searched, or over which joint forces are summed, with empty for "
-          "all; a physical surface in three dimensions; or the name of the "
+          "all; where the flow of water is summed; a physical surface in three "
+          "dimensions; or the name of the "
           "boundary "
           "in 'Boundary elements' of boundary forces and moments.");
       if (entries.reads_if(history.is_of_block()))
@@ -258,9 +274,17 @@ namespace quoin
         entries.text("Beam", history.beam,
                      "Beam whose quantities are recorded, one of the 'Names' "
                      "of section 'Beams'.");
+      if (entries.reads_if(history.quantity == HistoryQuantity::water))
+        entries.text(
+            "Water boundary", history.water,
+            "Place whose flow of water is recorded, one of the "
+            "'Names' of section 'Water boundaries'; empty: 'Curve', or "
+            "all places.");
       const ParameterSection *section = entries.read_section();
       if (!section)
         return;
+      if (!history.water.empty() && !history.curve.empty())
+        section->fail("Water boundary", "and 'Curve': give one of them.");
       const bool of_load
           = kind.quantity == HistoryQuantity::reaction
             || kind.quantity == HistoryQuantity::platen_displacement

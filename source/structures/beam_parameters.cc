@@ -4,6 +4,9 @@
 #include <quoin/base/parameter_entries.h>
 #include <quoin/structures/beam_parameters.h>
 
+#include <cmath>
+#include <tuple>
+
 namespace quoin
 {
   namespace
@@ -58,10 +61,42 @@ namespace quoin
       entries.nonnegative("Area", beam.area, "Area of the section [m^2]");
       entries.nonnegative("Second moment", beam.second_moment,
                           "Second moment of area of the section [m^4]");
-      entries.positive("Density", beam.density, "Density [kg/m^3]");
-      entries.number_or("unlimited", std::numeric_limits<double>::infinity(),
-                        "Hinge moment", beam.hinge_moment,
-                        "Moment at which a plastic hinge forms [N m]");
+      entries.positive("Density", beam.density,
+                       "Density: gravity that acts on all blocks acts on the "
+                       "beam as well [kg/m^3]");
+      entries.nonnegative("Depth", beam.depth,
+                          "Depth of the section from one outer fibre to the "
+                          "other, symmetric; 0: that of a rectangle with its "
+                          "area and second moment [m]");
+      for (const auto &[name, value, word] :
+           { std::make_tuple("Compressive strength", &beam.compressive_strength,
+                             "compressive"),
+             std::make_tuple("Tensile strength", &beam.tensile_strength,
+                             "tensile") })
+        entries.number_or("unlimited", BeamParameters::unlimited, name, *value,
+                          std::string("Strength of the section by which the "
+                                      "largest ")
+                              + word
+                              + " stress of its outer fibres, N/A and M by the "
+                                "section modulus, is divided in results, or "
+                                "'unlimited' [Pa]");
+      entries.other(
+          "Hinge moment", "unlimited",
+          "Moment at which a plastic hinge forms, or 'unlimited', or "
+          "'section': "
+          "that of a rectangle which bears both strengths, at the axial force "
+          "at the node [N m]",
+          [&](const ParameterSection &section)
+          {
+            const std::string text = section.text("Hinge moment");
+            beam.hinge_moment = text == "section" ? BeamParameters::by_section
+                                : text == "unlimited"
+                                    ? BeamParameters::unlimited
+                                    : section.numbers<1>("Hinge moment")[0];
+            if (text != "section" && !(beam.hinge_moment > 0.))
+              section.fail("Hinge moment",
+                           "must be positive, 'section' or 'unlimited'.");
+          });
       entries.positive("Spacing", beam.spacing,
                        "Distance of beams out of the plane, for the section of "
                        "one beam [m]");
@@ -79,8 +114,22 @@ namespace quoin
       if (!(beam.area > 0. && beam.second_moment > 0.))
         section->fail(beam.area > 0. ? "Second moment" : "Area",
                       "must be positive, or 'Thickness' be given.");
-      if (!(beam.hinge_moment > 0.))
-        section->fail("Hinge moment", "must be positive or 'unlimited'.");
+      for (const auto &[name, value] :
+           { std::make_pair("Compressive strength", beam.compressive_strength),
+             std::make_pair("Tensile strength", beam.tensile_strength) })
+      {
+        if (!(value > 0.))
+          section->fail(name, "must be positive or 'unlimited'.");
+        if (beam.hinge_moment == BeamParameters::by_section
+            && value == BeamParameters::unlimited)
+          section->fail(name, "must be given for 'Hinge moment = section'.");
+      }
+      if (beam.hinge_moment == BeamParameters::by_section && beam.depth > 0.)
+        section->fail("Depth", "is not that of a rectangle, for which alone "
+                               "'Hinge moment = section' is. Leave it out, or "
+                               "give the moment.");
+      if (beam.depth == 0.)
+        beam.depth = std::sqrt(12. * beam.second_moment / beam.area);
       beam.modulus /= 1. - poisson * poisson;
     }
 
@@ -118,7 +167,7 @@ namespace quoin
       for (const unsigned int d : { 0, 1 })
         function(std::string("Line load ") + "xy"[d], beam.distributed[d],
                  "Force by length along " + std::string(1, "xy"[d])
-                     + ", such as the weight, as the forces at ends [N/m]");
+                     + " beside the weight, as the forces at ends [N/m]");
     }
 
     void enter(ParameterEntries &entries, BeamParameters &beam)

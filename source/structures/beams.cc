@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 namespace quoin
@@ -287,6 +288,14 @@ namespace quoin
     velocity_before = state.get<BeamState>().velocity;
   }
 
+  void Beams::set_gravity(const std::vector<const NodalLoad<2> *> &loads)
+  {
+    gravity.clear();
+    std::copy_if(loads.begin(), loads.end(), std::back_inserter(gravity),
+                 [](const NodalLoad<2> *load)
+                 { return load->is_of_everything(); });
+  }
+
   void Beams::place(const Line &line, const unsigned int beam,
                     State<2> &state) const
   {
@@ -552,14 +561,46 @@ namespace quoin
     return true;
   }
 
-  double Beams::moment(const Line &line, const unsigned int node,
-                       const double angle, double &plastic) const
+  std::array<double, 2> Beams::hinge_moment(const Line &line,
+                                            const unsigned int node,
+                                            const BeamState &beams) const
   {
-    const double k     = line.bending / rest_length[node];
-    const double trial = k * (angle - plastic);
-    if (std::abs(trial) <= line.hinge)
+    if (line.hinge != BeamParameters::by_section)
+      return { { line.hinge, 0. } };
+    // The mean strain of both segments; at an end that of one.
+    double strain = 0., n = 0.;
+    for (const unsigned int first : { previous(line, node), node })
+      if (first == node ? has_after(line, node) : has_before(line, node))
+      {
+        const Segment s = segment(line, first, beams);
+        strain += (s.length - s.rest) / s.rest;
+        n += 1.;
+      }
+    const double axial
+        = line.axial * strain / n - curvature[node] * beams.moment[node];
+    // Stress blocks of both strengths on a rectangle.
+    const double area     = line.share * line.given.area,
+                 tension  = line.given.tensile_strength * area - axial,
+                 pressure = line.given.compressive_strength * area + axial;
+    if (tension <= 0. || pressure <= 0.)
+      return { { 0., 0. } };
+    const double factor
+        = 0.5 * line.given.depth
+          / (area
+             * (line.given.tensile_strength + line.given.compressive_strength));
+    return { { factor * tension * pressure, factor * (tension - pressure) } };
+  }
+
+  double Beams::moment(const Line &line, const unsigned int node,
+                       const BeamState &beams, const double angle,
+                       double &plastic) const
+  {
+    const double k       = line.bending / rest_length[node];
+    const double trial   = k * (angle - plastic);
+    const double largest = hinge_moment(line, node, beams)[0];
+    if (std::abs(trial) <= largest)
       return trial;
-    const double limit = std::copysign(line.hinge, trial);
+    const double limit = std::copysign(largest, trial);
     plastic += (trial - limit) / k;
     return limit;
   }
@@ -648,9 +689,10 @@ namespace quoin
         add_internal_forces(lines[b], beams, lost, force.data());
         add_interface_forces(lines[b], state, beams, lost, force.data(),
                              point_force.data());
+        const Loads given = loads_of(lines[b], step.begin);
         for (unsigned int i = lines[b].begin; i < lines[b].end; ++i)
         {
-          const auto f = load(lines[b], i, step.begin);
+          const auto f = load(lines[b], i, given);
           for (unsigned int d = 0; d < 2; ++d)
             force[i].v[d] += f[d];
         }
@@ -674,7 +716,7 @@ namespace quoin
       if (!turning(line, i, beams, angle))
         continue;
       const double before = beams.plastic[i], moment_before = beams.moment[i];
-      beams.moment[i] = moment(line, i, angle, beams.plastic[i]);
+      beams.moment[i] = moment(line, i, beams, angle, beams.plastic[i]);
       energy.plastic += 0.5 * (moment_before + beams.moment[i])
                         * (beams.plastic[i] - before);
       beams.stored_strain += 0.5 * beams.moment[i] * beams.moment[i]
@@ -766,17 +808,39 @@ namespace quoin
     return size;
   }
 
+  Beams::Loads Beams::loads_of(const Line &line, const TimePoint &time) const
+  {
+    Place acceleration{};
+    for (const NodalLoad<2> *load : gravity)
+    {
+      const auto amplitude = load->amplitude(time);
+      for (unsigned int d = 0; d < 2; ++d)
+        acceleration[d] += amplitude[d];
+    }
+    Loads result;
+    for (unsigned int d = 0; d < 2; ++d)
+    {
+      result.by_length[d]
+          = line.given.distributed[d](time)
+            + line.given.density * line.given.area * acceleration[d];
+      for (const unsigned int end : { 0, 1 })
+        result.ends[end][d]
+            = line.is_closed ? 0. : line.given.forces[end][d](time);
+    }
+    return result;
+  }
+
   std::array<double, 2> Beams::load(const Line &line, const unsigned int node,
-                                    const TimePoint &time) const
+                                    const Loads &loads) const
   {
     Place result;
     for (unsigned int d = 0; d < 2; ++d)
     {
-      result[d] = rest_length[node] * line.given.distributed[d](time);
-      if (!line.is_closed && node == line.begin)
-        result[d] += line.given.forces[0][d](time);
-      if (!line.is_closed && node + 1 == line.end)
-        result[d] += line.given.forces[1][d](time);
+      result[d] = rest_length[node] * loads.by_length[d];
+      if (node == line.begin)
+        result[d] += loads.ends[0][d];
+      if (node + 1 == line.end)
+        result[d] += loads.ends[1][d];
       result[d] *= line.share;
     }
     return result;
@@ -803,10 +867,11 @@ namespace quoin
       const Line &line = lines[b];
       if (!beams.placed[b])
         continue;
+      const Loads given = loads_of(line, step.begin);
       std::vector<Place> loads;
       for (unsigned int i = line.begin; i < line.end; ++i)
       {
-        loads.push_back(load(line, i, step.begin));
+        loads.push_back(load(line, i, given));
         work.applied += std::hypot(loads.back()[0], loads.back()[1]);
         for (unsigned int d = 0; d < 2; ++d)
         {
@@ -974,6 +1039,7 @@ namespace quoin
     std::vector<double> shares(n, 0.);
     for (auto *values :
          { &result.axial, &result.shear, &result.moment, &result.plastic,
+           &result.least_stress, &result.largest_stress, &result.utilisation,
            &result.normal_traction, &result.shear_traction, &result.opening,
            &result.slip, &result.state })
       values->assign(n, 0.);
@@ -986,7 +1052,7 @@ namespace quoin
       const unsigned int at = line.begin + i;
       double angle;
       if (turning(line, at, beams, angle))
-        now.moment[at] = moment(line, at, angle, now.plastic[at]);
+        now.moment[at] = moment(line, at, now, angle, now.plastic[at]);
       result.plastic[i] = now.plastic[at];
       result.moment[i]  = now.moment[at] / line.share;
     }
@@ -1008,6 +1074,14 @@ namespace quoin
     {
       result.axial[i] /= shares[i];
       result.shear[i] /= shares[i];
+      const double mean = result.axial[i] / line.given.area,
+                   bent = 0.5 * line.given.depth * std::abs(result.moment[i])
+                          / line.given.second_moment;
+      result.least_stress[i]   = mean - bent;
+      result.largest_stress[i] = mean + bent;
+      result.utilisation[i]
+          = std::max({ 0., (bent - mean) / line.given.compressive_strength,
+                       (bent + mean) / line.given.tensile_strength });
     }
     // The first of several points at a node, as where a joint ends.
     for (unsigned int p = line.last_point; p-- > line.first_point;)

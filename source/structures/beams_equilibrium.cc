@@ -122,6 +122,28 @@ namespace quoin
       for (const unsigned int a : used)
         for (const unsigned int b : used)
           sum(a, b) += k * slope[a] * slope[b];
+      if (now.plastic[i] == before.plastic[i])
+        continue;
+      // The moment of a hinge follows the axial force.
+      const double by_axial
+          = std::copysign(hinge_moment(line, i, now)[1], now.moment[i]);
+      const double share = has_before(line, i) && has_after(line, i) ? 0.5 : 1.;
+      for (const unsigned int first : { previous(line, i), i })
+      {
+        if (by_axial == 0.
+            || (first == i ? !has_after(line, i) : !has_before(line, i)))
+          continue;
+        const unsigned int b         = next(line, first) - line.begin;
+        const Eigen::Vector2d change = by_axial * share * line.axial
+                                       / rest_segment[first]
+                                       * tangents[first - line.begin];
+        for (const unsigned int a : used)
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            sum(a, 2 * b + d) += slope[a] * change[d];
+            sum(a, 2 * (first - line.begin) + d) -= slope[a] * change[d];
+          }
+      }
     }
     by_point.assign(line.last_point - line.first_point,
                     Eigen::Matrix2d::Zero());
@@ -206,10 +228,11 @@ namespace quoin
     const unsigned int n   = 2 * (line.end - line.begin);
     const BeamState before = beams;
     Eigen::VectorXd loads(n), residual(n);
-    double loaded = 0.;
+    const Loads given = loads_of(line, time);
+    double loaded     = 0.;
     for (unsigned int i = 0; i < n; ++i)
     {
-      loads[i] = load(line, line.begin + i / 2, time)[i % 2];
+      loads[i] = load(line, line.begin + i / 2, given)[i % 2];
       loaded += std::abs(loads[i]);
     }
     BeamState now;

@@ -124,7 +124,11 @@ namespace quoin
         for (const unsigned int node : { face.lower[k], face.upper[k] })
           if (const auto found = number.find(together.find(node));
               found != number.end())
+          {
             node_of_mesh.emplace_back(node, found->second);
+            if (!aperture_of_set[face.set] && node == face.lower[k])
+              dry_faces.push_back({ face.blocks, found->second });
+          }
     std::sort(node_of_mesh.begin(), node_of_mesh.end());
     node_of_mesh.erase(std::unique(node_of_mesh.begin(), node_of_mesh.end()),
                        node_of_mesh.end());
@@ -140,6 +144,42 @@ namespace quoin
     compliance.assign(elevation.size(), 0.);
   }
 
+  std::vector<unsigned int>
+  JointFlow::nodes_on(const std::vector<std::string> &curves,
+                      const std::string &where, const std::string &entry) const
+  {
+    const auto &names = node_map.table().face_names;
+    std::vector<bool> wanted(names.size(), false);
+    for (const std::string &curve : curves)
+    {
+      const auto line = std::find(names.begin(), names.end(), curve);
+      if (line == names.end())
+        throw InputError(where + "'" + entry + "' names '" + curve
+                         + "', but the mesh has no curve of that name. It "
+                           "has: "
+                         + known_names_like(curve, names) + ".");
+      wanted[line - names.begin()] = true;
+    }
+    std::vector<unsigned int> nodes;
+    for (const BoundaryFace<2> &face : gather_faces(node_map, wanted, true))
+      for (const unsigned int node : face.nodes)
+      {
+        const auto found = std::lower_bound(
+            node_of_mesh.begin(), node_of_mesh.end(), std::make_pair(node, 0U));
+        if (found != node_of_mesh.end() && found->first == node)
+          nodes.push_back(found->second);
+      }
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    if (nodes.empty())
+      throw InputError(where
+                       + "no joint of section 'Water joints' ends on the "
+                         "curves of '"
+                       + entry + "'. Name one where joints end"
+                       + (entry == "Boundary" ? ", or give a 'Point'." : "."));
+    return nodes;
+  }
+
   void JointFlow::find_boundaries()
   {
     std::vector<std::array<double, 2>> place(elevation.size());
@@ -147,7 +187,6 @@ namespace quoin
       for (unsigned int k = 0; k < 2; ++k)
         place[flow_network.channels()[c].nodes[k]] = faces[c].points[k];
 
-    const auto &names = node_map.table().face_names;
     std::vector<unsigned int> owner(elevation.size(), none);
     for (unsigned int b = 0; b < given.boundaries.size(); ++b)
     {
@@ -172,35 +211,7 @@ namespace quoin
         }
       }
       else
-      {
-        std::vector<bool> wanted(names.size(), false);
-        for (const std::string &curve : boundary.curves)
-        {
-          const auto line = std::find(names.begin(), names.end(), curve);
-          if (line == names.end())
-            throw InputError(where + "'Boundary' names '" + curve
-                             + "', but the mesh has no curve of that name. It "
-                               "has: "
-                             + known_names_like(curve, names) + ".");
-          wanted[line - names.begin()] = true;
-        }
-        for (const BoundaryFace<2> &face : gather_faces(node_map, wanted, true))
-          for (const unsigned int node : face.nodes)
-          {
-            const auto found
-                = std::lower_bound(node_of_mesh.begin(), node_of_mesh.end(),
-                                   std::make_pair(node, 0U));
-            if (found != node_of_mesh.end() && found->first == node)
-              nodes.push_back(found->second);
-          }
-        std::sort(nodes.begin(), nodes.end());
-        nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-        if (nodes.empty())
-          throw InputError(where
-                           + "no joint of section 'Water joints' ends on the "
-                             "curves of 'Boundary'. Name one where joints end, "
-                             "or give a 'Point'.");
-      }
+        nodes = nodes_on(boundary.curves, where, "Boundary");
       for (const unsigned int node : nodes)
       {
         if (owner[node] != none)
@@ -214,6 +225,7 @@ namespace quoin
       boundary_nodes.push_back(nodes);
     }
     now.boundary_flow.assign(given.boundaries.size(), 0.);
+    now.node_inflow.assign(elevation.size(), 0.);
     now.pressure.assign(elevation.size(), 0.);
     now.content.assign(elevation.size(), 0.);
     const std::size_t n = joints.segments().size();
@@ -244,6 +256,9 @@ namespace quoin
         for (const unsigned int node : channel.nodes)
           is_wall[node] = 1;
     }
+    for (const DryFace &face : dry_faces)
+      if (state.is_absent(face.blocks[0]) || state.is_absent(face.blocks[1]))
+        is_wall[face.node] = 1;
   }
 
   void JointFlow::set_apertures(const NodeRecord<2> *nodes)
@@ -349,13 +364,14 @@ namespace quoin
       if (!is_steady)
         now.stored += solution.content[i] - since.content[i];
     }
+    if (is_steady || dt > 0.)
+      for (unsigned int i = 0; i < solution.inflow.size(); ++i)
+        now.node_inflow[i] = solution.inflow[i] / (is_steady ? 1. : dt);
     for (unsigned int b = 0; b < boundary_nodes.size(); ++b)
     {
-      double volume = 0.;
+      now.boundary_flow[b] = 0.;
       for (const unsigned int node : boundary_nodes[b])
-        volume += solution.inflow[node];
-      if (is_steady || dt > 0.)
-        now.boundary_flow[b] = is_steady ? volume : volume / dt;
+        now.boundary_flow[b] += now.node_inflow[node];
     }
     for (unsigned int i = 0; i < channel_of_segment.size(); ++i)
     {
@@ -437,7 +453,7 @@ namespace quoin
     {
       for (auto *values : { &now.pressure, &now.content, &now.point_pressure,
                             &now.point_aperture, &now.flow, &now.velocity,
-                            &now.boundary_flow })
+                            &now.boundary_flow, &now.node_inflow })
         std::fill(values->begin(), values->end(), 0.);
       find_forces();
       water = now;

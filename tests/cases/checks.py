@@ -60,6 +60,43 @@ def energy_residual(case, folder, output, histories):
     return {"energy residual": residual_of(energies(output))}
 
 
+def cable_bond(case, folder, output, histories):
+    """Of a bar half way out of its grout, in cables.pvd: how far the bond has
+    slipped there, by the reference, as a share of its length. And the residual
+    of the energy balance."""
+    exact = reference_module(folder)
+    time = case["fields at"]
+    table, _ = read_table(os.path.join(folder, case["reference"]))
+    length = np.interp(time, table["time"], table["slipped"])
+    grid = vtu.read_at(os.path.join(output, "cables.pvd"), time)
+    depth = 0.7 - exact.FREE - (grid.points[:, :2]
+                                - grid.point_data["displacement"][:, :2])[:, 1]
+    state = grid.point_data["bond state"]
+    bonded = depth > -1e-9
+    if np.any(state[~bonded] != 3) or np.any(state[bonded] == 3):
+        raise Failure("'bond state' does not tell where there is grout")
+    if np.any(grid.cell_data["state"]):
+        raise Failure("'state' shows a bar that yields")
+    slipped = bonded & (state > 0)
+    force = np.abs(grid.point_data["bond force"][slipped])
+    errors = energy_residual(case, folder, output, histories)
+    errors["slipped field"] = max(
+        abs(depth[slipped].max() - length),
+        abs(depth[bonded & ~slipped].min() - length)) / exact.LENGTH
+    errors["strength"] = float(np.max(np.abs(force / exact.STRENGTH - 1)))
+    return errors
+
+
+def cable_stiffness(case, folder, output, histories):
+    """Force by slip of bars pulled out of bonds of 0.1, 1 and 10 GN/m2."""
+    exact = reference_module(folder)
+    return {name: abs(histories["force_" + name][-1]
+                      / -histories["slip_" + name][-1]
+                      / exact.stiffness(bond) - 1)
+            for name, bond in (("soft", 1e8), ("medium", 1e9),
+                               ("stiff", 1e10))}
+
+
 def water_balance(case, folder, output, histories):
     """What flows in, out and is stored closes to 1e-10 of what went through;
     the last flows at boundaries are those of the table "flows"."""

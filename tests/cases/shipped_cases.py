@@ -23,8 +23,6 @@ WARNINGS = {
     "benchmarks/blocks/case.prm": ["is held by nothing"],
     # it falls down
     "masonry/arch_collapse/case.prm": ["has left the box"],
-    # a history of the lining, which it leaves out with it
-    "rock/bolted_tunnel/case.prm": ["'lining_hoop'"],
     # as coarse as 30 m of rock around allow, see its README
     "rock/blast/large.prm": [WAVES],
     # a joint without friction or stiffness in shear

@@ -215,12 +215,14 @@ class Places(unittest.TestCase):
         grid = blocks(width, height)
         grid.point_data["displacement"] += [shift, 0., 0.]
         frame = types.SimpleNamespace(
-            blocks=grid, joints=None, contacts=None, cables=None, time=0., label=None,
+            blocks=grid, joints=None, contacts=None, cables=None, beams=None,
+            time=0., label=None,
             shared=shared_motion.shared_motion(grid))
         frame.position = types.MethodType(block_figure.Frame.position, frame)
         words = dict(scale=1., view=None, colour="velocity", joints="state",
                      widest=None, blocks_only=False, principal=True,
-                     crosses=None, mesh=False, title=None, since=None)
+                     crosses=None, mesh=False, title=None, since=None,
+                     beams="line")
         picture = block_figure.Picture(
             types.SimpleNamespace(**dict(words, **options)), [frame])
         figure = page_layout.draw_moment(picture, frame)

@@ -112,6 +112,11 @@ namespace quoin
     {
       water = flow;
     }
+    /** The water that flows in joints; null: there is none. */
+    const JointFlow *flow() const
+    {
+      return water;
+    }
 
     /** Sets this rank's @p terms of the displacement that the load pattern of
         the stage @p name controls, if a history gives it. */

@@ -64,6 +64,11 @@ namespace quoin
     {
       return load_name;
     }
+    /** Whether it is gravity that is the same everywhere, in all groups. */
+    bool is_of_everything() const
+    {
+      return acts_everywhere;
+    }
 
   private:
     void find_factors(const LoadParameters &parameters,
@@ -81,7 +86,7 @@ namespace quoin
     /** The distribution at each of its nodes; empty: 1. */
     std::vector<double> node_factors;
     std::string load_name;
-    bool is_gravity;
+    bool is_gravity, acts_everywhere;
     std::array<LoadComponent, 3> components;
     LoadComponent pressure;
     std::vector<unsigned int> nodes;

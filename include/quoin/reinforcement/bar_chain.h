@@ -53,6 +53,13 @@ namespace quoin
     }
   };
 
+  /** State of the bond at a node of a bar; 'has_slipped' bears less than it
+      can. */
+  namespace bond_state
+  {
+    constexpr std::uint8_t elastic = 0, slips = 1, has_slipped = 2;
+  } // namespace bond_state
+
   /**
    * Internal variables of a bar. Slip is the motion of the bar relative to the
    * rock at its nodes, positive towards its far end; forces are positive in
@@ -64,6 +71,7 @@ namespace quoin
     std::vector<double> slip;         /**< of each node [m] */
     std::vector<double> bond_plastic; /**< [m] */
     std::vector<double> bond_force;   /**< [N] */
+    std::vector<std::uint8_t> bond;   /**< bond_state of each node */
     std::vector<double> pressure;     /**< of the rock on the bond [Pa] */
     std::vector<std::uint8_t> lost;   /**< nodes without rock */
     std::vector<double> stretch;      /**< of the rock, of each element [m] */
@@ -87,9 +95,9 @@ namespace quoin
     template <typename Visitor>
     void visit(Visitor &visitor)
     {
-      visitor.same(installed, slip, bond_plastic, bond_force, pressure, lost,
-                   stretch, plastic, force, broken, plate_offset, plate_plastic,
-                   plate_force, anchor_plastic, anchor_force);
+      visitor.same(installed, slip, bond_plastic, bond_force, bond, pressure,
+                   lost, stretch, plastic, force, broken, plate_offset,
+                   plate_plastic, plate_force, anchor_plastic, anchor_force);
       visitor.same(start, dowel_start, dowel_plastic, dowel_force, dowel_motion,
                    dowel_broken);
     }

@@ -23,10 +23,10 @@ namespace quoin
     std::vector<BarEnds> bars;
     std::string stage; /**< in which it is installed; empty: the first one */
     BarLaw law;        /**< of one bar */
-    double pretension     = 0.;   /**< [N] */
-    double free_length    = 0.;   /**< without bond, from the head on [m] */
-    double element_length = 0.25; /**< the longest [m] */
-    double spacing        = 1.;   /**< out of the plane [m] */
+    double pretension     = 0.; /**< [N] */
+    double free_length    = 0.; /**< without bond, from the head on [m] */
+    double element_length = 0.; /**< the longest [m] */
+    double spacing        = 1.; /**< out of the plane [m] */
 
     static void declare(dealii::ParameterHandler &prm);
     static CableParameters read(const ParameterSection &section,

@@ -39,13 +39,16 @@ namespace quoin
   /** What histories record of bars, forces of one bar [N]. */
   enum class CableQuantity : unsigned int
   {
-    axial_force,   /**< of the element nearest to a point */
-    largest_force, /**< of all elements of a section */
-    head_force,    /**< at the head nearest to a point */
-    bond_slip,     /**< of the node nearest to a point [m] */
-    shear_force,   /**< of the dowel nearest to a point */
-    shear_motion,  /**< of that dowel [m] */
-    n_broken       /**< elements that have broken */
+    axial_force,    /**< of the element nearest to a point */
+    largest_force,  /**< of all elements of a section */
+    head_force,     /**< at the head nearest to a point */
+    bond_slip,      /**< of the node nearest to a point [m] */
+    shear_force,    /**< of the dowel nearest to a point */
+    shear_motion,   /**< of that dowel [m] */
+    n_broken,       /**< elements that have broken */
+    n_yielded,      /**< elements that have yielded, broken ones included */
+    slipped_length, /**< of the bond that slips or has slipped, all bars [m] */
+    slipped_share   /**< the same by the length of the bond [-] */
   };
 
   /** Fields of bars for cables.pvd. */
@@ -55,6 +58,7 @@ namespace quoin
     std::vector<std::array<double, 2>> position, displacement;
     std::vector<double> slip;       /**< of the bond [m] */
     std::vector<double> bond_force; /**< by length, of one bar [N/m] */
+    std::vector<std::uint8_t> bond; /**< see bond_state; 3: there is none */
     // Each element has one of these.
     std::vector<double> axial_force;  /**< of one bar [N] */
     std::vector<double> axial_strain; /**< [-] */

@@ -28,7 +28,8 @@ namespace quoin
   };
 
   /** Value of component @p component of HistoryQuantity::beam: displacement x,
-      y, N, Q, M at @p node of @p fields; largest displacement, N, Q, M. */
+      y, N, Q, M at @p node of @p fields; largest displacement, N, Q, M;
+      utilisation at the node, the largest one. */
   double beam_value(const BeamFields &fields, unsigned int node,
                     unsigned int component);
 } // namespace quoin

@@ -93,6 +93,8 @@ namespace quoin
       double coordinate = 0.;
       unsigned int ends = 0; /**< first probe of the ends, for two points */
       const MotionConstraint<dim> *platen = nullptr;
+      /** Nodes of the flow's network; none: all. */
+      std::vector<unsigned int> water_nodes;
     };
 
     void locate(Probe &probe) const;
@@ -119,6 +121,9 @@ namespace quoin
     std::vector<unsigned int> blocks_of(const Probe &probe) const;
     double cable_value(const HistoryParameters &wanted,
                        const State<dim> &state) const;
+    /** Finds where the flow of water is recorded; collective. */
+    void find_water(Probe &probe) const;
+    double water_value(const Probe &probe, const State<dim> &state) const;
     double joint_value(const Probe &probe, const State<dim> &state) const;
     /** Share of this rank of the force on the upper sides of joints [N]. */
     double joint_force(const Probe &probe, const State<3> &state) const;

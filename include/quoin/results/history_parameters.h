@@ -41,6 +41,7 @@ namespace quoin
     block_force, /**< force between a block and others: x, y, moment */
     cable,       /**< of a bar: see CableQuantity */
     beam,        /**< of a beam: see BeamHistory */
+    water,       /**< flow into joints, or out of them */
     boundary_displacement,
     boundary_traction,
     boundary_velocity,
@@ -66,6 +67,7 @@ namespace quoin
     std::string block, other_block; /**< named ones; the second may be empty */
     std::string cable;              /**< one of section 'Reinforcement' */
     std::string beam;
+    std::string water; /**< one of section 'Water boundaries', or empty */
 
     /** Whether it is on boundary elements, alone or beyond blocks. */
     bool is_of_boundary() const

@@ -43,9 +43,14 @@ namespace quoin
     double area          = 0.; /**< [m^2] */
     double second_moment = 0.; /**< [m^4] */
     double density       = 0.; /**< [kg/m^3] */
-    /** Largest moment [N m]. */
-    double hinge_moment = std::numeric_limits<double>::infinity();
-    double spacing      = 1.; /**< distance of beams out of the plane [m] */
+    double depth         = 0.; /**< from one outer fibre to the other [m] */
+    static constexpr double unlimited = std::numeric_limits<double>::infinity();
+    double compressive_strength = unlimited, tensile_strength = unlimited;
+    /** Largest moment [N m]; by_section: that of both strengths, with the
+        thrust, on a rectangle. */
+    double hinge_moment                = unlimited;
+    static constexpr double by_section = 0.;
+    double spacing = 1.; /**< distance of beams out of the plane [m] */
 
     std::array<BeamSupport, 2> supports; /**< at start and end */
     /** Forces x, y at start and end [N]. */

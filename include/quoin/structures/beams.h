@@ -8,6 +8,7 @@
 #include <quoin/blocks/node_update.h>
 #include <quoin/joints/joint_history.h>
 #include <quoin/joints/joint_parameters.h>
+#include <quoin/loads/nodal_load.h>
 #include <quoin/mesh/node_map.h>
 #include <quoin/operators/force_operator.h>
 #include <quoin/structures/beam_parameters.h>
@@ -68,6 +69,9 @@ namespace quoin
     std::vector<std::array<double, 2>> position, displacement;
     std::vector<double> axial, shear, moment; /**< N, Q [N], M [N m] */
     std::vector<double> plastic;              /**< plastic turning [rad] */
+    /** Stresses of the outer fibres [Pa], and the larger one of both by its
+        strength [-]. */
+    std::vector<double> least_stress, largest_stress, utilisation;
     /** Tractions [Pa], opening, slip [m] of a liner's interface, 0 else. */
     std::vector<double> normal_traction, shear_traction, opening, slip, state;
     bool is_closed = false;
@@ -106,6 +110,9 @@ namespace quoin
     /** Places the beams of the stage @p name, that begins or goes on. Throws an
         InputError. Collective. */
     void begin_stage(const std::string &name, State<2> &state);
+
+    /** Takes from @p loads of the stage the gravity that acts everywhere. */
+    void set_gravity(const std::vector<const NodalLoad<2> *> &loads);
 
     /** Finds masses of nodes so that @p scaled_step [s] is stable; 0: those of
         the beams. */
@@ -206,7 +213,7 @@ namespace quoin
       bool is_closed;
       double share;          /**< thickness of the model by the spacing [-] */
       double axial, bending; /**< E A [N], E I [N m^2] */
-      double hinge;          /**< largest moment [N m] */
+      double hinge; /**< largest moment [N m], or BeamParameters::by_section */
       unsigned int first_point, last_point; /**< into points */
       JointLaw law;
     };
@@ -251,8 +258,12 @@ namespace quoin
                  double &angle) const;
     /** Moment at @p node [N m] for the elastic and plastic angles; @p plastic
         is updated. */
-    double moment(const Line &line, unsigned int node, double angle,
-                  double &plastic) const;
+    double moment(const Line &line, unsigned int node, const BeamState &beams,
+                  double angle, double &plastic) const;
+    /** Largest moment at @p node [N m] and its derivative by the axial force
+        there [m]. */
+    std::array<double, 2> hinge_moment(const Line &line, unsigned int node,
+                                       const BeamState &beams) const;
     /** Axial force of a segment [N]. */
     double axial_force(const Line &line, unsigned int first, const Segment &s,
                        const BeamState &beams) const;
@@ -290,9 +301,16 @@ namespace quoin
     bool settle(const Line &line, const TimePoint &time, const State<2> &marks,
                 BeamState &beams, EnergyAccounts &energy,
                 NodeVector<2> *by_point, Eigen::MatrixXd *condensed) const;
-    /** Load at @p node at @p time [N]. */
+    /** Loads of one beam: weight included by length [N/m], at both ends [N]. */
+    struct Loads
+    {
+      std::array<double, 2> by_length;
+      std::array<std::array<double, 2>, 2> ends;
+    };
+    Loads loads_of(const Line &line, const TimePoint &time) const;
+    /** Their part at @p node [N]. */
     std::array<double, 2> load(const Line &line, unsigned int node,
-                               const TimePoint &time) const;
+                               const Loads &loads) const;
     unsigned int previous(const Line &line, const unsigned int node) const
     {
       return (node == line.begin ? line.end : node) - 1;
@@ -315,6 +333,7 @@ namespace quoin
     std::vector<Point> points;
     std::vector<std::array<double, 2>> rest; /**< of all nodes [m] */
     unsigned int n_internal_variables = 0;
+    std::vector<const NodalLoad<2> *> gravity; /**< of the stage */
 
     // Each node of a placed beam at rest has the length of the segment that
     // begins there, the mean length [m], the turning angle [rad] and, where the

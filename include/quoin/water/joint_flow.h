@@ -29,6 +29,7 @@ namespace quoin
     // Volumes since the start of the run [m^3].
     double inflow = 0., outflow = 0., stored = 0., residual = 0.;
     std::vector<double> boundary_flow; /**< into the joints [m^3/s] */
+    std::vector<double> node_inflow;   /**< into each node [m^3/s] */
 
     // Of the segments of joints of this rank and of their points.
     std::vector<double> point_pressure; /**< [Pa] */
@@ -40,7 +41,7 @@ namespace quoin
     void visit(Visitor &visitor)
     {
       visitor.same(acts, time, pressure, content, inflow, outflow, stored,
-                   residual, boundary_flow);
+                   residual, boundary_flow, node_inflow);
       visitor.own(point_pressure, 2, JointHistory::slice_name);
       visitor.own(point_aperture, 2, JointHistory::slice_name);
       visitor.own(flow, 1, JointHistory::slice_name);
@@ -140,11 +141,16 @@ namespace quoin
     {
       return flow_network;
     }
-    /** Number of the network's nodes at @p boundary of the parameters. */
-    unsigned int n_nodes_at(const unsigned int boundary) const
+    /** Nodes of the network at @p boundary of the parameters. */
+    const std::vector<unsigned int> &nodes_at(const unsigned int boundary) const
     {
-      return boundary_nodes[boundary].size();
+      return boundary_nodes[boundary];
     }
+    /** Nodes of the network on @p curves, given by the entry @p entry. Throws
+       an InputError that begins with @p where if there are none. Collective. */
+    std::vector<unsigned int> nodes_on(const std::vector<std::string> &curves,
+                                       const std::string &where,
+                                       const std::string &entry) const;
 
   private:
     void make_network(const std::vector<JointSetParameters> &sets,
@@ -189,6 +195,14 @@ namespace quoin
     const MatchedJoints &joints;
     FlowNetwork flow_network;
     std::vector<Face> faces; /**< of each channel */
+    /** A face of a dry joint at which channels end, such as that along which
+        rock is excavated. */
+    struct DryFace
+    {
+      std::array<unsigned int, 2> blocks;
+      unsigned int node; /**< of the network */
+    };
+    std::vector<DryFace> dry_faces;
     /** Channel of each local segment; none without water. */
     std::vector<unsigned int> channel_of_segment;
     /** Aperture of each set of joints; null: no water. */

@@ -20,6 +20,14 @@ Hinges: fixed at both ends, under the load w by length beyond w1 = 12 M_p/L^2, w
 M_p at the ends and w L^2/8 - M_p in the middle, which goes down by
 w1 L^4/(384 EI) + 5 (w - w1) L^4/(384 EI).
 
+Thrust: fixed at its start, on a roller at its end, under the thrust P and w by
+length. A rectangle A = b h with the strengths f_c and f_t bears with stress
+blocks M_p = h (f_t A + P)(f_c A - P) / (2 A (f_t + f_c)), at its start; in the
+middle w L^2/8 - M_p/2, w = 5 w L^4/(384 EI) - M_p L^2/(16 EI). Its fibres have at
+the start -P/A and M_p h/(2 I).
+
+Weight: on two supports, w = 5 q L^4/(384 EI), M = q L^2/8 with q = m g.
+
 Pulse: a plate of mass m on springs k on rock of the impedance Z without lateral
 strain, which waves leave for good, under the pressure p, all by area:
 
@@ -130,6 +138,17 @@ def hinges(load=937.5, most=1000.0):
     return -sag, -most, load * LENGTH ** 2 / 8 - most
 
 
+def thrust(area=0.1, depth=0.1, crush=0.2e6, tear=0.05e6, axial=8e3,
+           load=200.0):
+    most = (depth * (tear * area + axial) * (crush * area - axial)
+            / (2 * area * (tear + crush)))
+    assert load * LENGTH ** 2 / 8 > most
+    sag = (5 * load * LENGTH ** 4 / 384 - most * LENGTH ** 2 / 16) / BENDING
+    bent = 0.5 * depth * most / 8.3333333333e-5
+    return (-sag, -most, load * LENGTH ** 2 / 8 - most / 2,
+            max((bent - axial / area) / tear, (bent + axial / area) / crush))
+
+
 def pulse(times):
     """Displacements of plate and rock [m], by Runge and Kutta."""
     mass, spring = 2400 * 0.2, 1e10
@@ -175,6 +194,13 @@ def main():
     write("hinges.csv",
           "time [s],middle [m],end_moment [N m],middle_moment [N m]",
           [(1.0, *hinges())])
+    write("thrust.csv",
+          "time [s],middle [m],end_moment [N m],middle_moment [N m],used [-]",
+          [(1.0, *thrust())])
+    weight = MASS * 9.81
+    write("weight.csv", "time [s],middle [m],moment [N m]",
+          [(1.0, -5 * weight * LENGTH ** 4 / (384 * BENDING),
+            weight * LENGTH ** 2 / 8)])
     write("pulse.csv", "time [s],plate [m],rock [m]",
           pulse(np.arange(0, 0.0039, 4e-5)))
 

@@ -30,17 +30,25 @@ YIELD, RUPTURE = 80e3, 5e-3
 BETA = np.sqrt(BOND / EA)
 
 
+def stiffness(bond):
+    """Of the pull-out of a bar in an elastic bond [N/m]."""
+    beta = np.sqrt(bond / EA)
+    return EA * beta * np.tanh(beta * LENGTH)
+
+
 def pulled(force, strength):
-    """Slip of the pulled end at a force on the way to s L [m]."""
+    """Slip of the pulled end at a force on the way to s L, and the length over
+    which the bond slips [m]."""
     first = strength / BETA * np.tanh(BETA * LENGTH)
     if force <= first:
-        return force / (EA * BETA * np.tanh(BETA * LENGTH))
+        return force / stiffness(BOND), 0.0
     low, high = 0.0, LENGTH
     for _ in range(60):
         a = (low + high) / 2
         elastic = strength / BETA * np.tanh(BETA * (LENGTH - a))
         low, high = (a, high) if strength * a + elastic < force else (low, a)
-    return strength / BOND + elastic * a / EA + strength * a ** 2 / (2 * EA)
+    return (strength / BOND + elastic * a / EA + strength * a ** 2 / (2 * EA),
+            a)
 
 
 def motion(times):
@@ -51,12 +59,14 @@ def write(name, strength, limit, breaks=False):
     times = np.arange(0, 1.601, 0.01)
     moved = motion(times)
     forces = np.linspace(0, limit, 4001)
-    slips = np.array([pulled(force, strength) for force in forces])
+    slips, lengths = np.transpose([pulled(force, strength)
+                                   for force in forces])
     whole = slips + forces * (FREE / EA + 1 / PLATE)
     force = np.interp(moved, whole, forces)
     slip = np.where(moved <= whole[-1], np.interp(moved, whole, slips),
                     slips[-1] if breaks else
                     moved - limit * (FREE / EA + 1 / PLATE))
+    slipped = np.interp(moved, whole, lengths)
     broken = np.zeros_like(times)
     if breaks:
         strain = limit / EA + (moved - whole[-1]) / FREE
@@ -64,13 +74,15 @@ def write(name, strength, limit, breaks=False):
         force = np.where(broken > 0, 0.0, force)
         slip = np.where(broken > 0, 0.0, slip)
     np.savetxt(os.path.join(HERE, name),
-               np.transpose([times, force, -slip, force, broken]),
+               np.transpose([times, force, -slip, force, broken, slipped]),
                delimiter=",", fmt="%.9g", comments="",
-               header="time [s],pull [N],slip [m],plate [N],breaks [-]")
+               header="time [s],pull [N],slip [m],plate [N],breaks [-],"
+               "slipped [m]")
 
 
 assert abs(BETA - 3.1413) < 1e-4
-assert abs(EA * BETA * np.tanh(BETA * LENGTH) - 292e6) < 0.5e6
-write("reference.csv", STRENGTH, STRENGTH * LENGTH)
-write("pressure.csv", PRESSED, PRESSED * LENGTH)
-write("rupture.csv", STRENGTH, YIELD, True)
+assert abs(stiffness(BOND) - 292e6) < 0.5e6
+if __name__ == "__main__":
+    write("reference.csv", STRENGTH, STRENGTH * LENGTH)
+    write("pressure.csv", PRESSED, PRESSED * LENGTH)
+    write("rupture.csv", STRENGTH, YIELD, True)

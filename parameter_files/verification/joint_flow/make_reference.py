@@ -63,7 +63,18 @@ def network(weight=1e4, is_dug=False):
             "pump": inflow[number[2, 2]] if is_dug else -1e-5}
     q_h1 = conductance["h1"] * (at[1, 1] - at[2, 1])
     v_v2 = conductance["v2"] * (at[2, 1] - at[2, 2]) / aperture["v2"]
-    return pressure, flow, q_h1, v_v2
+    return pressure, flow, [q_h1, v_v2] + water(
+        {node: source.get(node, inflow[i]) for node, i in number.items()})
+
+
+def water(inflow):
+    """Into the joints on the left, out of them on the right, into those of the
+    upper line from outside, all that comes in and goes out."""
+    return [sum(q for (x, y), q in inflow.items() if x == 0),
+            -sum(q for (x, y), q in inflow.items() if x == 3),
+            sum(q for (x, y), q in inflow.items() if y == 2),
+            sum(q for q in inflow.values() if q > 0),
+            -sum(q for q in inflow.values() if q < 0)]
 
 
 def diffusion(x, t, p0=1e5, length=2.0, aperture=1e-4, bulk=2e9):
@@ -138,22 +149,25 @@ def cracked_dam(height=50.0, width=40.0, concrete=24e3, water=1e4, kn=1e9,
 
 
 def main():
-    pressure, flow, q_h1, v_v2 = network()
-    write("network.csv",
-          "time [s],p11 [Pa],p21 [Pa],p12 [Pa],p22 [Pa],bottom [Pa],"
-          "q_h1 [m^3/s],q_v2 [m/s]",
-          [(1.0, pressure[1, 1], pressure[2, 1], pressure[1, 2],
-            pressure[2, 2], pressure[1, 0], q_h1, v_v2)])
+    pressure, flow, rest = network()
+    head = ("time [s],p11 [Pa],p21 [Pa],p12 [Pa],p22 [Pa],bottom [Pa],"
+            "q_h1 [m^3/s],q_v2 [m/s],lake [m^3/s],river [m^3/s],h2 [m^3/s],"
+            "in [m^3/s],out [m^3/s]")
+    write("network.csv", head,
+          [[1.0, pressure[1, 1], pressure[2, 1], pressure[1, 2],
+            pressure[2, 2], pressure[1, 0]] + rest])
     names = ("lake", "river", "spring", "pump")
     write("network_flow.csv", ",".join(n + " [m^3/s]" for n in names),
           [[flow[n] for n in names]])
-    pressure, flow, _, _ = network(is_dug=True)
-    write("excavation.csv",
-          "time [s],p11 [Pa],p21 [Pa],p12 [Pa],p22 [Pa],bottom [Pa],"
-          "q_h1 [m^3/s],q_v2 [m/s]",
-          [(2.0, 0.0, 0.0, 0.0, 0.0, pressure[1, 0], 0.0, 0.0)])
+    pressure, flow, rest = network(is_dug=True)
+    write("excavation.csv", head,
+          [[2.0, 0.0, 0.0, 0.0, 0.0, pressure[1, 0], 0.0, 0.0] + rest[2:]])
     write("excavation_flow.csv", ",".join(n + " [m^3/s]" for n in names),
           [[flow[n] for n in names]])
+    # full pressure at rest; the cubic law over 2 m once the wall is free
+    q = 2e-4**3 / (12 * MU) * 1e4 * 10 / 2
+    write("drift.csv", "time [s],drift [m^3/s],lake [m^3/s],middle [Pa]",
+          [(0.5, 0.0, 0.0, 1e5), (1.5, q, q, 5e4), (2.0, q, q, 5e4)])
     times = [1.2e-5 * k for k in range(20, 201)]
     write("diffusion.csv", "time [s],quarter [Pa],middle [Pa],end [Pa]",
           [[t] + [diffusion(x, t) for x in (0.5, 1.0, 2.0)] for t in times])

@@ -13,39 +13,16 @@ import os
 import sys
 
 import matplotlib.pyplot as plt
-import numpy as np
 
 from quoin import figures, vtu  # noqa: F401  (the look)
-from quoin.colours import COMPRESSION, TENSION
 from quoin.commands.options import Parser
-
-SHARE = 0.15  # of the model's size: the largest value
-
-
-def normals(grid, place):
-    """The mean left normal at each point."""
-    way = place[grid.cells[:, 1]] - place[grid.cells[:, 0]]
-    across = np.column_stack([-way[:, 1], way[:, 0]])
-    across /= np.linalg.norm(across, axis=1)[:, None]
-    total = np.zeros_like(place)
-    for k in (0, 1):
-        np.add.at(total, grid.cells[:, k], across)
-    return total / np.linalg.norm(total, axis=1)[:, None]
-
+from quoin.figures.beam_lines import draw_diagram
 
 def draw_field(axes, grid, name, unit):
     place = grid.points - grid.point_data["displacement"][:, :2]
+    draw_diagram(axes, grid, place, name)
     value = grid.point_data[name] / 1e3
-    most = np.abs(value).max()
-    size = np.ptp(place, axis=0).max()
-    far = place + (SHARE * size / (most or 1.0)) * value[:, None] \
-        * normals(grid, place)
-    for a, b in grid.cells:
-        corners = np.array([place[a], place[b], far[b], far[a]])
-        positive = value[a] + value[b] > 0
-        axes.fill(*corners.T, color=TENSION if positive else COMPRESSION, alpha=0.35,
-                  linewidth=0)
-        axes.plot(*place[[a, b]].T, color="black", linewidth=1.2)
+    axes.autoscale_view()
     axes.set_aspect("equal")
     axes.set_xlabel("x [m]")
     axes.set_ylabel("y [m]")

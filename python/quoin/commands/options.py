@@ -59,11 +59,15 @@ def add_picture_options(parser, joints="state"):
                              "principal one; velocity, displacement: their "
                              "magnitude")
     parser.add_argument("--joints", default=joints,
-                        choices=("state", "mode", "damage", "slip"),
+                        choices=("state", "mode", "damage", "slip", "water"),
                         help=f"what their colours are, default {joints}")
     parser.add_argument("--widest", type=positive(float), metavar="OPENING",
                         help="of --joints mode and slip: opening or slip that "
                              "is drawn widest [m], default automatic")
+    parser.add_argument("--beams", default="line",
+                        choices=("line", "axial force", "moment"),
+                        help="what is drawn across beams and liners, default "
+                             "nothing")
     add_since(parser, "draw", "displacements, slips, openings, states")
     parser.add_argument("--blocks-only", action="store_true",
                         help="neither joints nor contacts")

@@ -20,7 +20,9 @@ is dark red where it opens more than it slips, orange where it slips more, viole
 where it crushed (beyond the compressive strength), and as wide as it opens,
 slips inelastically or closes. --joints damage colours joints by the share of
 their strength that a composite law has lost, --joints slip by how far they slipped,
-elastically or not. Joints that large displacements handed over to contacts are
+elastically or not, --joints water by the pressure of the water in them, as wide as it
+flows. Bolts are as wide as they are loaded; beams and liners are black lines, with
+--beams moment or --beams "axial force" across them, positive values on their left. Joints that large displacements handed over to contacts are
 drawn as far as their two faces are near each other. Contacts of large displacements
 are lines along the overlap, as wide as their normal force. --blocks-only leaves
 both out.

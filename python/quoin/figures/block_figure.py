@@ -13,10 +13,11 @@ import numpy as np
 from quoin import run_parameters, vtu
 from quoin.colours import MATERIALS, STONES
 from quoin.csv_table import scale_for
+from quoin.figures.beam_lines import draw_beams
 from quoin.figures.cable_figure import axial_forces, draw_cables
 from quoin.figures.figure_style import MAGNITUDES
 from quoin.figures.joint_figure import (CrackJoints, DamageJoints, SlipJoints,
-                                        StateJoints, block_size,
+                                        StateJoints, WaterJoints, block_size,
                                         contact_forces, draw_contacts,
                                         drawn_position)
 from quoin.figures.stress_figure import Contours, Crosses
@@ -42,6 +43,7 @@ class Frame:
         self.joints = series("joints.pvd")
         self.contacts = series("contacts.pvd")
         self.cables = series("cables.pvd")
+        self.beams = series("beams.pvd")
         if self.blocks is None:
             raise ValueError(f"no blocks are listed in "
                              f"{os.path.join(output, 'blocks.pvd')}; was a "
@@ -53,7 +55,7 @@ class Frame:
         if os.path.basename(os.path.abspath(output)) == "mechanism":
             # the series of a factor of safety lists its fields by it
             self.label = f"factor {self.blocks.time:.4g}"
-        for name in ("joints", "contacts", "cables"):
+        for name in ("joints", "contacts", "cables", "beams"):
             # a series that ended earlier says nothing of this moment
             grid = getattr(self, name)
             if grid is not None and grid.time != self.blocks.time:
@@ -222,6 +224,8 @@ class Picture:
             return DamageJoints(frames)
         if self.options.joints == "slip":
             return SlipJoints(frames, self.options.widest)
+        if self.options.joints == "water":
+            return WaterJoints(frames)
         return StateJoints(self.options.since is not None)
 
     def draw(self, axes, frame, with_count):
@@ -244,6 +248,10 @@ class Picture:
             handles += draw_cables(
                 axes, frame.cables, drawn_position(
                     frame.cables, self.scale, frame.shared), self.axial_force)
+        if frame.beams and len(frame.beams.cells) and self.joints:
+            handles += draw_beams(
+                axes, frame.beams, drawn_position(
+                    frame.beams, self.scale, frame.shared), self.options.beams)
         margin = 0.0 if self.options.view else 0.02 * self.extent.max()
         below = margin
         if self.crosses:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 The quoin authors
 """Joints and contacts for scripts/render: joints by their state, as cracks by
-mode and width, by their damage or by their slip."""
+mode and width, by their damage, by their slip or by the water in them."""
 
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection
@@ -31,6 +31,8 @@ WIDEST_CRACK, THINNEST_CRACK = 4.0, 0.6      # [pt]
 LEAST_SHARE = 0.02                   # of the widest, below it is no crack
 DAMAGE_COLOURS = LinearSegmentedColormap.from_list(
     "damage", colours.DAMAGE)
+WATER_COLOURS = LinearSegmentedColormap.from_list(
+    "water", colours.VALUES[2:])
 HAIRLINE = 1e-5                      # [m], drawn widest where nothing failed
 GAP = 0.05                           # of the size of a block: no crack any more
 WIDEST_CONTACT = 5.0                 # [pt]
@@ -233,6 +235,39 @@ class SlipJoints:
 
     def mappable(self):
         return ScalarMappable(self.size, DAMAGE_COLOURS)
+
+
+class WaterJoints:
+    """Joints by the pressure of their water, and as wide as it flows; one scale
+    for all frames, of the flow up to what 98 % stay below."""
+
+    def __init__(self, frames):
+        grids = [f.joints for f in frames if f.joints is not None
+                 and "water pressure" in f.joints.point_data]
+        if not grids:
+            raise ValueError("--joints water is for runs of section 'Water'")
+        self.flow = max(np.quantile(self.mean(g, "flow"), 0.98)
+                        for g in grids) or 1.0
+        largest = max(self.mean(g, "water pressure").max()
+                      for g in grids) or 1.0
+        self.factor, unit = scale_for("Pa", largest)
+        self.size = Normalize(0.0, self.factor * largest, clip=True)
+        self.bar_label = f"water pressure in joints [{unit}]"
+
+    @staticmethod
+    def mean(joints, name):
+        return np.abs(joints.point_data[name])[joints.cells].mean(axis=1)
+
+    def draw(self, axes, joints, position, with_count):
+        pressure = self.size(self.factor * self.mean(joints, "water pressure"))
+        flow = np.clip(self.mean(joints, "flow") / self.flow, 0.0, 1.0)
+        add_cracks(axes, position[joints.cells],
+                   colors=WATER_COLOURS(pressure), linewidths=0.4 + 3.0 * flow)
+        return [Line2D([], [], color=WATER_COLOURS(0.6), linewidth=3.4,
+                       label="flow, " + with_unit(self.flow, "m³/s"))]
+
+    def mappable(self):
+        return ScalarMappable(self.size, WATER_COLOURS)
 
 
 def contact_forces(contacts):

@@ -86,6 +86,38 @@ TEST(BarChain, WholeBondSlipsAtItsStrength)
   EXPECT_NEAR(pull(law, bar, state, 1e-2), 190e3, 1e-3);
 }
 
+TEST(BarChain, BondRemembersItsSlip)
+{
+  BarLaw law          = grouted();
+  law.plate_stiffness = 1e10;
+  law.bond_strength   = 300e3;
+  const BarChain bar  = chain_of(40, 0.5);
+  BarState state      = at_rest(bar);
+  const auto slipped  = [&](const std::uint8_t wanted)
+  { return std::count(state.bond.begin(), state.bond.end(), wanted); };
+  // Over the length a with F = s (a + tanh(b (L - a)) / b).
+  const double beta  = std::sqrt(law.bond_stiffness / law.stiffness),
+               force = pull(law, bar, state, 6e-4);
+  double low = 0., high = 0.5;
+  while (high - low > 1e-9)
+  {
+    const double a = 0.5 * (low + high);
+    (law.bond_strength * (a + std::tanh(beta * (0.5 - a)) / beta) < force
+         ? low
+         : high)
+        = a;
+  }
+  EXPECT_NEAR(slipped(bond_state::slips), low * 80. + 0.5, 1.);
+  EXPECT_EQ(state.bond[0], bond_state::elastic); // without bond
+  EXPECT_EQ(slipped(bond_state::has_slipped), 0);
+  const auto n = slipped(bond_state::slips);
+  pull(law, bar, state, 5.9e-4);
+  EXPECT_EQ(slipped(bond_state::has_slipped), n);
+  EXPECT_EQ(slipped(bond_state::slips), 0);
+  pull(law, bar, state, 6.1e-4);
+  EXPECT_GE(slipped(bond_state::slips), n);
+}
+
 TEST(BarChain, YieldsAndBreaksInItsFreeLength)
 {
   BarLaw law          = grouted();

@@ -27,6 +27,7 @@ namespace
     {
       make_stack(mesh, 2, 2);
       CableParameters cable;
+      cable.element_length      = 0.25;
       cable.name                = "bar";
       cable.bars                = { { { { 0.3, 3.7 }, { 1.6, 0.2 } } } };
       BarLaw &law               = cable.law;
