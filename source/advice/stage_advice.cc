@@ -179,6 +179,32 @@ namespace quoin
         check_damped_motion(run, checks);
     }
 
+    /** Warns of shaking by gravity, which water with added mass does not feel.
+     */
+    void check_moving_water(const StageOfRun &run, Checks &checks)
+    {
+      const bool has_water = run.stage.is_dynamic()
+                             && std::any_of(run.loads.begin(), run.loads.end(),
+                                            [](const LoadParameters *load)
+                                            { return load->has_added_mass; });
+      for (const LoadParameters *load : run.loads)
+        for (const auto &given : load->given_components())
+        {
+          if (!has_water || load->type != LoadType::gravity
+              || given.name != "horizontal")
+            continue;
+          const auto values
+              = sampled(run.function(given.component), run.stage.duration, 257);
+          const auto [low, high]
+              = std::minmax_element(values.begin(), values.end());
+          checks.warn_if(
+              *high > *low, "the gravity ", load->name,
+              " shakes the model, but not the water of 'Added mass', which "
+              "resists motion against the ground far away. Move the base "
+              "instead, by a prescribed motion or a wave.");
+        }
+    }
+
     /** Warns of viscous and free-field boundaries with prescribed motion. */
     void check_supports(const StageOfRun &run, Checks &checks)
     {
@@ -564,6 +590,7 @@ namespace quoin
     check_control(run, checks);
     check_damping(run, checks);
     check_supports(run, checks);
+    check_moving_water(run, checks);
     check_weight(run, checks);
     check_units(run, model.nodes().table().diagonal(), time_step, checks);
     const auto sizes

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 The quoin authors
 
+#include <quoin/base/exceptions.h>
 #include <quoin/blocks/cell_states.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
@@ -25,6 +26,52 @@ namespace quoin
     if constexpr (dim == 2)
       if (model.parameters().contact.has_box)
         box = std::make_unique<const ModelBox>(model);
+    for (const LoadParameters &load : loads)
+      if (load.has_added_mass)
+      {
+        if constexpr (dim == 2)
+          reservoirs.emplace_back(load, model.nodes(), model.thickness());
+        else
+          throw InputError("section 'Loads/" + load.name
+                           + "': 'Added mass' is known in two dimensions "
+                             "alone. Set it to 'none'.");
+      }
+  }
+
+  template <int dim>
+  std::array<double, 3>
+  ExplicitSolver<dim>::resultant(const std::string &load) const
+  {
+    if (!this->has_added_mass(load))
+      return Solver<dim>::resultant(load);
+    std::array<double, 3> sums{};
+    for (unsigned int r = 0; r < reservoir_masses.size(); ++r)
+      for (const NodeMass<dim> &mass : reservoir_masses[r])
+      {
+        if (reservoirs[r].name() != load)
+          continue;
+        const NodeVector<dim> force = stepper.inertia_force(mass);
+        for (unsigned int d = 0; d < dim; ++d)
+          sums[d] += force.v[d];
+        if constexpr (dim == 2)
+        {
+          const dealii::Point<2> p = model.nodes().point(mass.node);
+          sums[2] += p[0] * force.v[1] - p[1] * force.v[0];
+        }
+      }
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 3, MPI_DOUBLE, MPI_SUM,
+                  communicator);
+    return sums;
+  }
+
+  template <int dim>
+  double ExplicitSolver<dim>::added_water() const
+  {
+    double trace = 0.;
+    for (const NodeMass<dim> &each : water_mass)
+      for (unsigned int d = 0; d < dim; ++d)
+        trace += each.mass[d][d];
+    return sum(trace);
   }
 
   template <int dim>
@@ -176,6 +223,7 @@ namespace quoin
       stored_before.kinetic
           = kinetic_energy(model.nodes(), node_mass, velocity_before,
                            state.velocity, share)
+            + kinetic_energy(water_mass, velocity_before, state.velocity, share)
             + model.rigid_blocks().kinetic_energy(
                 rigid_stage, rigid_before,
                 state.template get<RigidBlockStates>(), share);
@@ -212,11 +260,13 @@ namespace quoin
     const double factor
         = (context.dt_before * context.dt_before - context.dt * context.dt)
           / (8. * context.dt_velocity * context.dt_velocity);
-    double change = squared_change(model.nodes(), node_mass, velocity_before,
-                                   state.velocity)
-                    + model.rigid_blocks().squared_change(
-                        rigid_stage, rigid_before,
-                        state.template get<RigidBlockStates>());
+    double change
+        = squared_change(model.nodes(), node_mass, velocity_before,
+                         state.velocity)
+          + squared_change(water_mass, velocity_before, state.velocity)
+          + model.rigid_blocks().squared_change(
+              rigid_stage, rigid_before,
+              state.template get<RigidBlockStates>());
     if constexpr (dim == 2)
       if (all_beams)
         change += all_beams->squared_change(state);

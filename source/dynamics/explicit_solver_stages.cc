@@ -4,6 +4,7 @@
 // ExplicitSolver at the start of a stage; explicit_solver.cc has its steps.
 
 #include <quoin/base/exceptions.h>
+#include <quoin/base/point_text.h>
 #include <quoin/dynamics/explicit_solver.h>
 #include <quoin/dynamics/loading_rate.h>
 #include <quoin/model/block_placement.h>
@@ -25,7 +26,7 @@ namespace quoin
 
   template <int dim>
   void ExplicitSolver<dim>::scale_masses(const StageParameters &stage,
-                                         State<dim> &state)
+                                         const double start, State<dim> &state)
   {
     const RigidBlocks &rigid = model.rigid_blocks();
     rigid_stage.mass_factor.resize(rigid.n_blocks(), 1.);
@@ -40,6 +41,8 @@ namespace quoin
       for (unsigned int i = 0; i < model.nodes().n_deformable_nodes(); ++i)
         for (const double v : state.velocity[i].v)
           energy += 0.5 * node_mass[i] * v * v;
+      energy += quoin::kinetic_energy(water_mass, state.velocity,
+                                      state.velocity, 1.);
       if constexpr (dim == 2)
         if (all_beams)
           energy += all_beams->kinetic_energy(state);
@@ -73,6 +76,7 @@ namespace quoin
                               stage.scaled_time_step);
     }
     node_mass = mass;
+    find_water(stage, start);
     // A change of the mass of moving nodes is external work.
     state.energy.external += kinetic() - before;
 
@@ -108,6 +112,69 @@ namespace quoin
         }
         constraint->set_mass(mass, inertia, spin);
       }
+  }
+
+  template <>
+  void ExplicitSolver<2>::find_water(const StageParameters &stage,
+                                     const double start)
+  {
+    water_mass.clear();
+    reservoir_masses.assign(reservoirs.size(), {});
+    // Water has no inertia in what looks for equilibria.
+    if (!stage.is_dynamic() || stage.pattern)
+      return;
+    for (unsigned int r = 0; r < reservoirs.size(); ++r)
+      if (names_load(stage, reservoirs[r].name()))
+      {
+        reservoir_masses[r] = reservoirs[r].masses(start);
+        water_mass          = merged(water_mass, reservoir_masses[r]);
+      }
+  }
+
+  template <>
+  void ExplicitSolver<3>::find_water(const StageParameters &, const double)
+  {
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::check_levels(const State<dim> &state) const
+  {
+    for (unsigned int r = 0; r < reservoir_masses.size(); ++r)
+      if (reservoirs[r].changes(state.time, stage.duration)
+          && names_load(stage, reservoirs[r].name()) && stage.is_dynamic())
+        throw InputError(
+            "section 'Stages/" + stage.name + "': the level of the water of '"
+            + reservoirs[r].name()
+            + "' changes in a stage that follows motion, but 'Added mass' is "
+              "that of a level that stands. Fill the reservoir in a stage "
+              "before, or give this stage a load without added mass.");
+  }
+
+  template <int dim>
+  void ExplicitSolver<dim>::refuse_heavy_constraints() const
+  {
+    if (reservoirs.empty())
+      return;
+    for (const MotionConstraint<dim> *constraint : acting.constraints)
+    {
+      if (constraint->traits().kind == MotionKind::prescribed)
+        continue;
+      unsigned int first = NodeMap<dim>::none;
+      for (const NodeMass<dim> &each : water_mass)
+        if (first == NodeMap<dim>::none
+            && std::binary_search(constraint->nodes().begin(),
+                                  constraint->nodes().end(), each.node))
+          first = each.node;
+      dealii::Point<dim> p;
+      if (!first_point(model.nodes(), first, p))
+        continue;
+      throw InputError("section 'Stages/" + stage.name + "': the load '"
+                       + constraint->name() + "' moves the node at "
+                       + point_text(p)
+                       + " m, to which a load with 'Added mass' adds water. "
+                         "Only a prescribed motion can move both: end the face "
+                         "below water where that load begins.");
+    }
   }
 
   template <>
@@ -198,8 +265,9 @@ namespace quoin
   void ExplicitSolver<dim>::collect_constrained_nodes(const State<dim> &state)
   {
     // Nodes of absent blocks do not move with constraints.
-    stepper.capture_nodes(node_mass, absent_nodes(model, state));
+    stepper.capture_nodes(node_mass, water_mass, absent_nodes(model, state));
     this->refuse_shared_platens();
+    refuse_heavy_constraints();
     if constexpr (dim == 2)
     {
       rigid_stage.held = this->find_held_blocks();
@@ -269,7 +337,7 @@ namespace quoin
     if constexpr (dim == 2)
       if (water)
         water->begin_stage(stage.name, state);
-    scale_masses(stage, state);
+    scale_masses(stage, state.time, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_gravity(previous, automatic_ramp());
     collect_operators(previous);
@@ -301,7 +369,7 @@ namespace quoin
         water->resume_stage(state);
     collect_operators(nullptr);
     const State<dim> saved = state;
-    scale_masses(stage, state);
+    scale_masses(stage, state.stage_start, state);
     acting.release = Release<dim>(state, stage, release_duration(state));
     this->ramp_gravity(previous, automatic_ramp());
     for (MotionConstraint<dim> *constraint : acting.constraints)
@@ -311,8 +379,10 @@ namespace quoin
   }
 
   template double ExplicitSolver<2>::quiet_time() const;
+  template void ExplicitSolver<2>::check_levels(const State<2> &) const;
   template double ExplicitSolver<3>::quiet_time() const;
-  template void ExplicitSolver<2>::scale_masses(const StageParameters &,
+  template void ExplicitSolver<3>::check_levels(const State<3> &) const;
+  template void ExplicitSolver<2>::scale_masses(const StageParameters &, double,
                                                 State<2> &);
   template void ExplicitSolver<2>::begin_stage(const StageParameters &,
                                                const StageParameters *,
@@ -320,7 +390,7 @@ namespace quoin
   template void ExplicitSolver<2>::resume_stage(const StageParameters &,
                                                 const StageParameters *,
                                                 State<2> &);
-  template void ExplicitSolver<3>::scale_masses(const StageParameters &,
+  template void ExplicitSolver<3>::scale_masses(const StageParameters &, double,
                                                 State<3> &);
   template void ExplicitSolver<3>::begin_stage(const StageParameters &,
                                                const StageParameters *,

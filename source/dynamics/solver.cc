@@ -10,6 +10,8 @@
 #include <quoin/model/material_waves.h>
 #include <quoin/dynamics/solver.h>
 #include <quoin/loads/free_field_boundary.h>
+#include <quoin/loads/joint_crack.h>
+#include <quoin/loads/load_field.h>
 #include <quoin/loads/prescribed_motion.h>
 #include <quoin/loads/viscous_boundary.h>
 #include <quoin/water/joint_flow.h>
@@ -47,6 +49,8 @@ namespace quoin
     for (const LoadParameters &load : loads)
     {
       known_loads.push_back(load.name);
+      if (load.has_added_mass)
+        loads_of_water.push_back(load.name);
       switch (load.type)
       {
       case LoadType::viscous_boundary:
@@ -60,6 +64,8 @@ namespace quoin
       case LoadType::traction:
       case LoadType::gravity:
         all_loads.emplace_back(load, nodes, model.mass(), model.thickness());
+        if (load.pressure.field && load.pressure.field->uplift())
+          add_uplift(load);
         break;
       case LoadType::platen:
         if constexpr (dim == 2)
@@ -93,6 +99,31 @@ namespace quoin
     far.elastostatic = static_field.get();
     if (static_field)
       all_constraints.push_back(std::move(static_field));
+  }
+
+  template <>
+  void Solver<2>::add_uplift(const LoadParameters &load)
+  {
+    const UpliftDiagram &diagram = *load.pressure.field->uplift();
+    if (!diagram.enters_cracks)
+      return;
+    const std::string section
+        = "section 'Loads/" + load.name + "': 'In cracks = full head' ";
+    if (model.parameters().large_displacements)
+      throw InputError(section
+                       + "needs joints of the mesh, but with 'Displacements = "
+                         "large' they become contacts. Take 'small' in section "
+                         "'Contact', or 'given'.");
+    all_loads.back().set_crack(std::make_shared<JointCrack>(
+        diagram, load.boundaries, load.name, model.nodes(), model.joints()));
+  }
+
+  template <>
+  void Solver<3>::add_uplift(const LoadParameters &load)
+  {
+    throw InputError("section 'Loads/" + load.name
+                     + "': 'Pressure = uplift' is known in two dimensions "
+                       "alone. Give the pressure as a function of the place.");
   }
 
   template <>
@@ -178,6 +209,7 @@ namespace quoin
     {
       load.set_mass(model.mass());
       load.begin_stage(false, 0.);
+      load.find_crack(state);
     }
     for (const NodalLoad<dim> &load : all_loads)
       if (names_load(stage, load.name()))

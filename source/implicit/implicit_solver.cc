@@ -48,6 +48,8 @@ namespace quoin
     constexpr double control_tolerance = 1e-6;
     /** Share of a correction at which the line search gives up. */
     constexpr double least_search_share = 0.1;
+    /** Equilibria in a step until uplift and crack belong together. */
+    constexpr unsigned int most_cracks = 50;
     /** Least reduction of the unbalanced force by share of a correction. */
     constexpr double least_gain = 0.1;
   } // namespace
@@ -261,9 +263,12 @@ namespace quoin
     last_share = 1.;
     if (water && water->acts())
       water->begin_step(state);
+    for (NodalLoad<2> &load : all_loads)
+      load.find_crack(state);
+    unsigned int n_cracks = 0;
     // Brittle joints break one after the other, each at an equilibrium, and
     // water finds its pressures for the openings of one.
-    JointFlow::Followed followed     = JointFlow::Followed::balanced;
+    JointFlow::Followed followed;
     unsigned int n_without_new_water = 0;
     do
     {
@@ -273,10 +278,16 @@ namespace quoin
       while (break_joints());
       if (n_without_new_water == 0)
         n_without_new_water = iteration;
+      followed = JointFlow::Followed::balanced;
       if (water && water->acts())
         followed = water->follow(
             configuration.nodes.data(),
             { configuration.load_time, stage_start + configuration.load_time });
+      for (NodalLoad<2> &load : all_loads)
+        if (names_load(stage, load.name()) && !load.follow_crack(balance.state)
+            && followed == JointFlow::Followed::balanced)
+          followed = ++n_cracks > most_cracks ? JointFlow::Followed::lost
+                                              : JointFlow::Followed::changed;
     } while (followed == JointFlow::Followed::changed);
     // The next step is as long as joints and blocks let it be.
     iteration = n_without_new_water;

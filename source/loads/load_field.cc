@@ -10,12 +10,17 @@
 namespace quoin
 {
   double LoadField::operator()(const dealii::Point<3> &place,
-                               const TimePoint &time,
-                               const unsigned int up) const
+                               const TimePoint &time, const unsigned int up,
+                               const double crack) const
   {
-    if (!water_level)
+    if (!water_level && !uplift_diagram)
       return function(place, time);
-    const double depth = (*water_level)(time)-place[up];
+    const double level
+        = water_level ? (*water_level)(time)
+                      : uplift_diagram->level(
+                          uplift_diagram->distance({ place[0], place[1] }),
+                          time, crack);
+    const double depth = level - place[up];
     // A depth that is no number must not pass for 0.
     return depth < 0. ? 0. : weight_of_water * depth;
   }

@@ -98,7 +98,7 @@ namespace quoin
       return { quantity, {}, std::make_shared<LoadField>(function) };
     }
 
-    const std::string water_word = "water";
+    const std::string water_word = "water", uplift_word = "uplift";
 
     /** The pressure of "water LEVEL". */
     /** The level of water through the points @p text, "x, y; x, y; ...", as an
@@ -296,6 +296,16 @@ namespace quoin
             { "Rotation", "free", { "platen" } },
             { "Pressure", "free", { "traction" } },
             { "Ramp duration", "automatic", { "gravity" } },
+            { "Headwater", "", { "traction" } },
+            { "Tailwater", "", { "traction" } },
+            { "Heel", "", { "traction" } },
+            { "Toe", "", { "traction" } },
+            { "Drain distance", "0", { "traction" } },
+            { "Drain efficiency", "0", { "traction" } },
+            { "Drain level", "tailwater", { "traction" } },
+            { "In cracks", "given", { "traction" } },
+            { "Added mass", "none", { "traction" } },
+            { "Reservoir floor", "automatic", { "traction" } },
             { "Distribution", "1", { "traction", "gravity" } },
             { "Moving shape", "none", { "traction" } },
             { "Moving centre", "", { "traction" } },
@@ -528,6 +538,142 @@ namespace quoin
         read_shape(*section, shape, load);
     }
 
+    /** Makes the pressure of "uplift" from what is given of it beside. */
+    void enter_uplift(ParameterEntries &entries, LoadParameters &load)
+    {
+      UpliftDiagram uplift;
+      const auto level
+          = [&](const ParameterSection &section, const std::string &name)
+      {
+        return section.text(name).empty()
+                   ? TimeFunction()
+                   : time_function(section, name, section.text(name));
+      };
+      const auto point
+          = [&](const ParameterSection &section, const std::string &name)
+      {
+        if (section.text(name).empty())
+          return dealii::Point<2>();
+        const auto row = section.numbers<2>(name);
+        return dealii::Point<2>(row[0], row[1]);
+      };
+      entries.other("Headwater", "",
+                    "With 'Pressure = uplift' level of the water at the heel, "
+                    "a function of time [m]",
+                    [&](const ParameterSection &section)
+                    { uplift.headwater = level(section, "Headwater"); });
+      entries.other("Tailwater", "",
+                    "Level of the water at the toe, a function of time; it "
+                    "may be that of the joint there [m]",
+                    [&](const ParameterSection &section)
+                    { uplift.tailwater = level(section, "Tailwater"); });
+      entries.other("Heel", "",
+                    "Point x, y where the joint begins with the headwater [m]",
+                    [&](const ParameterSection &section)
+                    { uplift.heel = point(section, "Heel"); });
+      entries.other("Toe", "",
+                    "Point x, y where it ends with the tailwater [m]",
+                    [&](const ParameterSection &section)
+                    { uplift.toe = point(section, "Toe"); });
+      entries.nonnegative("Drain distance", uplift.drain,
+                          "Distance of a line of drains from the heel; 0: "
+                          "there is none [m]");
+      entries.within("Drain efficiency", uplift.efficiency, 0., 1.,
+                     "Share by which the drains lower the level there, down "
+                     "to 'Drain level' with 1 [-]");
+      entries.other("Drain level", "tailwater",
+                    "Height at which the drains end, such as that of a "
+                    "gallery; tailwater: that [m]",
+                    [&](const ParameterSection &section)
+                    {
+                      if (section.text("Drain level") != "tailwater")
+                        uplift.drain_level = section.number("Drain level");
+                    });
+      entries.choice("In cracks", uplift.enters_cracks,
+                     { { "given", false }, { "full head", true } },
+                     "Uplift where the joint opens from the heel on. given: as "
+                     "where it is closed; full head: the headwater, from the "
+                     "end of the crack on linear to the toe, or to the drains "
+                     "if they are beyond it.");
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      if (section->text("Pressure") != uplift_word)
+      {
+        for (const std::string name :
+             { "Headwater", "Tailwater", "Heel", "Toe", "Drain distance",
+               "Drain efficiency", "Drain level", "In cracks" })
+          if (const std::string &text = section->text(name);
+              !(text.empty() || text == "0" || text == "tailwater"
+                || text == "given"))
+            section->fail(name, "goes with 'Pressure = uplift' alone. Remove "
+                                "it, or give that pressure.");
+        return;
+      }
+      for (const std::string name : { "Headwater", "Tailwater", "Heel", "Toe" })
+        if (section->text(name).empty())
+          section->fail(name, "is missing: 'Pressure = uplift' needs "
+                              "'Headwater' and 'Tailwater', levels, and 'Heel' "
+                              "and 'Toe', points x, y [m].");
+      if (uplift.length() == 0.)
+        section->fail("Toe", "is where 'Heel' is. Give the other end of the "
+                             "joint.");
+      if (uplift.drain >= uplift.length())
+        section->fail("Drain distance",
+                      text_of("must be less than the length ", uplift.length(),
+                              " m from 'Heel' to 'Toe'."));
+      if (uplift.drain == 0. && (uplift.efficiency > 0. || uplift.drain_level))
+        section->fail("Drain distance", "is 0, so that there are no drains. "
+                                        "Give their distance from the heel.");
+      if (uplift.drain > 0. && uplift.efficiency == 0.)
+        section->fail("Drain efficiency", "is 0, so that the drains do "
+                                          "nothing. Give it, or leave out "
+                                          "'Drain distance'.");
+      load.pressure.field = std::make_shared<LoadField>(
+          std::make_shared<const UpliftDiagram>(uplift));
+    }
+
+    void enter_added_mass(ParameterEntries &entries, LoadParameters &load)
+    {
+      entries.choice(
+          "Added mass", load.has_added_mass,
+          { { "none", false }, { "Westergaard", true } },
+          "Water that moves with the face in an earthquake, beside its "
+          "'Pressure = water LEVEL'. Westergaard: a mass of 7/8 rho sqrt(H z) "
+          "by the area at the depth z in a reservoir of the depth H, along the "
+          "normal, in explicit stages with 'End = time' that are not damped or "
+          "have Rayleigh damping.");
+      entries.other(
+          "Reservoir floor", "automatic",
+          "Height of the ground below the water, up from which the depth H of "
+          "the reservoir counts; automatic: the lowest point of 'Boundary' [m]",
+          [&](const ParameterSection &section)
+          {
+            if (section.text("Reservoir floor") != "automatic")
+              load.reservoir_floor = section.number("Reservoir floor");
+          });
+      const ParameterSection *section = entries.read_section();
+      if (!section)
+        return;
+      if (!load.has_added_mass)
+      {
+        if (load.reservoir_floor)
+          section->fail("Reservoir floor", "has no effect with 'Added mass = "
+                                           "none'. Remove it, or add the mass "
+                                           "of the water.");
+        return;
+      }
+      if (!load.pressure.field || !load.pressure.field->level())
+        section->fail("Added mass", "needs the level of the water: give "
+                                    "'Pressure = water LEVEL', such as "
+                                    "'water 12'.");
+      if (load.distribution || load.shape)
+        section->fail("Added mass",
+                      "does not go with 'Distribution' or 'Moving shape', "
+                      "which the mass of the water does not have. Remove "
+                      "these.");
+    }
+
     /** The functions of @p name with semicolons between them, by place. */
     std::vector<SpaceTimeFunction>
     stress_fields(const ParameterSection &section, const std::string &name)
@@ -651,10 +797,13 @@ namespace quoin
             "LEVEL', the pressure of water whose level is a function of time "
             "[m], 9810 N/m^3 times the depth below it; or 'water through X, Y; "
             "X, Y', that below a line through points with ascending x [m], "
-            "level beyond its ends [Pa]",
+            "level beyond its ends; or 'uplift', that in a joint below a dam "
+            "from 'Headwater' to 'Tailwater' [Pa]",
             [&](const ParameterSection &section, const std::string &name)
             {
               const std::string text = section.text(name);
+              if (text == uplift_word)
+                return LoadComponent{ LoadQuantity::force, {} };
               return text.substr(0, text.find(' ')) == water_word
                          ? water_pressure(section, name)
                          : plain(section, name);
@@ -677,7 +826,11 @@ namespace quoin
             [&](const ParameterSection &from)
             { load.distribution = distribution(from); });
       if (entries.reads_if(load.type == LoadType::traction))
+      {
         enter_shape(entries, load);
+        enter_uplift(entries, load);
+        enter_added_mass(entries, load);
+      }
       const ParameterSection *section = entries.read_section();
       if (section && is_platen
           && load.groups.empty() == load.boundaries.empty())

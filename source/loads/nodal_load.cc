@@ -3,6 +3,7 @@
 
 #include <quoin/base/exceptions.h>
 #include <quoin/base/nearest_name.h>
+#include <quoin/loads/joint_crack.h>
 #include <quoin/loads/load_field.h>
 #include <quoin/loads/nodal_load.h>
 #include <quoin/signals/time_function.h>
@@ -17,6 +18,11 @@ namespace quoin
 {
   namespace
   {
+    /** Error of the length of a crack in equilibrium, by that of its joint. */
+    constexpr double crack_tolerance = 1e-6;
+    /** Bounds of its relaxation. */
+    constexpr double least_relaxation = 0.05, most_relaxation = 4.;
+
     unsigned int position(const std::vector<std::string> &names,
                           const std::string &name, const std::string &load,
                           const std::string &parameter, const std::string &kind)
@@ -214,6 +220,39 @@ namespace quoin
                                                  thickness);
     nodes = field->nodes();
     find_factors(parameters, node_map);
+  }
+
+  template <int dim>
+  void NodalLoad<dim>::find_crack(const State<dim> &state)
+  {
+    if constexpr (dim == 2)
+      if (crack)
+      {
+        field->set_crack(crack->length(state));
+        relaxation   = 1.;
+        crack_excess = 0.;
+      }
+  }
+
+  template <int dim>
+  bool NodalLoad<dim>::follow_crack(const State<dim> &state)
+  {
+    if constexpr (dim == 2)
+      if (crack)
+      {
+        const double before = crack_excess, used = field->crack();
+        crack_excess = crack->length(state) - used;
+        if (std::abs(crack_excess)
+            <= crack_tolerance * pressure.field->uplift()->length())
+          return true;
+        // Aitken's relaxation.
+        if (before != 0. && before != crack_excess)
+          relaxation = std::clamp(relaxation * before / (before - crack_excess),
+                                  least_relaxation, most_relaxation);
+        field->set_crack(std::max(0., used + relaxation * crack_excess));
+        return false;
+      }
+    return true;
   }
 
   template <int dim>

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace quoin
@@ -27,15 +28,26 @@ namespace quoin
       return result;
     }
 
-    /** Whether the coordinate @p place of @p axis is inside the face. */
+    /** Whether @p place along @p normal is inside the face. */
     template <std::size_t n>
     bool is_cut(const std::array<dealii::Point<3>, n> &points,
-                const unsigned int axis, const double place)
+                const dealii::Tensor<1, 3> &normal, const double place)
     {
-      const auto [low, high] = std::minmax_element(
-          points.begin(), points.end(),
-          [=](const auto &a, const auto &b) { return a[axis] < b[axis]; });
-      return (*low)[axis] < place && place < (*high)[axis];
+      double low  = std::numeric_limits<double>::max(),
+             high = std::numeric_limits<double>::lowest();
+      for (const dealii::Point<3> &point : points)
+      {
+        low  = std::min(low, normal * point);
+        high = std::max(high, normal * point);
+      }
+      return low < place && place < high;
+    }
+
+    dealii::Tensor<1, 3> unit_vector(const unsigned int axis)
+    {
+      dealii::Tensor<1, 3> result;
+      result[axis] = 1.;
+      return result;
     }
   } // namespace
 
@@ -87,6 +99,10 @@ namespace quoin
       data.push_back(part->value(time));
       if (part->field && part->field->is_function_of_time())
         data.insert(data.end(), { time.stage, time.total });
+      if (part->field && part->field->uplift())
+        data.insert(data.end(),
+                    { part->field->uplift()->headwater(time),
+                      part->field->uplift()->tailwater(time), crack_length });
     }
     return data;
   }
@@ -101,10 +117,22 @@ namespace quoin
       std::vector<double> places;
       shape->add_kinks(shape->at(time), places);
       for (const double place : places)
-        cuts.push_back({ shape->axis, place });
+        cuts.push_back({ unit_vector(shape->axis), place });
     }
     if (pressure.field && pressure.field->level())
-      cuts.push_back({ dim - 1, (*pressure.field->level())(time) });
+      cuts.push_back(
+          { unit_vector(dim - 1), (*pressure.field->level())(time) });
+    if (pressure.field && pressure.field->uplift())
+    {
+      const UpliftDiagram &uplift = *pressure.field->uplift();
+      dealii::Tensor<1, 3> along;
+      for (unsigned int d = 0; d < 2; ++d)
+        along[d] = (uplift.toe[d] - uplift.heel[d]) / uplift.length();
+      const double start
+          = along[0] * uplift.heel[0] + along[1] * uplift.heel[1];
+      for (const double kink : uplift.kinks(crack_length))
+        cuts.push_back({ along, start + kink });
+    }
     return cuts;
   }
 
@@ -117,11 +145,11 @@ namespace quoin
     constexpr double weights[] = { 5. / 18., 8. / 18., 5. / 18. };
     std::vector<double> ends   = { 0., 1. };
     for (const Cut &cut : cuts)
-      if (is_cut(face.points, cut.axis, cut.place))
+      if (is_cut(face.points, cut.normal, cut.place))
       {
-        const double first = face.points[0][cut.axis];
+        const double first = cut.normal * face.points[0];
         ends.push_back((cut.place - first)
-                       / (face.points[1][cut.axis] - first));
+                       / (cut.normal * face.points[1] - first));
       }
     std::sort(ends.begin(), ends.end());
     points.clear();
@@ -144,7 +172,7 @@ namespace quoin
     const bool divided
         = std::any_of(cuts.begin(), cuts.end(),
                       [&](const Cut &cut)
-                      { return is_cut(face.points, cut.axis, cut.place); });
+                      { return is_cut(face.points, cut.normal, cut.place); });
     const unsigned int n = divided ? n_parts : 1;
     points.clear();
     // Triangles of the grid with the edge 1/n, upright and upside down.
@@ -179,8 +207,9 @@ namespace quoin
       return result;
     if (distribution)
       factor *= (*distribution)(place, 0.);
-    const auto value = [&](const LoadComponent &part) {
-      return part.field ? (*part.field)(place, time, dim - 1)
+    const auto value = [&](const LoadComponent &part)
+    {
+      return part.field ? (*part.field)(place, time, dim - 1, crack_length)
                         : part.value(time);
     };
     for (unsigned int d = 0; d < dim; ++d)

@@ -215,6 +215,9 @@ namespace quoin
   {
     const StageParameters &stage = parameters.stages[index];
     const AddedMass &added       = system.explicit_solver->added_mass();
+    if (const double water = system.explicit_solver->added_water(); water > 0.)
+      run.log.message("stage ", stage.name, ": ", water,
+                      " kg of water move with the faces below it");
     if (added.share == 0.)
       return;
     run.log.message("stage ", stage.name, ": ", added.text());

@@ -262,7 +262,11 @@ namespace quoin
       if (explicit_solver)
         explicit_solver->begin_stage(stage, previous, state);
       if (time_is_known)
+      {
         solver->stage_loads().check_start(state);
+        if (explicit_solver)
+          explicit_solver->check_levels(state);
+      }
     }
     catch (const InputError &error)
     {

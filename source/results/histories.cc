@@ -445,6 +445,9 @@ namespace quoin
                                     [&](const auto &constraint) {
                                       return constraint->name() == wanted.load;
                                     });
+    if (wanted.quantity == HistoryQuantity::reaction
+        && solver.has_added_mass(wanted.load))
+      return;
     if (found == constraints.end())
       throw InputError(section + "'Load = " + wanted.load
                        + "' is no prescribed motion, platen or "

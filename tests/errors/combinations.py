@@ -78,6 +78,14 @@ FEATURES = [
     ("the same with incident waves", "hybrid.prm"),
     ("given pressure in joints", load("Boundary=bed", "Horizontal=free",
                                       "Vertical=free", "Pressure=1e5")),
+    ("uplift that follows cracks",
+     load("Boundary=bed", "Horizontal=free", "Vertical=free",
+          "Pressure=uplift", "Headwater=3", "Tailwater=1", "Heel=0, 0.5",
+          "Toe=1, 0.5", "In cracks=full head")),
+    ("added mass of water",
+     load("Boundary=right", "Horizontal=free", "Vertical=free",
+          "Pressure=water 1", "Added mass=Westergaard")
+     + ["Stages/first/Damping=none"]),
     ("steady flow in joints",
      ["Water/Flow=steady"] + ["Water joints/Names=bed"]
      + in_section("Water boundaries", ["Boundary=left", "Value=1e5"])),

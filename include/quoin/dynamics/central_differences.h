@@ -8,6 +8,7 @@
 #include <quoin/blocks/block_forces.h>
 #include <quoin/blocks/node_update.h>
 #include <quoin/stages/stage_parameters.h>
+#include <quoin/loads/hydrodynamic_mass.h>
 #include <quoin/loads/motion_constraint.h>
 #include <quoin/mesh/node_map.h>
 
@@ -39,10 +40,22 @@ namespace quoin
                  const AlignedArray<NodeVector<dim>> &before,
                  const AlignedArray<NodeVector<dim>> &after, double share);
 
+  /** The same of the added @p masses alone. */
+  template <int dim>
+  double kinetic_energy(const std::vector<NodeMass<dim>> &masses,
+                        const AlignedArray<NodeVector<dim>> &before,
+                        const AlignedArray<NodeVector<dim>> &after,
+                        double share);
+
   /** Sum over these nodes of mass times squared change of velocity [J]. */
   template <int dim>
   double squared_change(const NodeMap<dim> &nodes,
                         const std::vector<double> &mass,
+                        const AlignedArray<NodeVector<dim>> &before,
+                        const AlignedArray<NodeVector<dim>> &after);
+  /** The same of the added @p masses alone. */
+  template <int dim>
+  double squared_change(const std::vector<NodeMass<dim>> &masses,
                         const AlignedArray<NodeVector<dim>> &before,
                         const AlignedArray<NodeVector<dim>> &after);
 
@@ -78,8 +91,10 @@ namespace quoin
     }
     /** Takes the masses of the local nodes, with mass scaling [kg], and finds
         the nodes that constraints move, but for those that are @p absent (local
-        nodes), which stay where they are. */
+        nodes), which stay where they are; @p added: of nodes that have more
+        mass in some directions, ascending. */
     void capture_nodes(const std::vector<double> &mass,
+                       const std::vector<NodeMass<dim>> &added,
                        const std::vector<bool> &absent);
     /** Makes @p nodes keep their velocity; no force acts on them. */
     void hold(const std::vector<unsigned int> &nodes);
@@ -118,6 +133,8 @@ namespace quoin
     /** Ratio of unbalanced to applied force, of all ranks [-]. Collective. */
     double unbalanced_ratio(const State<dim> &state, const StepContext &context,
                             StepSums sums) const;
+    /** Force on @p node by the inertia of @p mass in the last step [N]. */
+    NodeVector<dim> inertia_force(const NodeMass<dim> &mass) const;
     /** Adds the recoverable energy of operators, of this rank. */
     void add_stored_energy(const State<dim> &state,
                            EnergyAccounts &energies) const;
@@ -141,6 +158,9 @@ namespace quoin
     void finish_sum(OwnerSum<NodeVector<dim>> &sum,
                     AlignedArray<NodeVector<dim>> &values);
     void capture(CapturedNode<dim> &node, const State<dim> &state) const;
+    /** Moves the free components of nodes with added masses, after all that is
+        prescribed. */
+    void move_heavy_nodes(State<dim> &state, const StepContext &context);
     void adapt_damping(State<dim> &state, const StepContext &context,
                        const DampingWork &work) const;
 
@@ -169,6 +189,16 @@ namespace quoin
     std::vector<unsigned int> held;   /**< ascending */
 
     std::vector<CapturedNode<dim>> captured; /**< ascending nodes */
+    /** A node with an added mass. */
+    struct HeavyNode
+    {
+      unsigned int captured;                         /**< its position there */
+      std::array<std::array<double, dim>, dim> mass; /**< added mass [kg] */
+      /** Inverse of all mass of the free components, 0 elsewhere [1/kg]. */
+      std::array<std::array<double, dim>, dim> inverse;
+      NodeVector<dim> acceleration; /**< in the last step [m/s^2] */
+    };
+    std::vector<HeavyNode> heavy; /**< ascending nodes */
     /** First entry of each tile, of shared nodes, and of rigid blocks. */
     std::vector<unsigned int> captured_begin;
 

@@ -53,7 +53,7 @@ namespace quoin
      */
     void restore_masses(const StageParameters &previous, State<dim> state)
     {
-      scale_masses(previous, state);
+      scale_masses(previous, state.stage_start, state);
     }
 
     /** Quantities to be computed in a step; see step(). */
@@ -77,6 +77,10 @@ namespace quoin
      * stage. */
     void resume_stage(const StageParameters &stage,
                       const StageParameters *previous, State<dim> &state);
+
+    /** Throws an InputError about added mass of a reservoir whose level changes
+        in the stage that begins with @p state. */
+    void check_levels(const State<dim> &state) const;
 
     /** Critical time step of the stage [s], the same on all ranks. */
     double critical_time_step() const
@@ -124,6 +128,11 @@ namespace quoin
       return std::exchange(blocks_outside, {});
     }
 
+    /** Of a load with added mass the force of its inertia. */
+    std::array<double, 3> resultant(const std::string &load) const override;
+    /** Water that moves with faces in the stage [kg]; collective. */
+    double added_water() const;
+
     const BlockContacts *contacts() const override
     {
       return block_contacts;
@@ -142,7 +151,13 @@ namespace quoin
     using Solver<dim>::acts_in;
     using Solver<dim>::sum;
 
-    void scale_masses(const StageParameters &stage, State<dim> &state);
+    /** Finds the masses in @p stage, which begins at @p start [s]. */
+    void scale_masses(const StageParameters &stage, double start,
+                      State<dim> &state);
+    /** Finds the water that moves with faces in @p stage. */
+    void find_water(const StageParameters &stage, double start);
+    /** Refuses constraints at nodes with added mass that do not know of it. */
+    void refuse_heavy_constraints() const;
     /** Finds the masses of beams, gives nodes of blocks at liners the @p mass
         [kg] that the scaled step of @p stage needs, and returns a bound of the
         omega^2 of both [1/s^2]. */
@@ -204,6 +219,10 @@ namespace quoin
 
     CentralDifferences<dim> stepper;
     std::vector<double> node_mass; /**< local nodes, with mass scaling [kg] */
+    std::vector<HydrodynamicMass> reservoirs;
+    /** Of each of them in this stage, and all of them. */
+    std::vector<std::vector<NodeMass<dim>>> reservoir_masses;
+    std::vector<NodeMass<dim>> water_mass;
     double critical_step = 0.;
     AddedMass added;
     double time_step = 0.;
@@ -238,6 +257,12 @@ namespace quoin
                                              std::vector<double> &mass) const;
 
   // Members that exist in two dimensions only.
+  template <>
+  void ExplicitSolver<2>::find_water(const StageParameters &stage,
+                                     double start);
+  template <>
+  void ExplicitSolver<3>::find_water(const StageParameters &stage,
+                                     double start);
   template <>
   void ExplicitSolver<2>::set_dashpots();
   template <>

@@ -17,6 +17,7 @@
 #include <quoin/loads/platen.h>
 #include <quoin/structures/beams.h>
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -148,6 +149,11 @@ namespace quoin
 
     /** Force x, y [N] and moment [N m] of a load; collective. */
     virtual std::array<double, 3> resultant(const std::string &load) const;
+    /** Whether @p load adds the mass of water, so that it has a resultant. */
+    bool has_added_mass(const std::string &load) const
+    {
+      return std::count(loads_of_water.begin(), loads_of_water.end(), load) > 0;
+    }
 
     /** Takes the beams of the run, before prepare(). */
     void set_beams(std::unique_ptr<Beams> beams)
@@ -232,6 +238,7 @@ namespace quoin
     JointFlow *water = nullptr;       /**< null: no water flows in joints */
     std::unique_ptr<Beams> all_beams; /**< in two dimensions, or null */
     std::vector<std::string> known_loads;
+    std::vector<std::string> loads_of_water; /**< with added mass */
 
     StageParameters stage;
     StageLoads<dim> acting; /**< loads that act in this stage */
@@ -241,6 +248,9 @@ namespace quoin
     std::map<std::string, std::vector<DisplacementTerm>>
         controls; /**< load controls by the names of stages */
     void make_free_fields(const std::vector<LoadParameters> &loads);
+    /** Lets the last one of all_loads, the uplift @p load, follow cracks, if it
+        does. */
+    void add_uplift(const LoadParameters &load);
     void add_far_fields(std::unique_ptr<FarField> far_field,
                         std::unique_ptr<StaticFarField> static_field);
 
@@ -252,6 +262,10 @@ namespace quoin
   };
 
   // Members that exist in two dimensions only.
+  template <>
+  void Solver<2>::add_uplift(const LoadParameters &load);
+  template <>
+  void Solver<3>::add_uplift(const LoadParameters &load);
   template <>
   void Solver<2>::make_free_fields(const std::vector<LoadParameters> &loads);
   template <>

@@ -4,9 +4,11 @@
 #ifndef quoin_loads_load_field_h
 #define quoin_loads_load_field_h
 
+#include <quoin/loads/uplift_diagram.h>
 #include <quoin/signals/space_time_function.h>
 #include <quoin/signals/time_function.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -17,8 +19,8 @@ namespace quoin
 
   /**
    * A value of a load that differs from place to place: a function of place and
-   * time; or the pressure of water at rest, its unit weight times the depth
-   * below a level that is a function of time, and 0 above it.
+   * time; or the pressure of water, its unit weight times the depth below a
+   * level that is a function of time or an UpliftDiagram, and 0 above it.
    */
   class LoadField
   {
@@ -31,15 +33,25 @@ namespace quoin
     {
     }
 
+    explicit LoadField(const std::shared_ptr<const UpliftDiagram> &diagram)
+      : uplift_diagram(diagram)
+    {
+    }
+
     /** Value at @p place in the mesh [m], where the coordinate @p up is the
-        height. */
+        height; @p crack: length of the crack below a dam [m]. */
     double operator()(const dealii::Point<3> &place, const TimePoint &time,
-                      unsigned int up) const;
+                      unsigned int up, double crack = 0.) const;
 
     /** The height of the water [m], if it is its pressure. */
     const std::optional<TimeFunction> &level() const
     {
       return water_level;
+    }
+    /** The uplift below a dam; null: it is none. */
+    const std::shared_ptr<const UpliftDiagram> &uplift() const
+    {
+      return uplift_diagram;
     }
     /** Whether it is a function that may change in time. */
     bool is_function_of_time() const
@@ -50,6 +62,7 @@ namespace quoin
   private:
     SpaceTimeFunction function;
     std::optional<TimeFunction> water_level;
+    std::shared_ptr<const UpliftDiagram> uplift_diagram;
   };
 
   /**

@@ -90,6 +90,11 @@ namespace quoin
     /** Tractions and gravity: factor by which they differ from place to place,
         of the position in the mesh alone [-]; none: 1. */
     std::optional<SpaceTimeFunction> distribution;
+    /** Tractions, the pressure of water: whether it also adds its mass, see
+        HydrodynamicMass, and the floor of the reservoir [m]; none: the lowest
+        point of 'boundaries'. */
+    bool has_added_mass = false;
+    std::optional<double> reservoir_floor;
     /** Tractions: factor that travels along the boundary; null: 1. */
     std::shared_ptr<const MovingShape> shape;
 

@@ -38,6 +38,9 @@ namespace quoin
     NodeVector<dim> begun;
     /** The last constraint to act on each component; null: none. */
     const MotionConstraint<dim> *owner[dim];
+    /** Whether it has a NodeMass beside its mass. Its part of the inertia then
+        goes into 'force' before constraints book their work. */
+    bool has_added_mass;
   };
 
   /** Moment about the origin [N m] of @p force [N] on a node, as it was at t.

@@ -16,6 +16,7 @@ namespace quoin
 {
   template <int dim>
   class TractionField;
+  class JointCrack;
 
   /**
    * A traction or gravity: forces a(t) w_i on nodes i with fixed weights w_i,
@@ -38,6 +39,29 @@ namespace quoin
 
     /** Updates the weights of gravity; @p mass as in the constructor. */
     void set_mass(const std::vector<double> &mass);
+
+    /** Lets the headwater of an uplift follow the crack of a joint; null: it
+        does not. */
+    void set_crack(std::shared_ptr<const JointCrack> opening)
+    {
+      crack = std::move(opening);
+    }
+    /** Takes the crack of @p state. Collective. */
+    void find_crack(const State<dim> &state);
+    /**
+     * Whether the crack of @p state, in equilibrium with the present uplift, is
+     * the one that the uplift is that of. Otherwise the uplift becomes another
+     * one, for which there is to be another equilibrium. Collective.
+     */
+    bool follow_crack(const State<dim> &state);
+    void update(const StepContext &, State<dim> &state) override
+    {
+      find_crack(state);
+    }
+    bool follows_cracks() const
+    {
+      return crack != nullptr;
+    }
 
     /** Gravity that @p begins in the stage grows by half a cosine, over a
         duration that is given or @p automatic [s]; 0: it is there at once. */
@@ -81,7 +105,11 @@ namespace quoin
                     const Thickness &thickness);
 
     /** Null: the load does not differ by place, but for the distribution. */
-    std::shared_ptr<const TractionField<dim>> field;
+    std::shared_ptr<TractionField<dim>> field;
+    std::shared_ptr<const JointCrack> crack;
+    /** Relaxation of follow_crack(), and by how much the crack was longer than
+        the uplift took it to be [m]; 0: not known. */
+    double relaxation = 1., crack_excess = 0.;
     std::shared_ptr<const MovingShape> shape;
     /** The distribution at each of its nodes; empty: 1. */
     std::vector<double> node_factors;

@@ -45,6 +45,16 @@ namespace quoin
     /** The force on each of nodes() [N]; computed when it changes. */
     const std::vector<NodeVector<dim>> &forces(const TimePoint &time) const;
 
+    /** Length of the crack that the water of an UpliftDiagram is in [m]. */
+    double crack() const
+    {
+      return crack_length;
+    }
+    void set_crack(const double length)
+    {
+      crack_length = length;
+    }
+
   private:
     struct Face
     {
@@ -58,11 +68,11 @@ namespace quoin
       std::array<double, dim> coordinates; /**< barycentric */
       double weight;                       /**< sum 1 */
     };
-    /** Where the traction has jumps and kinks: axis and coordinate. */
+    /** Where the traction has jumps and kinks: a plane. */
     struct Cut
     {
-      unsigned int axis;
-      double place; /**< [m] */
+      dealii::Tensor<1, 3> normal;
+      double place; /**< along the normal [m] */
     };
 
     /** All that the forces depend on at @p time but for the place. */
@@ -81,6 +91,7 @@ namespace quoin
     LoadComponent pressure;
     std::optional<SpaceTimeFunction> distribution;
     std::shared_ptr<const MovingShape> shape;
+    double crack_length = 0.;
     std::vector<unsigned int> node_list;
     std::vector<Face> faces;
     // What forces() found last, and the data that it was found for.

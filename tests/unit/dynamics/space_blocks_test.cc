@@ -106,7 +106,8 @@ namespace
         constraint->prepare(state);
         constraint->begin_stage(state, false);
       }
-      stepper.capture_nodes(mass, std::vector<bool>(nodes.n_local(), false));
+      stepper.capture_nodes(mass, {},
+                            std::vector<bool>(nodes.n_local(), false));
       nodes.exchange().update_ghosts(state.nodes.data());
     }
 

@@ -1,0 +1,16 @@
+// A wall on the line y = 0, 12 m high, with an inclined face on the left.
+Point(1) = {0, 0, 0};
+Point(2) = {6, 0, 0};
+Point(3) = {6, 12, 0};
+Point(4) = {2, 12, 0};
+Line(1) = {1, 2};
+Line(2) = {2, 3};
+Line(3) = {3, 4};
+Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4};
+Plane Surface(1) = {1};
+MeshSize{ : } = 1.5;
+Physical Curve("base") = {1};
+Physical Curve("right") = {2};
+Physical Curve("left") = {4};
+Physical Surface("wall") = {1};
