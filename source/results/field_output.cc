@@ -90,6 +90,8 @@ namespace quoin
       return water.point_pressure[point];
     if (component == 1)
       return water.point_aperture[point];
+    if (component == 4)
+      return water.point_saturation[point];
     // Faces run either way along a joint.
     const JointSegment &segment = model.joints().segments()[point / 2];
     const auto along            = model.nodes().point(segment.lower[1])
@@ -111,8 +113,8 @@ namespace quoin
       fields.of_laws.push_back({ name, {} });
     const JointFlowState *water = state.find<JointFlowState>();
     if (water)
-      for (const char *name :
-           { "water pressure", "hydraulic aperture", "flow", "flow velocity" })
+      for (const char *name : { "water pressure", "hydraulic aperture", "flow",
+                                "flow velocity", "saturation" })
         fields.of_laws.push_back({ name, {} });
     for (unsigned int i = 0; i < model.joints().segments().size(); ++i)
     {

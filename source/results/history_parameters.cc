@@ -67,6 +67,7 @@ namespace quoin
         { "joint hydraulic aperture", { Q::joint, 8, "m" } },
         { "joint flow", { Q::joint, 9, "m^3/s" } },
         { "joint flow velocity", { Q::joint, 10, "m/s" } },
+        { "joint saturation", { Q::joint, 11, "-" } },
         { "water inflow", { Q::water, 0, "m^3/s" } },
         { "water outflow", { Q::water, 1, "m^3/s" } },
         { "reaction x", { Q::reaction, 0, "N", 0 } },

@@ -3,12 +3,17 @@
 
 #include <quoin/base/disjoint_sets.h>
 #include <quoin/base/eigen_core.h>
+#include <quoin/base/exceptions.h>
 #include <quoin/water/flow_network.h>
 
 #include <Eigen/QR>
 #include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
 #include <utility>
 
 namespace quoin
@@ -68,7 +73,7 @@ namespace quoin
         parts.unite(channel.nodes[0], channel.nodes[1]);
     std::vector<std::uint8_t> is_connected(n_nodes(), 0), result;
     for (unsigned int i = 0; i < n_nodes(); ++i)
-      if (conditions.is_given[i])
+      if (conditions.is_given[i] || conditions.is_outlet[i])
         is_connected[parts.find(i)] = 1;
     for (unsigned int i = 0; i < n_nodes(); ++i)
       result.push_back(!is_connected[parts.find(i)]);
@@ -177,6 +182,7 @@ namespace quoin
       result.residual += result.inflow.back();
     }
     result.content = contents(result.pressure);
+    result.saturation.assign(n_nodes(), 1.);
     return result;
   }
 
@@ -186,6 +192,13 @@ namespace quoin
                                       const std::vector<double> &compliance,
                                       const std::vector<double> &guess) const
   {
+    FlowSolution result;
+    if (fluid.has_free_surface)
+    {
+      fill_in_parts(conditions, dt, content, compliance, guess, 0, result);
+      return result;
+    }
+    result.saturation.assign(n_nodes(), 1.);
     const std::vector<double> volume = volumes();
     std::vector<double> storage, known;
     for (unsigned int i = 0; i < n_nodes(); ++i)
@@ -193,7 +206,6 @@ namespace quoin
       storage.push_back(volume[i] / fluid.bulk_modulus + compliance[i]);
       known.push_back(content[i] - volume[i] + compliance[i] * guess[i]);
     }
-    FlowSolution result;
     const Pressures pressure = solve(conditions, dt, storage, known);
     result.pressure.assign(pressure.begin(), pressure.end());
     result.content = contents(result.pressure);
@@ -211,6 +223,284 @@ namespace quoin
           += result.inflow.back() - (result.content[i] - content[i]);
     }
     return result;
+  }
+
+  bool FlowNetwork::fill(const FlowConditions &conditions, const double dt,
+                         const std::vector<double> &content,
+                         const std::vector<double> &compliance,
+                         const std::vector<double> &guess,
+                         FlowSolution &result) const
+  {
+    constexpr unsigned int most_iterations = 60;
+    // The unknown of a node is its pressure where that is positive; where it is
+    // negative the node is filled in part, to 1 at 0 and to 0 at -scale. At an
+    // outlet water leaves by a positive one.
+    const std::vector<double> volume = volumes();
+    double scale                     = 1.; // [Pa]
+    std::vector<double> conducts(n_nodes(), 0.);
+    for (const FlowChannel &channel : all_channels)
+      for (const unsigned int i : channel.nodes)
+      {
+        conducts[i] += dt * conductance(channel);
+        scale = std::max({ scale, conditions.pressure[i],
+                           fluid.unit_weight * channel.length });
+      }
+    const auto is_known = [&](const unsigned int i)
+    { return conditions.is_given[i] || volume[i] == 0.; };
+    std::vector<int> row(n_nodes(), -1);
+    int n = 0;
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      if (!is_known(i))
+        row[i] = n++;
+
+    struct Filling
+    {
+      std::vector<double> pressure, saturation, factor, slope, lacking;
+      double error = 0.; /**< sum of what is lacking [m^3] */
+    };
+    double flows        = 0.; // [m^3], to which the error is compared
+    const auto evaluate = [&](const std::vector<double> &unknown, Filling &at)
+    {
+      at.pressure.assign(n_nodes(), 0.);
+      at.saturation.assign(n_nodes(), 1.);
+      at.factor.assign(n_nodes(), 1.);
+      at.slope.assign(n_nodes(), 0.); // of the factor by the unknown
+      at.lacking.assign(n_nodes(), 0.);
+      flows = 0.;
+      for (unsigned int i = 0; i < n_nodes(); ++i)
+        if (is_known(i))
+          at.pressure[i] = conditions.is_given[i] ? conditions.pressure[i] : 0.;
+        else
+        {
+          if (!conditions.is_outlet[i])
+            at.pressure[i] = std::max(unknown[i], 0.);
+          const double s = std::min(1., std::max(0., 1. + unknown[i] / scale));
+          at.saturation[i] = s;
+          at.factor[i]     = s * s * (3. - 2. * s);
+          if (unknown[i] < 0. && s > 0.)
+            at.slope[i] = 6. * s * (1. - s) / scale;
+          at.lacking[i]
+              = content[i] + dt * conditions.source[i]
+                - s
+                      * (volume[i] * (1. + at.pressure[i] / fluid.bulk_modulus)
+                         + compliance[i] * (at.pressure[i] - guess[i]));
+          if (conditions.is_outlet[i])
+            at.lacking[i] -= conducts[i] * std::max(unknown[i], 0.);
+          flows += std::abs(content[i] - s * volume[i])
+                   + dt * std::abs(conditions.source[i]);
+        }
+      for (const FlowChannel &channel : all_channels)
+      {
+        const auto [i, j] = channel.nodes;
+        const double drive
+            = dt * conductance(channel)
+              * (at.pressure[i] - at.pressure[j]
+                 + fluid.unit_weight * (elevation[i] - elevation[j]));
+        const double passes
+            = (drive > 0. ? at.factor[i] : at.factor[j]) * drive;
+        at.lacking[i] -= passes;
+        at.lacking[j] += passes;
+        flows += std::abs(passes);
+      }
+      at.error = 0.;
+      for (unsigned int i = 0; i < n_nodes(); ++i)
+        if (row[i] >= 0)
+          at.error += std::abs(at.lacking[i]);
+    };
+
+    std::vector<double> unknown(n_nodes(), 0.);
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      if (row[i] >= 0)
+      {
+        const double s = content[i] / volume[i];
+        unknown[i]     = s < 1. ? scale * (s - 1.) : std::max(0., guess[i]);
+      }
+    Filling at, trial;
+    evaluate(unknown, at);
+    bool is_found = n == 0;
+    for (unsigned int iteration = 0; !is_found; ++iteration)
+    {
+      if (iteration == most_iterations)
+        return false;
+      std::vector<Eigen::Triplet<double>> entries;
+      const auto enter
+          = [&](const unsigned int i, const unsigned int j, const double value)
+      {
+        if (row[i] >= 0 && row[j] >= 0 && value != 0.)
+          entries.emplace_back(row[i], row[j], value);
+      };
+      std::vector<double> diagonal(n_nodes(), 0.);
+      for (unsigned int i = 0; i < n_nodes(); ++i)
+        if (row[i] >= 0)
+          diagonal[i] = unknown[i] < 0. ? volume[i] / scale
+                        : conditions.is_outlet[i]
+                            ? conducts[i]
+                            : volume[i] / fluid.bulk_modulus + compliance[i];
+      for (const FlowChannel &channel : all_channels)
+      {
+        const double k = dt * conductance(channel);
+        if (k == 0.)
+          continue;
+        const auto [i, j] = channel.nodes;
+        const double drive
+            = k
+              * (at.pressure[i] - at.pressure[j]
+                 + fluid.unit_weight * (elevation[i] - elevation[j]));
+        const unsigned int from = drive > 0. ? i : j, to = drive > 0. ? j : i;
+        const double size = std::abs(drive);
+        // By the pressure of either end, and by the filling of that above.
+        const double by_from = (row[from] >= 0 && unknown[from] > 0.
+                                        && !conditions.is_outlet[from]
+                                    ? at.factor[from] * k
+                                    : 0.)
+                               + at.slope[from] * size;
+        const double by_to
+            = row[to] >= 0 && unknown[to] > 0. && !conditions.is_outlet[to]
+                  ? at.factor[from] * k
+                  : 0.;
+        diagonal[from] += by_from;
+        diagonal[to] += by_to;
+        enter(from, to, -by_to);
+        enter(to, from, -by_from);
+      }
+      for (unsigned int i = 0; i < n_nodes(); ++i)
+        enter(i, i, diagonal[i]);
+      Eigen::SparseMatrix<double> matrix(n, n);
+      matrix.setFromTriplets(entries.begin(), entries.end());
+      Eigen::VectorXd lacking(n);
+      for (unsigned int i = 0; i < n_nodes(); ++i)
+        if (row[i] >= 0)
+          lacking[row[i]] = at.lacking[i];
+      Eigen::SparseLU<Eigen::SparseMatrix<double>> factors(matrix);
+      if (factors.info() != Eigen::Success)
+        return false;
+      const Eigen::VectorXd change = factors.solve(lacking);
+      const double error           = at.error;
+      std::vector<double> best     = unknown;
+      double share                 = 1.;
+      for (unsigned int halving = 0; halving < 8; ++halving, share *= 0.5)
+      {
+        std::vector<double> next = unknown;
+        for (unsigned int i = 0; i < n_nodes(); ++i)
+          if (row[i] >= 0)
+            next[i] = std::max(-scale, unknown[i] + share * change[row[i]]);
+        evaluate(next, trial);
+        if (halving == 0 || trial.error < at.error)
+        {
+          best = next;
+          std::swap(at, trial);
+        }
+        if (at.error < error)
+          break;
+      }
+      unknown  = best;
+      is_found = at.error <= 1e-13 * flows;
+    }
+
+    result.pressure   = at.pressure;
+    result.saturation = at.saturation;
+    result.content.assign(n_nodes(), 0.);
+    result.inflow.assign(n_nodes(), 0.);
+    result.residual = 0.;
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+    {
+      // What Newton's method leaves over stays in the node.
+      if (row[i] >= 0)
+      {
+        const double leaves = conditions.is_outlet[i]
+                                  ? conducts[i] * std::max(unknown[i], 0.)
+                                  : 0.;
+        result.inflow[i]    = dt * conditions.source[i] - leaves;
+        result.content[i]
+            = at.saturation[i]
+                  * (volume[i] * (1. + at.pressure[i] / fluid.bulk_modulus)
+                     + compliance[i] * (at.pressure[i] - guess[i]))
+              + at.lacking[i];
+      }
+      else if (conditions.is_given[i])
+      {
+        result.content[i]
+            = volume[i] * (1. + at.pressure[i] / fluid.bulk_modulus);
+        result.inflow[i] = result.content[i] - content[i] - at.lacking[i];
+      }
+      result.residual += result.inflow[i] - (result.content[i] - content[i]);
+    }
+    return true;
+  }
+
+  void FlowNetwork::fill_in_parts(const FlowConditions &conditions,
+                                  const double dt,
+                                  const std::vector<double> &content,
+                                  const std::vector<double> &compliance,
+                                  const std::vector<double> &guess,
+                                  const unsigned int depth,
+                                  FlowSolution &result) const
+  {
+    constexpr unsigned int most_halvings = 20;
+    if (fill(conditions, dt, content, compliance, guess, result))
+      return;
+    if (depth == most_halvings)
+      throw RunError("section 'Water': the flow with a free surface is not "
+                     "found, however short the step. Check the apertures and "
+                     "what 'Water boundaries' give.");
+    FlowSolution first;
+    fill_in_parts(conditions, 0.5 * dt, content, compliance, guess, depth + 1,
+                  first);
+    fill_in_parts(conditions, 0.5 * dt, first.content, compliance, guess,
+                  depth + 1, result);
+    for (unsigned int i = 0; i < n_nodes(); ++i)
+      result.inflow[i] += first.inflow[i];
+    result.residual += first.residual;
+  }
+
+  FlowSolution FlowNetwork::steady(const FlowConditions &conditions,
+                                   const std::vector<double> &content) const
+  {
+    // Steps that grow until nothing moves any more. The first one moves about
+    // as much as a node holds.
+    const std::vector<double> volume = volumes(), nothing(n_nodes(), 0.);
+    double largest                   = 0.;
+    for (const FlowChannel &channel : all_channels)
+      for (const unsigned int i : channel.nodes)
+        largest = std::max(largest, conditions.pressure[i]);
+    double dt = std::numeric_limits<double>::max();
+    for (const FlowChannel &channel : all_channels)
+      if (const double fastest
+          = conductance(channel)
+            * (largest + fluid.unit_weight * channel.length);
+          fastest > 0.)
+        for (const unsigned int i : channel.nodes)
+          dt = std::min(dt, volume[i] / fastest);
+    if (dt == std::numeric_limits<double>::max())
+      dt = 1.;
+    constexpr unsigned int most_steps = 60;
+    FlowSolution result;
+    std::vector<double> held = content, pressure(n_nodes(), 0.);
+    for (unsigned int step = 0; step < most_steps; ++step, dt *= 3.)
+    {
+      fill_in_parts(conditions, dt, held, nothing, pressure, 0, result);
+      double moved = 0., passes = 0., stored = 0.;
+      for (unsigned int i = 0; i < n_nodes(); ++i)
+      {
+        moved += std::abs(result.content[i] - held[i]);
+        stored += volume[i];
+        passes += std::abs(result.inflow[i]);
+      }
+      held     = result.content;
+      pressure = result.pressure;
+      if (moved <= 1e-12 * passes
+          || (passes <= 1e-12 * stored && moved <= 1e-9 * stored))
+      {
+        for (double &volume_in : result.inflow)
+          volume_in /= dt;
+        result.residual
+            = std::accumulate(result.inflow.begin(), result.inflow.end(), 0.);
+        return result;
+      }
+    }
+    throw RunError("section 'Water': the flow with a free surface does not "
+                   "become steady. Take 'Flow = transient', and see whether "
+                   "water has a way out.");
   }
 
   std::vector<double>

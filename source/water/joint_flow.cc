@@ -231,6 +231,7 @@ namespace quoin
     const std::size_t n = joints.segments().size();
     now.point_pressure.assign(2 * n, 0.);
     now.point_aperture.assign(2 * n, 0.);
+    now.point_saturation.assign(2 * n, 0.);
     now.flow.assign(n, 0.);
     now.velocity.assign(n, 0.);
   }
@@ -293,8 +294,9 @@ namespace quoin
   FlowConditions JointFlow::conditions(const TimePoint &time) const
   {
     FlowConditions result(elevation.size());
-    for (unsigned int i = 0; i < elevation.size(); ++i)
-      result.is_given[i] = is_wall[i];
+    // With a free surface water does not enter from the air.
+    const bool is_free = given.fluid.has_free_surface;
+    (is_free ? result.is_outlet : result.is_given) = is_wall;
     for (unsigned int b = 0; b < boundary_nodes.size(); ++b)
     {
       const WaterBoundary &boundary = given.boundaries[b];
@@ -305,16 +307,25 @@ namespace quoin
                        + number_text(time.stage)
                        + " s of the stage. Correct its function of time.");
       for (const unsigned int node : boundary_nodes[b])
+      {
         if (boundary.quantity == WaterQuantity::flow)
-          result.source[node] = value / double(boundary_nodes[b].size());
-        else
         {
-          result.is_given[node] = 1;
-          result.pressure[node]
-              = boundary.quantity == WaterQuantity::pressure
-                    ? value
-                    : given.fluid.unit_weight * (value - elevation[node]);
+          result.source[node] = value / double(boundary_nodes[b].size());
+          continue;
         }
+        const double pressure
+            = boundary.quantity == WaterQuantity::head
+                  ? given.fluid.unit_weight * (value - elevation[node])
+                  : value;
+        const bool is_outlet
+            = boundary.quantity == WaterQuantity::outlet
+              || (is_free && boundary.quantity == WaterQuantity::head
+                  && pressure <= 0.);
+        result.is_outlet[node] = is_outlet;
+        result.is_given[node]  = !is_outlet;
+        if (!is_outlet)
+          result.pressure[node] = pressure;
+      }
     }
     return result;
   }
@@ -326,10 +337,11 @@ namespace quoin
     if (given.flow == FlowKind::transient)
       return flow_network.transient(at, dt, before.content, compliance,
                                     now.pressure);
-    return solve_steady(at);
+    return solve_steady(at, before);
   }
 
-  FlowSolution JointFlow::solve_steady(const FlowConditions &at) const
+  FlowSolution JointFlow::solve_steady(const FlowConditions &at,
+                                       const JointFlowState &before) const
   {
     const auto unconnected = flow_network.unconnected_nodes(at);
     for (unsigned int b = 0; b < boundary_nodes.size(); ++b)
@@ -340,7 +352,11 @@ namespace quoin
                            "way to a place of given pressure or head, so there "
                            "is no steady flow. Give a pressure elsewhere, or "
                            "take 'Flow = transient'.");
-    return flow_network.steady(at);
+    if (!given.fluid.has_free_surface)
+      return flow_network.steady(at);
+    // Before there is any the joints are full.
+    return flow_network.steady(at, before.acts ? before.content
+                                               : flow_network.volumes());
   }
 
   void JointFlow::take(const FlowSolution &solution, const double time,
@@ -380,14 +396,16 @@ namespace quoin
       {
         now.flow[i] = now.velocity[i] = 0.;
         for (unsigned int k = 0; k < 2; ++k)
-          now.point_pressure[2 * i + k] = now.point_aperture[2 * i + k] = 0.;
+          now.point_pressure[2 * i + k]         = now.point_aperture[2 * i + k]
+              = now.point_saturation[2 * i + k] = 0.;
         continue;
       }
       const FlowChannel &channel = flow_network.channels()[c];
       for (unsigned int k = 0; k < 2; ++k)
       {
-        now.point_pressure[2 * i + k] = now.pressure[channel.nodes[k]];
-        now.point_aperture[2 * i + k] = channel.aperture[k];
+        now.point_pressure[2 * i + k]   = now.pressure[channel.nodes[k]];
+        now.point_aperture[2 * i + k]   = channel.aperture[k];
+        now.point_saturation[2 * i + k] = solution.saturation[channel.nodes[k]];
       }
       now.flow[i]     = flow_network.flow(channel, now.pressure);
       now.velocity[i] = now.flow[i] / channel.thickness
@@ -451,9 +469,10 @@ namespace quoin
     now.acts          = acts_in(name);
     if (!now.acts)
     {
-      for (auto *values : { &now.pressure, &now.content, &now.point_pressure,
-                            &now.point_aperture, &now.flow, &now.velocity,
-                            &now.boundary_flow, &now.node_inflow })
+      for (auto *values :
+           { &now.pressure, &now.content, &now.point_pressure,
+             &now.point_aperture, &now.point_saturation, &now.flow,
+             &now.velocity, &now.boundary_flow, &now.node_inflow })
         std::fill(values->begin(), values->end(), 0.);
       find_forces();
       water = now;
@@ -462,10 +481,11 @@ namespace quoin
     set_apertures(state.nodes.data());
     const TimePoint start{ 0., state.time };
     FlowSolution solution;
-    if (given.flow == FlowKind::steady || (begins && given.starts_steady))
+    if (given.flow == FlowKind::steady
+        || (begins && given.initial == InitialWater::steady))
       try
       {
-        solution = solve_steady(conditions(start));
+        solution = solve_steady(conditions(start), water);
       }
       catch (const RunError &error)
       {
@@ -475,6 +495,9 @@ namespace quoin
     {
       solution.pressure = now.pressure;
       solution.content  = flow_network.contents(now.pressure);
+      solution.saturation.assign(elevation.size(), 1.);
+      if (given.fluid.has_free_surface)
+        start_free_surface(begins, solution);
     }
     if (given.flow == FlowKind::transient)
       solution.inflow.assign(elevation.size(), 0.);
@@ -482,6 +505,22 @@ namespace quoin
     before.content = solution.content;
     take(solution, state.time, 0., before);
     water = now;
+  }
+
+  void JointFlow::start_free_surface(const bool begins,
+                                     FlowSolution &solution) const
+  {
+    const std::vector<double> volumes = flow_network.volumes();
+    for (unsigned int i = 0; i < elevation.size(); ++i)
+    {
+      if (begins && given.initial == InitialWater::dry)
+        solution.content[i] = 0.;
+      else if (!begins)
+        solution.content[i] = volumes[i] > 0. ? now.content[i] : 0.;
+      solution.saturation[i]
+          = volumes[i] > 0. ? std::min(1., solution.content[i] / volumes[i])
+                            : 0.;
+    }
   }
 
   void JointFlow::resume_stage(const State<2> &state)

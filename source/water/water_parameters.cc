@@ -41,11 +41,16 @@ namespace quoin
       entries.choice("Quantity", boundary.quantity,
                      { { "pressure", WaterQuantity::pressure },
                        { "head", WaterQuantity::head },
-                       { "flow", WaterQuantity::flow } },
+                       { "flow", WaterQuantity::flow },
+                       { "outlet", WaterQuantity::outlet } },
                      "What is given. pressure [Pa]; head: height y to which "
                      "water would rise [m]; flow: volume that enters the "
                      "joints, in equal shares at all their ends on 'Boundary', "
-                     "negative where it is taken out [m^3/s].");
+                     "negative where it is taken out [m^3/s]; outlet: with "
+                     "'Free surface' of section 'Water', a face at which water "
+                     "comes out at pressure 0 and none enters, without "
+                     "'Value'. With a free surface, places above a given head "
+                     "are outlets.");
       entries.other("Value", "0",
                     "Value of 'Quantity', a number or a function of the time t "
                     "in the stage and T in the run, a table or a signal.",
@@ -80,14 +85,26 @@ namespace quoin
                           "gravity in the flow [N/m^3]");
       entries.positive("Bulk modulus", water.fluid.bulk_modulus,
                        "Bulk modulus of the water, in transient flow [Pa]");
-      entries.choice("Initial state", water.starts_steady,
-                     { { "dry", false }, { "steady", true } },
-                     "State at the start of transient flow. dry: pressure 0; "
-                     "steady: that of steady flow with the values given at "
-                     "boundaries then.");
+      entries.flag("Free surface", water.fluid.has_free_surface,
+                   "Whether joints can be filled in part, at pressure 0, so "
+                   "that water has a free surface; otherwise they are full, "
+                   "and pressures may be negative.");
+      entries.choice("Initial state", water.initial,
+                     { { "dry", InitialWater::dry },
+                       { "full", InitialWater::full },
+                       { "steady", InitialWater::steady } },
+                     "State at the start of transient flow. dry: pressure 0, "
+                     "with a free surface no water; full: pressure 0, joints "
+                     "filled; steady: that of steady flow with the values "
+                     "given at boundaries then.");
       entries.flag("Suction", water.has_suction,
                    "Whether negative pressures pull the faces of joints "
                    "together; otherwise they count as 0 on the faces.");
+      if (const ParameterSection *section = entries.read_section();
+          section && water.has_suction && water.fluid.has_free_surface)
+        section->fail("Suction", "does not go with 'Free surface = yes', with "
+                                 "which no pressure is negative. Leave one "
+                                 "of them out.");
       entries.integer("Steps between solutions", water.interval, 1,
                       "Number of steps of the explicit solver from one "
                       "solution of steady flow to the next [-]");
@@ -133,6 +150,13 @@ namespace quoin
         = read_entries(ParameterSection(top, "Water"), enter_water);
     water.joints     = read_named<HydraulicAperture>(top, "Water joints");
     water.boundaries = read_named<WaterBoundary>(top, "Water boundaries");
+    for (const WaterBoundary &boundary : water.boundaries)
+      if (boundary.quantity == WaterQuantity::outlet
+          && !water.fluid.has_free_surface)
+        ParameterSection(ParameterSection(top, "Water boundaries"),
+                         boundary.name)
+            .fail("Quantity", "is only for 'Free surface = yes' of section "
+                              "'Water'. Set that, or give 'pressure'.");
     return water;
   }
 } // namespace quoin

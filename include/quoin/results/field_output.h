@@ -24,7 +24,8 @@ namespace quoin
 
   /** Component @p component of the water at @p point of the joints of this
       rank: pressure [Pa], hydraulic aperture [m], flow [m^3/s] or its velocity
-      [m/s], both positive to the right or, in vertical joints, upwards. */
+      [m/s], both positive to the right or, in vertical joints, upwards;
+      saturation [-]. */
   double flow_value(const Model<2> &model, const JointFlowState &water,
                     unsigned int point, unsigned int component);
 

@@ -16,6 +16,8 @@ namespace quoin
     double viscosity    = 1e-3;  /**< dynamic [Pa s] */
     double unit_weight  = 9810.; /**< [N/m^3] */
     double bulk_modulus = 2.2e9; /**< [Pa] */
+    /** Whether joints can be partly filled; otherwise they are full. */
+    bool has_free_surface = false;
   };
 
   /** A piece of a joint between two nodes of a FlowNetwork, whose aperture
@@ -35,9 +37,12 @@ namespace quoin
     std::vector<std::uint8_t> is_given; /**< 1: the pressure is */
     std::vector<double> pressure;       /**< where it is given [Pa] */
     std::vector<double> source;         /**< elsewhere, into the node [m^3/s] */
+    /** With a free surface, 1: at pressure 0 water leaves here, none enters. */
+    std::vector<std::uint8_t> is_outlet;
 
     explicit FlowConditions(const std::size_t n_nodes)
-      : is_given(n_nodes, 0), pressure(n_nodes, 0.), source(n_nodes, 0.)
+      : is_given(n_nodes, 0), pressure(n_nodes, 0.), source(n_nodes, 0.),
+        is_outlet(n_nodes, 0)
     {
     }
   };
@@ -46,11 +51,12 @@ namespace quoin
    */
   struct FlowSolution
   {
-    std::vector<double> pressure; /**< of each node [Pa] */
-    std::vector<double> inflow;   /**< volume into each node from outside [m^3]
-                                   */
-    std::vector<double> content;  /**< volume of water at each node, as it is
-                                     without pressure [m^3] */
+    std::vector<double> pressure;   /**< of each node [Pa] */
+    std::vector<double> saturation; /**< filled share of each node [-] */
+    std::vector<double> inflow;  /**< volume into each node from outside [m^3]
+                                  */
+    std::vector<double> content; /**< volume of water at each node, as it is
+                                    without pressure [m^3] */
     /** Inflow less what is stored, of all nodes [m^3]. */
     double residual = 0.;
   };
@@ -61,6 +67,11 @@ namespace quoin
    * aperture (@cite WitherspoonWangIwaiGale1980). Water is stored at the nodes:
    * the content V (1 + p/K_w) of the volume V of half of the channels that meet
    * there. No mesh: nodes have an elevation alone.
+   *
+   * With a free surface a node may be filled in part, to the saturation s. Its
+   * pressure is 0 then, its content s V, and what flows from it is less by the
+   * factor s^2 (3 - 2 s), 1 where it is full and 0 where it is empty
+   * (@cite ItascaUDEC). Air is everywhere at the pressure 0.
    */
   class FlowNetwork
   {
@@ -104,6 +115,11 @@ namespace quoin
         given pressure have none, 0. */
     FlowSolution steady(const FlowConditions &conditions) const;
 
+    /** That with a free surface, to which the water @p content comes in time:
+        what has no way out stays. Throws a RunError if it does not. */
+    FlowSolution steady(const FlowConditions &conditions,
+                        const std::vector<double> &content) const;
+
     /**
      * A step of @p dt [s] from @p content by backward Euler, with the apertures
      * at its end. @p compliance [m^3/Pa] of the nodes: by how much volumes are
@@ -125,6 +141,19 @@ namespace quoin
     Pressures solve(const FlowConditions &conditions, double dt,
                     const std::vector<double> &storage,
                     const std::vector<double> &known) const;
+    /** A step with a free surface by Newton's method; false: it does not
+        converge. Arguments: see transient(). */
+    bool fill(const FlowConditions &conditions, double dt,
+              const std::vector<double> &content,
+              const std::vector<double> &compliance,
+              const std::vector<double> &guess, FlowSolution &result) const;
+    /** Adds to @p result what follows fill() over @p dt in halves if need be.
+     */
+    void fill_in_parts(const FlowConditions &conditions, double dt,
+                       const std::vector<double> &content,
+                       const std::vector<double> &compliance,
+                       const std::vector<double> &guess, unsigned int depth,
+                       FlowSolution &result) const;
     /** Volume that leaves each node through its channels [m^3]. */
     std::vector<double> outflow(const Pressures &pressure, double dt) const;
 

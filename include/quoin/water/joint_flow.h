@@ -32,10 +32,11 @@ namespace quoin
     std::vector<double> node_inflow;   /**< into each node [m^3/s] */
 
     // Of the segments of joints of this rank and of their points.
-    std::vector<double> point_pressure; /**< [Pa] */
-    std::vector<double> point_aperture; /**< hydraulic; 0: no water [m] */
-    std::vector<double> flow;           /**< from point 0 to point 1 [m^3/s] */
-    std::vector<double> velocity;       /**< mean over the aperture [m/s] */
+    std::vector<double> point_pressure;   /**< [Pa] */
+    std::vector<double> point_aperture;   /**< hydraulic; 0: no water [m] */
+    std::vector<double> point_saturation; /**< filled share [-] */
+    std::vector<double> flow;     /**< from point 0 to point 1 [m^3/s] */
+    std::vector<double> velocity; /**< mean over the aperture [m/s] */
 
     template <typename Visitor>
     void visit(Visitor &visitor)
@@ -44,6 +45,7 @@ namespace quoin
                    residual, boundary_flow, node_inflow);
       visitor.own(point_pressure, 2, JointHistory::slice_name);
       visitor.own(point_aperture, 2, JointHistory::slice_name);
+      visitor.own(point_saturation, 2, JointHistory::slice_name);
       visitor.own(flow, 1, JointHistory::slice_name);
       visitor.own(velocity, 1, JointHistory::slice_name);
     }
@@ -165,7 +167,11 @@ namespace quoin
     FlowSolution solve(const TimePoint &time, double dt,
                        const JointFlowState &before) const;
     /** Throws a RunError about water without a way out. */
-    FlowSolution solve_steady(const FlowConditions &at) const;
+    FlowSolution solve_steady(const FlowConditions &at,
+                              const JointFlowState &before) const;
+    /** Gives @p solution the water with which a stage begins, or in which flow
+        @p begins. */
+    void start_free_surface(bool begins, FlowSolution &solution) const;
     /** Makes @p solution, of the last @p dt since @p before, that of now. */
     void take(const FlowSolution &solution, double time, double dt,
               const JointFlowState &before);

@@ -45,7 +45,8 @@ namespace quoin
   {
     pressure, /**< [Pa] */
     head,     /**< height to which water would rise [m] */
-    flow      /**< into the joints, of all nodes together [m^3/s] */
+    flow,     /**< into the joints, of all nodes together [m^3/s] */
+    outlet    /**< water leaves at pressure 0, none enters */
   };
 
   /** Where something is given of the flow: a subsection of 'Water boundaries'.
@@ -64,6 +65,14 @@ namespace quoin
                               const std::string &name);
   };
 
+  /** Water in the joints when transient flow begins. */
+  enum class InitialWater
+  {
+    dry,   /**< pressure 0; with a free surface: none */
+    full,  /**< pressure 0, joints filled */
+    steady /**< steady flow */
+  };
+
   enum class FlowKind
   {
     none,
@@ -77,7 +86,7 @@ namespace quoin
   {
     FlowKind flow = FlowKind::none;
     Fluid fluid;
-    bool starts_steady    = false;   /**< or without pressure */
+    InitialWater initial  = InitialWater::dry;
     bool has_suction      = false;   /**< negative pressures pull */
     unsigned int interval = 100;     /**< explicit steps between solutions */
     std::vector<std::string> stages; /**< in which it acts; empty: all */

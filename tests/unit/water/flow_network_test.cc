@@ -12,7 +12,8 @@ using namespace quoin;
 namespace
 {
   constexpr double mu = 1e-3, gamma_w = 1e4, kw = 2e9;
-  const Fluid water{ mu, gamma_w, kw };
+  const Fluid water{ mu, gamma_w, kw, false };
+  const Fluid free_water{ mu, gamma_w, kw, true };
 
   /** Flow by pressure of a channel of constant aperture. */
   double conductance(const double aperture, const double length,
@@ -186,4 +187,135 @@ TEST(FixedPointAcceleration, SolvesWhatPlainIterationDoesNot)
   }
   for (unsigned int k = 0; k < 3; ++k)
     EXPECT_NEAR(x[k], at_zero[k] / (1. - slope[k]), 1e-9);
+}
+
+namespace
+{
+  /** A joint of @p n channels, with the first node at y = 0 and the others
+      lower, at @p slope [m] by length. */
+  FlowNetwork free_joint(const unsigned int n, const double length,
+                         const double slope)
+  {
+    std::vector<double> elevation;
+    std::vector<FlowChannel> channels;
+    for (unsigned int i = 0; i <= n; ++i)
+    {
+      elevation.push_back(-slope * length * i / n);
+      if (i > 0)
+        channels.push_back({ { i - 1, i }, length / n, 1., { 1e-4, 1e-4 } });
+    }
+    return { free_water, elevation, channels };
+  }
+} // namespace
+
+// A front of water in a dry horizontal joint lies at the root of 2 k p t
+// (Washburn 1921), k = a^2 / (12 mu).
+TEST(FlowNetwork, AFrontFillsADryJoint)
+{
+  constexpr unsigned int n  = 200;
+  const FlowNetwork network = free_joint(n, 10., 0.);
+  const std::vector<double> none(n + 1, 0.);
+  FlowConditions given(n + 1);
+  given.is_given[0] = 1;
+  given.pressure[0] = 1e5;
+  FlowSolution flow{ none, none, none, none, 0. };
+  const double dt = 0.5;
+  double entered  = 0.;
+  for (unsigned int step = 1; step <= 300; ++step)
+  {
+    flow = network.transient(given, dt, flow.content, none, flow.pressure);
+    entered += sum(flow.inflow);
+    EXPECT_NEAR(flow.residual, 0., 1e-16);
+    if (step % 100 != 0)
+      continue;
+    const double front = std::sqrt(2. * 1e-8 / (12. * mu) * 1e5 * dt * step);
+    EXPECT_NEAR(sum(flow.content) / 1e-4, front, 0.01 * front) << step;
+    EXPECT_NEAR(entered, sum(flow.content), 1e-12 * entered);
+  }
+}
+
+// Water that runs out of a vertical joint is that of the equation of Buckley
+// and Leverett with the flux f = s^2 (3 - 2 s): behind a jump from 1 to 1/4,
+// which falls by 9/8 of the speed of full flow, comes a fan of f'(s) = z / t.
+// The scheme is of first order: 1.4 % with these steps, 0.8 % with half of
+// them.
+TEST(FlowNetwork, AVerticalJointRunsEmpty)
+{
+  constexpr unsigned int n  = 400;
+  const double length       = 8.;
+  const FlowNetwork network = free_joint(n, length, 1.);
+  const std::vector<double> none(n + 1, 0.);
+  FlowConditions given(n + 1);
+  given.is_outlet[n] = 1;
+  FlowSolution flow{ none, none, none, network.volumes(), 0. };
+  const double full  = sum(flow.content);
+  const double speed = gamma_w * 1e-8 / (12. * mu); // [m/s]
+  const double dt    = 0.005 * length / speed;
+  for (unsigned int step = 1; step <= 800; ++step)
+  {
+    flow = network.transient(given, dt, flow.content, none, flow.pressure);
+    EXPECT_NEAR(flow.residual, 0., 1e-16);
+    const double t = 0.005 * step; // in which full flow passes the joint
+    double exact   = 1. - t;
+    if (t > 8. / 9.)
+    {
+      const double s = 0.5 * (1. - std::sqrt(1. - 2. / (3. * t)));
+      exact          = s - t * s * s * (3. - 2. * s);
+    }
+    EXPECT_NEAR(sum(flow.content) / full, exact, 0.015) << step;
+  }
+}
+
+// Through a dam of a square grid of joints flows what the pressures at both
+// sides give, wherever the free surface lies: horizontal flow is that of
+// differences of pressure, whose sum over the height is linear across the dam
+// (Dupuit's discharge, as Charny proved it).
+TEST(FlowNetwork, DischargeOfADamIsDupuits)
+{
+  constexpr unsigned int n_x = 5, n_y = 10;
+  const auto at = [](const unsigned int i, const unsigned int j)
+  { return (n_y + 1) * i + j; };
+  std::vector<double> elevation;
+  std::vector<FlowChannel> channels;
+  for (unsigned int i = 0; i <= n_x; ++i)
+    for (unsigned int j = 0; j <= n_y; ++j)
+    {
+      elevation.push_back(j);
+      if (i > 0)
+        channels.push_back(
+            { { at(i - 1, j), at(i, j) }, 1., 1., { 2e-4, 2e-4 } });
+      if (j > 0)
+        channels.push_back(
+            { { at(i, j - 1), at(i, j) }, 1., 1., { 2e-4, 2e-4 } });
+    }
+  const FlowNetwork network(free_water, elevation, channels);
+  FlowConditions given(network.n_nodes());
+  const double above = 8.4, below = 2.;
+  double pressures = 0.;
+  for (unsigned int j = 0; j <= n_y; ++j)
+  {
+    // The reservoir, and tailwater below a face at which water comes out.
+    const double high = std::max(0., above - j), low = std::max(0., below - j);
+    given.is_given[at(0, j)]    = high > 0.;
+    given.pressure[at(0, j)]    = gamma_w * high;
+    given.is_given[at(n_x, j)]  = low > 0.;
+    given.pressure[at(n_x, j)]  = gamma_w * low;
+    given.is_outlet[at(n_x, j)] = low == 0.;
+    pressures += gamma_w * (high - low);
+  }
+  const FlowSolution flow = network.steady(given, network.volumes());
+  const double q          = conductance(2e-4, 1.) * pressures / n_x;
+  double enters = 0., falls = 0.;
+  for (unsigned int j = 0; j <= n_y; ++j)
+  {
+    enters += flow.inflow[at(0, j)];
+    if (j > below)
+      falls -= flow.inflow[at(n_x, j)];
+  }
+  EXPECT_NEAR(enters, q, 1e-10 * q);
+  EXPECT_NEAR(flow.residual, 0., 1e-12 * q);
+  // Some comes out above the tailwater, and joints above are empty.
+  EXPECT_GT(falls, 0.05 * q);
+  EXPECT_LT(flow.saturation[at(n_x - 1, n_y)], 1e-3);
+  EXPECT_EQ(flow.saturation[at(n_x / 2, 0)], 1.);
 }
