@@ -412,6 +412,9 @@ class Pictures(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout)
         self.output = lined
         self.has(self.draws("beam_figure"), "black")
+        self.draws("render", "--scale", "1", "--beams", "moment")
+        self.refuses("for runs of section 'Water'", "render", "--joints",
+                     "water")
         self.refuses("no beam is placed", "beam_figure", "--time", "0")
 
     def test_wall_figure(self):
