@@ -51,8 +51,12 @@ PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
           "Implicit/Force ratio=1e-8"]
 # A slab that presses water out of the joint below it.
 SLAB = os.path.join(common.VERIFICATION, "joint_flow", "consolidation.prm")
-DRAINING = ["Solver=explicit", "Water/Bulk modulus=2e8",
-            "Stages/press/Duration=2e-4", "Histories/Interval=1e-5"]
+FLOWING = ["Histories/Names=opening, middle, flow, left",
+           "Histories/flow/Quantity=water outflow",
+           "Histories/left/Quantity=water outflow",
+           "Histories/left/Curve=left"]
+DRAINING = FLOWING + ["Solver=explicit", "Water/Bulk modulus=2e8",
+                      "Stages/press/Duration=2e-4", "Histories/Interval=1e-5"]
 # A stack pushed by a factor of loads that grow with the height; the factor is
 # no number in the first stage, the reaction to it and a displacement are.
 COLLAPSE = os.path.join(common.VERIFICATION, "collapse_load", "stack.prm")
@@ -225,10 +229,11 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                  "Implicit/Force ratio=1e-12"]),
             "water": (SLAB, DRAINING),
             "implicit, water": (
-                SLAB, ["Stages/press/Duration=0.1", "Implicit/First step=0.1",
-                       "Implicit/Largest step=0.1",
-                       "Materials/rock/Young's modulus=20e9",
-                       "Implicit/Force ratio=1e-11"]),
+                SLAB, FLOWING + ["Stages/press/Duration=0.1",
+                                 "Implicit/First step=0.1",
+                                 "Implicit/Largest step=0.1",
+                                 "Materials/rock/Young's modulus=20e9",
+                                 "Implicit/Force ratio=1e-11"]),
             "implicit": (WALL, PUSHED),
             "implicit, iterative": (
                 WALL, PUSHED + ["Implicit/Linear solver=iterative"])}
