@@ -42,9 +42,11 @@ namespace quoin
         derivative @p D, and on the angle of its frame. */
     struct FrameTerms
     {
-      Eigen::Vector2d by_gap; /**< second derivative by g and the angle [N] */
-      double by_angle;        /**< by the angle, twice [N m] */
-      double couple;          /**< first derivative by the angle [N m] */
+      /** Derivatives of the force by the angle and of the couple by g [N], of
+          friction two different ones. */
+      Eigen::Vector2d force_by_angle, couple_by_gap;
+      double by_angle; /**< of the couple by the angle [N m] */
+      double couple;   /**< first derivative by the angle [N m] */
 
       FrameTerms(const Eigen::Vector2d &n, const Eigen::Vector2d &t,
                  const double side, const Eigen::Vector2d &g,
@@ -54,8 +56,11 @@ namespace quoin
         // n turns by -side t, t by side n.
         const double opening = -side * t.dot(g), slip = side * n.dot(g);
         const Eigen::Vector2d way = opening * n + slip * t;
-        by_gap   = D * way + side * (shear_force * n - normal_force * t);
-        by_angle = way.dot(D * way) - normal_force * n.dot(g)
+        const Eigen::Vector2d turned
+            = side * (shear_force * n - normal_force * t);
+        force_by_angle = D * way + turned;
+        couple_by_gap  = D.transpose() * way + turned;
+        by_angle       = way.dot(D * way) - normal_force * n.dot(g)
                    - shear_force * t.dot(g);
         couple = normal_force * opening + shear_force * slip;
       }
@@ -201,8 +206,8 @@ namespace quoin
         {
           for (unsigned int d = 0; d < 2; ++d)
           {
-            sum(q, 2 * local_at + d) -= w * terms.by_gap[d];
-            sum(2 * local_at + d, q) -= w * terms.by_gap[d];
+            sum(q, 2 * local_at + d) -= w * terms.couple_by_gap[d];
+            sum(2 * local_at + d, q) -= w * terms.force_by_angle[d];
           }
           for (const auto &[r, v] : turning)
             sum(q, r) += w * v * terms.by_angle;
@@ -305,12 +310,15 @@ namespace quoin
       if (m == 0)
         return true;
       const Eigen::MatrixXd own = stiffness(line, marks, before, now, part);
-      Eigen::MatrixXd coupling  = Eigen::MatrixXd::Zero(n, m);
+      // Friction makes them others than each other's transposed.
+      Eigen::MatrixXd coupling = Eigen::MatrixXd::Zero(n, m),
+                      forces   = Eigen::MatrixXd::Zero(m, n);
       for (unsigned int k = 0; k < m / 2; ++k)
       {
         const unsigned int p = line.first_point + k, at = points[p].at;
         condensed->block<2, 2>(2 * k, 2 * k)               = part[k];
         coupling.block<2, 2>(2 * (at - line.begin), 2 * k) = part[k];
+        forces.block<2, 2>(2 * k, 2 * (at - line.begin))   = part[k];
         if (!now.attached[p] || marks.is_absent(points[p].block))
           continue;
         std::array<double, 2> normal;
@@ -337,9 +345,11 @@ namespace quoin
         }
         for (const auto &[q, w] : turning)
           for (unsigned int d = 0; d < 2; ++d)
-            coupling(q, 2 * k + d) -= w * terms.by_gap[d];
+          {
+            coupling(q, 2 * k + d) -= w * terms.couple_by_gap[d];
+            forces(2 * k + d, q) -= w * terms.force_by_angle[d];
+          }
       }
-      Eigen::MatrixXd forces = coupling.transpose();
       for (unsigned int i = 0; i < n; ++i)
         if (held(line, line.begin + i / 2, i % 2))
         {

@@ -51,8 +51,12 @@ PUSHED = ["Solver=implicit", "Stages/push/Duration=0.02",
           "Implicit/Force ratio=1e-8"]
 # A slab that presses water out of the joint below it.
 SLAB = os.path.join(common.VERIFICATION, "joint_flow", "consolidation.prm")
-DRAINING = ["Solver=explicit", "Water/Bulk modulus=2e8",
-            "Stages/press/Duration=2e-4", "Histories/Interval=1e-5"]
+FLOWING = ["Histories/Names=opening, middle, flow, left",
+           "Histories/flow/Quantity=water outflow",
+           "Histories/left/Quantity=water outflow",
+           "Histories/left/Curve=left"]
+DRAINING = FLOWING + ["Solver=explicit", "Water/Bulk modulus=2e8",
+                      "Stages/press/Duration=2e-4", "Histories/Interval=1e-5"]
 # A stack pushed by a factor of loads that grow with the height; the factor is
 # no number in the first stage, the reaction to it and a displacement are.
 COLLAPSE = os.path.join(common.VERIFICATION, "collapse_load", "stack.prm")
@@ -66,10 +70,12 @@ COLLAPSING = ["Materials/block/Law=linear elastic",
               "Histories/moved/Quantity=displacement x",
               "Histories/moved/Point=0.5, 3", "Histories/Interval=1e-4"]
 BARS = os.path.join(common.ROOT, "tests", "cases", "bars.prm")
-# A bonded liner with hinges; one that slips multiplies rounding.
+# A bonded liner with hinges, and one that slips.
 LINER = ["Loads/in_situ/Stress=-10e6, -5e6, 0",
          "Beams/shotcrete/Hinge moment=3e3", "Stages/excavation/End=time",
          "Stages/excavation/Duration=2e-3", "Histories/Interval=5e-5"]
+SLIPPING = ["Joints/bond/Law=Coulomb", "Joints/bond/Friction angle=20",
+            "Joints/bond/Cohesion=0.1e6", "Joints/bond/Tensile strength=1e6"]
 VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "rigid": (PATCH_TEST, SETS + ["Materials/rock/Law=rigid",
                                           "Loads/base/Type=traction"]),
@@ -201,6 +207,16 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
             "implicit, liner": (
                 os.path.join(common.VERIFICATION, "liner", "case.prm"),
                 LINER + ["Solver=implicit", "Implicit/Largest step=0.2"]),
+            "liner, slipping": (os.path.join(common.VERIFICATION, "liner",
+                                             "case.prm"), LINER + SLIPPING),
+            "implicit, liner, slipping": (
+                os.path.join(common.VERIFICATION, "liner", "case.prm"),
+                LINER + SLIPPING + ["Solver=implicit",
+                                    "Stages/excavation/Release=0.3",
+                                    "Beams/shotcrete/Hinge moment=1e3",
+                                    "Implicit/First step=0.2",
+                                    "Implicit/Largest step=0.2",
+                                    "Implicit/Force ratio=1e-10"]),
             "implicit, divided": (
                 os.path.join(common.VERIFICATION, "kirsch", "case.prm"),
                 ["Solver=implicit"]),
@@ -213,10 +229,11 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                  "Implicit/Force ratio=1e-12"]),
             "water": (SLAB, DRAINING),
             "implicit, water": (
-                SLAB, ["Stages/press/Duration=0.1", "Implicit/First step=0.1",
-                       "Implicit/Largest step=0.1",
-                       "Materials/rock/Young's modulus=20e9",
-                       "Implicit/Force ratio=1e-11"]),
+                SLAB, FLOWING + ["Stages/press/Duration=0.1",
+                                 "Implicit/First step=0.1",
+                                 "Implicit/Largest step=0.1",
+                                 "Materials/rock/Young's modulus=20e9",
+                                 "Implicit/Force ratio=1e-11"]),
             "implicit": (WALL, PUSHED),
             "implicit, iterative": (
                 WALL, PUSHED + ["Implicit/Linear solver=iterative"])}
@@ -233,8 +250,10 @@ LOOSE = {"implicit": 1e-6, "implicit, iterative": 1e-6}
 # an acceleration, which the factor of a load pattern brings about.
 # Moments of a liner are differences of directions: those of positions that are
 # rounded to 1e-16 m, by EI/l^2 = 1e9 N/m, a few 1e-10 of their peak.
+# Slip multiplies that.
 ROUNDED = {"pattern": 1e-8, "pattern, named": 1e-8, "liner": 1e-8,
-           "implicit, liner": 1e-8}
+           "implicit, liner": 1e-8, "liner, slipping": 1e-6,
+           "implicit, liner, slipping": 1e-6}
 
 
 def tables(folder):

@@ -75,6 +75,8 @@ CASES = {
     "construction, divided": of_ranks("construction, divided", ALL),
     "liner": of_ranks("liner", ALL),
     "implicit, liner": of_ranks("implicit, liner", UP),
+    "liner, slipping": of_ranks("liner, slipping", DOWN),
+    "implicit, liner, slipping": of_ranks("implicit, liner, slipping", UP),
     "dashpots": of_ranks("dashpots", DOWN, ["Stages/impact/Duration=0.03"]),
     "dashpots, divided": of_ranks("dashpots, divided", UP,
                                   ["Stages/slide/Duration=0.02"]),

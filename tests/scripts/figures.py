@@ -21,6 +21,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.dirname(
 SCRIPTS = os.path.join(ROOT, "scripts")
 sys.path.insert(0, os.path.join(ROOT, "python"))
 
+from quoin.commands import beam_figure  # noqa: E402
 from quoin.figures import block_figure  # noqa: E402
 from quoin.figures import curve_figure  # noqa: E402
 from quoin import colours  # noqa: E402
@@ -407,11 +408,27 @@ class Pictures(unittest.TestCase):
         done = subprocess.run(
             [quoin, os.path.join(ROOT, "parameter_files", "rock",
                                  "lined_tunnel", "case.prm"),
-             "--quiet", "--output", lined], stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT, text=True)
+             "--quiet", "--output", lined,
+             "--set", "Beams/shotcrete/Compressive strength=20e6",
+             "--set", "Beams/shotcrete/Tensile strength=1.5e6"],
+            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         self.assertEqual(done.returncode, 0, done.stdout)
         self.output = lined
+        # The lines of the diagram are those of the program's utilisation.
+        (name, area, modulus, crush, tear), = beam_figure.strengths_of(
+            lined).values()
+        self.assertEqual(name, "shotcrete")
+        data = vtu.read_at(os.path.join(lined, "beams.pvd")).point_data
+        mean = data["axial force"] / area
+        bent = np.abs(data["moment"]) / modulus
+        np.testing.assert_allclose(
+            np.maximum((bent - mean) / crush, (bent + mean) / tear).clip(0),
+            data["utilisation"], rtol=1e-9, atol=1e-12)
+        self.has(self.draws("beam_figure", "--diagram"), "black")
         self.has(self.draws("beam_figure"), "black")
+        self.draws("render", "--scale", "1", "--beams", "moment")
+        self.refuses("for runs of section 'Water'", "render", "--joints",
+                     "water")
         self.refuses("no beam is placed", "beam_figure", "--time", "0")
 
     def test_wall_figure(self):

@@ -22,10 +22,11 @@ slips inelastically or closes. --joints damage colours joints by the share of
 their strength that a composite law has lost, --joints slip by how far they slipped,
 elastically or not, --joints water by the pressure of the water in them, as wide as it
 flows. Bolts are as wide as they are loaded; beams and liners are black lines, with
---beams moment or --beams "axial force" across them, positive values on their left. Joints that large displacements handed over to contacts are
-drawn as far as their two faces are near each other. Contacts of large displacements
-are lines along the overlap, as wide as their normal force. --blocks-only leaves
-both out.
+--beams moment or --beams "axial force" across them, positive values on their left;
+take --scale 1 with them, whose displacements begin as they are placed. Joints that
+large displacements handed over to contacts are drawn as far as their two faces are
+near each other. Contacts of large displacements are lines along the overlap, as wide
+as their normal force. --blocks-only leaves all of these out.
 
 --since TIME draws what came after that time alone, --since STAGE what came since
 that stage began, e.g. after gravity: the displacements from then on, and joints by

@@ -52,12 +52,13 @@ namespace
     State<2> state;
     std::unique_ptr<Beams> beams;
 
-    explicit Model(const BeamParameters &beam)
+    explicit Model(const BeamParameters &beam,
+                   const JointStrength &strength = { 1e30, 0., 1e30 })
     {
       CoulombLaw law;
       law.normal_stiffness = 3e9;
       law.shear_stiffness  = 1e9;
-      law.peak = law.residual = { 1e30, 1e30, 0. };
+      law.peak = law.residual = strength;
       JointSetParameters set;
       set.name = "bond";
       set.law  = law;
@@ -233,36 +234,44 @@ TEST(Beams, CondensedStiffnessIsThatOfTheForces)
   BeamParameters beam = section();
   beam.boundary       = "wall";
   beam.interface      = "bond";
-  Model model(beam);
-  const State<2> start = model.state;
-  const auto settled   = [&](State<2> &now, Beams::Condensed *stiffness)
+  for (const bool slips : { false, true })
   {
-    AlignedArray<NodeVector<2>> force(4, NodeVector<2>{});
-    EXPECT_TRUE(
-        model.beams->settle({ 0., 0. }, start, now, force.data(), stiffness));
-    return force;
-  };
-  State<2> now      = start;
-  now.nodes[1].u[0] = 2e-4;
-  Beams::Condensed stiffness;
-  State<2> moved = now;
-  settled(moved, &stiffness);
-  for (unsigned int q = 0; q < 4; ++q)
-    for (unsigned int e = 0; e < 2; ++e)
+    Model model(beam, slips ? JointStrength{ 2e4, 0.5, 1e30 }
+                            : JointStrength{ 1e30, 0., 1e30 });
+    const State<2> start = model.state;
+    const auto settled   = [&](State<2> &now, Beams::Condensed *stiffness)
     {
-      const double h = 1e-7;
-      State<2> a = now, b = now;
-      a.nodes[model.beams->node_of_point(q)].u[e] += h;
-      b.nodes[model.beams->node_of_point(q)].u[e] -= h;
-      const auto above = settled(a, nullptr), below = settled(b, nullptr);
-      for (unsigned int p = 0; p < 4; ++p)
-        for (unsigned int d = 0; d < 2; ++d)
-        {
-          const unsigned int node = model.beams->node_of_point(p);
-          EXPECT_NEAR(stiffness[0](2 * p + d, 2 * q + e),
-                      -(above[node].v[d] - below[node].v[d]) / (2. * h), 1e4);
-        }
-    }
+      AlignedArray<NodeVector<2>> force(4, NodeVector<2>{});
+      EXPECT_TRUE(
+          model.beams->settle({ 0., 0. }, start, now, force.data(), stiffness));
+      return force;
+    };
+    State<2> now      = start;
+    now.nodes[1].u[0] = 2e-4;
+    Beams::Condensed stiffness;
+    State<2> moved = now;
+    settled(moved, &stiffness);
+    const auto &states = moved.get<BeamState>().interface.state;
+    EXPECT_EQ(std::count(states.begin(), states.end(), JointState::slipping)
+                  > 0,
+              slips);
+    for (unsigned int q = 0; q < 4; ++q)
+      for (unsigned int e = 0; e < 2; ++e)
+      {
+        const double h = 1e-7;
+        State<2> a = now, b = now;
+        a.nodes[model.beams->node_of_point(q)].u[e] += h;
+        b.nodes[model.beams->node_of_point(q)].u[e] -= h;
+        const auto above = settled(a, nullptr), below = settled(b, nullptr);
+        for (unsigned int p = 0; p < 4; ++p)
+          for (unsigned int d = 0; d < 2; ++d)
+          {
+            const unsigned int node = model.beams->node_of_point(p);
+            EXPECT_NEAR(stiffness[0](2 * p + d, 2 * q + e),
+                        -(above[node].v[d] - below[node].v[d]) / (2. * h), 1e4);
+          }
+      }
+  }
 }
 
 TEST(Beams, HingeKeepsItsMoment)
