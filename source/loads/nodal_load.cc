@@ -23,6 +23,12 @@ namespace quoin
     /** Bounds of its relaxation. */
     constexpr double least_relaxation = 0.05, most_relaxation = 4.;
 
+    /** Share of a load that grows over @p duration [s]; 0: it is there. */
+    double grown_share(const double time, const double duration)
+    {
+      return duration > 0. ? half_cosine(time, duration) : 1.;
+    }
+
     unsigned int position(const std::vector<std::string> &names,
                           const std::string &name, const std::string &load,
                           const std::string &parameter, const std::string &kind)
@@ -322,7 +328,7 @@ namespace quoin
       for (const double centre : shape->at(time))
         place = 0.5 * place + centre;
     const auto [x, y, z] = component_values(components, time);
-    const double share   = half_cosine(time.stage, ramp_duration);
+    const double share   = grown_share(time.stage, ramp_duration);
     return { share * x, share * y, share * z,
              pressure.quantity == LoadQuantity::free
                  ? 0.
@@ -337,7 +343,7 @@ namespace quoin
     if (field)
     {
       const auto &forces = field->forces(time);
-      const double share = half_cosine(time.stage, ramp_duration);
+      const double share = grown_share(time.stage, ramp_duration);
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
           force[nodes[i]].v[d] += share * forces[i].v[d];
@@ -363,7 +369,7 @@ namespace quoin
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
           power += forces[i].v[d] * velocity[nodes[i]].v[d];
-      return half_cosine(time.stage, ramp_duration) * power;
+      return grown_share(time.stage, ramp_duration) * power;
     }
     double sum[dim]{}, inflow = 0.;
     for (unsigned int i = 0; i < nodes.size(); ++i)
