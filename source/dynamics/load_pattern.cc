@@ -23,6 +23,13 @@ namespace quoin
     template <int dim>
     void refuse_change(const NodalLoad<dim> &load, const StageParameters &stage)
     {
+      if (load.follows_cracks())
+        throw InputError("section 'Stages/" + stage.name
+                         + "': 'Load pattern' names '" + load.name()
+                         + "', an uplift that changes with the crack, but the "
+                           "loads of a pattern keep their distribution. Take "
+                           "'In cracks = given' in 'Loads/"
+                         + load.name() + "', or leave it out of the pattern.");
       const auto start = load.amplitude({ 0., 0. });
       for (const double share : { 0.01, 0.37, 1. })
         if (load.amplitude({ share * stage.duration, 1e3 + stage.duration })

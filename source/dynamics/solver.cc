@@ -238,10 +238,23 @@ namespace quoin
   void Solver<dim>::ramp_gravity(const StageParameters *previous,
                                  const double automatic)
   {
+    const auto begins = [&](const NodalLoad<dim> &load)
+    {
+      return names_load(stage, load.name())
+             && !(previous && names_load(*previous, load.name()));
+    };
+    double ramp = 0.;
     for (NodalLoad<dim> &load : all_loads)
-      load.begin_stage(names_load(stage, load.name())
-                           && !(previous && names_load(*previous, load.name())),
-                       automatic);
+      if (load.is_weight())
+      {
+        load.begin_stage(begins(load), automatic);
+        ramp = std::max(ramp, load.ramp());
+      }
+    // Pressure that is in joints before the weight which closes them throws
+    // blocks up.
+    for (NodalLoad<dim> &load : all_loads)
+      if (load.is_in_joints())
+        load.begin_stage(begins(load), ramp);
   }
 
   template <int dim>

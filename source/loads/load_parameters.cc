@@ -816,7 +816,8 @@ namespace quoin
             "explicit stages with 'End = static ratio' of models without "
             "initial stress, where it is twice the travel time of a shear wave "
             "along the model's diagonal and at least two thousand critical "
-            "time steps [s]");
+            "time steps. Pressures in joints that begin in the same stage grow "
+            "with it [s]");
       if (entries.reads_if(is_force))
         entries.other(
             "Distribution", "1",

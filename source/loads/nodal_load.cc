@@ -23,6 +23,12 @@ namespace quoin
     /** Bounds of its relaxation. */
     constexpr double least_relaxation = 0.05, most_relaxation = 4.;
 
+    /** Share of a load that grows over @p duration [s]; 0: it is there. */
+    double grown_share(const double time, const double duration)
+    {
+      return duration > 0. ? half_cosine(time, duration) : 1.;
+    }
+
     unsigned int position(const std::vector<std::string> &names,
                           const std::string &name, const std::string &load,
                           const std::string &parameter, const std::string &kind)
@@ -138,6 +144,27 @@ namespace quoin
     }
   } // namespace
 
+  namespace
+  {
+    /** Whether a joint of any rank is on one of @p curves. Collective. */
+    template <int dim>
+    bool has_joints(const NodeMap<dim> &node_map,
+                    const std::vector<std::string> &curves)
+    {
+      const auto &joints = node_map.faces().joints;
+      const bool found   = std::any_of(
+            joints.begin(), joints.end(),
+            [&](const JointNodes<dim> &joint)
+            {
+            const auto &name = node_map.table().face_names[joint.name];
+            return std::count(curves.begin(), curves.end(), name) > 0;
+          });
+      return dealii::Utilities::MPI::max(unsigned(found),
+                                         node_map.communicator())
+             > 0;
+    }
+  } // namespace
+
   template <int dim>
   NodalLoad<dim>::NodalLoad(const LoadParameters &parameters,
                             const NodeMap<dim> &node_map,
@@ -163,6 +190,12 @@ namespace quoin
     const auto faces
         = faces_of_curves(node_map, parameters.boundaries, parameters.name,
                           parameters.is_pressure_alone());
+    if (parameters.is_pressure_alone()
+        && has_joints(node_map, parameters.boundaries))
+    {
+      acts_in_joints = true;
+      given_ramp     = -1.;
+    }
     if (parameters.differs_by_place())
     {
       make_field(parameters, node_map, faces, thickness);
@@ -297,7 +330,7 @@ namespace quoin
       for (const double centre : shape->at(time))
         place = 0.5 * place + centre;
     const auto [x, y, z] = component_values(components, time);
-    const double share   = half_cosine(time.stage, ramp_duration);
+    const double share   = grown_share(time.stage, ramp_duration);
     return { share * x, share * y, share * z,
              pressure.quantity == LoadQuantity::free
                  ? 0.
@@ -312,9 +345,10 @@ namespace quoin
     if (field)
     {
       const auto &forces = field->forces(time);
+      const double share = grown_share(time.stage, ramp_duration);
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
-          force[nodes[i]].v[d] += forces[i].v[d];
+          force[nodes[i]].v[d] += share * forces[i].v[d];
       return;
     }
     const auto values = amplitude(time);
@@ -337,7 +371,7 @@ namespace quoin
       for (unsigned int i = 0; i < nodes.size(); ++i)
         for (unsigned int d = 0; d < dim; ++d)
           power += forces[i].v[d] * velocity[nodes[i]].v[d];
-      return power;
+      return grown_share(time.stage, ramp_duration) * power;
     }
     double sum[dim]{}, inflow = 0.;
     for (unsigned int i = 0; i < nodes.size(); ++i)

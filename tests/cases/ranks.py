@@ -228,6 +228,17 @@ VARIANTS = {"deformable": (PATCH_TEST, SETS),
                  "Stages/cycle/Duration=0.05",
                  "Implicit/Force ratio=1e-12"]),
             "water": (SLAB, DRAINING),
+            # water that moves with a block that several ranks share
+            "added mass": (os.path.join(common.VERIFICATION, "added_mass",
+                                        "block.prm"),
+                           ["Stages/rock/Duration=0.01",
+                            "Histories/Interval=5e-4"]),
+            # the crack of a joint between ranks, and its uplift
+            "uplift": (os.path.join(common.VERIFICATION, "dam_uplift",
+                                    "dam.prm"),
+                       ["Stages/settle/End=time", "Stages/settle/Duration=2",
+                        "Stages/fill/End=time", "Stages/fill/Duration=10",
+                        "Histories/Interval=0.1"]),
             "implicit, water": (
                 SLAB, FLOWING + ["Stages/press/Duration=0.1",
                                  "Implicit/First step=0.1",

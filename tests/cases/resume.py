@@ -168,6 +168,12 @@ CASES = {
     "water, implicit": (
         os.path.join(common.VERIFICATION, "joint_flow", "consolidation.prm"),
         ["Output/Checkpoint interval=0.05", "Output/Field interval=0.2"], 1, 2),
+    # water that moves with a wall; uplift in a crack
+    "added mass": (os.path.join(common.VERIFICATION, "added_mass", "wall.prm"),
+                   ["Output/Checkpoint interval=0.05"], 1, 2),
+    "uplift": (os.path.join(common.VERIFICATION, "dam_uplift", "dam.prm"),
+               ["Output/Checkpoint interval=0.05",
+                "Time stepping/Share of critical time step=0.02"], 1, 2),
     # cells and joints that become softer under pressure
     "properties": (
         os.path.join(common.VERIFICATION, "property_change", "case.prm"),

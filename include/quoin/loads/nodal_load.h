@@ -63,11 +63,25 @@ namespace quoin
       return crack != nullptr;
     }
 
-    /** Gravity that @p begins in the stage grows by half a cosine, over a
-        duration that is given or @p automatic [s]; 0: it is there at once. */
+    /** Gravity, or a pressure in joints, that @p begins in the stage grows by
+        half a cosine, over a duration that is given or @p automatic [s]; 0: it
+        is there at once. */
     void begin_stage(const bool begins, const double automatic)
     {
       ramp_duration = !begins ? 0. : given_ramp >= 0. ? given_ramp : automatic;
+    }
+    double ramp() const
+    {
+      return ramp_duration;
+    }
+    bool is_weight() const
+    {
+      return is_gravity;
+    }
+    /** Whether it is a pressure in joints. */
+    bool is_in_joints() const
+    {
+      return acts_in_joints;
     }
 
     const char *kind() const override
@@ -119,6 +133,7 @@ namespace quoin
     LoadComponent pressure;
     std::vector<unsigned int> nodes;
     std::vector<double> weights;
+    bool acts_in_joints = false;
     double given_ramp; /**< -1: automatic [s] */
     double ramp_duration = 0.;
     std::vector<NodeVector<dim>>

@@ -94,6 +94,26 @@ TEST(TractionField, WaterAtRestHasItsResultantAndMoment)
   EXPECT_NE(load.amplitude({ 0., 0. }), load.amplitude({ 1., 1. }));
 }
 
+// Levels over the joint: 2 m at the heel, 1 m at the drains, 0.5 m at the toe.
+TEST(TractionField, UpliftWithDrainsHasItsResultantAndMoment)
+{
+  const Rectangle rectangle;
+  const NodalLoad<2> load = rectangle.load("set Boundary = top\n"
+                                           "set Pressure = uplift\n"
+                                           "set Headwater = 3 * t\n"
+                                           "set Tailwater = 1.5\n"
+                                           "set Heel = 0, 1\n"
+                                           "set Toe = 3, 1\n"
+                                           "set Drain distance = 1\n"
+                                           "set Drain efficiency = 0.5\n");
+  const Forces forces(rectangle, load, { 1., 5. });
+  EXPECT_NEAR(forces.y, -weight_of_water * thickness * 3., 1e-8);
+  EXPECT_NEAR(forces.moment, -weight_of_water * thickness * 3.5, 1e-8);
+  // The same level everywhere.
+  EXPECT_NEAR(Forces(rectangle, load, { 0.5, 5. }).y,
+              -weight_of_water * thickness * 1.5, 1e-8);
+}
+
 // The consistent forces of q = (2 + 3 x) t: those of its two end values.
 TEST(TractionField, FunctionOfPlaceAndTime)
 {
