@@ -1246,6 +1246,26 @@ def space_sphere_yielding(case, folder, output, histories):
         "energy residual": residual_of(energies(output))}
 
 
+def space_fill(case, folder, output, histories):
+    """Displacements of the top of both lifts and the traction between them at
+    the end of each stage, relative to the largest of the stage."""
+    exact = reference_module(folder)
+    with open(os.path.join(output, "summary.json")) as stream:
+        ends = json.load(stream)["stages"]
+    errors = {}
+    for (stage, end), wanted in zip(ends.items(), exact.stages()):
+        row = np.flatnonzero(
+            histories["time"] <= end["time [s]"] * (1 + 1e-9))[-1]
+        found = [histories[name][row] for name in ("low", "high", "traction")]
+        scale = max(abs(wanted[0]), abs(wanted[1]))
+        errors["displacements, " + stage] = float(
+            np.max(np.abs(np.subtract(found[:2], wanted[:2]))) / scale)
+        errors["traction, " + stage] = float(
+            abs(found[2] - wanted[2]) / abs(exact.stages()[-1][2]))
+    errors["energy residual"] = residual_of(energies(output))
+    return errors
+
+
 def space_tunnel(case, folder, output, histories):
     """Displacements of the wall of a tunnel, relative to the largest."""
     exact = reference_module(folder)
